@@ -1,0 +1,5 @@
+//! The binary `marbles`: a shell around the library.
+
+fn main() -> std::process::ExitCode {
+    marbles_cli::run(std::env::args_os())
+}

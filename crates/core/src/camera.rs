@@ -1,0 +1,113 @@
+//! The pinhole camera: where it stands, where it looks, and its retina.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use crate::Angle;
+
+/// A viewpoint and an orientation.
+///
+/// Camera axes are x right, y up, z forward, as the world's are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// The viewpoint, in the world frame.
+    pub position: DVec3,
+    /// The rotation from camera axes to world axes.
+    pub world_from_camera: DMat3,
+}
+
+impl Camera {
+    /// The camera at `position`, turned by `pan` toward +x, then `tilt` toward +y, then `roll`
+    /// clockwise as seen from behind it.
+    pub fn free(position: DVec3, pan: Angle, tilt: Angle, roll: Angle) -> Self {
+        let about_x = DMat3::from_cols(
+            DVec3::X,
+            DVec3::new(0.0, tilt.cos, -tilt.sin),
+            DVec3::new(0.0, tilt.sin, tilt.cos),
+        );
+        let about_y = DMat3::from_cols(
+            DVec3::new(pan.cos, 0.0, -pan.sin),
+            DVec3::Y,
+            DVec3::new(pan.sin, 0.0, pan.cos),
+        );
+        let about_z = DMat3::from_cols(
+            DVec3::new(roll.cos, -roll.sin, 0.0),
+            DVec3::new(roll.sin, roll.cos, 0.0),
+            DVec3::Z,
+        );
+        Self {
+            position,
+            world_from_camera: about_y * about_x * about_z,
+        }
+    }
+
+    /// The camera at `position` that has `target` in the middle of its view.
+    ///
+    /// Straight up or down the pan is 0. `None` where the target is the position.
+    pub fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Self> {
+        let (pan, tilt) = Self::pan_and_tilt_toward(target - position)?;
+        Some(Self::free(position, pan, tilt, roll))
+    }
+
+    /// The camera that looks at `target` from `radius` away: `azimuth` is its pan, `elevation`
+    /// how far it stands above the target, looking down.
+    pub fn orbit(
+        target: DVec3,
+        radius: f64,
+        azimuth: Angle,
+        elevation: Angle,
+        roll: Angle,
+    ) -> Self {
+        let tilt = Angle {
+            sin: -elevation.sin,
+            cos: elevation.cos,
+        };
+        let turned = Self::free(target, azimuth, tilt, roll);
+        Self {
+            position: target - turned.forward() * radius,
+            ..turned
+        }
+    }
+
+    /// Unit vector in the middle of the view, in the world frame.
+    pub fn forward(&self) -> DVec3 {
+        self.world_from_camera.z_axis
+    }
+
+    /// Pan and tilt of a camera that looks along `direction`; pan 0 straight up or down, `None`
+    /// where the direction is zero.
+    pub fn pan_and_tilt_toward(direction: DVec3) -> Option<(Angle, Angle)> {
+        let scale = direction.abs().max_element();
+        if scale == 0.0 {
+            return None;
+        }
+        // Dividing by the largest component first keeps the horizontal distance finite.
+        let DVec3 { x, y, z } = direction / scale;
+        Some((
+            Angle::from_sides(x, z),
+            Angle::from_sides(y, libm::hypot(x, z)),
+        ))
+    }
+}
+
+/// The flat retina in front of the viewpoint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Width of the retina in scene units, greater than 0; square pixels give its height.
+    pub width: f64,
+    /// Distance of the retina from the viewpoint at zoom 1, greater than 0.
+    pub distance: f64,
+    /// Where the retina's center lies off the axis of view, in scene units, right and up.
+    pub shift: DVec2,
+}
+
+impl Lens {
+    /// The lens whose picture spans the horizontal angle `field_of_view` in radians, between 0
+    /// and π; its retina stands at distance 1.
+    pub fn from_field_of_view(field_of_view: f64) -> Self {
+        Self {
+            width: 2.0 * libm::tan(0.5 * field_of_view),
+            distance: 1.0,
+            shift: DVec2::ZERO,
+        }
+    }
+}

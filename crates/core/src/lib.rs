@@ -1,0 +1,42 @@
+//! The maths of marbles: spheres lit by directional lights, seen by a pinhole camera, and the
+//! average of their light over each pixel.
+//!
+//! A [`World`] is what is rendered, a [`View`] is from where; [`render`] turns both into an
+//! [`Image`] whose every pixel says its value, its error and its [`Status`].
+//!
+//! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Colour is
+//! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
+//! intensity 1.
+//!
+//! This crate knows no file, no clock and no terminal. Transcendental functions come from `libm`,
+//! so that a picture is the same, bit for bit, on every machine.
+
+mod angle;
+mod camera;
+mod color;
+mod image;
+pub mod integration;
+mod light;
+mod material;
+mod ray;
+mod render;
+mod roughness;
+mod shading;
+mod sphere;
+mod view;
+mod visibility;
+mod world;
+
+pub use angle::Angle;
+pub use camera::{Camera, Lens};
+pub use color::{Color, Radiance};
+pub use image::{Channels, Image, Summary};
+pub use integration::Status;
+pub use light::DirectionalLight;
+pub use material::{Grain, Highlight, Material, Roughness};
+pub use ray::Ray;
+pub use render::{Cancelled, Method, Settings, render};
+pub use sphere::{Hit, Sphere, SphereError};
+pub use view::View;
+pub use visibility::Visibility;
+pub use world::{MaterialId, World};
