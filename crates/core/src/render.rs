@@ -89,3 +89,87 @@ fn fill<C: Radiance>(
         Ok(())
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::{Angle, Camera, DirectionalLight, Lens, Material, Sphere, Status};
+
+    fn ball() -> (World, View, Settings) {
+        let mut world = World::new();
+        let white = world.add_material(Material::MATTE_WHITE);
+        world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0).unwrap(), white);
+        world
+            .lights
+            .extend(DirectionalLight::new(-DVec3::Z, Color::ONE));
+        let view = View {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            lens: Lens {
+                width: 3.0,
+                distance: 5.0,
+                shift: DVec2::ZERO,
+            },
+            zoom: 1.0,
+            width: 37,
+            height: 21,
+            frame: 1,
+        };
+        let samples = NonZeroU32::new(2).unwrap();
+        (
+            world,
+            view,
+            Settings {
+                method: Method::Samples(samples),
+                alpha: false,
+            },
+        )
+    }
+
+    #[test]
+    fn progress_counts_every_pixel_once() {
+        let (world, view, settings) = ball();
+        let done = AtomicU64::new(0);
+        let count = |pixels| {
+            done.fetch_add(pixels, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        let image = render(&world, &view, &settings, &count).unwrap();
+        assert_eq!(done.into_inner(), 37 * 21);
+        assert_eq!(image.summary().pixels, 37 * 21);
+        assert_eq!(image.status(36, 20), Status::NoTolerance);
+    }
+
+    #[test]
+    fn breaking_progress_cancels() {
+        let (world, view, settings) = ball();
+        assert_eq!(
+            render(&world, &view, &settings, &|_| ControlFlow::Break(())),
+            Err(Cancelled)
+        );
+    }
+
+    #[test]
+    fn grey_and_colored_rendering_agree_to_the_bit() {
+        let (mut world, view, settings) = ball();
+        let go = |_| ControlFlow::Continue(());
+        let grey = render(&world, &view, &settings, &go).unwrap();
+        // A second light behind the ball adds colour to the world, but none to the picture.
+        world
+            .lights
+            .extend(DirectionalLight::new(DVec3::Z, Color::X));
+        let colored = render(&world, &view, &settings, &go).unwrap();
+        assert_eq!(
+            (grey.channels(), colored.channels()),
+            (Channels::Grey, Channels::Rgb)
+        );
+        for row in 0..view.height {
+            for col in 0..view.width {
+                assert_eq!(grey.rgba(col, row), colored.rgba(col, row));
+            }
+        }
+    }
+}

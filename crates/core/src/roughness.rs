@@ -4,6 +4,9 @@ use glam::DVec3;
 
 use crate::{Grain, Roughness};
 
+/// Cells that a radius may span; more could not be counted, nor told apart.
+const MOST_CELLS: f64 = (1_u64 << 62) as f64;
+
 /// What the numbers of [`Grain::Pixel`] are drawn for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PixelKey {
@@ -23,7 +26,10 @@ impl Roughness {
         pixel: PixelKey,
     ) -> DVec3 {
         let draw = match self.grain {
-            Grain::Surface(size) => surface_noise(self.seed, sphere, normal * (radius / size)),
+            Grain::Surface(size) => {
+                let cells = (radius / size).min(MOST_CELLS);
+                surface_noise(self.seed, sphere, normal * cells)
+            }
             Grain::Pixel => pixel_noise(self.seed, sphere, pixel),
         };
         // Never zero: each factor lies above 1 − amplitude > 0.
@@ -40,8 +46,7 @@ fn pixel_noise(seed: u64, sphere: usize, pixel: PixelKey) -> DVec3 {
 /// Smooth noise in [−1, 1): random values at the corners of the unit lattice, blended so that
 /// the first two derivatives are continuous across cells.
 ///
-/// `point` is relative to the sphere's center, in cells. Beyond 2^53 cells it has no fraction
-/// and the noise is constant on each representable point.
+/// `point` is relative to the sphere's center, in cells.
 fn surface_noise(seed: u64, sphere: usize, point: DVec3) -> DVec3 {
     let key = hash(seed, sphere as u64);
     let cell = point.floor();
@@ -88,4 +93,119 @@ fn hash(key: u64, word: u64) -> u64 {
     z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ z >> 31
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A walk over the surface in small steps, through many cells.
+    fn walk() -> impl Iterator<Item = DVec3> {
+        (0..2000).map(|step| {
+            let s = f64::from(step) * 0.01;
+            DVec3::new(0.37 + s, -5.1 + 0.7 * s, 2.3 - 0.4 * s)
+        })
+    }
+
+    #[test]
+    fn noise_stays_in_its_range_and_fills_it() {
+        let (mut low, mut high) = (DVec3::ONE, -DVec3::ONE);
+        for index in 0..20_000 {
+            let pixel = PixelKey {
+                col: index,
+                row: 7,
+                frame: -3,
+            };
+            let draw = pixel_noise(1, 2, pixel);
+            (low, high) = (low.min(draw), high.max(draw));
+        }
+        assert!(low.min_element() >= -1.0 && low.max_element() < -0.999);
+        assert!(high.max_element() < 1.0 && high.min_element() > 0.999);
+    }
+
+    #[test]
+    fn pixel_noise_is_uniform_and_independent() {
+        let count = 100_000_u32;
+        let draws = (0..count).map(|index| {
+            pixel_noise(
+                9,
+                0,
+                PixelKey {
+                    col: index % 317,
+                    row: index / 317,
+                    frame: 1,
+                },
+            )
+        });
+        let (mut sum, mut squares, mut products) = (DVec3::ZERO, DVec3::ZERO, DVec3::ZERO);
+        for draw in draws {
+            sum += draw;
+            squares += draw * draw;
+            products += draw * DVec3::new(draw.y, draw.z, draw.x);
+        }
+        // Five standard deviations of the means of count uniform numbers in [−1, 1).
+        let within = 5.0 / f64::from(count).sqrt();
+        assert!((sum / f64::from(count)).abs().max_element() < within * (1.0 / 3.0_f64).sqrt());
+        assert!((squares / f64::from(count) - 1.0 / 3.0).abs().max_element() < within * 0.3);
+        assert!((products / f64::from(count)).abs().max_element() < within / 3.0);
+    }
+
+    #[test]
+    fn seed_sphere_pixel_and_frame_all_matter() {
+        let at =
+            |seed, sphere, col, row, frame| pixel_noise(seed, sphere, PixelKey { col, row, frame });
+        let base = at(1, 1, 1, 1, 1);
+        for other in [
+            at(2, 1, 1, 1, 1),
+            at(1, 2, 1, 1, 1),
+            at(1, 1, 2, 1, 1),
+            at(1, 1, 1, 2, 1),
+            at(1, 1, 1, 1, 2),
+        ] {
+            assert_ne!(base, other);
+        }
+    }
+
+    #[test]
+    fn surface_noise_has_continuous_slopes() {
+        // Second differences of a function with bounded second derivative shrink with the square
+        // of the step; a kink at a cell's face would leave them as large as the step.
+        let step = 1e-5;
+        let along = DVec3::new(1.0, 0.7, -0.4);
+        for point in walk() {
+            let at = |steps: f64| surface_noise(3, 4, point + along * (steps * step));
+            let second_difference = at(1.0) - 2.0 * at(0.0) + at(-1.0);
+            assert!(second_difference.abs().max_element() < 60.0 * step * step);
+        }
+    }
+
+    #[test]
+    fn surface_noise_takes_the_lattice_values() {
+        let corner = DVec3::new(3.0, -2.0, 5.0);
+        let key = [5_u64, -2_i64 as u64, 3]
+            .into_iter()
+            .fold(hash(11, 8), hash);
+        assert_eq!(surface_noise(11, 8, corner), spread(key));
+    }
+
+    #[test]
+    fn extreme_scales_make_no_panic_and_no_nan() {
+        let rough = |size| Roughness {
+            amplitude: 0.99,
+            grain: Grain::Surface(size),
+            seed: 0,
+        };
+        let pixel = PixelKey {
+            col: 0,
+            row: 0,
+            frame: 0,
+        };
+        for (radius, size) in [(1e300, 1e-300), (1e-300, 1e300), (1e17, 1.0), (1.0, 1e-18)] {
+            let normal = rough(size).perturb(DVec3::ONE.normalize(), radius, 0, pixel);
+            assert!(
+                normal.is_finite(),
+                "radius {radius}, grain {size}: {normal}"
+            );
+        }
+    }
 }

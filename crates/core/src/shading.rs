@@ -30,7 +30,7 @@ pub(crate) fn shade<C: Radiance>(
     let mut mirrored = C::ZERO;
     for light in &world.lights {
         let facing = normal.dot(light.toward());
-        if !(facing > 0.0) {
+        if facing <= 0.0 {
             continue;
         }
         if world.shadows {

@@ -67,16 +67,15 @@ impl Sphere {
         let to_center = self.center - origin;
         let direction_sq = direction.length_squared();
         let along = direction.dot(to_center);
-        // |to_center|² − r², as a product: a difference of squares would cancel near the surface.
-        let distance = to_center.length();
-        let outside = (distance - self.radius) * (distance + self.radius);
+        // Greater than 0 where the origin lies outside.
+        let outside = to_center.length_squared() - self.radius * self.radius;
         if outside > 0.0 && along <= 0.0 {
             return None;
         }
         // The foot of the perpendicular from the center, seen from the center.
         let foot = direction * (along / direction_sq) - to_center;
         let half_chord_sq = self.radius * self.radius - foot.length_squared();
-        if !(half_chord_sq >= 0.0) {
+        if half_chord_sq < 0.0 || half_chord_sq.is_nan() {
             return None;
         }
         let root = (half_chord_sq * direction_sq).sqrt();
@@ -104,5 +103,115 @@ impl Sphere {
             normal: from_center / self.radius,
             inner_side,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit_sphere_at(x: f64, y: f64, z: f64) -> Sphere {
+        Sphere::new(DVec3::new(x, y, z), 1.0).unwrap()
+    }
+
+    fn forward_from(origin: DVec3) -> Ray {
+        Ray {
+            origin,
+            direction: DVec3::Z,
+        }
+    }
+
+    #[test]
+    fn refuses_what_is_no_sphere() {
+        assert_eq!(Sphere::new(DVec3::ZERO, 0.0), Err(SphereError::Radius(0.0)));
+        assert_eq!(
+            Sphere::new(DVec3::ZERO, -1.0),
+            Err(SphereError::Radius(-1.0))
+        );
+        assert!(Sphere::new(DVec3::ZERO, f64::NAN).is_err());
+        assert!(Sphere::new(DVec3::new(0.0, f64::INFINITY, 0.0), 1.0).is_err());
+    }
+
+    #[test]
+    fn the_nearer_crossing_is_hit() {
+        let hit = unit_sphere_at(0.0, 0.0, 5.0)
+            .hit(&forward_from(DVec3::ZERO))
+            .unwrap();
+        assert_eq!(
+            hit,
+            Hit {
+                t: 4.0,
+                normal: -DVec3::Z,
+                inner_side: false
+            }
+        );
+    }
+
+    #[test]
+    fn t_counts_multiples_of_the_direction() {
+        let ray = Ray {
+            origin: DVec3::ZERO,
+            direction: DVec3::Z * 8.0,
+        };
+        assert_eq!(unit_sphere_at(0.0, 0.0, 5.0).hit(&ray).unwrap().t, 0.5);
+    }
+
+    #[test]
+    fn tangent_ray_hits() {
+        let hit = unit_sphere_at(0.0, 1.0, 5.0)
+            .hit(&forward_from(DVec3::ZERO))
+            .unwrap();
+        assert_eq!(
+            hit,
+            Hit {
+                t: 5.0,
+                normal: -DVec3::Y,
+                inner_side: false
+            }
+        );
+    }
+
+    #[test]
+    fn sphere_behind_is_missed() {
+        assert!(
+            unit_sphere_at(0.0, 0.0, -5.0)
+                .hit(&forward_from(DVec3::ZERO))
+                .is_none()
+        );
+    }
+
+    #[test]
+    fn from_inside_the_far_side_is_hit() {
+        let hit = unit_sphere_at(0.0, 0.0, 0.5)
+            .hit(&forward_from(DVec3::ZERO))
+            .unwrap();
+        assert_eq!(
+            hit,
+            Hit {
+                t: 1.5,
+                normal: DVec3::Z,
+                inner_side: true
+            }
+        );
+    }
+
+    #[test]
+    fn origin_on_the_surface_hits_only_across() {
+        let across = unit_sphere_at(0.0, 0.0, 1.0)
+            .hit(&forward_from(DVec3::ZERO))
+            .unwrap();
+        assert_eq!(
+            across,
+            Hit {
+                t: 2.0,
+                normal: DVec3::Z,
+                inner_side: true
+            }
+        );
+        assert!(
+            unit_sphere_at(0.0, 0.0, -1.0)
+                .hit(&forward_from(DVec3::ZERO))
+                .is_none()
+        );
     }
 }
