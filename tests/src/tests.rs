@@ -1,2 +1,7 @@
 //! What crosses the crates of marbles: pictures with known pixels, stated bounds measured,
 //! refused scenes with their messages.
+
+mod anchored_roughness;
+mod closed_forms;
+mod repeatability;
+mod studio;

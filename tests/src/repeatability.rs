@@ -1,0 +1,62 @@
+//! The same bits from any number of threads.
+
+use glam::DVec3;
+use marbles_core::{
+    Angle, Camera, Color, DirectionalLight, Grain, Highlight, Image, Material, Roughness, Sphere,
+    World,
+};
+
+use crate::studio::{looking_forward, picture};
+
+/// A world that uses every term of the shading.
+fn everything() -> World {
+    let mut world = World::new();
+    for (index, grain) in [Grain::Surface(0.2), Grain::Pixel].into_iter().enumerate() {
+        let material = world.add_material(Material {
+            albedo: Color::new(0.9, 0.5, 0.2),
+            exponent: 1.7,
+            highlight: Some(Highlight {
+                strength: 0.4,
+                shininess: 33.0,
+            }),
+            roughness: Some(Roughness {
+                amplitude: 0.5,
+                grain,
+                seed: 7,
+            }),
+        });
+        let side = 2.0 * index as f64 - 1.0;
+        for step in 0..4 {
+            let center = DVec3::new(0.7 * side, 0.5 * f64::from(step) - 0.7, 4.0 + 0.3 * side);
+            world.add_sphere(Sphere::new(center, 0.5).unwrap(), material);
+        }
+    }
+    for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(2.0, 0.5, -0.3)] {
+        let intensity = Color::new(0.5, 0.6, 0.7) * toward.x.abs();
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, intensity));
+    }
+    world.ambient = Color::splat(0.03);
+    world.background = Color::new(0.0, 0.1, 0.2);
+    world
+}
+
+fn with_threads(threads: usize) -> Image {
+    let mut view = looking_forward(93, 71, 90.0);
+    let degrees = Angle::from_degrees;
+    view.camera = Camera::free(DVec3::ZERO, degrees(3.0), degrees(-2.0), degrees(25.0));
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .unwrap();
+    pool.install(|| picture(&everything(), &view, 3, true))
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let one = with_threads(1);
+    assert!(one.summary().largest_error > 0.0);
+    assert_eq!(one, with_threads(2));
+    assert_eq!(one, with_threads(7));
+}
