@@ -60,12 +60,11 @@ fn outline_of_a_sphere_off_the_axis_is_the_known_ellipse() {
     close(area, std::f64::consts::PI * semi_major * semi_minor, "area");
     close((first / area).dot(outward), middle, "center");
     assert!((first / area).perp_dot(outward).abs() < 1e-2);
-    close((along_sq / area).sqrt() * 2.0, semi_major, "long semi-axis");
-    close(
-        (across_sq / area).sqrt() * 2.0,
-        semi_minor,
-        "short semi-axis",
-    );
+    // Counting a pixel's coverage in its middle adds the variance of a pixel, 1/12.
+    let semi_axis = |sum: f64| 2.0 * (sum / area - 1.0 / 12.0).sqrt();
+    close(semi_axis(along_sq), semi_major, "long semi-axis");
+    close(semi_axis(across_sq), semi_minor, "short semi-axis");
+
     assert!((mixed / area).abs() < 1e-2 * semi_minor);
 }
 
@@ -174,7 +173,7 @@ fn intersecting_spheres_meet_in_their_radical_plane() {
             "pixel ({col}, {row})"
         );
     }
-    assert!(seen.iter().all(|&count| count > 300), "{seen:?}");
+    assert!(seen.iter().all(|&count| count > 200), "{seen:?}");
 }
 
 /// The shadow of a ball is a cylinder along the light: a point of the lower ball is dark where
