@@ -3,5 +3,6 @@
 
 mod anchored_roughness;
 mod closed_forms;
+mod hits;
 mod repeatability;
 mod studio;

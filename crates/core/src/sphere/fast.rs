@@ -1,0 +1,250 @@
+//! The first floor: plain doubles, which answer wherever their error bounds decide.
+
+use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x4};
+use glam::DVec3;
+
+use super::{Hit, Sphere};
+use crate::Ray;
+use crate::rounding::{UNIT_ROUNDOFF, is_fused, two_difference, two_product, two_sum};
+
+/// What the first floor knows.
+pub(super) enum Answer {
+    Miss,
+    Hit(Hit),
+    Undecided,
+}
+
+/// Bound of the error of K relative to f·f + r², and of Q relative to A (f·f + r²).
+///
+/// With u the unit roundoff and every operation below rounded once: f carries a relative error
+/// u, so that f·f carries 5u and r² carries u; K is off by at most 5u f·f + u r² + u |K|
+/// ≤ 7u (f·f + r²). B is off by 4u |d| |f|, so that B² is off by 9u A f·f; A carries 3u, so that
+/// A K is off by 11u A (f·f + r²); the last subtraction adds 2u. Together that is 22u; 24u leaves
+/// room for the terms in u² and for the rounding of the bound itself.
+const DECISION_BOUND: f64 = 24.0 * UNIT_ROUNDOFF;
+
+/// Bound of the error of the accurate residual, relative to f·f + r².
+///
+/// With M = |f| + r and m = t d (so that |m| ≤ M and M² ≤ 2 (f·f + r²)), the parts w of the
+/// points p = s + w below are at most 2u (|mᵢ| + |fᵢ|) and off by 3u² (|mᵢ| + |fᵢ|). The residual
+/// leaves out w·w ≤ 32u² (f·f + r²), inherits 24u² from the error of w, and its ten low-order
+/// roundings cost 220u² at most. 2⁹ u² covers the three.
+const RESIDUAL_BOUND: f64 = 512.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+
+/// What the decision computed, for the distance and the normal.
+struct Certain {
+    /// A.
+    direction_sq: f64,
+    /// B.
+    along: f64,
+    /// K.
+    outside: f64,
+    /// Q.
+    discriminant: f64,
+    /// f·f + r².
+    scale: f64,
+    inner_side: bool,
+}
+
+#[inline(always)]
+pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Answer {
+    let direction = ray.direction;
+    let to_center = sphere.center - ray.origin;
+    let direction_sq = direction.length_squared();
+    let distance_sq = to_center.length_squared();
+    let radius_sq = sphere.radius * sphere.radius;
+    let scale = distance_sq + radius_sq;
+    let along = direction.dot(to_center);
+    let outside = distance_sq - radius_sq;
+    let bound = DECISION_BOUND * scale;
+    let discriminant = along * along - direction_sq * outside;
+    let discriminant_bound = direction_sq * bound;
+    // Outside for certain, a computed B of 0 or less is a miss: were the exact one greater, it
+    // would be so small that B² < A K. Without branches in between, as most rays miss.
+    let moderate = are_moderate(direction_sq, scale);
+    let misses = (along <= 0.0) | (discriminant < -discriminant_bound);
+    if moderate & (outside > bound) & misses {
+        return Answer::Miss;
+    }
+    if !moderate | (outside.abs() <= bound) | (discriminant <= 2.0 * discriminant_bound) {
+        return Answer::Undecided;
+    }
+    let inner_side = outside < 0.0;
+    let certain = Certain {
+        direction_sq,
+        along,
+        outside,
+        discriminant,
+        scale,
+        inner_side,
+    };
+    finish(sphere, ray, certain).map_or(Answer::Undecided, Answer::Hit)
+}
+
+/// Whether two squares lie within 2⁻²⁵⁶ and 2²⁵⁶: then nothing computed from them can overflow,
+/// nor lose digits to underflow that the bounds do not cover.
+#[inline(always)]
+fn are_moderate(a: f64, b: f64) -> bool {
+    const LOWEST: u64 = 1023 - 256;
+    const RANGE: u64 = 512;
+    // The exponents; below the lowest the difference wraps around to a large number.
+    let above = |value: f64| (value.to_bits() >> (f64::MANTISSA_DIGITS - 1)).wrapping_sub(LOWEST);
+    (above(a) | above(b)) < RANGE
+}
+
+/// Distance and normal of a certain hit, `None` where the bounds do not prove their last places.
+#[inline(always)]
+fn finish(sphere: &Sphere, ray: &Ray, certain: Certain) -> Option<Hit> {
+    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+    if let Some(avx2) = Level::new().as_avx2() {
+        let Certain {
+            direction_sq,
+            along,
+            outside,
+            discriminant,
+            scale,
+            inner_side,
+        } = certain;
+        return refine_avx2(
+            avx2,
+            sphere,
+            ray,
+            direction_sq,
+            along,
+            outside,
+            discriminant,
+            scale,
+            inner_side,
+        );
+    }
+    refine_portably(sphere, ray, &certain)
+}
+
+#[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+fearless_simd::kernel!(
+    #[inline(never)]
+    fn refine_avx2(
+        avx2: Avx2,
+        sphere: &Sphere,
+        ray: &Ray,
+        direction_sq: f64,
+        along: f64,
+        outside: f64,
+        discriminant: f64,
+        scale: f64,
+        inner_side: bool,
+    ) -> Option<Hit> {
+        let certain = Certain {
+            direction_sq,
+            along,
+            outside,
+            discriminant,
+            scale,
+            inner_side,
+        };
+        refine::<true, _>(avx2, sphere, ray, &certain)
+    }
+);
+
+#[cold]
+fn refine_portably(sphere: &Sphere, ray: &Ray, certain: &Certain) -> Option<Hit> {
+    dispatch!(Level::new(), simd => if is_fused(simd) {
+        refine::<true, _>(simd, sphere, ray, certain)
+    } else {
+        refine::<false, _>(simd, sphere, ray, certain)
+    })
+}
+
+/// One step of Newton's from the plain distance, with an accurate residual.
+///
+/// With the residual R = |t₀ d − f|² − r² and the sign + at the near root, − at the far one,
+///
+/// > t = t₀ ± R / (2 √Q) ∓ A e² / (2 √Q),
+///
+/// where e is the error of t₀. The step δ = R / (2 √Q) is computed; what it misses is
+/// - the error of R, at most `RESIDUAL_BOUND` (f·f + r²), over 2 √Q;
+/// - |δ| times the relative error of the computed √Q, at most half the discriminant's bound over
+///   Q, and of two roundings;
+/// - A e² / (2 √Q): since the discriminant exceeds twice its bound, t₀ is nearer to its root than
+///   a third of the chord, so that |e| ≤ 2 |δ| (up to the first item) and the term is below
+///   4 A δ² / √Q.
+///
+/// Each is held below 2⁻⁵⁷ t₀, so that the sum rounds to within one unit in the last place, and
+/// below 2⁻⁵⁷ √Q / A ≤ 2⁻⁵⁷ r / |d|, so that the point moves by less than 2⁻⁵⁵ r. The normal's
+/// components are then rounded once: it turns by less than (1 + ½) · 2⁻⁵³ radians.
+#[inline(always)]
+fn refine<const FUSED: bool, S: Simd>(
+    simd: S,
+    sphere: &Sphere,
+    ray: &Ray,
+    certain: &Certain,
+) -> Option<Hit> {
+    const TOLERANCE: f64 = UNIT_ROUNDOFF / 16.0;
+    let &Certain {
+        direction_sq,
+        along,
+        outside,
+        discriminant,
+        scale,
+        inner_side,
+    } = certain;
+    let root = discriminant.sqrt();
+    let (numerator, denominator) = if inner_side {
+        let far = along.abs() + root;
+        if along < 0.0 {
+            (-outside, far)
+        } else {
+            (far, direction_sq)
+        }
+    } else {
+        (outside, along + root)
+    };
+    let plain_t = numerator / denominator;
+
+    // Side by side x, y, z and, for its square, the radius.
+    let lanes =
+        |vector: DVec3, fourth| f64x4::simd_from(simd, [vector.x, vector.y, vector.z, fourth]);
+    let direction = lanes(ray.direction, 0.0);
+    let (to_center, to_center_rest) =
+        two_difference(lanes(sphere.center, sphere.radius), lanes(ray.origin, 0.0));
+    // The point t d − f and its rest, and the sum of its squares less that of the radius.
+    let (along, along_rest) = two_product::<FUSED, _>(direction, f64x4::splat(simd, plain_t));
+    let (point, point_rest) = two_difference(along, to_center);
+    let point_rest = point_rest + (along_rest - to_center_rest);
+    let (squares, squares_rest) = two_product::<FUSED, _>(point, point);
+    let cross = point * point_rest;
+    let rests = squares_rest + (cross + cross);
+    let (sum, first) = two_sum(squares[0], squares[1]);
+    let (difference, second) = two_difference(squares[2], squares[3]);
+    // The two nearly cancel: what this loses is relative to the residual itself.
+    let difference = difference + sum;
+    let rest = (rests[0] + rests[1]) + (rests[2] - rests[3]);
+    let residual = difference + ((first + second) + rest);
+
+    let sign = if inner_side { -0.5 } else { 0.5 };
+    let step = residual * (sign / root);
+    let distance = plain_t * direction_sq;
+    let smallest = TOLERANCE * if distance < root { distance } else { root };
+    let step_size = step.abs() * direction_sq;
+    let squares_bound = scale * direction_sq;
+    // The relative error of the step, times the discriminant.
+    let step_error = DECISION_BOUND * squares_bound
+        + 4.0 * step_size * root
+        + 8.0 * UNIT_ROUNDOFF * discriminant;
+    let proved = RESIDUAL_BOUND * squares_bound <= smallest * root
+        && step_size * step_error <= smallest * discriminant;
+    if !proved {
+        return None;
+    }
+    // The rest stays apart, so that each component is rounded once.
+    let point_rest = point_rest + direction * step;
+    let inverse_radius = f64x4::splat(simd, 1.0 / sphere.radius);
+    let (normal, normal_rest) = two_product::<FUSED, _>(point, inverse_radius);
+    let normal = normal + (normal_rest + point_rest * inverse_radius);
+    let normal = DVec3::new(normal[0], normal[1], normal[2]);
+    Some(Hit {
+        t: plain_t + step,
+        normal,
+        inner_side,
+    })
+}

@@ -1,0 +1,73 @@
+//! The ways in which ray tracers meet spheres, to compare with.
+
+use glam::DVec3;
+use marbles_core::{Ray, Sphere};
+
+/// What every form computes: the distance and the outward normal.
+pub(crate) type Form = fn(&Sphere, &Ray) -> Option<(f64, DVec3)>;
+
+/// The forms with their names, the project's own last.
+pub(crate) const FORMS: [(&str, Form); 4] = [
+    ("(-b - sqrt(b² - 4ac)) / 2a", original),
+    ("stable q", stable),
+    ("perpendicular", perpendicular),
+    ("marbles", marbles),
+];
+
+/// The quadratic as schools teach it; the far root where the near one lies behind.
+pub(crate) fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+    let from_center = ray.origin - sphere.center();
+    let a = ray.direction.length_squared();
+    let b = 2.0 * ray.direction.dot(from_center);
+    let c = from_center.length_squared() - sphere.radius() * sphere.radius();
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let near = (-b - discriminant.sqrt()) / (2.0 * a);
+    let far = (-b + discriminant.sqrt()) / (2.0 * a);
+    in_front(sphere, ray, near, far)
+}
+
+/// The same discriminant; of the roots, the one that adds and the product of both.
+pub(crate) fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+    let from_center = ray.origin - sphere.center();
+    let a = ray.direction.length_squared();
+    let b = 2.0 * ray.direction.dot(from_center);
+    let c = from_center.length_squared() - sphere.radius() * sphere.radius();
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return None;
+    }
+    let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+    in_front(sphere, ray, (q / a).min(c / q), (q / a).max(c / q))
+}
+
+/// The discriminant from the perpendicular of the center on the ray, and stable roots.
+///
+/// # Source
+/// E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection,
+/// Ray Tracing Gems, 2019, chapter 7.
+pub(crate) fn perpendicular(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+    let from_center = ray.origin - sphere.center();
+    let radius_sq = sphere.radius() * sphere.radius();
+    let a = ray.direction.length_squared();
+    let along = -ray.direction.dot(from_center);
+    let foot = from_center + ray.direction * (along / a);
+    let half_chord_sq = radius_sq - foot.length_squared();
+    if half_chord_sq < 0.0 {
+        return None;
+    }
+    let q = along + (a * half_chord_sq).sqrt().copysign(along);
+    let c = from_center.length_squared() - radius_sq;
+    in_front(sphere, ray, (q / a).min(c / q), (q / a).max(c / q))
+}
+
+fn in_front(sphere: &Sphere, ray: &Ray, near: f64, far: f64) -> Option<(f64, DVec3)> {
+    let t = if near > 0.0 { near } else { far };
+    (t > 0.0).then(|| (t, (ray.at(t) - sphere.center()) / sphere.radius()))
+}
+
+fn marbles(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+    sphere.hit(ray).map(|hit| (hit.t, hit.normal))
+}

@@ -1,0 +1,3 @@
+//! Hits and misses held against exact answers.
+
+mod truth;
