@@ -139,7 +139,8 @@ fn decide<const FUSED: bool>(scaled: &Scaled) -> Option<Option<Hit>> {
     // From the center: d × (d × f) / A to the foot of the perpendicular, half a chord from there.
     let foot = cross(directions, across);
     let half_chord = if inner_side { root } else { -root };
-    let inverse = DoubleDouble::from(1.0 / (direction_sq.high * scaled.radius));
+    // In full, so that the normal is as unit as it is straight.
+    let inverse = DoubleDouble::from(1.0) / (direction_sq * DoubleDouble::from(scaled.radius));
     let component = |axis: usize| ((foot[axis] + half_chord * directions[axis]) * inverse).high;
     let normal = DVec3::new(component(0), component(1), component(2));
     Some(Some(Hit {

@@ -111,10 +111,25 @@ impl Sphere {
         }
     }
 
+    /// What one floor alone finds out, `None` where it cannot decide: to test the floors by.
+    pub fn hit_on_floor(&self, ray: &Ray, floor: Floor) -> Option<Option<Hit>> {
+        if !is_line(ray) {
+            return Some(None);
+        }
+        match floor {
+            Floor::Fast => match fast::hit(self, ray) {
+                fast::Answer::Miss => Some(None),
+                fast::Answer::Hit(hit) => Some(Some(hit)),
+                fast::Answer::Undecided => None,
+            },
+            Floor::Double => double::hit(self, ray),
+            Floor::Exact => Some(exact::hit(self, ray)),
+        }
+    }
+
     #[cold]
     fn hit_precisely(&self, ray: &Ray) -> (Option<Hit>, Floor) {
-        let finite = ray.origin.is_finite() && ray.direction.is_finite();
-        if !finite || ray.direction == DVec3::ZERO {
+        if !is_line(ray) {
             return (None, Floor::Fast);
         }
         match double::hit(self, ray) {
@@ -122,6 +137,11 @@ impl Sphere {
             None => (exact::hit(self, ray), Floor::Exact),
         }
     }
+}
+
+/// Whether a ray has a direction and no part that is infinite or not a number.
+fn is_line(ray: &Ray) -> bool {
+    ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != DVec3::ZERO
 }
 
 #[cfg(test)]
