@@ -80,7 +80,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub(crate) bits: Option<u8>,
 
-    /// Write a PNG in colour even if nothing in the scene has colour
+    /// Write a PNG in color even if nothing in the scene has color
     #[arg(long)]
     pub(crate) rgb: bool,
 
@@ -88,7 +88,7 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) float: bool,
 
-    /// Print nothing but errors
+    /// Print nothing but errors and warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

@@ -101,7 +101,7 @@ fn world(world: &World) -> Vec<(&'static str, String)> {
     } else {
         "red, green, blue"
     };
-    rows.push(("colour", channels.to_owned()));
+    rows.push(("color", channels.to_owned()));
     rows
 }
 
@@ -196,7 +196,7 @@ fn vector(vector: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// A colour as scene files have it: a number where it is grey.
+/// A color as scene files have it: a number where it is grey.
 fn color(color: Color) -> String {
     if color.x == color.y && color.y == color.z {
         short(color.x)

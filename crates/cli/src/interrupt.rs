@@ -46,7 +46,7 @@ pub(crate) fn listen() {
 }
 
 fn end() -> ! {
-    temporary::abandon_all();
+    let _no_more_files = temporary::abandon_all();
     // Another thread may hold the lock of stderr for as long as nobody reads from it.
     let farewell = thread::Builder::new().spawn(|| {
         let _ = writeln!(std::io::stderr(), "\nmarbles: interrupted");

@@ -10,7 +10,7 @@ use super::{Encoded, SOFTWARE, srgb};
 pub(crate) struct PngOptions {
     /// 16 bit instead of 8.
     pub(crate) deep: bool,
-    /// Three channels for pictures without colour as well.
+    /// Three channels for pictures without color as well.
     pub(crate) rgb: bool,
 }
 

@@ -8,16 +8,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// How many left-over files of killed processes with the same id are stepped over.
 const ATTEMPTS: u32 = 1000;
 
-/// The temporary files of this process.
-static REGISTRY: Mutex<Registry> = Mutex::new(Registry {
-    open: Vec::new(),
-    closed: false,
-});
-
-struct Registry {
-    open: Vec<PathBuf>,
-    closed: bool,
-}
+/// The temporary files of this process; whoever holds the lock knows that none appears or moves.
+static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file beside the place where it belongs, removed when it is dropped before its time.
 pub(super) struct TemporaryFile<'path> {
@@ -33,11 +25,8 @@ impl<'path> TemporaryFile<'path> {
     /// machine that has the same id and still writes: it is left alone.
     pub(super) fn beside(destination: &'path Path) -> io::Result<Self> {
         let process = std::process::id();
-        let mut registry = registry();
+        let mut open = lock();
         for attempt in 0..ATTEMPTS {
-            if registry.closed {
-                break;
-            }
             let mut path = destination.as_os_str().to_owned();
             path.push(match attempt {
                 0 => format!(".{process}.tmp"),
@@ -48,7 +37,7 @@ impl<'path> TemporaryFile<'path> {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
-                    registry.open.push(path.clone());
+                    open.push(path.clone());
                     return Ok(Self {
                         file,
                         path,
@@ -57,14 +46,10 @@ impl<'path> TemporaryFile<'path> {
                 }
             }
         }
-        Err(if registry.closed {
-            io::Error::new(io::ErrorKind::Interrupted, "interrupted")
-        } else {
-            io::Error::new(
-                io::ErrorKind::AlreadyExists,
-                "too many temporary files are in the way",
-            )
-        })
+        Err(io::Error::new(
+            io::ErrorKind::AlreadyExists,
+            "too many temporary files are in the way",
+        ))
     }
 
     pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
@@ -75,32 +60,78 @@ impl<'path> TemporaryFile<'path> {
     pub(super) fn persist(self) -> io::Result<()> {
         // Without this a crash of the machine could leave the name without the bytes.
         self.file.sync_all()?;
-        let _registry = registry();
-        fs::rename(&self.path, self.destination)
+        let mut open = lock();
+        fs::rename(&self.path, self.destination)?;
+        open.retain(|path| *path != self.path);
+        Ok(())
     }
 }
 
 impl Drop for TemporaryFile<'_> {
     fn drop(&mut self) {
-        let mut registry = registry();
-        registry.open.retain(|path| *path != self.path);
-        // After the file was moved there is nothing to remove; otherwise nobody waits for the
-        // answer.
-        let _ = fs::remove_file(&self.path);
+        let mut open = lock();
+        if let Some(index) = open.iter().position(|path| *path == self.path) {
+            open.swap_remove(index);
+            // Nobody waits for the answer.
+            let _ = fs::remove_file(&self.path);
+        }
     }
 }
 
-/// Removes all temporary files and lets no more appear: the process is about to end.
-pub(crate) fn abandon_all() {
-    let mut registry = registry();
-    registry.closed = true;
-    for path in registry.open.drain(..) {
+/// Removes all temporary files; as long as the answer lives, no file appears or moves.
+pub(crate) fn abandon_all() -> impl Sized {
+    let mut open = lock();
+    for path in open.drain(..) {
         // What cannot be removed stays; there is nobody left to tell.
         let _ = fs::remove_file(path);
     }
+    open
 }
 
-fn registry() -> MutexGuard<'static, Registry> {
-    // The list of paths is valid after every step, so that a panic elsewhere does not spoil it.
-    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock() -> MutexGuard<'static, Vec<PathBuf>> {
+    // The list is valid after every step, so that a panic elsewhere does not spoil it.
+    OPEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file name in the tests' own folder that no other test uses.
+    fn destination(name: &str) -> PathBuf {
+        let process = std::process::id();
+        std::env::temp_dir().join(format!("marbles-{process}-{name}"))
+    }
+
+    #[test]
+    fn files_appear_when_they_are_complete() {
+        let destination = destination("complete");
+        let mut file = TemporaryFile::beside(&destination).unwrap();
+        let path = file.path.clone();
+        file.write(b"marbles").unwrap();
+        assert!(path.exists() && !destination.exists());
+        file.persist().unwrap();
+        assert!(!path.exists());
+        assert_eq!(fs::read(&destination).unwrap(), b"marbles");
+        fs::remove_file(destination).unwrap();
+    }
+
+    #[test]
+    fn unfinished_files_are_removed() {
+        let destination = destination("unfinished");
+        let file = TemporaryFile::beside(&destination).unwrap();
+        let path = file.path.clone();
+        assert!(path.exists());
+        drop(file);
+        assert!(!path.exists() && !destination.exists());
+    }
+
+    #[test]
+    fn files_of_others_are_stepped_over() {
+        let destination = destination("others");
+        let first = TemporaryFile::beside(&destination).unwrap();
+        let second = TemporaryFile::beside(&destination).unwrap();
+        assert_ne!(first.path, second.path);
+        assert!(first.path.exists() && second.path.exists());
+    }
 }
