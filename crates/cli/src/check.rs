@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, DirectionalLight, Sphere, View, World};
 use marbles_scene::{FrameError, Scene};
 
@@ -10,6 +10,7 @@ use crate::args::CheckArguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::numbers::short;
+use crate::render::FRAME_OF_A_STILL;
 use crate::status;
 
 /// Frames that are looked at for the range of the camera, spread evenly over longer animations.
@@ -21,7 +22,8 @@ const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = Scene::load(&arguments.scene).map_err(|error| Failure::Scene(Box::new(error)))?;
-    let frames = scene.frames().unwrap_or(1..=1);
+    let still = FRAME_OF_A_STILL..=FRAME_OF_A_STILL;
+    let frames = scene.frames().unwrap_or(still);
     let (views, errors) = views(&scene, &frames);
 
     let mut rows = vec![("scene", arguments.scene.display().to_string())];
@@ -72,7 +74,7 @@ fn lens(view: &View) -> String {
         short(lens.distance),
         short(2.0 * half_angle.to_degrees())
     );
-    if lens.shift != glam::DVec2::ZERO {
+    if lens.shift != DVec2::ZERO {
         let (right, up) = (short(lens.shift.x), short(lens.shift.y));
         text.push_str(&format!(", shifted by ({right}, {up})"));
     }

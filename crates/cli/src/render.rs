@@ -16,7 +16,7 @@ use crate::sequence::{Sequence, Tally};
 use crate::status;
 
 /// The frame that a scene without animation is rendered as.
-const FRAME_OF_A_STILL: i32 = 1;
+pub(crate) const FRAME_OF_A_STILL: i32 = 1;
 
 pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
     let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
@@ -32,7 +32,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     });
     if frames.is_sequence() && !pattern.is_numbered() {
         return Err(Failure::Usage(format!(
-            "{}: expected ####, %04d or {{frame:04}} in the name of the files of {} frames",
+            "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
             pattern.path(FRAME_OF_A_STILL).display(),
             frames.count()
         )));
@@ -46,7 +46,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
             Failure::Work(format!("cannot start the threads that render: {reason}"))
         })?;
     interrupt::listen();
-    for first in frames.iter().take(1) {
+    if let Some(first) = frames.iter().next() {
         output::prepare(&pattern.path(first))?;
     }
 
@@ -106,12 +106,10 @@ fn conclusion(tally: &Tally, console: &Console) -> u8 {
             "interrupted: {written} of {frames} frames written"
         ));
         status::INTERRUPTED
-    } else if tally.failed {
-        if *frames > 1 {
+    } else if tally.failed || tally.over_tolerance {
+        if tally.failed && *frames > 1 {
             console.warn(&format!("{written} of {frames} frames written"));
         }
-        status::FAILURE
-    } else if tally.over_tolerance {
         status::FAILURE
     } else {
         status::SUCCESS

@@ -16,7 +16,7 @@ use crate::args::Size;
 use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
-use crate::numbers;
+use crate::messages;
 use crate::output::{self, Encoding, Facts};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
@@ -180,21 +180,13 @@ impl Sequence<'_> {
         let shown = path.display().to_string();
         let written = output::write(&image, &facts, self.encoding, path)?;
         let summary = image.summary();
-        progress.result(&format!(
-            "{shown}: {} pixels, error <= {} (estimate), {} over the tolerance, {:.3} s",
-            summary.pixels,
-            numbers::bound(summary.largest_error),
-            summary.over_tolerance,
-            time.as_secs_f64()
-        ));
+        progress.result(&messages::result(&shown, &summary, time));
         if written.clipped > 0 {
-            progress.warn(&clipping(&shown, written.clipped, self.encoding));
+            progress.warn(&messages::clipped(&shown, written.clipped, self.encoding));
         }
         if summary.over_tolerance > 0 {
-            progress.warn(&format!(
-                "{shown}: {}",
-                worst_pixel(&image, summary.over_tolerance)
-            ));
+            let message = messages::over_tolerance(&shown, &image, summary.over_tolerance);
+            progress.warn(&message);
         }
         Ok(summary.over_tolerance > 0)
     }
@@ -230,35 +222,4 @@ impl Sequence<'_> {
             bytes as f64 / 1e9
         )))
     }
-}
-
-fn clipping(path: &str, clipped: u64, encoding: Encoding) -> String {
-    let numbers = if clipped == 1 { "number" } else { "numbers" };
-    match encoding {
-        Encoding::Exr(options) if !options.float => format!(
-            "{path}: {clipped} {numbers} above 65504, the largest half, stored as that; \
-             --float has room for more"
-        ),
-        _ => format!("{path}: {clipped} {numbers} too large for the file, stored as the largest"),
-    }
-}
-
-fn worst_pixel(image: &Image, over_tolerance: u64) -> String {
-    let pixels = (0..image.height()).flat_map(|row| (0..image.width()).map(move |col| (col, row)));
-    let worst = pixels
-        .filter(|&(col, row)| image.status(col, row).is_over_tolerance())
-        .max_by(|&(col, row), &(other_col, other_row)| {
-            let others = image.error(other_col, other_row);
-            image.error(col, row).total_cmp(&others)
-        });
-    let pixels = if over_tolerance == 1 {
-        "pixel"
-    } else {
-        "pixels"
-    };
-    let worst = worst.map_or(String::new(), |(col, row)| {
-        let error = numbers::bound(image.error(col, row));
-        format!(", the worst in column {col}, row {row} with an error <= {error}")
-    });
-    format!("{over_tolerance} {pixels} over the tolerance{worst}")
 }
