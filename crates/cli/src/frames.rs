@@ -39,31 +39,15 @@ pub(crate) enum FrameListError {
 impl FrameList {
     /// The frames in order, a frame that is named twice only the first time.
     pub(crate) fn iter(&self) -> impl Iterator<Item = i32> {
-        self.ranges
-            .iter()
-            .enumerate()
-            .flat_map(move |(index, range)| {
-                range
-                    .iter()
-                    .filter(move |&frame| !self.ranges[..index].iter().any(|r| r.contains(frame)))
-            })
-            .map(|frame| frame as i32)
+        distinct(&self.ranges).map(|frame| frame as i32)
     }
 
     /// How many frames [`FrameList::iter`] yields.
     pub(crate) fn count(&self) -> u64 {
-        let apart = |(index, range): (usize, &Range)| {
-            let earlier = &self.ranges[..index];
-            earlier
-                .iter()
-                .all(|other| other.last < range.first || range.last < other.first)
-        };
-        // Frames are compared one by one only in lists whose ranges overlap.
-        if self.ranges.iter().enumerate().all(apart) {
-            self.ranges.iter().map(|range| range.len()).sum()
-        } else {
-            self.iter().count() as u64
-        }
+        let ranges = self.ranges.iter().enumerate();
+        ranges
+            .map(|(index, range)| range.len() - range.count_in(&self.ranges[..index]))
+            .sum()
     }
 
     /// Whether there is more than one frame.
@@ -96,6 +80,16 @@ impl FromStr for FrameList {
     }
 }
 
+/// The frames of the ranges in order, each once.
+fn distinct(ranges: &[Range]) -> impl Iterator<Item = i64> {
+    ranges.iter().enumerate().flat_map(move |(index, range)| {
+        let earlier = &ranges[..index];
+        range
+            .iter()
+            .filter(move |&frame| !earlier.iter().any(|range| range.contains(frame)))
+    })
+}
+
 impl Range {
     fn iter(self) -> impl Iterator<Item = i64> {
         (0..self.len() as i64).map(move |index| self.first + index * self.step)
@@ -103,6 +97,22 @@ impl Range {
 
     fn len(self) -> u64 {
         ((self.last - self.first) / self.step + 1) as u64
+    }
+
+    /// How many of the frames are in some of `others`, found by looking at the side with fewer.
+    fn count_in(self, others: &[Self]) -> u64 {
+        let overlaps = |other: &&Self| other.first <= self.last && self.first <= other.last;
+        let others: Vec<Self> = others.iter().filter(overlaps).copied().collect();
+        let common = if self.len() <= others.iter().map(|other| other.len()).sum() {
+            self.iter()
+                .filter(|&frame| others.iter().any(|other| other.contains(frame)))
+                .count()
+        } else {
+            distinct(&others)
+                .filter(|&frame| self.contains(frame))
+                .count()
+        };
+        common as u64
     }
 
     fn contains(self, frame: i64) -> bool {
@@ -208,6 +218,7 @@ mod tests {
     #[test]
     fn order_is_kept_and_a_frame_comes_once() {
         assert_eq!(frames("5,1-6x2,2-5,5,0"), [5, 1, 3, 2, 4, 0]);
+        assert_eq!(frames("1-3,2-4,3-9x2,1-9x4").len(), 7);
     }
 
     #[test]
@@ -217,6 +228,10 @@ mod tests {
         assert!(list.is_sequence());
         let ends = "-2147483648-2147483647x4294967295";
         assert_eq!(frames(ends), [i32::MIN, i32::MAX]);
+        for list in ["5,1-2000000000", "1-2000000000,5", "3-9,1-2000000000:2,6-8"] {
+            let list: FrameList = list.parse().unwrap();
+            assert!((1_000_000_000..=2_000_000_000).contains(&list.count()));
+        }
     }
 
     #[test]
