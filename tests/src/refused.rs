@@ -88,10 +88,7 @@ fn what_is_no_file_is_refused() {
     );
     assert_eq!(
         message(&broken()),
-        format!(
-            "{}: expected a scene file, found a folder\n",
-            broken().display()
-        )
+        "broken: expected a scene file, found a folder\n"
     );
 }
 

@@ -2,8 +2,7 @@
 
 use ron::error::{Error, Position, SpannedError};
 
-use crate::fault::{Fault, Slice, show};
-use crate::placed::Names;
+use crate::fault::{Fault, Names, Slice, show};
 use crate::suggest::{closest, either};
 use crate::token;
 
@@ -56,33 +55,43 @@ pub(crate) fn explain(error: &SpannedError, slice: Slice<'_>, names: Names) -> F
         Error::NoSuchEnumVariant {
             expected, found, ..
         } => {
-            let noun = names.noun;
+            let kind = names.kind();
             let list = either(expected.iter().copied());
-            let mut message = format!("expected a kind of {noun} ({list}), found {}", show(found));
+            let mut message = format!("expected {kind} ({list}), found {}", show(found));
             if let Some(close) = closest(found, expected.iter().copied()) {
                 message += &format!(", did you mean `{close}`?");
             }
             Fault::new(token_at(start), message)
         }
-        Error::ExpectedDifferentStructName { expected, found } => Fault::new(
-            token_at(start),
-            format!("expected `{expected}(…)` or `(…)`, found {}", show(found)),
-        ),
-        Error::ExpectedIdentifier
-        | Error::ExpectedStructLike
-        | Error::ExpectedNamedStructLike(_)
-        | Error::SuggestRawIdentifier(_)
-            if stop == 0 =>
+        Error::ExpectedDifferentStructName { expected, found } => {
+            let stop = token::skip_trivia(text, token::token_end(text, start));
+            let expected = if text[stop..].starts_with('(') {
+                format!("`{expected}(…)` or `(…)`")
+            } else {
+                String::from(names.form)
+            };
+            let found = show(found);
+            Fault::new(
+                token_at(start),
+                format!("expected {expected}, found {found}"),
+            )
+        }
+        Error::ExpectedStructLike if is_end_of_name(&text[..stop]) => {
+            let name = &text[token::last_token(text, stop)];
+            at_stop(&format!("`(` after `{name}`"))
+        }
+        Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_)
+            if stop == 0 || is_before_value(&text[..stop]) =>
         {
             at_stop(names.form)
         }
+        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => at_stop(names.form),
         Error::Eof => at_stop("more"),
-        Error::ExpectedArray => at_stop("`[`"),
+        Error::ExpectedArray => at_stop("a list `[…]`"),
         Error::ExpectedArrayEnd => at_stop("`]`"),
-        Error::ExpectedMap => at_stop("`{`"),
+        Error::ExpectedMap => at_stop("materials by name `{…}`"),
         Error::ExpectedMapColon => at_stop("`:`"),
         Error::ExpectedMapEnd => at_stop("`}`"),
-        Error::ExpectedStructLike | Error::ExpectedNamedStructLike(_) => at_stop("`(`"),
         Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => at_stop("`)`"),
         Error::ExpectedComma => at_stop(&format!("`,`{}", or_closing_bracket(text, stop))),
         Error::ExpectedIdentifier
@@ -121,6 +130,16 @@ fn whole(outer: Option<&str>, names: Names) -> String {
         Some(variant) if names.form.contains(&format!("`{variant}(")) => format!("`{variant}`"),
         _ => String::from(names.noun),
     }
+}
+
+/// Whether a value is due behind this text.
+fn is_before_value(text: &str) -> bool {
+    text.trim_end().ends_with(':')
+}
+
+/// Whether the text ends with a name, apart from white space.
+fn is_end_of_name(text: &str) -> bool {
+    text.trim_end().ends_with(|c: char| c.is_alphanumeric())
 }
 
 /// The place of a value that may span lines: all of it on one line, else its first token.

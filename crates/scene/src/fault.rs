@@ -38,11 +38,13 @@ impl Fault {
     }
 }
 
-/// Where the text being read lies in memory, and what is wrong with it.
+/// Where the text being read lies in memory, what is wrong with it, and how it is read.
 #[derive(Default)]
 struct Sink {
     text_address: usize,
     faults: Vec<Fault>,
+    /// Where reading strictly: the innermost structure in which it failed.
+    strict: Option<Option<Names>>,
 }
 
 thread_local! {
@@ -51,10 +53,9 @@ thread_local! {
 
 /// Reads `text` by `read`; returns its result and the faults that it reported.
 pub(crate) fn collect<T>(text: &str, read: impl FnOnce() -> T) -> (T, Vec<Fault>) {
-    let text_address = text.as_ptr() as usize;
     SINK.set(Sink {
-        text_address,
-        faults: Vec::new(),
+        text_address: text.as_ptr() as usize,
+        ..Sink::default()
     });
     let result = read();
     (result, SINK.take().faults)
@@ -63,6 +64,45 @@ pub(crate) fn collect<T>(text: &str, read: impl FnOnce() -> T) -> (T, Vec<Fault>
 /// Adds a fault to those of the text being read.
 pub(crate) fn report(fault: Fault) {
     SINK.with_borrow_mut(|sink| sink.faults.push(fault));
+}
+
+/// Runs `read` so that structures fail as a whole; returns in which one it failed, too.
+pub(crate) fn strictly<T>(read: impl FnOnce() -> T) -> (T, Option<Names>) {
+    SINK.with_borrow_mut(|sink| sink.strict = Some(None));
+    let result = read();
+    let names = SINK.with_borrow_mut(|sink| sink.strict.take());
+    (result, names.flatten())
+}
+
+/// Whether structures are to fail as a whole.
+pub(crate) fn is_strict() -> bool {
+    SINK.with_borrow(|sink| sink.strict.is_some())
+}
+
+/// Notes that a structure failed while reading strictly; the innermost one is the first.
+pub(crate) fn note_failure(names: Names) {
+    SINK.with_borrow_mut(|sink| {
+        if let Some(innermost) = &mut sink.strict {
+            innermost.get_or_insert(names);
+        }
+    });
+}
+
+/// What a structure or an enumeration is called in messages.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Names {
+    /// The noun, as in "a field of this sphere".
+    pub(crate) noun: &'static str,
+    /// The whole, as in "a sphere `(center: …, radius: …)`".
+    pub(crate) form: &'static str,
+}
+
+impl Names {
+    /// The noun with its article.
+    pub(crate) fn kind(&self) -> &'static str {
+        let end = self.form.find([':', '`']).unwrap_or(self.form.len());
+        self.form[..end].trim_end()
+    }
 }
 
 /// A part of the text being read.

@@ -7,8 +7,8 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::color::Color;
-use crate::fault::Slice;
-use crate::placed::{Names, Placed, Read, present, read_simple, read_structure};
+use crate::fault::{Names, Slice, note_failure};
+use crate::placed::{Placed, Read, present, read_file, read_simple, read_structure};
 use crate::quantity::{
     Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Frame, FrameCount, FramesPerSecond,
     GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Seed, Shininess, Strength, Turns,
@@ -243,12 +243,17 @@ macro_rules! structures {
             fn read(slice: Slice<'t>) -> Option<Self> {
                 read_structure(slice, Names { noun: $noun, form: $form })
             }
+
+            fn read_strictly<D: Deserializer<'t>>(deserializer: D) -> Result<Option<Self>, D::Error> {
+                Self::deserialize(deserializer)
+                    .inspect_err(|_| note_failure(Names { noun: $noun, form: $form }))
+                    .map(Some)
+            }
         }
     )*};
 }
 
 structures! {
-    File: "scene", "a scene `(image: …, lens: …, camera: …)`";
     Image: "image", "an image `(width: …, height: …)`";
     Lens: "lens", "a lens: `Retina(width: …, distance: …)` or `Fov(…)`";
     Camera: "camera", "a camera: `Free(…)`, `LookAt(…)` or `Orbit(…)`";
@@ -261,6 +266,14 @@ structures! {
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
     Key: "key", "a key `(frame: …)`";
     Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
+}
+
+impl<'t> Read<'t> for File {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let form = "a scene `(image: …, lens: …, camera: …)`";
+        let noun = "scene";
+        read_file(slice, Names { noun, form })
+    }
 }
 
 impl<'t> Read<'t> for Point {

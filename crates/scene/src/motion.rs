@@ -171,7 +171,9 @@ fn check_gaze(camera: &Camera) {
     {
         report(Fault::new(
             target.place.clone(),
-            String::from("expected a target away from the camera's position, found the position"),
+            String::from(
+                "expected a target other than the camera's position, found the same point",
+            ),
         ));
     }
 }

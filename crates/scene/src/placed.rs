@@ -2,17 +2,25 @@
 
 use std::ops::Range;
 
+use ron::error::Error;
 use ron::value::RawValue;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
 use crate::explain::explain;
-use crate::fault::{self, Slice};
+use crate::fault::{self, Names, Slice};
 use crate::token;
 
 /// A value that can be read from a part of the text.
 pub(crate) trait Read<'t>: Sized {
     /// Reads the value from the whole of `slice`; reports why not where it returns `None`.
     fn read(slice: Slice<'t>) -> Option<Self>;
+
+    /// Reads the value without leave to fail in silence: what is wrong in its structure is an
+    /// error. Numbers and the like have no structure and are passed over.
+    fn read_strictly<D: Deserializer<'t>>(deserializer: D) -> Result<Option<Self>, D::Error> {
+        IgnoredAny::deserialize(deserializer).map(|_| None)
+    }
 }
 
 /// A value and its place.
@@ -52,6 +60,9 @@ impl<T: Default> Default for Placed<T> {
 
 impl<'de, T: Read<'de>> Deserialize<'de> for Placed<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        if fault::is_strict() {
+            return T::read_strictly(deserializer).map(|value| Self { place: 0..0, value });
+        }
         let raw = <&'de RawValue>::deserialize(deserializer)?.get_ron();
         // The raw value comes with the comments around it.
         let start = token::skip_trivia(raw, 0);
@@ -75,15 +86,6 @@ pub(crate) fn present<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     T::deserialize(deserializer).map(Some)
 }
 
-/// What a structure or an enumeration is called in messages.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Names {
-    /// The noun, as in "a field of this sphere".
-    pub(crate) noun: &'static str,
-    /// The whole, as in "a sphere `(center: …, radius: …)`".
-    pub(crate) form: &'static str,
-}
-
 /// Reads a structure or an enumeration.
 pub(crate) fn read_structure<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Names) -> Option<T> {
     match parse(slice.text) {
@@ -93,6 +95,36 @@ pub(crate) fn read_structure<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Na
             None
         }
     }
+}
+
+/// Reads the whole file.
+///
+/// Where the syntax is broken, the tolerant way has passed over the surrounding value without
+/// knowing what it should be; the strict way knows, and so says better what was expected.
+pub(crate) fn read_file<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Names) -> Option<T> {
+    let error = match parse(slice.text) {
+        Ok(value) => return Some(value),
+        Err(error) => error,
+    };
+    let (strict, innermost) = fault::strictly(|| parse::<T>(slice.text).err());
+    let strict = strict.filter(|strict| !matches!(strict.code, Error::MissingStructField { .. }));
+    match strict {
+        Some(strict) => {
+            let is_about_names = matches!(
+                strict.code,
+                Error::NoSuchStructField { .. }
+                    | Error::NoSuchEnumVariant { .. }
+                    | Error::DuplicateStructField { .. }
+                    | Error::ExpectedDifferentStructName { .. }
+            );
+            fault::report(explain(&strict, slice, innermost.unwrap_or(names)));
+            if is_about_names && strict.span != error.span {
+                fault::report(explain(&error, slice, names));
+            }
+        }
+        None => fault::report(explain(&error, slice, names)),
+    }
+    None
 }
 
 /// Reads a value whose faults are all told by the same `expected`.

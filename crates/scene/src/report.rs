@@ -147,6 +147,7 @@ fn position(text: &str, at: usize) -> (usize, usize) {
 fn snippet(text: &str, place: std::ops::Range<usize>, line: usize, style: Style) -> Option<String> {
     const BEFORE: usize = 50;
     const AFTER: usize = 70;
+    const WIDER_THAN_THE_WINDOW: usize = 1000;
     let line_start = text[..place.start]
         .rfind('\n')
         .map_or(0, |newline| newline + 1);
@@ -178,7 +179,8 @@ fn snippet(text: &str, place: std::ops::Range<usize>, line: usize, style: Style)
     let renderer = match style {
         Style::Plain => Renderer::plain(),
         Style::Styled => Renderer::styled(),
-    };
+    }
+    .term_width(WIDER_THAN_THE_WINDOW);
     let snippet = Snippet::source(source)
         .line_start(line)
         .annotation(AnnotationKind::Primary.span(shown_start..shown_end));

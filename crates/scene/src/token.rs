@@ -69,6 +69,18 @@ pub(crate) fn token_start(text: &str, offset: usize) -> usize {
     at
 }
 
+/// The last token that starts before `offset`.
+pub(crate) fn last_token(text: &str, offset: usize) -> std::ops::Range<usize> {
+    let mut last = 0..0;
+    let mut at = skip_trivia(text, 0);
+    while at < offset {
+        let end = token_end(text, at);
+        last = at..end;
+        at = skip_trivia(text, end);
+    }
+    last
+}
+
 /// The name of the field whose value starts at `value`, in the structure that starts at `start`.
 pub(crate) fn field_name(text: &str, start: usize, value: usize) -> std::ops::Range<usize> {
     let mut name = start..start;
