@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::fault::Slice;
-use crate::placed::{Placed, Read, read_simple};
+use crate::placed::{Read, read_simple, read_tuple};
 use crate::quantity::{ColorChannel, number};
 
 const ANY_FORM: &str = r##"a color: a number, `(red, green, blue)` or "#rrggbb""##;
@@ -27,9 +27,7 @@ impl<'t> Read<'t> for Color {
                 .or_else(|| slice.refuse(r##"a color "#rrggbb" of hexadecimal digits"##));
         }
         if slice.text.starts_with('(') {
-            type Channels = [Placed<ColorChannel>; 3];
-            let [red, green, blue]: Channels = read_simple(slice, ANY_FORM)?;
-            let (red, green, blue) = (red.get()?, green.get()?, blue.get()?);
+            let [red, green, blue]: [ColorChannel; 3] = read_tuple(slice, ANY_FORM)?;
             return Some(Self(DVec3::new(red.0, green.0, blue.0)));
         }
         let expected = if slice.text.starts_with(is_number) {

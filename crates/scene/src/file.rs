@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer};
 
 use crate::color::Color;
 use crate::fault::{Names, Slice, note_failure};
-use crate::placed::{Placed, Read, present, read_file, read_simple, read_structure};
+use crate::placed::{Placed, Read, present, read_file, read_simple, read_structure, read_tuple};
 use crate::quantity::{
     Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Frame, FrameCount, FramesPerSecond,
     GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Seed, Shininess, Strength, Turns,
@@ -278,22 +278,21 @@ impl<'t> Read<'t> for File {
 
 impl<'t> Read<'t> for Point {
     fn read(slice: Slice<'t>) -> Option<Self> {
-        let [x, y, z]: [Placed<Coordinate>; 3] = read_simple(slice, "three numbers `(x, y, z)`")?;
-        Some(Self(DVec3::new(x.get()?.0, y.get()?.0, z.get()?.0)))
+        let [x, y, z]: [Coordinate; 3] = read_tuple(slice, "three numbers `(x, y, z)`")?;
+        Some(Self(DVec3::new(x.0, y.0, z.0)))
     }
 }
 
 impl<'t> Read<'t> for Shift {
     fn read(slice: Slice<'t>) -> Option<Self> {
-        let [right, up]: [Placed<Coordinate>; 2] = read_simple(slice, "two numbers `(right, up)`")?;
-        Some(Self(DVec2::new(right.get()?.0, up.get()?.0)))
+        let [right, up]: [Coordinate; 2] = read_tuple(slice, "two numbers `(right, up)`")?;
+        Some(Self(DVec2::new(right.0, up.0)))
     }
 }
 
 impl<'t> Read<'t> for FrameRange {
     fn read(slice: Slice<'t>) -> Option<Self> {
-        let [first, last]: [Placed<Frame>; 2] = read_simple(slice, "two frames `(first, last)`")?;
-        let (first, last) = (first.get()?.0, last.get()?.0);
+        let [Frame(first), Frame(last)] = read_tuple(slice, "two frames `(first, last)`")?;
         if first > last {
             return slice.refuse("a first frame that is not after the last");
         }

@@ -18,6 +18,7 @@ mod file;
 mod motion;
 mod placed;
 mod quantity;
+mod raw;
 mod report;
 mod rig;
 mod scene;

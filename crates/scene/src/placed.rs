@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use ron::error::Error;
-use ron::value::RawValue;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
 use crate::explain::explain;
 use crate::fault::{self, Names, Slice};
+use crate::raw::raw_text;
 use crate::token;
 
 /// A value that can be read from a part of the text.
@@ -63,7 +63,7 @@ impl<'de, T: Read<'de>> Deserialize<'de> for Placed<T> {
         if fault::is_strict() {
             return T::read_strictly(deserializer).map(|value| Self { place: 0..0, value });
         }
-        let raw = <&'de RawValue>::deserialize(deserializer)?.get_ron();
+        let raw = raw_text(deserializer)?;
         // The raw value comes with the comments around it.
         let start = token::skip_trivia(raw, 0);
         let end = if raw.contains('/') {
@@ -130,6 +130,40 @@ pub(crate) fn read_file<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Names) 
 /// Reads a value whose faults are all told by the same `expected`.
 pub(crate) fn read_simple<'t, T: Deserialize<'t>>(slice: Slice<'t>, expected: &str) -> Option<T> {
     parse(slice.text).ok().or_else(|| slice.refuse(expected))
+}
+
+/// Reads a tuple of `N` values.
+pub(crate) fn read_tuple<'t, T: Read<'t>, const N: usize>(
+    slice: Slice<'t>,
+    expected: &str,
+) -> Option<[T; N]>
+where
+    [Placed<T>; N]: Deserialize<'t>,
+{
+    let values = match plain_parts(slice) {
+        Some(parts) => parts.map(T::read),
+        None => read_simple::<[Placed<T>; N]>(slice, expected)?.map(|placed| placed.value),
+    };
+    // A fault in the first value must not keep the others from being read.
+    let values: Vec<T> = values.into_iter().collect::<Option<_>>()?;
+    values.try_into().ok()
+}
+
+/// The parts of a tuple of `N` numbers without comments or anything unusual: what nearly all are,
+/// without the detour over `ron`.
+fn plain_parts<const N: usize>(slice: Slice<'_>) -> Option<[Slice<'_>; N]> {
+    let inside = slice.text.strip_prefix('(')?.strip_suffix(')')?;
+    let is_usual = |byte: u8| byte.is_ascii_digit() || b"+-.eE, ".contains(&byte);
+    if !inside.bytes().all(is_usual) {
+        return None;
+    }
+    let mut parts = [slice; N];
+    let mut texts = inside.split(',').map(str::trim_ascii);
+    for part in &mut parts {
+        let text = texts.next().filter(|text| !text.is_empty())?;
+        *part = Slice::of_text_being_read(text);
+    }
+    texts.all(str::is_empty).then_some(parts)
 }
 
 fn parse<'t, T: Deserialize<'t>>(text: &'t str) -> ron::error::SpannedResult<T> {

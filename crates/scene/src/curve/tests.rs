@@ -198,9 +198,12 @@ fn nothing_overshoots_and_keys_are_exact() {
                 let (from, to) = (f64::from(pair[0].0), f64::from(pair[1].0));
                 let value = curve.at(from + (to - from) * part);
                 assert!(value >= low && value <= high, "{keys:?}");
-                // Monotone up to the rounding of the cubic's terms, which is absolute among the
-                // subnormal numbers.
-                let size = low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
+                // Monotone up to the rounding of the cubic's terms. Among the subnormal numbers
+                // slopes round to a fixed step, and count once a frame.
+                let size = low
+                    .abs()
+                    .max(high.abs())
+                    .max(f64::MIN_POSITIVE * (to - from));
                 let slack = 4.0 * f64::EPSILON * size;
                 let back = if rises {
                     previous - value
