@@ -3,5 +3,6 @@
 
 mod anchored_roughness;
 mod closed_forms;
+mod refused;
 mod repeatability;
 mod studio;
