@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, DirectionalLight, Sphere, View, World};
+use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
 use marbles_scene::{FrameError, Scene};
 
 use crate::args::CheckArguments;
@@ -29,11 +29,12 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
     let mut rows = vec![("scene", arguments.scene.display().to_string())];
     if let Some(view) = views.first() {
         rows.push(("image", format!("{} x {} pixels", view.width, view.height)));
-        rows.push(("lens", lens(view)));
+        let written = &scene.description().lens;
+        rows.push(("lens", format!("{written}: {}", lens(view))));
     }
-    rows.extend(world(scene.world()));
+    rows.extend(world(&scene));
     rows.push(("frames", duration(&scene)));
-    rows.extend(cameras(&views));
+    rows.extend(cameras(scene.description().camera, &views));
     for (name, text) in rows {
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
@@ -81,12 +82,15 @@ fn lens(view: &View) -> String {
     text
 }
 
-fn world(world: &World) -> Vec<(&'static str, String)> {
+fn world(scene: &Scene) -> Vec<(&'static str, String)> {
+    let world = scene.world();
     let mut rows = vec![("spheres", spheres(world.spheres()))];
     if let Some((low, high)) = bounds(world.spheres()) {
         rows.push(("  from", vector(low)));
         rows.push(("  to", vector(high)));
     }
+    let materials = scene.description().materials;
+    rows.push(("materials", materials.to_string()));
     rows.push(("lights", world.lights.len().to_string()));
     for light in world.lights.iter().take(LIGHTS_LISTED) {
         rows.push(("", directional(light)));
@@ -144,6 +148,9 @@ fn duration(scene: &Scene) -> String {
     } else {
         format!("{first} to {last}, {count} in all")
     };
+    if let Some(kind) = scene.description().animation {
+        text = format!("{kind}: {text}");
+    }
     if let Some(rate) = scene.frames_per_second() {
         let seconds = short(count as f64 / rate);
         text.push_str(&format!(", {} per second, {seconds} s", short(rate)));
@@ -152,7 +159,7 @@ fn duration(scene: &Scene) -> String {
 }
 
 /// Where the camera goes and looks.
-fn cameras(views: &[View]) -> Vec<(&'static str, String)> {
+fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
     let aims = || {
         let aim = |view: &View| Camera::pan_and_tilt_toward(view.camera.forward());
@@ -163,7 +170,7 @@ fn cameras(views: &[View]) -> Vec<(&'static str, String)> {
     }
     let (x, y, z) = (along(|p| p.x), along(|p| p.y), along(|p| p.z));
     let mut rows = vec![
-        ("camera", format!("x {x}, y {y}, z {z}")),
+        ("camera", format!("{kind}: x {x}, y {y}, z {z}")),
         (
             "  pan",
             format!("{}°", range(aims().map(|(pan, _)| pan.degrees()))),

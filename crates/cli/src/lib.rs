@@ -123,10 +123,11 @@ mod tests {
             rest,
             "\
 image       600 x 600 pixels
-lens        retina 600 wide at distance 100, 143.13° across
+lens        Retina(width: 600, distance: 100): retina 600 wide at distance 100, 143.13° across
 spheres     1, radius 300
   from      (-300, -300, 100)
   to        (300, 300, 700)
+materials   0
 lights      1
             toward (-0.57735, 0.57735, -0.57735), intensity 1
 shadows     on
@@ -134,7 +135,7 @@ ambient     0
 background  0
 color       none: one channel is rendered
 frames      a still
-camera      x 0, y 0, z 0
+camera      Free: x 0, y 0, z 0
   pan       0°
   tilt      0°
 "

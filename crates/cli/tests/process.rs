@@ -138,6 +138,9 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron -o a.png --frames 1-2", 2),
         ("render ball.ron --frames 2-1", 2),
         ("render ball.ron --size 0x9", 2),
+        ("render missing.ron", 2),
+        ("render .", 2),
+        ("check missing.ron", 2),
         ("render ball.ron --threads 0", 2),
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
@@ -153,6 +156,37 @@ fn exit_codes_tell_what_happened() {
     }
     let expected = ["a.-1.exr", "a.-2.exr", "ball.png", "ball.ron", "new"];
     assert_eq!(folder.names("."), expected);
+}
+
+#[test]
+fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
+    const THROUGH: &str = "(
+    image: (width: 9, height: 9),
+    lens: Fov(50),
+    camera: LookAt(position: (0, 0, -2), target: (0, 0, 0)),
+    animation: Keyframes(frames: (1, 3), keys: [
+        (frame: 1, position: (0, 0, -2), ease: Linear),
+        (frame: 3, position: (0, 0, 2)),
+    ]),
+)
+";
+    let folder = Folder::new();
+    fs::write(folder.path("through.ron"), THROUGH).unwrap();
+    let output = folder.run("render through.ron");
+    assert_eq!(code(&output), 1);
+    let pictures = ["through.0001.png", "through.0003.png"];
+    let expected = [&["ball.ron"], &pictures[..], &["through.ron"]].concat();
+    assert_eq!(folder.names("."), expected);
+    let errors = text(&output.stderr);
+    assert!(errors.starts_with("marbles: frame 2: "), "{errors}");
+    assert!(
+        errors.ends_with("marbles: 2 of 3 frames written\n"),
+        "{errors}"
+    );
+
+    let output = folder.run("check through.ron");
+    assert_eq!(code(&output), 1);
+    assert!(text(&output.stderr).starts_with("marbles: frame 2: "));
 }
 
 #[test]
