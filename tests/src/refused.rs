@@ -31,6 +31,13 @@ fn message(path: &Path) -> String {
     error.to_string().replace(&folder, "") + "\n"
 }
 
+/// The text without ANSI's sequences for colors.
+fn without_styles(text: &str) -> String {
+    let mut parts = text.split("\u{1b}[");
+    let first = parts.next().unwrap().to_owned();
+    parts.fold(first, |plain, part| plain + part.split_once('m').unwrap().1)
+}
+
 #[test]
 fn broken_scenes_are_refused_with_their_messages() {
     let bless = env::var_os("MARBLES_BLESS").is_some();
@@ -71,7 +78,8 @@ fn a_message_starts_with_the_place_and_ends_without_a_full_stop() {
             assert!(!fault.message.ends_with('.'), "{name}");
             assert!(!fault.message.contains('\n'), "{name}");
         }
-        assert!(error.styled().contains(&first.message), "{name}");
+        assert!(error.styled().starts_with("\u{1b}["), "{name}");
+        assert_eq!(without_styles(&error.styled()), error.to_string(), "{name}");
         let is_ordered = |pair: &[marbles_scene::SceneFault]| {
             (pair[0].line, pair[0].column) <= (pair[1].line, pair[1].column)
         };

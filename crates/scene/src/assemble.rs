@@ -10,7 +10,7 @@ use marbles_core::{
 use crate::fault::{Fault, report, show};
 use crate::file::{self, File};
 use crate::placed::Placed;
-use crate::suggest::{closest, either};
+use crate::suggest::{closest, list};
 
 /// The world of the file; `None` where a fault was reported.
 pub(crate) fn world(file: &File) -> Option<World> {
@@ -79,7 +79,10 @@ fn materials<'f>(file: &'f File, world: &mut World) -> HashMap<&'f str, Option<M
         if names.insert(text.as_str(), id).is_some() {
             report(Fault::new(
                 name.place.clone(),
-                format!("expected every material once, found \"{text}\" a second time"),
+                format!(
+                    "expected every material once, found {} a second time",
+                    quoted(text)
+                ),
             ));
         }
     }
@@ -191,18 +194,26 @@ impl<'f> UnknownNames<'f> {
         self.reported += 1;
         let known = || self.known.iter().copied();
         let close = (self.reported <= MOST_COMPARED).then(|| closest(name, known()));
+        let close = close.flatten();
         let mut message = String::from("expected the name of a material");
-        match (close.flatten(), self.known.len()) {
-            (Some(_), _) => {}
+        match (close, self.known.len()) {
             (None, 0) => message += " (the scene has no materials)",
-            (None, 1..=LONGEST_LIST) => message += &format!(" ({})", either(known())),
-            (None, _) => {}
+            (None, 1..=LONGEST_LIST) => {
+                let names: Vec<String> = known().map(quoted).collect();
+                message += &format!(" ({})", list(&names));
+            }
+            _ => {}
         }
-        message += &format!(", found {}", show(&format!("\"{name}\"")));
-        if let Some(close) = close.flatten() {
-            message += &format!(", did you mean `{close}`?");
+        message += &format!(", found {}", quoted(name));
+        if let Some(close) = close {
+            message += &format!(", did you mean {}?", quoted(close));
         }
         report(Fault::new(place, message));
         None
     }
+}
+
+/// The name of a material as a message shows it.
+fn quoted(name: &str) -> String {
+    show(&format!("\"{name}\""))
 }

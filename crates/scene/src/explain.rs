@@ -77,8 +77,15 @@ pub(crate) fn explain(error: &SpannedError, slice: Slice<'_>, names: Names) -> F
             )
         }
         Error::ExpectedStructLike if is_end_of_name(&text[..stop]) => {
-            let name = &text[token::last_token(text, stop)];
-            at_stop(&format!("`(` after `{name}`"))
+            let name = token::last_token(text, stop);
+            let place = slice.start + name.start..slice.start + name.end;
+            let name = &text[name];
+            if stop == text.len() {
+                let message = format!("expected `{name}(…)`, found `{name}` alone");
+                Fault::new(place, message)
+            } else {
+                at_stop(&format!("`(` after `{name}`"))
+            }
         }
         Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_)
             if stop == 0 || is_before_value(&text[..stop]) =>
@@ -96,7 +103,9 @@ pub(crate) fn explain(error: &SpannedError, slice: Slice<'_>, names: Names) -> F
         Error::ExpectedComma => at_stop(&format!("`,`{}", or_closing_bracket(text, stop))),
         Error::ExpectedIdentifier
         | Error::InvalidIdentifier(_)
-        | Error::SuggestRawIdentifier(_) => at_stop("a name"),
+        | Error::SuggestRawIdentifier(_) => {
+            at_stop(&format!("the name of a field of this {}", names.noun))
+        }
         Error::TrailingCharacters if names.noun == "scene" => at_stop("the end of the file"),
         Error::TrailingCharacters => at_stop("`,`"),
         Error::ExceededRecursionLimit => Fault::new(
@@ -120,6 +129,11 @@ pub(crate) fn explain(error: &SpannedError, slice: Slice<'_>, names: Names) -> F
         | Error::ExpectedInteger
         | Error::IntegerOutOfBounds
         | Error::InvalidIntegerDigit { .. } => at_start("a number"),
+        Error::ExpectedChar => {
+            let quote = text[..stop].rfind('\'').unwrap_or(stop);
+            let expected = String::from("expected a value (a string stands between `\"`)");
+            Fault::at_token(slice.start + quote, expected)
+        }
         _ => at_stop("a value"),
     }
 }

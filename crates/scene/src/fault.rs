@@ -145,8 +145,8 @@ pub(crate) fn show(text: &str) -> String {
     let mut shown = String::new();
     let mut characters = text.chars();
     for c in characters.by_ref().take(LONGEST) {
-        if c.is_control() {
-            shown.extend(c.escape_default());
+        if c.is_control() || turns_text(c) {
+            shown.extend(c.escape_unicode());
         } else {
             shown.push(c);
         }
@@ -162,4 +162,9 @@ pub(crate) fn show(text: &str) -> String {
     } else {
         format!("`{shown}`")
     }
+}
+
+/// Whether a character changes the direction of the text around it.
+fn turns_text(c: char) -> bool {
+    matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

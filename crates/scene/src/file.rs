@@ -15,6 +15,7 @@ use crate::quantity::{
     Zoom,
 };
 
+/// The whole file: black behind unlit, shadowed spheres unless it says more.
 #[derive(Debug, Deserialize)]
 #[serde(rename = "Scene", deny_unknown_fields)]
 pub(crate) struct File {
@@ -39,6 +40,7 @@ pub(crate) struct File {
     pub(crate) animation: Option<Placed<Animation>>,
 }
 
+/// The size of the picture, in pixels.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Image {
@@ -46,6 +48,7 @@ pub(crate) struct Image {
     pub(crate) height: Placed<ImageSide>,
 }
 
+/// The retina, given by its size and distance or by the horizontal field of view in degrees.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Lens {
@@ -58,6 +61,7 @@ pub(crate) enum Lens {
     Fov(Placed<FieldOfView>),
 }
 
+/// The camera; a `Free` one stands at the origin and looks along z by default.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Camera {
@@ -89,6 +93,7 @@ pub(crate) enum Camera {
     },
 }
 
+/// A light; its intensity is 1 by default.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Light {
@@ -99,6 +104,7 @@ pub(crate) enum Light {
     },
 }
 
+/// A material; matte white by default.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Material {
@@ -112,6 +118,7 @@ pub(crate) struct Material {
     pub(crate) rough: Option<Placed<Rough>>,
 }
 
+/// A highlight; strength 0.5 and shininess 40 by default.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Highlight {
@@ -121,6 +128,7 @@ pub(crate) struct Highlight {
     pub(crate) shininess: Placed<Shininess>,
 }
 
+/// Roughness; by default the original project's, amplitude 0.5 for each pixel on its own.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Rough {
@@ -132,15 +140,16 @@ pub(crate) struct Rough {
     pub(crate) seed: Placed<Seed>,
 }
 
+/// What the numbers of a rough surface are attached to.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Grain {
     Surface(Placed<GrainSize>),
-    // The original project's noise.
     #[default]
     Pixel,
 }
 
+/// A sphere; matte white without a material.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Sphere {
@@ -150,6 +159,8 @@ pub(crate) struct Sphere {
     pub(crate) material: Option<Placed<MaterialName>>,
 }
 
+/// An animation of 24 frames per second by default; keyframes last from the first key to the last,
+/// a turntable 120 frames and one turn.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Animation {
@@ -171,6 +182,7 @@ pub(crate) enum Animation {
     },
 }
 
+/// The values of some channels at a frame.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Key {

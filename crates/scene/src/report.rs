@@ -106,7 +106,7 @@ fn locate_one(text: &str, fault: Fault) -> (SceneFault, std::ops::Range<usize>) 
 /// Where the text ends before its time, what was left open is more telling than the end.
 fn with_found(text: &str, fault: Fault) -> (std::ops::Range<usize>, String) {
     const END: &str = "found the end of the file";
-    let at = fault.place.start;
+    let at = token::skip_trivia(text, fault.place.start);
     match token::unclosed(text) {
         Some(Unclosed::String(start)) if start <= at => (
             start..start + 1,

@@ -40,6 +40,9 @@ pub struct Description {
 
 impl Scene {
     /// Reads and checks the scene file at `path`.
+    ///
+    /// # Errors
+    /// Refuses what is not a readable file, and everything that the format does not allow.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         if path.is_dir() {
             return Err(SceneError::unreadable(
@@ -69,6 +72,11 @@ impl Scene {
     }
 
     /// Checks a scene file's text; `path` is named in messages.
+    ///
+    /// A byte order mark at the start is skipped.
+    ///
+    /// # Errors
+    /// Refuses everything that the format does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
         let text = without_byte_order_mark(text);
         let (scene, faults) = fault::collect(text, || {

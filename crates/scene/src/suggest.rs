@@ -25,7 +25,12 @@ pub(crate) fn closest<'c>(
 /// The list "`a`, `b` or `c`".
 pub(crate) fn either<'c>(names: impl IntoIterator<Item = &'c str>) -> String {
     let quoted: Vec<String> = names.into_iter().map(|name| format!("`{name}`")).collect();
-    match quoted.as_slice() {
+    list(&quoted)
+}
+
+/// The list "a, b or c".
+pub(crate) fn list(items: &[String]) -> String {
+    match items {
         [] => String::from("nothing"),
         [one] => one.clone(),
         [most @ .., last] => format!("{} or {last}", most.join(", ")),

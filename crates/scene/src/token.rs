@@ -27,12 +27,15 @@ pub(crate) fn token_end(text: &str, start: usize) -> usize {
     if let Some(length) = string_length(rest) {
         return start + length.min(rest.len());
     }
-    let length = if is_word(first) {
-        rest.find(|c| !is_word(c)).unwrap_or(rest.len())
-    } else {
-        first.len_utf8()
+    // `r#name` is a name in RON, and `#rrggbb` is what a color without its quotation marks is.
+    let prefix = match rest.as_bytes() {
+        [b'r', b'#', ..] => 2,
+        [b'#', ..] => 1,
+        _ if is_word(first) => 0,
+        _ => return start + first.len_utf8(),
     };
-    start + length
+    let word = &rest[prefix..];
+    start + prefix + word.find(|c| !is_word(c)).unwrap_or(word.len())
 }
 
 /// The end of the value that starts at `start`: a token, and the brackets that belong to it.
@@ -152,7 +155,7 @@ pub(crate) fn is_white_space(c: char) -> bool {
 
 /// Characters of names and numbers.
 fn is_word(c: char) -> bool {
-    c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-' | '#')
+    c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-')
 }
 
 /// The length of the comment at the start of `rest`; all of it where the comment has no end.
@@ -252,6 +255,9 @@ mod tests {
             (r##"r#"a"b"# c"##, r##"r#"a"b"#"##),
             ("\"no end", "\"no end"),
             ("ä(", "ä"),
+            ("Surface#", "Surface"),
+            ("#ff0000)", "#ff0000"),
+            ("r#radius:", "r#radius"),
             ("", ""),
         ] {
             assert_eq!(&text[..token_end(text, 0)], token);
