@@ -3,6 +3,9 @@
 
 mod anchored_roughness;
 mod closed_forms;
+mod examples;
 mod refused;
 mod repeatability;
 mod studio;
+mod truth;
+mod turntable;
