@@ -182,3 +182,28 @@ fn animations_render_to_their_last_frame() {
         }
     }
 }
+
+/// The scenes that a document shows between fences.
+fn fenced_scenes(document: &str) -> Vec<String> {
+    let text = fs::read_to_string(repository().join(document)).unwrap();
+    let blocks = text.split("```ron\n").skip(1);
+    blocks
+        .map(|block| block.split("```").next().unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn scenes_in_the_documents_are_valid() {
+    for document in ["README.md", "docs/scenes.md"] {
+        let scenes = fenced_scenes(document);
+        assert!(!scenes.is_empty());
+        for scene in scenes {
+            Scene::parse(&scene, Path::new(document)).unwrap_or_else(|error| panic!("{error}"));
+        }
+    }
+    let first = fs::read_to_string(repository().join("scenes/first.ron")).unwrap();
+    assert!(
+        first.ends_with(&fenced_scenes("README.md")[0]),
+        "the README shows another scene"
+    );
+}
