@@ -3,6 +3,10 @@
 
 mod anchored_roughness;
 mod closed_forms;
+mod examples;
 mod hits;
+mod refused;
 mod repeatability;
 mod studio;
+mod truth;
+mod turntable;

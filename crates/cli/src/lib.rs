@@ -1,10 +1,144 @@
 //! The command line of marbles.
+//!
+//! Every command is a file, `render` and `check`. Frames follow each other in `sequence` and become
+//! files in `output`.
+
+mod args;
+mod check;
+mod console;
+mod failure;
+mod frames;
+mod interrupt;
+mod messages;
+mod numbers;
+mod output;
+mod pattern;
+mod progress;
+mod rational;
+mod render;
+mod sequence;
+mod status;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use clap::Parser;
+
+use crate::args::{Arguments, Command};
+use crate::console::Console;
+
 /// Runs the command line `args`, the program's name first, as the binary `marbles` does.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let _ = args;
-    ExitCode::SUCCESS
+    ExitCode::from(run_on(args, &Console::of_process()))
+}
+
+/// As [`run`], with a console to print to, and the exit code of `status`.
+fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
+    let arguments = match Arguments::try_parse_from(args) {
+        Ok(arguments) => arguments,
+        Err(message) => {
+            console.clap(&message.render(), message.use_stderr());
+            return if message.use_stderr() {
+                status::REFUSED
+            } else {
+                status::SUCCESS
+            };
+        }
+    };
+    let result = match arguments.command {
+        Command::Render(arguments) => render::run(&arguments, console),
+        Command::Check(arguments) => check::run(&arguments, console),
+    };
+    result.unwrap_or_else(|failure| {
+        console.failure(&failure);
+        failure.exit_code()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Write};
+    use std::sync::{Arc, Mutex};
+
+    use super::*;
+
+    const SCENE: &str = "(
+    image: (width: 600, height: 600),
+    lens: Retina(width: 600, distance: 100),
+    camera: Free(),
+    lights: [Directional(toward: (-1, 1, -1))],
+    spheres: [(center: (0, 0, 400), radius: 300)],
+)
+";
+
+    #[derive(Clone, Default)]
+    struct Text(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Text {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Text {
+        fn read(&self) -> String {
+            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+        }
+    }
+
+    /// The exit code, and what is on stdout and stderr.
+    fn run_here(args: &[&str]) -> (u8, String, String) {
+        let (out, err) = (Text::default(), Text::default());
+        let console = Console::to(out.clone(), err.clone());
+        let args = ["marbles"].iter().chain(args).map(OsString::from);
+        let code = run_on(args, &console);
+        (code, out.read(), err.read())
+    }
+
+    #[test]
+    fn help_goes_to_stdout_and_errors_to_stderr() {
+        let (code, out, err) = run_here(&["render", "--help"]);
+        assert_eq!((code, &*err), (0, ""));
+        assert!(out.contains("Examples:") && !out.contains('\x1b'));
+        let (code, out, err) = run_here(&["render", "a.ron", "--frames", "5-1"]);
+        assert_eq!((code, &*out), (2, ""));
+        assert!(err.contains("`5-1` runs backward, expected 1-5"), "{err}");
+    }
+
+    #[test]
+    fn check_tells_what_the_scene_contains() {
+        let name = format!("marbles-{}-check.ron", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::write(&path, SCENE).unwrap();
+        let (code, out, err) = run_here(&["check", path.to_str().unwrap()]);
+        std::fs::remove_file(&path).unwrap();
+        assert_eq!((code, &*err), (0, ""));
+        let (first, rest) = out.split_once('\n').unwrap();
+        assert_eq!(first, format!("scene       {}", path.display()));
+        assert_eq!(
+            rest,
+            "\
+image       600 x 600 pixels
+lens        Retina(width: 600, distance: 100): retina 600 wide at distance 100, 143.13° across
+spheres     1, radius 300
+  from      (-300, -300, 100)
+  to        (300, 300, 700)
+materials   0
+lights      1
+            toward (-0.57735, 0.57735, -0.57735), intensity 1
+shadows     on
+ambient     0
+background  0
+color       none: one channel is rendered
+frames      a still
+camera      Free: x 0, y 0, z 0
+  pan       0°
+  tilt      0°
+"
+        );
+    }
 }

@@ -43,35 +43,37 @@ fn pixel_noise(seed: u64, sphere: usize, pixel: PixelKey) -> DVec3 {
     spread(hash(key, u64::from(pixel.col) << 32 | u64::from(pixel.row)))
 }
 
-/// Smooth noise in [−1, 1): random values at the corners of the unit lattice, blended so that
-/// the first two derivatives are continuous across cells.
+/// Smooth noise in [−1, 1): random values at the points of the unit lattice, blended by
+/// quadratic B-splines, so that slopes are continuous and no lattice shows.
 ///
 /// `point` is relative to the sphere's center, in cells.
 fn surface_noise(seed: u64, sphere: usize, point: DVec3) -> DVec3 {
     let key = hash(seed, sphere as u64);
-    let cell = point.floor();
-    let blend = (point - cell).map(smooth_step);
-    let corners = |axis: f64| [axis as i64, (axis as i64).wrapping_add(1)];
-    let [xs, ys, zs] = [corners(cell.x), corners(cell.y), corners(cell.z)];
+    let nearest = (point + 0.5).floor();
+    let offset = point - nearest;
     let mut sum = DVec3::ZERO;
-    for (z, along_z) in zs.into_iter().zip([1.0 - blend.z, blend.z]) {
-        let key = hash(key, z as u64);
-        for (y, along_y) in ys.into_iter().zip([1.0 - blend.y, blend.y]) {
-            let key = hash(key, y as u64);
-            for (x, along_x) in xs.into_iter().zip([1.0 - blend.x, blend.x]) {
-                sum += spread(hash(key, x as u64)) * (along_x * along_y * along_z);
+    for (z, along_z) in neighbors(nearest.z, offset.z) {
+        let key = hash(key, z);
+        for (y, along_y) in neighbors(nearest.y, offset.y) {
+            let key = hash(key, y);
+            for (x, along_x) in neighbors(nearest.x, offset.x) {
+                sum += spread(hash(key, x)) * (along_x * along_y * along_z);
             }
         }
     }
     sum
 }
 
-/// From 0 to 1 with first and second derivatives that vanish at both ends: 6s⁵ − 15s⁴ + 10s³.
-///
-/// # Source
-/// K. Perlin, Improving Noise, SIGGRAPH 2002.
-fn smooth_step(s: f64) -> f64 {
-    s * s * s * (s * (s * 6.0 - 15.0) + 10.0)
+/// The three lattice points along an axis around the nearest one, and the weights of their
+/// B-splines at an offset from −½ to ½.
+fn neighbors(nearest: f64, offset: f64) -> [(u64, f64); 3] {
+    let index = nearest as i64;
+    let (before, after) = (0.5 - offset, 0.5 + offset);
+    [
+        (index.wrapping_sub(1) as u64, 0.5 * before * before),
+        (index as u64, 0.75 - offset * offset),
+        (index.wrapping_add(1) as u64, 0.5 * after * after),
+    ]
 }
 
 /// Three numbers in [−1, 1) from the bits of one.
@@ -180,12 +182,27 @@ mod tests {
     }
 
     #[test]
-    fn surface_noise_takes_the_lattice_values() {
-        let corner = DVec3::new(3.0, -2.0, 5.0);
-        let key = [5_u64, -2_i64 as u64, 3]
-            .into_iter()
-            .fold(hash(11, 8), hash);
-        assert_eq!(surface_noise(11, 8, corner), spread(key));
+    fn surface_noise_blends_the_lattice_values() {
+        // On a lattice point the splines weigh 1/8, 3/4, 1/8 along each axis.
+        let corner = [3, -2, 5_i64];
+        let weight = |step: i64| if step == 0 { 0.75 } else { 0.125 };
+        let mut expected = DVec3::ZERO;
+        for x in -1..=1 {
+            for y in -1..=1 {
+                for z in -1..=1 {
+                    let words = [corner[2] + z, corner[1] + y, corner[0] + x];
+                    let key = words
+                        .into_iter()
+                        .fold(hash(11, 8), |key, word| hash(key, word as u64));
+                    expected += weight(x) * weight(y) * weight(z) * spread(key);
+                }
+            }
+        }
+        let found = surface_noise(11, 8, DVec3::new(3.0, -2.0, 5.0));
+        assert!(
+            (found - expected).length() < 1e-15,
+            "{found} instead of {expected}"
+        );
     }
 
     #[test]

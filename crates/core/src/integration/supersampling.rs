@@ -11,9 +11,10 @@ use crate::{Radiance, View, Visibility, World};
 ///
 /// # Accuracy
 /// An estimate: the spread of the samples over 2N, which is what one straight edge along the
-/// grid costs at the worst. A feature that lies between all the samples is not in it, and one
-/// sample alone says nothing: its error is infinite. `tests/src/truth.rs` measures how often the
-/// estimate holds.
+/// grid costs at the worst. An edge that passes between the samples and the pixel's border is not
+/// in it, which happens in one edge pixel of five, and then costs less than 1/(2N) too; the largest
+/// estimate of a picture covers its largest error. `tests/src/truth.rs` measures all three. One
+/// sample alone says nothing: its error is infinite.
 #[derive(Clone, Copy, Debug)]
 pub struct Supersampling<'scene> {
     world: &'scene World,

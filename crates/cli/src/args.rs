@@ -1,0 +1,208 @@
+//! The command line, as clap reads it.
+
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, Parser, Subcommand};
+
+use crate::frames::FrameList;
+
+/// Sides of pictures, as in scene files.
+const LONGEST_SIDE: u32 = 65_536;
+/// More samples than this on a side of a pixel would take longer than anybody waits.
+const MOST_SAMPLES: i64 = 1000;
+/// More threads than this would only be in each other's way.
+const MOST_THREADS: i64 = 1024;
+
+/// Render scenes of spheres to pictures whose pixels are known
+#[derive(Debug, Parser)]
+#[command(name = "marbles", version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Render(RenderArguments),
+    Check(CheckArguments),
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
+  marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
+  marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render ball.ron -o small.png --frames 7 --size 150x150
+
+Exit codes:
+  0  everything is written, and every pixel met the tolerance
+  1  something failed, or some pixel did not meet the tolerance
+  2  the command line or the scene file is wrong
+  130  interrupted";
+
+/// Render the frames of a scene, one file each
+#[derive(Debug, Args)]
+#[command(after_help = RENDER_EXAMPLES)]
+pub(crate) struct RenderArguments {
+    /// Scene file
+    pub(crate) scene: PathBuf,
+
+    /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png or
+    /// .exr chooses the format [default: SCENE.png, or SCENE.####.png for several frames, in the
+    /// current folder]
+    #[arg(short, long, value_name = "PATTERN")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Frames in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every other), and several
+    /// of these with commas [default: all of the scene's]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) frames: Option<FrameList>,
+
+    /// Average N × N samples in every pixel
+    #[arg(long, value_name = "N", default_value = "4", value_parser = samples)]
+    pub(crate) samples: NonZeroU32,
+
+    /// Render on N threads; the picture is the same for every N [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+
+    /// Size of the picture in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+
+    /// Leave the background out, and store how much of each pixel the spheres cover
+    #[arg(long)]
+    pub(crate) alpha: bool,
+
+    /// Bits of a number in a PNG, 8 or 16 [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub(crate) bits: Option<u8>,
+
+    /// Write a PNG in color even if nothing in the scene has color
+    #[arg(long)]
+    pub(crate) rgb: bool,
+
+    /// Write an EXR in single precision instead of half
+    #[arg(long)]
+    pub(crate) float: bool,
+
+    /// Print nothing but errors and warnings
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// Validate a scene file and tell what it contains
+#[derive(Debug, Args)]
+pub(crate) struct CheckArguments {
+    /// Scene file
+    pub(crate) scene: PathBuf,
+}
+
+/// Columns and rows of a picture.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Size {
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let expected = format!("expected WIDTHxHEIGHT, each from 1 to {LONGEST_SIDE}");
+        let side = |text: &str| {
+            let digits = text.bytes().all(|byte| byte.is_ascii_digit());
+            text.parse()
+                .ok()
+                .filter(|side| digits && (1..=LONGEST_SIDE).contains(side))
+        };
+        let sides = text.split_once(['x', 'X']);
+        match sides.map(|(width, height)| (side(width), side(height))) {
+            // The longest sides together make 2³² pixels, which is the most there may be.
+            Some((Some(width), Some(height))) => Ok(Self { width, height }),
+            _ => Err(expected),
+        }
+    }
+}
+
+fn samples(text: &str) -> Result<NonZeroU32, String> {
+    let samples = whole_number(text, 1, MOST_SAMPLES)?;
+    Ok(NonZeroU32::new(samples as u32).unwrap_or(NonZeroU32::MIN))
+}
+
+fn threads(text: &str) -> Result<usize, String> {
+    whole_number(text, 1, MOST_THREADS).map(|threads| threads as usize)
+}
+
+fn bits(text: &str) -> Result<u8, String> {
+    match text {
+        "8" => Ok(8),
+        "16" => Ok(16),
+        _ => Err("expected 8 or 16".to_owned()),
+    }
+}
+
+fn whole_number(text: &str, least: i64, most: i64) -> Result<i64, String> {
+    text.parse()
+        .ok()
+        .filter(|number| (least..=most).contains(number))
+        .ok_or_else(|| format!("expected a whole number from {least} to {most}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_are_read() {
+        let size = |text: &str| {
+            text.parse::<Size>()
+                .ok()
+                .map(|size| (size.width, size.height))
+        };
+        assert_eq!(size("640x480"), Some((640, 480)));
+        assert_eq!(size("1X65536"), Some((1, 65_536)));
+        for wrong in [
+            "640", "0x4", "4x0", "65537x1", "-1x4", "+1x4", "4x", "x", "4x4x4", " 4x4",
+        ] {
+            assert_eq!(size(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn frames_may_begin_with_a_minus() {
+        for list in ["-5", "-10--5", "-5-5", "1-4"] {
+            let arguments = Arguments::try_parse_from(["marbles", "render", "a", "--frames", list]);
+            let Ok(Arguments {
+                command: Command::Render(render),
+            }) = arguments
+            else {
+                panic!("{list}: {arguments:?}");
+            };
+            assert_eq!(render.frames, list.parse().ok());
+        }
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_refused() {
+        for option in [
+            "--samples=0",
+            "--samples=1001",
+            "--threads=0",
+            "--threads=-1",
+            "--bits=12",
+        ] {
+            let arguments = Arguments::try_parse_from(["marbles", "render", "a", option]);
+            assert_eq!(arguments.unwrap_err().exit_code(), 2, "{option}");
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Where the user reads: results on stdout, all else on stderr.
+
+use std::env;
+use std::io::{self, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
+
+use clap::builder::StyledStr;
+
+use crate::failure::Failure;
+
+const BOLD_RED: &str = "\x1b[1;31m";
+const BOLD_YELLOW: &str = "\x1b[1;33m";
+const RESET: &str = "\x1b[0m";
+
+/// The two streams, shared by threads.
+///
+/// Nothing that is printed can fail: when the reader has gone, the work goes on.
+pub(crate) struct Console {
+    out: Stream,
+    err: Stream,
+}
+
+struct Stream {
+    write: Mutex<Box<dyn Write + Send>>,
+    terminal: bool,
+    styled: bool,
+}
+
+impl Console {
+    /// The streams of the process.
+    pub(crate) fn of_process() -> Self {
+        let colors = env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+            && env::var_os("TERM").is_none_or(|value| value != "dumb");
+        Self {
+            out: Stream {
+                write: Mutex::new(Box::new(io::stdout())),
+                terminal: io::stdout().is_terminal(),
+                styled: colors && io::stdout().is_terminal(),
+            },
+            err: Stream {
+                write: Mutex::new(Box::new(io::stderr())),
+                terminal: io::stderr().is_terminal(),
+                styled: colors && io::stderr().is_terminal(),
+            },
+        }
+    }
+
+    /// A console that is no terminal.
+    #[cfg(test)]
+    pub(crate) fn to(out: impl Write + Send + 'static, err: impl Write + Send + 'static) -> Self {
+        let plain = |write: Box<dyn Write + Send>| Stream {
+            write: Mutex::new(write),
+            terminal: false,
+            styled: false,
+        };
+        Self {
+            out: plain(Box::new(out)),
+            err: plain(Box::new(err)),
+        }
+    }
+
+    /// Whether messages go to a terminal.
+    pub(crate) fn is_interactive(&self) -> bool {
+        self.err.terminal
+    }
+
+    /// A line of results.
+    pub(crate) fn result(&self, line: &str) {
+        self.out.print(&format!("{line}\n"));
+    }
+
+    /// A line about how things go.
+    pub(crate) fn note(&self, line: &str) {
+        self.err.print(&format!("{line}\n"));
+    }
+
+    /// Something that the user should know, though the work goes on.
+    pub(crate) fn warn(&self, message: &str) {
+        self.note(&format!(
+            "{} {message}",
+            self.err.paint("marbles:", BOLD_YELLOW)
+        ));
+    }
+
+    /// Why something was not done.
+    pub(crate) fn failure(&self, failure: &Failure) {
+        match failure {
+            Failure::Usage(message) | Failure::Work(message) => {
+                self.note(&format!(
+                    "{} {message}",
+                    self.err.paint("marbles:", BOLD_RED)
+                ));
+            }
+            Failure::Scene(error) if self.err.styled => self.note(error.styled().trim_end()),
+            Failure::Scene(error) => self.note(error.to_string().trim_end()),
+        }
+    }
+
+    /// What clap has to say, about a wrong command line or as help.
+    pub(crate) fn clap(&self, message: &StyledStr, is_error: bool) {
+        let stream = if is_error { &self.err } else { &self.out };
+        if stream.styled {
+            stream.print(&message.ansi().to_string());
+        } else {
+            stream.print(&message.to_string());
+        }
+    }
+}
+
+impl Stream {
+    fn print(&self, text: &str) {
+        let mut write = self.write.lock().unwrap_or_else(PoisonError::into_inner);
+        // A reader that has gone is no reason to stop: the pictures are what was asked for.
+        let _ = write
+            .write_all(text.as_bytes())
+            .and_then(|()| write.flush());
+    }
+
+    fn paint(&self, text: &str, style: &str) -> String {
+        if self.styled {
+            format!("{style}{text}{RESET}")
+        } else {
+            text.to_owned()
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Lists of frame numbers, as the user writes them: `7`, `1-100`, `1-100x2`, `1-9:2,50,-5`.
+
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+use thiserror::Error;
+
+/// Frame numbers in the order of the list, each once.
+///
+/// The list stays as short as its text: `1-2000000000` costs nothing before it is iterated.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) struct FrameList {
+    ranges: Vec<Range>,
+}
+
+/// The frames `first`, `first + step`, … up to `last`.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+struct Range {
+    first: i64,
+    last: i64,
+    step: i64,
+}
+
+/// Why a text is no list of frames.
+#[derive(Clone, Debug, Eq, Error, PartialEq)]
+pub(crate) enum FrameListError {
+    #[error("expected frames such as 7, 1-100 or 1-100x2 between the commas, found nothing")]
+    Empty,
+    #[error("expected frames such as 7, 1-100 or 1-100x2, found `{0}`")]
+    Syntax(String),
+    #[error("expected frame numbers from {min} to {max}, found {0}", min = i32::MIN, max = i32::MAX)]
+    Number(String),
+    #[error("expected a step of at least 1, found {0}")]
+    Step(String),
+    #[error("`{first}-{last}` runs backward, expected {last}-{first}")]
+    Backward { first: i32, last: i32 },
+}
+
+impl FrameList {
+    /// The frames in order, a frame that is named twice only the first time.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = i32> {
+        distinct(&self.ranges).map(|frame| frame as i32)
+    }
+
+    /// How many frames [`FrameList::iter`] yields.
+    pub(crate) fn count(&self) -> u64 {
+        let ranges = self.ranges.iter().enumerate();
+        ranges
+            .map(|(index, range)| range.len() - range.count_in(&self.ranges[..index]))
+            .sum()
+    }
+
+    /// Whether there is more than one frame.
+    pub(crate) fn is_sequence(&self) -> bool {
+        self.iter().nth(1).is_some()
+    }
+}
+
+impl From<RangeInclusive<i32>> for FrameList {
+    fn from(frames: RangeInclusive<i32>) -> Self {
+        let range = Range {
+            first: i64::from(*frames.start()),
+            last: i64::from(*frames.end()),
+            step: 1,
+        };
+        Self {
+            ranges: vec![range],
+        }
+    }
+}
+
+impl FromStr for FrameList {
+    type Err = FrameListError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let ranges = text.split(',').map(|item| item.trim().parse());
+        Ok(Self {
+            ranges: ranges.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// The frames of the ranges in order, each once.
+fn distinct(ranges: &[Range]) -> impl Iterator<Item = i64> {
+    ranges.iter().enumerate().flat_map(move |(index, range)| {
+        let earlier = &ranges[..index];
+        range
+            .iter()
+            .filter(move |&frame| !earlier.iter().any(|range| range.contains(frame)))
+    })
+}
+
+impl Range {
+    fn iter(self) -> impl Iterator<Item = i64> {
+        (0..self.len() as i64).map(move |index| self.first + index * self.step)
+    }
+
+    fn len(self) -> u64 {
+        ((self.last - self.first) / self.step + 1) as u64
+    }
+
+    /// How many of the frames are in some of `others`, found by looking at the side with fewer.
+    fn count_in(self, others: &[Self]) -> u64 {
+        let overlaps = |other: &&Self| other.first <= self.last && self.first <= other.last;
+        let others: Vec<Self> = others.iter().filter(overlaps).copied().collect();
+        let common = if self.len() <= others.iter().map(|other| other.len()).sum() {
+            self.iter()
+                .filter(|&frame| others.iter().any(|other| other.contains(frame)))
+                .count()
+        } else {
+            distinct(&others)
+                .filter(|&frame| self.contains(frame))
+                .count()
+        };
+        common as u64
+    }
+
+    fn contains(self, frame: i64) -> bool {
+        (self.first..=self.last).contains(&frame) && (frame - self.first) % self.step == 0
+    }
+}
+
+impl FromStr for Range {
+    type Err = FrameListError;
+
+    fn from_str(item: &str) -> Result<Self, Self::Err> {
+        if item.is_empty() {
+            return Err(FrameListError::Empty);
+        }
+        let syntax = || FrameListError::Syntax(item.to_owned());
+        let (first, rest) = leading_number(item).ok_or_else(syntax)?;
+        let first = frame_number(first)?;
+        if rest.is_empty() {
+            return Ok(Self {
+                first: i64::from(first),
+                last: i64::from(first),
+                step: 1,
+            });
+        }
+        let (last, rest) = rest
+            .strip_prefix('-')
+            .and_then(leading_number)
+            .ok_or_else(syntax)?;
+        let last = frame_number(last)?;
+        let step = match rest.strip_prefix(['x', ':']) {
+            Some(step) => {
+                leading_number(step)
+                    .filter(|(_, rest)| rest.is_empty())
+                    .ok_or_else(syntax)?
+                    .0
+            }
+            None if rest.is_empty() => "1",
+            None => return Err(syntax()),
+        };
+        let step = match step.parse::<u32>() {
+            Ok(step) if step > 0 => i64::from(step),
+            _ => return Err(FrameListError::Step(step.to_owned())),
+        };
+        if last < first {
+            return Err(FrameListError::Backward { first, last });
+        }
+        Ok(Self {
+            first: i64::from(first),
+            last: i64::from(last),
+            step,
+        })
+    }
+}
+
+/// Splits an optional sign and at least one digit off.
+fn leading_number(text: &str) -> Option<(&str, &str)> {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    let rest = digits.trim_start_matches(|letter: char| letter.is_ascii_digit());
+    (rest.len() < digits.len()).then(|| text.split_at(text.len() - rest.len()))
+}
+
+fn frame_number(text: &str) -> Result<i32, FrameListError> {
+    text.parse()
+        .map_err(|_| FrameListError::Number(text.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frames(text: &str) -> Vec<i32> {
+        let list: FrameList = text.parse().unwrap();
+        let frames: Vec<i32> = list.iter().collect();
+        assert_eq!(list.count(), frames.len() as u64, "{text}");
+        assert_eq!(list.is_sequence(), frames.len() > 1, "{text}");
+        frames
+    }
+
+    fn refusal(text: &str) -> String {
+        text.parse::<FrameList>().unwrap_err().to_string()
+    }
+
+    #[test]
+    fn lists_are_read() {
+        assert_eq!(frames("7"), [7]);
+        assert_eq!(frames("1-4"), [1, 2, 3, 4]);
+        assert_eq!(frames("1-6x2"), [1, 3, 5]);
+        assert_eq!(frames("1-7:3"), [1, 4, 7]);
+        assert_eq!(frames("9-15:2"), [9, 11, 13, 15]);
+        assert_eq!(frames("17, 19,30"), [17, 19, 30]);
+        assert_eq!(frames("3-3x5"), [3]);
+        assert_eq!(frames("007"), [7]);
+    }
+
+    #[test]
+    fn negative_frames_are_read() {
+        assert_eq!(frames("-5"), [-5]);
+        assert_eq!(frames("-2-1"), [-2, -1, 0, 1]);
+        assert_eq!(frames("-10--8"), [-10, -9, -8]);
+        assert_eq!(frames("-4-4x4"), [-4, 0, 4]);
+    }
+
+    #[test]
+    fn order_is_kept_and_a_frame_comes_once() {
+        assert_eq!(frames("5,1-6x2,2-5,5,0"), [5, 1, 3, 2, 4, 0]);
+        assert_eq!(frames("1-3,2-4,3-9x2,1-9x4").len(), 7);
+    }
+
+    #[test]
+    fn extremes_are_lazy() {
+        let list: FrameList = "-2147483648-2147483647".parse().unwrap();
+        assert_eq!(list.count(), 1 << 32);
+        assert!(list.is_sequence());
+        let ends = "-2147483648-2147483647x4294967295";
+        assert_eq!(frames(ends), [i32::MIN, i32::MAX]);
+        for list in ["5,1-2000000000", "1-2000000000,5", "3-9,1-2000000000:2,6-8"] {
+            let list: FrameList = list.parse().unwrap();
+            assert!((1_000_000_000..=2_000_000_000).contains(&list.count()));
+        }
+    }
+
+    #[test]
+    fn refuses_with_what_was_expected() {
+        assert!(refusal("").ends_with("found nothing"));
+        assert!(refusal("1,,2").ends_with("found nothing"));
+        assert!(refusal("1,").ends_with("found nothing"));
+        assert_eq!(refusal("1-5x0"), "expected a step of at least 1, found 0");
+        assert_eq!(refusal("1-5x-2"), "expected a step of at least 1, found -2");
+        assert_eq!(refusal("5-1"), "`5-1` runs backward, expected 1-5");
+        assert_eq!(refusal("-1--5"), "`-1--5` runs backward, expected -5--1");
+        assert_eq!(
+            refusal("2147483648"),
+            "expected frame numbers from -2147483648 to 2147483647, found 2147483648"
+        );
+        for text in [
+            "a", "1-", "-", "--5", "1-5x", "1-5y2", "1x2", "1-5x2x2", "1 - 5", "+3", "1.5",
+        ] {
+            assert!(
+                refusal(text).contains(&format!("found `{text}`")),
+                "{}",
+                refusal(text)
+            );
+        }
+    }
+}

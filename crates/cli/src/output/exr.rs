@@ -1,0 +1,130 @@
+//! OpenEXR: linear light, and what is known of the camera that saw it.
+
+use std::io::Cursor;
+
+use exr::meta::attribute::Chromaticities;
+use exr::prelude::{
+    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples,
+    Image as ExrImage, Layer, LayerAttributes, LineOrder, SmallVec, Text, Vec2, WritableImage, f16,
+};
+use glam::DVec3;
+use marbles_core::{Camera, Image, Method};
+
+use super::{Encoded, Facts, SOFTWARE, half, header};
+use crate::rational;
+
+/// CIE xy of the primaries and the white of Rec. 709.
+const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.3, 0.6),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.329),
+};
+
+/// How an EXR file is written.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct ExrOptions {
+    /// Single precision instead of half.
+    pub(crate) float: bool,
+}
+
+impl ExrOptions {
+    /// The bytes of the file, the same for the same picture and facts.
+    pub(super) fn encode(self, image: &Image, facts: &Facts) -> Result<Encoded, String> {
+        let (width, height) = (image.width() as usize, image.height() as usize);
+        let mut clipped = 0;
+        let mut channels = SmallVec::new();
+        for (index, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
+            if name == "A" && !image.has_alpha() {
+                continue;
+            }
+            let values = pixels(image).map(|(col, row)| image.rgba(col, row)[index]);
+            let samples = if self.float {
+                let values = values.map(|value| float(clip(value, f32::MAX.into(), &mut clipped)));
+                FlatSamples::F32(values.collect())
+            } else {
+                let values =
+                    values.map(|value| half::nearest(clip(value, half::LARGEST, &mut clipped)));
+                FlatSamples::F16(values.collect::<Vec<f16>>())
+            };
+            channels.push(AnyChannel::new(name, samples));
+        }
+        let encoding = Encoding {
+            compression: Compression::ZIP16,
+            blocks: Blocks::ScanLines,
+            line_order: LineOrder::Increasing,
+        };
+        let channels = AnyChannels::sort(channels);
+        let layer = Layer::new((width, height), attributes(facts), encoding, channels);
+        let mut file = ExrImage::from_layer(layer);
+        file.attributes.chromaticities = Some(REC_709);
+
+        let mut bytes = Cursor::new(Vec::new());
+        file.write()
+            .non_parallel()
+            .to_buffered(&mut bytes)
+            .map_err(|error| error.to_string())?;
+        let mut bytes = bytes.into_inner();
+        header::sort_attributes(&mut bytes).ok_or("the header has an unknown form")?;
+        Ok(Encoded { bytes, clipped })
+    }
+}
+
+fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+    let width = image.width();
+    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
+}
+
+/// The nearest float.
+fn float(value: f64) -> f32 {
+    value as f32
+}
+
+/// Keeps finite values below infinity, and counts where that was needed.
+fn clip(value: f64, largest: f64, clipped: &mut u64) -> f64 {
+    if value.is_finite() && value.abs() > largest {
+        *clipped += 1;
+        largest.copysign(value)
+    } else {
+        value
+    }
+}
+
+fn attributes(facts: &Facts) -> LayerAttributes {
+    let mut attributes = LayerAttributes {
+        frames_per_second: facts.frames_per_second.and_then(rational::nearest),
+        world_to_camera: Some(world_to_camera(&facts.camera)),
+        software_name: Some(Text::from(SOFTWARE)),
+        ..LayerAttributes::default()
+    };
+    let mut custom = |name: &str, value| attributes.other.insert(Text::from(name), value);
+    custom("frame", AttributeValue::I32(facts.frame));
+    match facts.method {
+        // The command line keeps the number far below this limit.
+        Method::Samples(samples) => custom(
+            "samples",
+            AttributeValue::I32(i32::try_from(samples.get()).unwrap_or(i32::MAX)),
+        ),
+    };
+    attributes
+}
+
+/// The matrix M of p_camera = p_world · M, row by row: points are rows, as everywhere in OpenEXR.
+///
+/// Its camera looks along +z with x to the right and y up, as ours does.
+fn world_to_camera(camera: &Camera) -> [f32; 16] {
+    let world_from_camera = camera.world_from_camera;
+    // The rows of M are the images of the world's axes: those of a rotation's transpose, which
+    // are the rows of the rotation.
+    let [x, y, z] = [0, 1, 2].map(|row| world_from_camera.row(row));
+    let translation = -(world_from_camera.transpose() * camera.position);
+    let row = |v: DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
+    let rows = [row(x, 0.0), row(y, 0.0), row(z, 0.0), row(translation, 1.0)];
+    let mut matrix = [0.0; 16];
+    matrix.copy_from_slice(rows.as_flattened());
+    // A negative zero says nothing, and two ways to write 0 would be one too many.
+    matrix.map(|number| number + 0.0)
+}
+
+#[cfg(test)]
+mod tests;

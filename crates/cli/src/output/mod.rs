@@ -1,0 +1,160 @@
+//! Pictures as files.
+//!
+//! A file is encoded in memory, written beside its place under a temporary name, and moved there
+//! when it is complete.
+
+mod exr;
+mod half;
+mod header;
+mod png;
+mod srgb;
+pub(crate) mod temporary;
+
+use std::path::{Path, PathBuf};
+
+use marbles_core::{Camera, Image, Method};
+
+pub(crate) use self::exr::ExrOptions;
+pub(crate) use self::png::PngOptions;
+use self::temporary::TemporaryFile;
+use crate::failure::{Failure, lower};
+
+/// What files say about who wrote them.
+const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
+
+/// How pictures are turned into bytes.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Encoding {
+    Png(PngOptions),
+    Exr(ExrOptions),
+}
+
+/// What a file says about its picture beside the pixels, where the format has room for it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Facts {
+    pub(crate) camera: Camera,
+    pub(crate) frame: i32,
+    pub(crate) frames_per_second: Option<f64>,
+    pub(crate) method: Method,
+}
+
+/// A file in memory.
+struct Encoded {
+    bytes: Vec<u8>,
+    /// How many finite numbers were too large for the format's floats.
+    clipped: u64,
+}
+
+/// What became of a file that was written.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Written {
+    /// How many numbers are the largest of the format's floats in place of a larger one.
+    pub(crate) clipped: u64,
+}
+
+/// Makes sure that a file can be created at `path`, folders included, and leaves none.
+pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
+    let folder = folder(path);
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Failure::io(folder, "cannot create the folder", &error))?;
+    if path.is_dir() {
+        return Err(Failure::at(
+            path,
+            "cannot write the picture: there is a folder",
+        ));
+    }
+    TemporaryFile::beside(path)
+        .map(drop)
+        .map_err(|error| Failure::io(path, "cannot create the file", &error))
+}
+
+/// Writes a picture to `path`, whole or not at all.
+pub(crate) fn write(
+    image: &Image,
+    facts: &Facts,
+    encoding: Encoding,
+    path: PathBuf,
+) -> Result<Written, Failure> {
+    let Encoded { bytes, clipped } = match encoding {
+        Encoding::Png(options) => options.encode(image),
+        Encoding::Exr(options) => options.encode(image, facts),
+    }
+    .map_err(|error| {
+        Failure::at(
+            &path,
+            &format!("cannot encode the picture: {}", lower(&error)),
+        )
+    })?;
+    TemporaryFile::beside(&path)
+        .and_then(|mut file| {
+            file.write(&bytes)?;
+            file.persist()
+        })
+        .map_err(|error| Failure::io(&path, "cannot write the picture", &error))?;
+    Ok(Written { clipped })
+}
+
+/// The folder that a file lies in.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::num::NonZeroU32;
+    use std::ops::ControlFlow;
+
+    use glam::{DVec2, DVec3};
+    use marbles_core::{
+        Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View,
+        World,
+    };
+
+    /// Light on a ball.
+    #[derive(Clone, Copy, Debug)]
+    pub(crate) enum Scene {
+        Grey,
+        Color,
+        /// More light than a half can hold.
+        Bright,
+    }
+
+    /// A small picture of a ball before a background.
+    pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
+        let (albedo, background, intensity) = match scene {
+            Scene::Grey => (DVec3::ONE, DVec3::splat(0.25), 1.0),
+            Scene::Color => (DVec3::new(1.0, 0.5, 0.001), DVec3::new(0.0, 0.2, 0.4), 1.5),
+            Scene::Bright => (DVec3::ONE, DVec3::ZERO, 1e5),
+        };
+        let mut world = World::new();
+        let material = world.add_material(Material {
+            albedo,
+            ..Material::MATTE_WHITE
+        });
+        world.add_sphere(Sphere::new(4.0 * DVec3::Z, 1.0).unwrap(), material);
+        world.background = background;
+        let toward = DVec3::new(-1.0, 1.0, -1.0);
+        let light = DirectionalLight::new(toward, DVec3::splat(intensity)).unwrap();
+        world.lights.push(light);
+        let view = View {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            lens: Lens {
+                width: 0.6,
+                distance: 1.0,
+                shift: DVec2::ZERO,
+            },
+            zoom: 1.0,
+            width: 23,
+            height: 19,
+            frame: 1,
+        };
+        let settings = Settings {
+            method: Method::Samples(NonZeroU32::new(3).unwrap()),
+            alpha,
+        };
+        marbles_core::render(&world, &view, &settings, &|_| ControlFlow::Continue(())).unwrap()
+    }
+}

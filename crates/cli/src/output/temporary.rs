@@ -1,0 +1,137 @@
+//! Files that exist under a temporary name until they are complete.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// How many left-over files of killed processes with the same id are stepped over.
+const ATTEMPTS: u32 = 1000;
+
+/// The temporary files of this process; whoever holds the lock knows that none appears or moves.
+static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// A file beside the place where it belongs, removed when it is dropped before its time.
+pub(super) struct TemporaryFile<'path> {
+    file: File,
+    path: PathBuf,
+    destination: &'path Path,
+}
+
+impl<'path> TemporaryFile<'path> {
+    /// Creates the file, named after its destination.
+    ///
+    /// A file that is already there belongs to a process that was killed, or to one on another
+    /// machine that has the same id and still writes: it is left alone.
+    pub(super) fn beside(destination: &'path Path) -> io::Result<Self> {
+        let process = std::process::id();
+        let mut open = lock();
+        for attempt in 0..ATTEMPTS {
+            let mut path = destination.as_os_str().to_owned();
+            path.push(match attempt {
+                0 => format!(".{process}.tmp"),
+                _ => format!(".{process}-{attempt}.tmp"),
+            });
+            let path = PathBuf::from(path);
+            match File::options().write(true).create_new(true).open(&path) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(error),
+                Ok(file) => {
+                    open.push(path.clone());
+                    return Ok(Self {
+                        file,
+                        path,
+                        destination,
+                    });
+                }
+            }
+        }
+        Err(io::Error::new(
+            io::ErrorKind::AlreadyExists,
+            "too many temporary files are in the way",
+        ))
+    }
+
+    pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.file.write_all(bytes)
+    }
+
+    /// Moves the complete file to its destination, in place of what was there.
+    pub(super) fn persist(self) -> io::Result<()> {
+        // Without this a crash of the machine could leave the name without the bytes.
+        self.file.sync_all()?;
+        let mut open = lock();
+        fs::rename(&self.path, self.destination)?;
+        open.retain(|path| *path != self.path);
+        Ok(())
+    }
+}
+
+impl Drop for TemporaryFile<'_> {
+    fn drop(&mut self) {
+        let mut open = lock();
+        if let Some(index) = open.iter().position(|path| *path == self.path) {
+            open.swap_remove(index);
+            // Nobody waits for the answer.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Removes all temporary files; as long as the answer lives, no file appears or moves.
+pub(crate) fn abandon_all() -> impl Sized {
+    let mut open = lock();
+    for path in open.drain(..) {
+        // What cannot be removed stays; there is nobody left to tell.
+        let _ = fs::remove_file(path);
+    }
+    open
+}
+
+fn lock() -> MutexGuard<'static, Vec<PathBuf>> {
+    // The list is valid after every step, so that a panic elsewhere does not spoil it.
+    OPEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A file name in the tests' own folder that no other test uses.
+    fn destination(name: &str) -> PathBuf {
+        let process = std::process::id();
+        std::env::temp_dir().join(format!("marbles-{process}-{name}"))
+    }
+
+    #[test]
+    fn files_appear_when_they_are_complete() {
+        let destination = destination("complete");
+        let mut file = TemporaryFile::beside(&destination).unwrap();
+        let path = file.path.clone();
+        file.write(b"marbles").unwrap();
+        assert!(path.exists() && !destination.exists());
+        file.persist().unwrap();
+        assert!(!path.exists());
+        assert_eq!(fs::read(&destination).unwrap(), b"marbles");
+        fs::remove_file(destination).unwrap();
+    }
+
+    #[test]
+    fn unfinished_files_are_removed() {
+        let destination = destination("unfinished");
+        let file = TemporaryFile::beside(&destination).unwrap();
+        let path = file.path.clone();
+        assert!(path.exists());
+        drop(file);
+        assert!(!path.exists() && !destination.exists());
+    }
+
+    #[test]
+    fn files_of_others_are_stepped_over() {
+        let destination = destination("others");
+        let first = TemporaryFile::beside(&destination).unwrap();
+        let second = TemporaryFile::beside(&destination).unwrap();
+        assert_ne!(first.path, second.path);
+        assert!(first.path.exists() && second.path.exists());
+    }
+}

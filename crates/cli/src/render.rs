@@ -1,0 +1,117 @@
+//! `marbles render`: the frames of a scene, one file each.
+
+use marbles_core::{Method, Settings};
+use marbles_scene::Scene;
+use rayon::ThreadPoolBuilder;
+
+use crate::args::RenderArguments;
+use crate::console::Console;
+use crate::failure::{Failure, lower};
+use crate::frames::FrameList;
+use crate::interrupt;
+use crate::output::{self, Encoding, ExrOptions, PngOptions};
+use crate::pattern::{Format, Pattern};
+use crate::progress::Progress;
+use crate::sequence::{Sequence, Tally};
+use crate::status;
+
+/// The frame that a scene without animation is rendered as.
+pub(crate) const FRAME_OF_A_STILL: i32 = 1;
+
+pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
+    let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
+    let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
+    let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
+    let encoding = encoding(arguments, format)?;
+
+    let scene = Scene::load(&arguments.scene).map_err(|error| Failure::Scene(Box::new(error)))?;
+    let frames = frames(arguments, &scene);
+    let pattern = pattern.unwrap_or_else(|| {
+        let numbered = arguments.frames.is_some() || scene.frames().is_some();
+        Pattern::named_after(&arguments.scene, numbered)
+    });
+    if frames.is_sequence() && !pattern.is_numbered() {
+        return Err(Failure::Usage(format!(
+            "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
+            pattern.path(FRAME_OF_A_STILL).display(),
+            frames.count()
+        )));
+    }
+
+    let threads = ThreadPoolBuilder::new()
+        .num_threads(arguments.threads.unwrap_or_default())
+        .build()
+        .map_err(|error| {
+            let reason = lower(&error.to_string());
+            Failure::Work(format!("cannot start the threads that render: {reason}"))
+        })?;
+    interrupt::listen();
+    if let Some(first) = frames.iter().next() {
+        output::prepare(&pattern.path(first))?;
+    }
+
+    let sequence = Sequence {
+        scene: &scene,
+        frames: &frames,
+        size: arguments.size,
+        settings: Settings {
+            method: Method::Samples(arguments.samples),
+            alpha: arguments.alpha,
+        },
+        pattern: &pattern,
+        encoding,
+    };
+    let progress = Progress::new(console, arguments.quiet, frames.count());
+    let tally = sequence.render(&threads, &progress);
+    progress.finish();
+    Ok(conclusion(&tally, console))
+}
+
+/// What is asked for, all frames of the scene, or the only one.
+fn frames(arguments: &RenderArguments, scene: &Scene) -> FrameList {
+    arguments.frames.clone().unwrap_or_else(|| {
+        let frames = scene.frames();
+        FrameList::from(frames.unwrap_or(FRAME_OF_A_STILL..=FRAME_OF_A_STILL))
+    })
+}
+
+/// The options of the format; those of the other one are refused.
+fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
+    let refused = |option: &str, works: &str, is: &str| {
+        Err(Failure::Usage(format!(
+            "{option} is for {works} files, and the output is {is}"
+        )))
+    };
+    match format {
+        Format::Png if arguments.float => refused("--float", "EXR", "PNG"),
+        Format::Exr if arguments.rgb => refused("--rgb", "PNG", "EXR"),
+        Format::Exr if arguments.bits.is_some() => refused("--bits", "PNG", "EXR"),
+        Format::Png => Ok(Encoding::Png(PngOptions {
+            deep: arguments.bits == Some(16),
+            rgb: arguments.rgb,
+        })),
+        Format::Exr => Ok(Encoding::Exr(ExrOptions {
+            float: arguments.float,
+        })),
+    }
+}
+
+/// The last word of a run, and its exit code.
+fn conclusion(tally: &Tally, console: &Console) -> u8 {
+    let Tally {
+        frames, written, ..
+    } = tally;
+    if tally.interrupted {
+        console.warn(&format!(
+            "interrupted: {written} of {frames} frames written"
+        ));
+        status::INTERRUPTED
+    } else if tally.failed || tally.over_tolerance {
+        if tally.failed && *frames > 1 {
+            console.warn(&format!("{written} of {frames} frames written"));
+        }
+        status::FAILURE
+    } else {
+        status::SUCCESS
+    }
+}

@@ -1,0 +1,171 @@
+//! A scene: a world, a camera over time, and the image.
+
+use std::io::ErrorKind;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use marbles_core::{Lens, View, World};
+
+use crate::assemble;
+use crate::error::{FrameError, SceneError};
+use crate::fault::{self, Fault, Slice};
+use crate::file::{self, File};
+use crate::motion::{self, Motion};
+use crate::placed::Read;
+use crate::token;
+
+/// A scene file that was read and found valid.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    world: World,
+    motion: Motion,
+    lens: Lens,
+    width: u32,
+    height: u32,
+    description: Description,
+}
+
+/// A scene in words and numbers, for people.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Description {
+    /// Number of materials that the file defines.
+    pub materials: usize,
+    /// The kind of camera: `Free`, `LookAt` or `Orbit`.
+    pub camera: &'static str,
+    /// The kind of animation, `Keyframes` or `Turntable`; `None` for a still.
+    pub animation: Option<&'static str>,
+    /// The lens as the file writes it, for example `Fov(50)`.
+    pub lens: String,
+}
+
+impl Scene {
+    /// Reads and checks the scene file at `path`.
+    ///
+    /// # Errors
+    /// Refuses what is not a readable file, and everything that the format does not allow.
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        if path.is_dir() {
+            return Err(SceneError::unreadable(
+                path,
+                "expected a scene file, found a folder",
+            ));
+        }
+        let bytes = std::fs::read(path).map_err(|error| {
+            let reason = match error.kind() {
+                ErrorKind::NotFound => String::from("no such file"),
+                ErrorKind::PermissionDenied => String::from("no permission to read this file"),
+                _ => error.to_string(),
+            };
+            SceneError::unreadable(path, &reason)
+        })?;
+        match str::from_utf8(&bytes) {
+            Ok(text) => Self::parse(text, path),
+            Err(error) => {
+                let (valid, rest) = bytes.split_at(error.valid_up_to());
+                let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
+                let byte = rest.first().copied().unwrap_or_default();
+                let message = format!("expected text in UTF-8, found the byte 0x{byte:02x}");
+                let fault = Fault::new(valid.len()..valid.len(), message);
+                Err(SceneError::refused(path, valid, vec![fault]))
+            }
+        }
+    }
+
+    /// Checks a scene file's text; `path` is named in messages.
+    ///
+    /// A byte order mark at the start is skipped.
+    ///
+    /// # Errors
+    /// Refuses everything that the format does not allow.
+    pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
+        let text = without_byte_order_mark(text);
+        let (scene, faults) = fault::collect(text, || {
+            let start = token::skip_trivia(text, 0);
+            let file = File::read(Slice::of_text_being_read(&text[start..]))?;
+            Self::assemble(&file, text)
+        });
+        match scene {
+            Some(scene) if faults.is_empty() => Ok(scene),
+            _ => Err(SceneError::refused(path, text, faults)),
+        }
+    }
+
+    /// What is rendered, the same in every frame.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// From where frame `frame` is rendered; any number, inside the animation or not.
+    ///
+    /// # Errors
+    /// Refuses frames in which the camera looks nowhere: keys may lead a `LookAt` camera to its
+    /// target.
+    pub fn view(&self, frame: i32) -> Result<View, FrameError> {
+        let time = f64::from(frame);
+        let turntable = self.motion.turntable.as_ref();
+        let turned = turntable.map_or(0.0, |turntable| turntable.azimuth_degrees(frame));
+        let camera = self
+            .motion
+            .rig
+            .camera(time, turned)
+            .map_err(|fault| FrameError { frame, fault })?;
+        Ok(View {
+            camera,
+            lens: self.lens,
+            zoom: self.motion.zoom.at(time),
+            width: self.width,
+            height: self.height,
+            frame: i64::from(turntable.map_or(frame, |turntable| turntable.looped(frame))),
+        })
+    }
+
+    /// The frames of the animation, `None` for a still.
+    pub fn frames(&self) -> Option<RangeInclusive<i32>> {
+        Some(self.motion.timing.as_ref()?.frames.clone())
+    }
+
+    /// Frames per second of the animation, `None` for a still.
+    pub fn frames_per_second(&self) -> Option<f64> {
+        Some(self.motion.timing.as_ref()?.frames_per_second)
+    }
+
+    /// What kind of scene this is.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// The scene of a file; `None` where a fault was reported.
+    fn assemble(file: &File, text: &str) -> Option<Self> {
+        // Each part is made before any is missed, so that the faults of all are told.
+        let world = assemble::world(file);
+        let motion = motion::motion(file, text);
+        let image = file.image.value.as_ref()?;
+        Some(Self {
+            world: world?,
+            motion: motion?,
+            lens: assemble::lens(&file.lens)?,
+            width: image.width.get()?.0,
+            height: image.height.get()?.0,
+            description: Description {
+                materials: file.materials.0.len(),
+                camera: motion::kind(file.camera.value.as_ref()?),
+                animation: match &file.animation {
+                    Some(animation) => Some(match animation.value.as_ref()? {
+                        file::Animation::Keyframes { .. } => "Keyframes",
+                        file::Animation::Turntable { .. } => "Turntable",
+                    }),
+                    None => None,
+                },
+                lens: assemble::lens_as_written(&file.lens)?,
+            },
+        })
+    }
+}
+
+/// The text behind a byte order mark.
+fn without_byte_order_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests;
