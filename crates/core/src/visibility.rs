@@ -1,31 +1,55 @@
 //! Which sphere a ray meets.
 
+use glam::DVec3;
+
+use crate::sphere::Relative;
 use crate::{Hit, Ray, Sphere, World};
 
-/// Answers which sphere a ray meets first, and whether it meets any.
+/// Answers which sphere is seen from a viewpoint, and whether any stands in the way of a ray.
 ///
-/// Searches all spheres; a hierarchy over them can fill the same two questions.
-#[derive(Clone, Copy, Debug)]
+/// Searches all spheres; a hierarchy over them can fill the same two questions. Every answer is
+/// exact for the given doubles.
+#[derive(Clone, Debug)]
 pub struct Visibility<'world> {
     spheres: &'world [Sphere],
+    viewpoint: DVec3,
+    /// The spheres as seen from the viewpoint, which all rays of a camera share.
+    from_viewpoint: Vec<Relative>,
 }
 
 impl<'world> Visibility<'world> {
-    /// Prepares the search in a world.
-    pub fn new(world: &'world World) -> Self {
+    /// Prepares the search in a world, as seen from a viewpoint.
+    pub fn new(world: &'world World, viewpoint: DVec3) -> Self {
+        let spheres = world.spheres();
+        let from_viewpoint = spheres
+            .iter()
+            .map(|sphere| sphere.relative_to(viewpoint))
+            .collect();
         Self {
-            spheres: world.spheres(),
+            spheres,
+            viewpoint,
+            from_viewpoint,
         }
     }
 
-    /// The first sphere along the ray, by index, and where it is hit; of coincident surfaces the
-    /// sphere with the lower index.
-    pub fn nearest(&self, ray: &Ray) -> Option<(usize, Hit)> {
+    /// The first sphere in a direction from the viewpoint, by index, and where it is hit; of
+    /// coincident surfaces the sphere with the lower index.
+    pub fn nearest(&self, direction: DVec3) -> Option<(usize, Hit)> {
+        let ray = Ray {
+            origin: self.viewpoint,
+            direction,
+        };
+        let direction_sq = direction.length_squared();
         let mut nearest: Option<(usize, Hit)> = None;
-        for (index, sphere) in self.spheres.iter().enumerate() {
-            if let Some(hit) = sphere.hit(ray)
-                && nearest.is_none_or(|(_, nearer)| hit.t < nearer.t)
-            {
+        for (index, (sphere, relative)) in self.spheres.iter().zip(&self.from_viewpoint).enumerate()
+        {
+            let Some(hit) = sphere.hit_from_viewpoint(relative, &ray, direction_sq) else {
+                continue;
+            };
+            let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
+                sphere.is_nearer(&hit, &self.spheres[*other], other_hit, &ray)
+            });
+            if is_nearer {
                 nearest = Some((index, hit));
             }
         }
@@ -34,9 +58,7 @@ impl<'world> Visibility<'world> {
 
     /// Whether the ray meets any sphere but the one with the index `except`.
     pub fn is_blocked(&self, ray: &Ray, except: usize) -> bool {
-        self.spheres
-            .iter()
-            .enumerate()
-            .any(|(index, sphere)| index != except && sphere.hit(ray).is_some())
+        let mut spheres = self.spheres.iter().enumerate();
+        spheres.any(|(index, sphere)| index != except && sphere.is_hit(ray))
     }
 }

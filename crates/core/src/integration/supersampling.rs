@@ -15,7 +15,7 @@ use crate::{Radiance, View, Visibility, World};
 /// in it, which happens in one edge pixel of five, and then costs less than 1/(2N) too; the largest
 /// estimate of a picture covers its largest error. `tests/src/truth.rs` measures all three. One
 /// sample alone says nothing: its error is infinite.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Supersampling<'scene> {
     world: &'scene World,
     view: &'scene View,
@@ -31,7 +31,7 @@ impl<'scene> Supersampling<'scene> {
         Self {
             world,
             view,
-            visibility: Visibility::new(world),
+            visibility: Visibility::new(world, view.camera.position),
             samples,
             alpha,
         }
@@ -61,7 +61,7 @@ impl<'scene> Supersampling<'scene> {
                 let ray = self
                     .view
                     .ray(self.view.cell_center(cell_col, cell_row, side));
-                let light = match self.visibility.nearest(&ray) {
+                let light = match self.visibility.nearest(ray.direction) {
                     Some((sphere, hit)) => {
                         covered += 1;
                         shade(self.world, &self.visibility, &ray, sphere, &hit, key)

@@ -21,73 +21,29 @@ const TOLERANCE: f64 = UNIT_ROUNDOFF / 16.0;
 
 /// The hit or the miss, `None` where the bounds do not decide or do not prove the last places.
 ///
-/// The ray's direction must not be zero.
+/// Neither may be far from 1 in size, see [`Scaled`](super::scaled::Scaled).
 pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> {
-    let scaled = Scaled::new(sphere, ray);
     dispatch!(Level::new(), simd => if is_fused(simd) {
-        decide::<true>(&scaled)
+        decide::<true>(sphere, ray)
     } else {
-        decide::<false>(&scaled)
+        decide::<false>(sphere, ray)
     })
 }
 
-/// Ray and sphere with powers of two taken out, so that no product over- or underflows.
-struct Scaled {
-    /// c − o as doubles with their rounding errors; it or the radius lies between 1 and 4.
-    to_center: [(f64, f64); 3],
-    radius: f64,
-    /// Its largest component lies between 1 and 2.
-    direction: DVec3,
-    /// The exponent by which the distance has to be scaled.
-    exponent: i32,
-}
-
-impl Scaled {
-    fn new(sphere: &Sphere, ray: &Ray) -> Self {
-        /// Coordinates beyond this could overflow when subtracted.
-        const LARGE: f64 = f64::MAX / 4.0;
-        let (center, origin) = (sphere.center, ray.origin);
-        let largest = center.abs().max(origin.abs()).max_element();
-        let first = if largest > LARGE { -2 } else { 0 };
-        let difference = |center: f64, origin: f64| {
-            two_difference(libm::scalbn(center, first), libm::scalbn(origin, first))
-        };
-        let to_center = [
-            difference(center.x, origin.x),
-            difference(center.y, origin.y),
-            difference(center.z, origin.z),
-        ];
-        let radius = libm::scalbn(sphere.radius, first);
-        let largest = to_center
-            .iter()
-            .fold(radius, |largest, part| largest.max(part.0.abs()));
-        let scene = libm::ilogb(largest);
-        let scale = |value: f64| libm::scalbn(value, -scene);
-        let turn = libm::ilogb(ray.direction.abs().max_element());
-        Self {
-            to_center: to_center.map(|(high, low)| (scale(high), scale(low))),
-            radius: scale(radius),
-            direction: ray
-                .direction
-                .to_array()
-                .map(|part| libm::scalbn(part, -turn))
-                .into(),
-            exponent: scene - first - turn,
-        }
-    }
+/// K of a sphere of moderate size as seen from `origin`, rounded once.
+pub(super) fn outside(sphere: &Sphere, origin: DVec3) -> f64 {
+    let to_center = to_center::<false>(sphere, origin);
+    (dot(to_center, to_center) - DoubleDouble::product(sphere.radius, sphere.radius)).high
 }
 
 #[inline(always)]
-fn decide<const FUSED: bool>(scaled: &Scaled) -> Option<Option<Hit>> {
-    let to_center = scaled
-        .to_center
-        .map(|(high, low)| DoubleDouble::<FUSED> { high, low });
-    let direction = scaled.direction.to_array();
-    let directions = direction.map(DoubleDouble::<FUSED>::from);
+fn decide<const FUSED: bool>(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> {
+    let to_center = to_center::<FUSED>(sphere, ray.origin);
+    let directions = ray.direction.to_array().map(DoubleDouble::<FUSED>::from);
     let direction_sq = dot(directions, directions);
     let along = dot(directions, to_center);
     let distance_sq = dot(to_center, to_center);
-    let radius_sq = DoubleDouble::product(scaled.radius, scaled.radius);
+    let radius_sq = DoubleDouble::product(sphere.radius, sphere.radius);
     let outside = distance_sq - radius_sq;
     let scale = distance_sq.high + radius_sq.high;
 
@@ -125,7 +81,7 @@ fn decide<const FUSED: bool>(scaled: &Scaled) -> Option<Option<Hit>> {
     let distance_proved = (root_error + along_error) / far.high + outside_error <= TOLERANCE;
     // The point is off by |d| / A of the root's error, and by the error of d × (d × f) over A.
     let point_error = root_error / length + BOUND * distance_sq.high.sqrt();
-    if !distance_proved || point_error > TOLERANCE * scaled.radius {
+    if !distance_proved || point_error > TOLERANCE * sphere.radius {
         return None;
     }
 
@@ -140,14 +96,23 @@ fn decide<const FUSED: bool>(scaled: &Scaled) -> Option<Option<Hit>> {
     let foot = cross(directions, across);
     let half_chord = if inner_side { root } else { -root };
     // In full, so that the normal is as unit as it is straight.
-    let inverse = DoubleDouble::from(1.0) / (direction_sq * DoubleDouble::from(scaled.radius));
+    let inverse = DoubleDouble::from(1.0) / (direction_sq * DoubleDouble::from(sphere.radius));
     let component = |axis: usize| ((foot[axis] + half_chord * directions[axis]) * inverse).high;
     let normal = DVec3::new(component(0), component(1), component(2));
     Some(Some(Hit {
-        t: libm::scalbn(t.high, scaled.exponent),
+        t: t.high,
         normal,
         inner_side,
     }))
+}
+
+/// c − o, exactly.
+#[inline(always)]
+fn to_center<const FUSED: bool>(sphere: &Sphere, origin: DVec3) -> [DoubleDouble<FUSED>; 3] {
+    [0, 1, 2].map(|axis| {
+        let (high, low) = two_difference(sphere.center[axis], origin[axis]);
+        DoubleDouble { high, low }
+    })
 }
 
 #[inline(always)]

@@ -1,5 +1,7 @@
 //! The third floor: every double is an integer times a power of two, so integers decide.
 
+use std::cmp::Ordering;
+
 use dashu_int::ops::{Abs, BitTest, SquareRoot};
 use dashu_int::{IBig, UBig};
 use glam::DVec3;
@@ -54,7 +56,7 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
     let root = IBig::from((discriminant << (2 * shift)).sqrt());
     let backward = along < IBig::ZERO;
     let far = (&along).abs() << shift;
-    let far = IBig::from(far) + &root;
+    let far = far + &root;
     let t = if inner_side && !backward {
         quotient(far, &direction_sq << shift)
     } else {
@@ -79,6 +81,96 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
         normal,
         inner_side,
     })
+}
+
+/// Which of two spheres a ray hits first; both must be hit, from inside or outside.
+///
+/// With the distances (Bᵢ ± √Qᵢ) / A, the far root from inside, the sign of
+/// B₁ − B₂ − (±√Q₂ ∓ √Q₁) is found by squaring twice, so that no root remains.
+pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> Ordering {
+    let (centers, origin) = ([first.center, second.center], ray.origin);
+    let coordinates = |vector: DVec3| [vector.x, vector.y, vector.z];
+    let [a, b, o] = [centers[0], centers[1], origin].map(coordinates);
+    let (scene, _) = integers([
+        a[0],
+        a[1],
+        a[2],
+        b[0],
+        b[1],
+        b[2],
+        o[0],
+        o[1],
+        o[2],
+        first.radius,
+        second.radius,
+    ]);
+    let (direction, _) = integers(ray.direction.to_array());
+    let direction_sq = dot(&direction, &direction);
+    let terms = |center: usize, radius: usize| {
+        let to_center = [0, 1, 2].map(|axis| &scene[center + axis] - &scene[6 + axis]);
+        let along = dot(&direction, &to_center);
+        let outside = dot(&to_center, &to_center) - &scene[radius] * &scene[radius];
+        let discriminant = &along * &along - &direction_sq * &outside;
+        (along, discriminant, outside <= IBig::ZERO)
+    };
+    let (first_along, first_q, first_inside) = terms(0, 9);
+    let (second_along, second_q, second_inside) = terms(3, 10);
+
+    // The sign of gap − (±√Q₂ ∓ √Q₁), which is that of t₁ − t₂.
+    let gap = first_along - second_along;
+    let sign_of = |inside: bool| if inside { 1 } else { -1 };
+    let (first_sign, second_sign) = (sign_of(first_inside), sign_of(second_inside));
+    let roots = match (second_sign, first_sign) {
+        (1, -1) => 1,
+        (-1, 1) => -1,
+        (1, _) => signum(&(&second_q - &first_q)),
+        _ => signum(&(&first_q - &second_q)),
+    };
+    // Both zero roots leave no sign of their own.
+    let roots = if first_q == IBig::ZERO && second_q == IBig::ZERO {
+        0
+    } else {
+        roots
+    };
+    let gap_sign = signum(&gap);
+    if gap_sign != roots {
+        return gap_sign.cmp(&roots);
+    }
+    // gap² against Q₁ + Q₂ − 2 (±1)(±1) √(Q₁ Q₂).
+    let excess = &gap * &gap - &first_q - &second_q;
+    let product = IBig::from(4) * first_q * second_q;
+    let same = first_sign == second_sign;
+    let excess_sign = signum(&excess);
+    let squares = &excess * &excess;
+    let larger = match (same, excess_sign) {
+        // excess + 2 √(Q₁ Q₂)
+        (true, -1) => signum(&(product - squares)),
+        (true, _) => {
+            if excess_sign == 0 {
+                signum(&product)
+            } else {
+                1
+            }
+        }
+        // excess − 2 √(Q₁ Q₂)
+        (false, 1) => signum(&(squares - product)),
+        (false, _) => {
+            if excess_sign == 0 {
+                -signum(&product)
+            } else {
+                -1
+            }
+        }
+    };
+    (gap_sign * larger).cmp(&0)
+}
+
+fn signum(value: &IBig) -> i32 {
+    match value.cmp(&IBig::ZERO) {
+        Ordering::Less => -1,
+        Ordering::Equal => 0,
+        Ordering::Greater => 1,
+    }
 }
 
 /// Finite doubles as integers times one common power of two, and its exponent.

@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, SimdBase, SimdFrom, dispatch, f64x4};
 use glam::DVec3;
 
-use super::{Hit, Sphere};
+use super::{Hit, Sphere, double};
 use crate::Ray;
 use crate::rounding::{UNIT_ROUNDOFF, is_fused, two_difference, two_product, two_sum};
 
@@ -11,6 +11,13 @@ use crate::rounding::{UNIT_ROUNDOFF, is_fused, two_difference, two_product, two_
 pub(super) enum Answer {
     Miss,
     Hit(Hit),
+    Undecided,
+}
+
+/// What the first floor decides.
+pub(super) enum Decision {
+    Miss,
+    Hit(Certain),
     Undecided,
 }
 
@@ -32,7 +39,7 @@ const DECISION_BOUND: f64 = 24.0 * UNIT_ROUNDOFF;
 const RESIDUAL_BOUND: f64 = 512.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// What the decision computed, for the distance and the normal.
-struct Certain {
+pub(super) struct Certain {
     /// A.
     direction_sq: f64,
     /// B.
@@ -41,44 +48,100 @@ struct Certain {
     outside: f64,
     /// Q.
     discriminant: f64,
-    /// f·f + r².
-    scale: f64,
-    inner_side: bool,
 }
 
+/// What depends on the sphere and the origin of rays alone.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Relative {
+    /// f.
+    to_center: DVec3,
+    /// K.
+    outside: f64,
+    /// f·f + r².
+    scale: f64,
+}
+
+impl Relative {
+    /// The sphere as seen from `origin`, in plain doubles.
+    #[inline(always)]
+    pub(super) fn new(sphere: &Sphere, origin: DVec3) -> Self {
+        let to_center = sphere.center - origin;
+        let distance_sq = to_center.length_squared();
+        let radius_sq = sphere.radius * sphere.radius;
+        let (outside, scale) = (distance_sq - radius_sq, distance_sq + radius_sq);
+        Self {
+            to_center,
+            outside,
+            scale,
+        }
+    }
+
+    /// The same with K from twice the precision, for a sphere that many rays will look for.
+    pub(super) fn precise(sphere: &Sphere, origin: DVec3) -> Self {
+        let plain = Self::new(sphere, origin);
+        if are_moderate(1.0, plain.scale) {
+            Self {
+                outside: double::outside(sphere, origin),
+                ..plain
+            }
+        } else {
+            plain
+        }
+    }
+
+    /// Whether the ray with this direction meets the sphere.
+    #[inline(always)]
+    pub(super) fn decide(&self, direction: DVec3, direction_sq: f64) -> Decision {
+        let Self {
+            to_center,
+            outside,
+            scale,
+        } = *self;
+        let along = direction.dot(to_center);
+        let bound = DECISION_BOUND * scale;
+        let discriminant = along * along - direction_sq * outside;
+        let discriminant_bound = direction_sq * bound;
+        // Outside for certain, a computed B of 0 or less is a miss: were the exact one greater,
+        // it would be so small that B² < A K. Without branches in between, as most rays miss.
+        let moderate = are_moderate(direction_sq, scale);
+        let misses = (along <= 0.0) | (discriminant < -discriminant_bound);
+        if moderate & (outside > bound) & misses {
+            return Decision::Miss;
+        }
+        if !moderate | (outside.abs() <= bound) | (discriminant <= 2.0 * discriminant_bound) {
+            return Decision::Undecided;
+        }
+        Decision::Hit(Certain {
+            direction_sq,
+            along,
+            outside,
+            discriminant,
+        })
+    }
+}
+
+/// The hit or the miss, where the bounds decide and prove it.
 #[inline(always)]
 pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Answer {
-    let direction = ray.direction;
-    let to_center = sphere.center - ray.origin;
-    let direction_sq = direction.length_squared();
-    let distance_sq = to_center.length_squared();
-    let radius_sq = sphere.radius * sphere.radius;
-    let scale = distance_sq + radius_sq;
-    let along = direction.dot(to_center);
-    let outside = distance_sq - radius_sq;
-    let bound = DECISION_BOUND * scale;
-    let discriminant = along * along - direction_sq * outside;
-    let discriminant_bound = direction_sq * bound;
-    // Outside for certain, a computed B of 0 or less is a miss: were the exact one greater, it
-    // would be so small that B² < A K. Without branches in between, as most rays miss.
-    let moderate = are_moderate(direction_sq, scale);
-    let misses = (along <= 0.0) | (discriminant < -discriminant_bound);
-    if moderate & (outside > bound) & misses {
-        return Answer::Miss;
+    let relative = Relative::new(sphere, ray.origin);
+    hit_relative(sphere, &relative, ray, ray.direction.length_squared())
+}
+
+/// [`hit`] where the sphere is known relative to the ray's origin, and d·d.
+#[inline(always)]
+pub(super) fn hit_relative(
+    sphere: &Sphere,
+    relative: &Relative,
+    ray: &Ray,
+    direction_sq: f64,
+) -> Answer {
+    match relative.decide(ray.direction, direction_sq) {
+        Decision::Miss => Answer::Miss,
+        Decision::Undecided => Answer::Undecided,
+        Decision::Hit(certain) => {
+            finish(sphere, ray, certain).map_or(Answer::Undecided, Answer::Hit)
+        }
     }
-    if !moderate | (outside.abs() <= bound) | (discriminant <= 2.0 * discriminant_bound) {
-        return Answer::Undecided;
-    }
-    let inner_side = outside < 0.0;
-    let certain = Certain {
-        direction_sq,
-        along,
-        outside,
-        discriminant,
-        scale,
-        inner_side,
-    };
-    finish(sphere, ray, certain).map_or(Answer::Undecided, Answer::Hit)
 }
 
 /// Whether two squares lie within 2⁻²⁵⁶ and 2²⁵⁶: then nothing computed from them can overflow,
@@ -102,8 +165,6 @@ fn finish(sphere: &Sphere, ray: &Ray, certain: Certain) -> Option<Hit> {
             along,
             outside,
             discriminant,
-            scale,
-            inner_side,
         } = certain;
         return refine_avx2(
             avx2,
@@ -113,8 +174,6 @@ fn finish(sphere: &Sphere, ray: &Ray, certain: Certain) -> Option<Hit> {
             along,
             outside,
             discriminant,
-            scale,
-            inner_side,
         );
     }
     refine_portably(sphere, ray, &certain)
@@ -131,16 +190,12 @@ fearless_simd::kernel!(
         along: f64,
         outside: f64,
         discriminant: f64,
-        scale: f64,
-        inner_side: bool,
     ) -> Option<Hit> {
         let certain = Certain {
             direction_sq,
             along,
             outside,
             discriminant,
-            scale,
-            inner_side,
         };
         refine::<true, _>(avx2, sphere, ray, &certain)
     }
@@ -185,9 +240,10 @@ fn refine<const FUSED: bool, S: Simd>(
         along,
         outside,
         discriminant,
-        scale,
-        inner_side,
     } = certain;
+    let inner_side = outside < 0.0;
+    // f·f + r², up to roundings that the bounds leave room for.
+    let scale = outside + 2.0 * sphere.radius * sphere.radius;
     let root = discriminant.sqrt();
     let (numerator, denominator) = if inner_side {
         let far = along.abs() + root;

@@ -15,10 +15,17 @@
 mod double;
 mod exact;
 mod fast;
+mod scaled;
+
+pub(crate) use fast::Relative;
+
+use std::cmp::Ordering;
 
 use glam::DVec3;
 use thiserror::Error;
 
+use self::fast::{Answer, Decision};
+use self::scaled::Scaled;
 use crate::Ray;
 
 /// A sphere: an opaque surface, in the world frame.
@@ -104,44 +111,77 @@ impl Sphere {
     /// [`Sphere::hit`], and which arithmetic settled it.
     #[inline]
     pub fn hit_and_floor(&self, ray: &Ray) -> (Option<Hit>, Floor) {
-        match fast::hit(self, ray) {
-            fast::Answer::Miss => (None, Floor::Fast),
-            fast::Answer::Hit(hit) => (Some(hit), Floor::Fast),
-            fast::Answer::Undecided => self.hit_precisely(ray),
+        self.settle(ray, fast::hit(self, ray))
+    }
+
+    /// Whether [`Sphere::hit`] finds anything, for less.
+    #[inline]
+    pub fn is_hit(&self, ray: &Ray) -> bool {
+        let relative = Relative::new(self, ray.origin);
+        match relative.decide(ray.direction, ray.direction.length_squared()) {
+            Decision::Miss => false,
+            Decision::Hit(_) => true,
+            Decision::Undecided => self.hit_precisely(ray).0.is_some(),
         }
     }
 
-    /// What one floor alone finds out, `None` where it cannot decide: to test the floors by.
-    pub fn hit_on_floor(&self, ray: &Ray, floor: Floor) -> Option<Option<Hit>> {
-        if !is_line(ray) {
-            return Some(None);
+    /// What depends on the sphere and a viewpoint alone, for [`Sphere::hit_from_viewpoint`].
+    pub(crate) fn relative_to(&self, viewpoint: DVec3) -> Relative {
+        Relative::precise(self, viewpoint)
+    }
+
+    /// [`Sphere::hit`] for a ray whose origin the sphere is known from, and its direction's square.
+    #[inline(always)]
+    pub(crate) fn hit_from_viewpoint(
+        &self,
+        relative: &Relative,
+        ray: &Ray,
+        direction_sq: f64,
+    ) -> Option<Hit> {
+        self.settle(ray, fast::hit_relative(self, relative, ray, direction_sq))
+            .0
+    }
+
+    /// Whether this sphere's hit lies nearer than another's on the same ray; exact, and false for
+    /// equal distances.
+    #[inline(always)]
+    pub(crate) fn is_nearer(&self, hit: &Hit, other: &Self, other_hit: &Hit, ray: &Ray) -> bool {
+        /// Two distances that are each off by a unit in the last place at most, relatively.
+        const CLOSE: f64 = 4.0 * f64::EPSILON;
+        if (hit.t - other_hit.t).abs() > CLOSE * other_hit.t {
+            return hit.t < other_hit.t;
         }
-        match floor {
-            Floor::Fast => match fast::hit(self, ray) {
-                fast::Answer::Miss => Some(None),
-                fast::Answer::Hit(hit) => Some(Some(hit)),
-                fast::Answer::Undecided => None,
-            },
-            Floor::Double => double::hit(self, ray),
-            Floor::Exact => Some(exact::hit(self, ray)),
+        self != other && exact::compare_distances(self, other, ray) == Ordering::Less
+    }
+
+    #[inline(always)]
+    fn settle(&self, ray: &Ray, answer: Answer) -> (Option<Hit>, Floor) {
+        match answer {
+            Answer::Miss => (None, Floor::Fast),
+            Answer::Hit(hit) => (Some(hit), Floor::Fast),
+            Answer::Undecided => self.hit_precisely(ray),
         }
     }
 
     #[cold]
+    #[inline(never)]
     fn hit_precisely(&self, ray: &Ray) -> (Option<Hit>, Floor) {
-        if !is_line(ray) {
+        let finite = ray.origin.is_finite() && ray.direction.is_finite();
+        if !finite || ray.direction == DVec3::ZERO {
             return (None, Floor::Fast);
         }
-        match double::hit(self, ray) {
-            Some(answer) => (answer, Floor::Double),
+        // First the size: a scene of any scale is then treated the same, to the bit.
+        let scaled = Scaled::new(self, ray);
+        match fast::hit(&scaled.sphere, &scaled.ray) {
+            Answer::Miss => return (None, Floor::Fast),
+            Answer::Hit(hit) => return (Some(scaled.restore(hit)), Floor::Fast),
+            Answer::Undecided => {}
+        }
+        match double::hit(&scaled.sphere, &scaled.ray) {
+            Some(hit) => (hit.map(|hit| scaled.restore(hit)), Floor::Double),
             None => (exact::hit(self, ray), Floor::Exact),
         }
     }
-}
-
-/// Whether a ray has a direction and no part that is infinite or not a number.
-fn is_line(ray: &Ray) -> bool {
-    ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != DVec3::ZERO
 }
 
 #[cfg(test)]
