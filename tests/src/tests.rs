@@ -4,7 +4,9 @@
 mod anchored_roughness;
 mod closed_forms;
 mod examples;
-mod hits;
+mod floors;
+//mod hits;
+mod invariance;
 mod refused;
 mod repeatability;
 mod studio;

@@ -56,6 +56,9 @@ pub(crate) fn shade<C: Radiance>(
 /// Unit vector half-way between a unit vector and a vector of any length; zero where they are
 /// opposite.
 fn half_vector(light: DVec3, view: DVec3) -> DVec3 {
+    // A power of two taken out first changes nothing but that no square over- or underflows.
+    let exponent = libm::ilogb(view.abs().max_element());
+    let view = view.map(|part| libm::scalbn(part, -exponent));
     (light + view.normalize_or_zero()).normalize_or_zero()
 }
 

@@ -104,3 +104,115 @@ fn origin_on_the_surface_hits_only_across() {
             .is_none()
     );
 }
+
+/// The order of two spheres along a ray, by the exact comparison and with the spheres exchanged.
+fn order(first: &Sphere, second: &Sphere, ray: &Ray) -> std::cmp::Ordering {
+    let order = exact::compare_distances(first, second, ray);
+    assert_eq!(
+        exact::compare_distances(second, first, ray),
+        order.reverse()
+    );
+    order
+}
+
+#[test]
+fn shells_that_differ_in_the_last_bit_are_told_apart() {
+    let oblique = DVec3::new(0.3, -0.2, 1.0);
+    let sphere = |radius| Sphere::new(DVec3::new(0.5, -0.1, 5.0), radius).unwrap();
+    let larger = sphere(1.0 + f64::EPSILON);
+    for origin in [DVec3::ZERO, DVec3::new(0.5, -0.1, 4.9)] {
+        let ray = Ray {
+            origin,
+            direction: oblique,
+        };
+        let outside = origin == DVec3::ZERO;
+        let expected = if outside {
+            Ordering::Greater
+        } else {
+            Ordering::Less
+        };
+        assert_eq!(order(&sphere(1.0), &larger, &ray), expected);
+        assert_eq!(order(&sphere(1.0), &sphere(1.0), &ray), Ordering::Equal);
+        let [hit, larger_hit] = [sphere(1.0), larger].map(|sphere| sphere.hit(&ray).unwrap());
+        assert_eq!(
+            larger.is_nearer(&larger_hit, &sphere(1.0), &hit, &ray),
+            outside
+        );
+        assert_eq!(
+            sphere(1.0).is_nearer(&hit, &larger, &larger_hit, &ray),
+            !outside
+        );
+    }
+}
+
+#[test]
+fn order_of_distances_is_that_of_clearly_different_ones() {
+    let mut state = 7_u64;
+    let mut uniform = || {
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut compared = 0;
+    for _ in 0..20_000 {
+        let mut sphere = || {
+            let center = DVec3::new(uniform() - 0.5, uniform() - 0.5, uniform() * 2.0);
+            Sphere::new(center, 0.1 + 1.2 * uniform()).unwrap()
+        };
+        let spheres = [sphere(), sphere()];
+        let ray = forward_from(DVec3::new(0.2 * uniform(), 0.2 * uniform(), 0.0));
+        let [Some(first), Some(second)] = spheres.map(|sphere| sphere.hit(&ray)) else {
+            continue;
+        };
+        compared += u32::from(first.inner_side != second.inner_side);
+        assert_eq!(
+            Some(order(&spheres[0], &spheres[1], &ray)),
+            first.t.partial_cmp(&second.t)
+        );
+    }
+    assert!(compared > 1000, "{compared}");
+}
+
+#[test]
+fn mirrored_spheres_are_equally_far() {
+    let ray = forward_from(DVec3::ZERO);
+    let (left, right) = (
+        unit_sphere_at(-0.3, 0.1, 5.0),
+        unit_sphere_at(0.3, 0.1, 5.0),
+    );
+    assert_eq!(order(&left, &right, &ray), Ordering::Equal);
+    // A tangent one in the same plane: both discriminants matter, one is 0.
+    assert_eq!(
+        order(
+            &unit_sphere_at(1.0, 0.0, 4.0),
+            &unit_sphere_at(0.0, 0.0, 5.0),
+            &ray
+        ),
+        Ordering::Equal
+    );
+    assert_eq!(
+        order(
+            &unit_sphere_at(1.0, 0.0, 4.0),
+            &unit_sphere_at(0.0, 1.0, 4.0),
+            &ray
+        ),
+        Ordering::Equal
+    );
+}
+
+#[test]
+fn decisions_are_those_of_hits() {
+    for (x, y, z) in [
+        (0.0, 0.0, 5.0),
+        (0.0, 1.0, 5.0),
+        (0.0, 1.0 + f64::EPSILON, 5.0),
+        (0.0, 0.0, -5.0),
+    ] {
+        let (sphere, ray) = (unit_sphere_at(x, y, z), forward_from(DVec3::ZERO));
+        let hit = sphere.hit(&ray);
+        assert_eq!(sphere.is_hit(&ray), hit.is_some());
+        let relative = sphere.relative_to(ray.origin);
+        assert_eq!(sphere.hit_from_viewpoint(&relative, &ray, 1.0), hit);
+    }
+}
