@@ -123,6 +123,7 @@ fn finish(sphere: &Sphere, ray: &Ray, certain: Certain) -> Option<Hit> {
 #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
 fearless_simd::kernel!(
     #[inline(never)]
+    #[allow(clippy::too_many_arguments, reason = "they stay in registers")]
     fn refine_avx2(
         avx2: Avx2,
         sphere: &Sphere,

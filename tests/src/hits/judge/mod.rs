@@ -11,7 +11,6 @@
 mod integers;
 mod score;
 
-use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 use num_bigint::{BigInt, BigUint};
 
