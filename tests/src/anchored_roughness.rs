@@ -10,8 +10,8 @@ use crate::studio::{around_retina_point, looking_forward, picture};
 const CENTER: DVec3 = DVec3::new(30.0, -20.0, 400.0);
 const RADIUS: f64 = 100.0;
 
-/// A ball that shows its shading normal as a colour: under three lights along the axes, each in
-/// its own colour, matte white reflects the positive parts of the normal's components.
+/// A ball that shows its shading normal as a color: under three lights along the axes, each in
+/// its own color, matte white reflects the positive parts of the normal's components.
 fn ball_of_normals(grain: Grain, sign: f64) -> World {
     let mut world = World::new();
     let roughness = Some(Roughness {

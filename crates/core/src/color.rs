@@ -1,13 +1,13 @@
-//! Colour, and light in one channel or in three.
+//! Color, and light in one channel or in three.
 
 use std::ops::{Add, AddAssign, Mul};
 
 use glam::DVec3;
 
-/// A linear colour with Rec. 709 primaries: x red, y green, z blue.
+/// A linear color with Rec. 709 primaries: x red, y green, z blue.
 pub type Color = DVec3;
 
-/// An amount of light per channel: `f64` for a scene without colour, [`Color`] for one with.
+/// An amount of light per channel: `f64` for a scene without color, [`Color`] for one with.
 ///
 /// What computes light is generic over this, so that a grey scene costs one channel only.
 pub trait Radiance:

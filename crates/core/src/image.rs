@@ -9,7 +9,7 @@ use crate::{Radiance, Status};
 /// Which numbers a picture holds for each pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Channels {
-    /// One: the picture has no colour.
+    /// One: the picture has no color.
     Grey,
     /// Red, green, blue.
     Rgb,
@@ -77,7 +77,7 @@ impl Image {
         self.height
     }
 
-    /// Whether the picture has colour.
+    /// Whether the picture has color.
     pub fn channels(&self) -> Channels {
         self.channels
     }

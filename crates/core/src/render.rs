@@ -37,7 +37,7 @@ pub struct Cancelled;
 ///
 /// The picture does not depend on the number of threads. `progress` is called, from any of them,
 /// with the number of pixels that were just finished; when it breaks, the rendering ends soon.
-/// A world without colour makes a picture with one channel.
+/// A world without color makes a picture with one channel.
 ///
 /// # Errors
 /// [`Cancelled`] when `progress` broke.
@@ -49,7 +49,12 @@ pub fn render(
 ) -> Result<Image, Cancelled> {
     let Method::Samples(samples) = settings.method;
     let integrator = Supersampling::new(world, view, samples, settings.alpha);
-    let channels = if world.is_grey() {
+    let is_grey = if settings.alpha {
+        world.has_grey_spheres()
+    } else {
+        world.is_grey()
+    };
+    let channels = if is_grey {
         Channels::Grey
     } else {
         Channels::Rgb
@@ -157,7 +162,7 @@ mod tests {
         let (mut world, view, settings) = ball();
         let go = |_| ControlFlow::Continue(());
         let grey = render(&world, &view, &settings, &go).unwrap();
-        // A second light behind the ball adds colour to the world, but none to the picture.
+        // A second light behind the ball adds color to the world, but none to the picture.
         world
             .lights
             .extend(DirectionalLight::new(DVec3::Z, Color::X));

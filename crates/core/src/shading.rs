@@ -38,7 +38,7 @@ pub(crate) fn shade<C: Radiance>(
                 origin: ray.at(hit.t),
                 direction: light.toward(),
             };
-            if visibility.is_blocked(&to_light, sphere) {
+            if visibility.is_blocked(&to_light, ray.point_error(hit.t), sphere) {
                 continue;
             }
         }

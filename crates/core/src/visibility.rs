@@ -56,9 +56,13 @@ impl<'world> Visibility<'world> {
         nearest
     }
 
-    /// Whether the ray meets any sphere but the one with the index `except`.
-    pub fn is_blocked(&self, ray: &Ray, except: usize) -> bool {
+    /// Whether any sphere but the one with the index `except` stands between a point of that
+    /// one's surface, known up to a distance of `point_error`, and a light.
+    ///
+    /// Another sphere whose surface passes through the point within that error hides the light if
+    /// it lies toward it: coincident spheres do not darken each other, touching ones do not leak.
+    pub fn is_blocked(&self, to_light: &Ray, point_error: f64, except: usize) -> bool {
         let mut spheres = self.spheres.iter().enumerate();
-        spheres.any(|(index, sphere)| index != except && sphere.is_hit(ray))
+        spheres.any(|(index, sphere)| index != except && sphere.is_met(to_light, point_error))
     }
 }

@@ -16,6 +16,8 @@ pub struct World {
     spheres: Vec<Sphere>,
     material_ids: Vec<MaterialId>,
     materials: Vec<Material>,
+    /// Which materials some sphere has.
+    is_used: Vec<bool>,
 }
 
 /// One of a world's materials.
@@ -33,6 +35,7 @@ impl World {
             spheres: Vec::new(),
             material_ids: Vec::new(),
             materials: Vec::new(),
+            is_used: Vec::new(),
         }
     }
 
@@ -40,6 +43,7 @@ impl World {
     pub fn add_material(&mut self, material: Material) -> MaterialId {
         let id = MaterialId(self.materials.len() as u32);
         self.materials.push(material);
+        self.is_used.push(false);
         id
     }
 
@@ -52,6 +56,7 @@ impl World {
             (material.0 as usize) < self.materials.len(),
             "the material of another world"
         );
+        self.is_used[material.0 as usize] = true;
         self.spheres.push(sphere);
         self.material_ids.push(material);
     }
@@ -66,14 +71,28 @@ impl World {
         &self.materials[self.material_ids[sphere].0 as usize]
     }
 
-    /// Whether nothing in the world has a colour, so that one channel tells all.
+    /// Whether nothing that can be seen has a color, so that one channel tells all.
     pub fn is_grey(&self) -> bool {
-        let grey = |color: Color| color.x == color.y && color.y == color.z;
-        grey(self.ambient)
-            && grey(self.background)
-            && self.lights.iter().all(|light| grey(light.intensity()))
-            && self.materials.iter().all(|material| grey(material.albedo))
+        is_grey(self.background) && self.has_grey_spheres()
     }
+
+    /// Whether the spheres' light has no color, whatever the background has.
+    pub fn has_grey_spheres(&self) -> bool {
+        let used = self
+            .materials
+            .iter()
+            .zip(&self.is_used)
+            .filter(|(_, used)| **used);
+        is_grey(self.ambient)
+            && self.lights.iter().all(|light| is_grey(light.intensity()))
+            && used
+                .into_iter()
+                .all(|(material, _)| is_grey(material.albedo))
+    }
+}
+
+fn is_grey(color: Color) -> bool {
+    color.x == color.y && color.y == color.z
 }
 
 impl Default for World {

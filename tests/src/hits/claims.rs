@@ -4,6 +4,8 @@ use marbles_core::{Floor, Hit, Ray, Sphere};
 use rayon::prelude::*;
 
 use super::families::{FAMILIES, Family};
+use super::forms::FORMS;
+use super::frames;
 use super::judge::{ExactHit, judge};
 use super::tally::Tally;
 
@@ -100,6 +102,7 @@ fn verdict(tally: &mut Tally, exact: Option<&ExactHit>, found: Option<Hit>) -> O
 }
 
 /// Judges so many cases of every family.
+#[expect(clippy::print_stdout, reason = "cargo hits-all shows what it measured")]
 fn hold_all(cases: u64) -> Record {
     let mut whole = Record::default();
     for family in &FAMILIES {
@@ -145,4 +148,35 @@ fn every_decision_is_right_and_every_distance_to_the_last_place() {
 fn millions_of_cases_are_right_to_the_last_place() {
     let whole = hold_all(100_000);
     assert!(whole.all.cases >= 4_000_000);
+}
+
+/// A judge who finds no fault in the others would prove nothing.
+#[test]
+fn other_forms_are_found_wrong() {
+    for (name, form) in &FORMS[..FORMS.len() - 1] {
+        let mut tally = Tally::default();
+        for number in 0..50 {
+            for family in &FAMILIES {
+                let (sphere, ray) = family.case(number);
+                tally.count(judge(&sphere, &ray).as_ref(), form(&sphere, &ray));
+            }
+        }
+        let wrong = tally.false_hits.min(tally.false_misses);
+        assert!(wrong > tally.cases / 100, "{name}: only {wrong} are wrong");
+        assert!(tally.worst_distance() > 1e6 && tally.worst_angle > 1e6);
+    }
+}
+
+/// Of 360,000 and 3,600,000 tests none and, when written, 7 needed more than doubles.
+#[test]
+fn ordinary_frames_stay_on_the_first_floor() {
+    for (frame, most) in [(frames::ball(), 0), (frames::cloud(), 10)] {
+        let mut higher = 0;
+        for ray in &frame.rays {
+            for sphere in &frame.spheres {
+                higher += usize::from(sphere.hit_and_floor(ray).1 != Floor::Fast);
+            }
+        }
+        assert!(higher <= most, "{}: {higher} went higher", frame.name);
+    }
 }

@@ -1,4 +1,6 @@
 //! The ways in which ray tracers meet spheres, to compare with.
+//!
+//! All are inlined where they are called by name, so that none pays for a call in the timings.
 
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
@@ -15,6 +17,7 @@ pub(crate) const FORMS: [(&str, Form); 4] = [
 ];
 
 /// The quadratic as schools teach it; the far root where the near one lies behind.
+#[inline(always)]
 pub(crate) fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let a = ray.direction.length_squared();
@@ -30,6 +33,7 @@ pub(crate) fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
 }
 
 /// The same discriminant; of the roots, the one that adds and the product of both.
+#[inline(always)]
 pub(crate) fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let a = ray.direction.length_squared();
@@ -48,6 +52,7 @@ pub(crate) fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
 /// # Source
 /// E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection,
 /// Ray Tracing Gems, 2019, chapter 7.
+#[inline(always)]
 pub(crate) fn perpendicular(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let radius_sq = sphere.radius() * sphere.radius();
@@ -68,6 +73,7 @@ fn in_front(sphere: &Sphere, ray: &Ray, near: f64, far: f64) -> Option<(f64, DVe
     (t > 0.0).then(|| (t, (ray.at(t) - sphere.center()) / sphere.radius()))
 }
 
-fn marbles(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+#[inline(always)]
+pub(crate) fn marbles(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     sphere.hit(ray).map(|hit| (hit.t, hit.normal))
 }

@@ -55,8 +55,7 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
     let shift = BITS.saturating_sub(discriminant.bit_len() / 2);
     let root = IBig::from((discriminant << (2 * shift)).sqrt());
     let backward = along < IBig::ZERO;
-    let far = (&along).abs() << shift;
-    let far = far + &root;
+    let far = ((&along).abs() << shift) + &root;
     let t = if inner_side && !backward {
         quotient(far, &direction_sq << shift)
     } else {

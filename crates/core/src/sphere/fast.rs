@@ -89,16 +89,17 @@ impl Relative {
         }
     }
 
-    /// Whether the ray with this direction meets the sphere.
+    /// Whether the ray with this direction meets the sphere, where K is known up to `slack` more
+    /// than rounding costs.
     #[inline(always)]
-    pub(super) fn decide(&self, direction: DVec3, direction_sq: f64) -> Decision {
+    pub(super) fn decide(&self, direction: DVec3, direction_sq: f64, slack: f64) -> Decision {
         let Self {
             to_center,
             outside,
             scale,
         } = *self;
         let along = direction.dot(to_center);
-        let bound = DECISION_BOUND * scale;
+        let bound = DECISION_BOUND * scale + slack;
         let discriminant = along * along - direction_sq * outside;
         let discriminant_bound = direction_sq * bound;
         // Outside for certain, a computed B of 0 or less is a miss: were the exact one greater,
@@ -135,7 +136,7 @@ pub(super) fn hit_relative(
     ray: &Ray,
     direction_sq: f64,
 ) -> Answer {
-    match relative.decide(ray.direction, direction_sq) {
+    match relative.decide(ray.direction, direction_sq, 0.0) {
         Decision::Miss => Answer::Miss,
         Decision::Undecided => Answer::Undecided,
         Decision::Hit(certain) => {

@@ -114,15 +114,37 @@ impl Sphere {
         self.settle(ray, fast::hit(self, ray))
     }
 
-    /// Whether [`Sphere::hit`] finds anything, for less.
-    #[inline]
-    pub fn is_hit(&self, ray: &Ray) -> bool {
+    /// Whether a ray meets the sphere whose origin is known up to a distance of `origin_error`.
+    ///
+    /// Where that error leaves open on which side of the surface the origin lies, it counts as
+    /// lying on it: the ray then meets the sphere where it goes inward. So a point keeps the light
+    /// that leaves a surface it shares with this sphere, and none that enters there.
+    pub(crate) fn is_met(&self, ray: &Ray, origin_error: f64) -> bool {
         let relative = Relative::new(self, ray.origin);
-        match relative.decide(ray.direction, ray.direction.length_squared()) {
+        let direction_sq = ray.direction.length_squared();
+        // |f|² moves by 2 |f| times the error, and |f| = r where that matters.
+        let slack = 2.0 * self.radius * origin_error;
+        match relative.decide(ray.direction, direction_sq, slack) {
             Decision::Miss => false,
             Decision::Hit(_) => true,
-            Decision::Undecided => self.hit_precisely(ray).0.is_some(),
+            Decision::Undecided => self.is_met_precisely(ray, origin_error),
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_met_precisely(&self, ray: &Ray, origin_error: f64) -> bool {
+        if !can_hit(ray) {
+            return false;
+        }
+        let scaled = Scaled::new(self, ray);
+        let slack = 2.0 * scaled.sphere.radius * scaled.length(origin_error);
+        let outside = double::outside(&scaled.sphere, scaled.ray.origin);
+        if outside.abs() <= slack {
+            let to_center = scaled.sphere.center - scaled.ray.origin;
+            return scaled.ray.direction.dot(to_center) > 0.0;
+        }
+        self.hit_precisely(ray).0.is_some()
     }
 
     /// What depends on the sphere and a viewpoint alone, for [`Sphere::hit_from_viewpoint`].
@@ -166,22 +188,37 @@ impl Sphere {
     #[cold]
     #[inline(never)]
     fn hit_precisely(&self, ray: &Ray) -> (Option<Hit>, Floor) {
-        let finite = ray.origin.is_finite() && ray.direction.is_finite();
-        if !finite || ray.direction == DVec3::ZERO {
+        if !can_hit(ray) {
             return (None, Floor::Fast);
         }
         // First the size: a scene of any scale is then treated the same, to the bit.
         let scaled = Scaled::new(self, ray);
-        match fast::hit(&scaled.sphere, &scaled.ray) {
-            Answer::Miss => return (None, Floor::Fast),
-            Answer::Hit(hit) => return (Some(scaled.restore(hit)), Floor::Fast),
-            Answer::Undecided => {}
+        if let Some(hit) = scaled.hit_fast() {
+            return (hit, Floor::Fast);
         }
-        match double::hit(&scaled.sphere, &scaled.ray) {
-            Some(hit) => (hit.map(|hit| scaled.restore(hit)), Floor::Double),
+        match scaled.hit_double() {
+            Some(hit) => (hit, Floor::Double),
             None => (exact::hit(self, ray), Floor::Exact),
         }
     }
+
+    /// What one floor alone finds out, `None` where it cannot decide: to test the floors by.
+    #[doc(hidden)]
+    pub fn hit_on_floor(&self, ray: &Ray, floor: Floor) -> Option<Option<Hit>> {
+        if !can_hit(ray) {
+            return Some(None);
+        }
+        match floor {
+            Floor::Fast => Scaled::new(self, ray).hit_fast(),
+            Floor::Double => Scaled::new(self, ray).hit_double(),
+            Floor::Exact => Some(exact::hit(self, ray)),
+        }
+    }
+}
+
+/// Whether the ray is finite and goes anywhere.
+fn can_hit(ray: &Ray) -> bool {
+    ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != DVec3::ZERO
 }
 
 #[cfg(test)]

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Hit, Sphere};
+use super::fast::{self, Answer};
+use super::{Hit, Sphere, double};
 use crate::Ray;
 use crate::rounding::two_difference;
 
@@ -14,8 +15,10 @@ use crate::rounding::two_difference;
 pub(super) struct Scaled {
     pub(super) sphere: Sphere,
     pub(super) ray: Ray,
-    /// The exponent by which distances have to be scaled.
-    exponent: i32,
+    /// The exponent by which lengths of the world were scaled.
+    length_exponent: i32,
+    /// The exponent by which distances along the ray have to be scaled back.
+    distance_exponent: i32,
 }
 
 impl Scaled {
@@ -45,14 +48,35 @@ impl Scaled {
                 origin: DVec3::from_array(to_center.map(|(_, low)| scale(-low))),
                 direction: ray.direction.map(|part| libm::scalbn(part, -turn)),
             },
-            exponent: scene - first - turn,
+            length_exponent: first - scene,
+            distance_exponent: scene - first - turn,
         }
     }
 
+    /// A length of the world in this scale.
+    pub(super) fn length(&self, length: f64) -> f64 {
+        libm::scalbn(length, self.length_exponent)
+    }
+
+    /// What the first floor knows of the given ray and sphere.
+    pub(super) fn hit_fast(&self) -> Option<Option<Hit>> {
+        match fast::hit(&self.sphere, &self.ray) {
+            Answer::Miss => Some(None),
+            Answer::Hit(hit) => Some(Some(self.restore(hit))),
+            Answer::Undecided => None,
+        }
+    }
+
+    /// What the second floor knows of the given ray and sphere.
+    pub(super) fn hit_double(&self) -> Option<Option<Hit>> {
+        let hit = double::hit(&self.sphere, &self.ray)?;
+        Some(hit.map(|hit| self.restore(hit)))
+    }
+
     /// The hit of the given ray and sphere, from the one of the scaled.
-    pub(super) fn restore(&self, hit: Hit) -> Hit {
+    fn restore(&self, hit: Hit) -> Hit {
         Hit {
-            t: libm::scalbn(hit.t, self.exponent),
+            t: libm::scalbn(hit.t, self.distance_exponent),
             ..hit
         }
     }

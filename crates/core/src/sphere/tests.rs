@@ -211,8 +211,21 @@ fn decisions_are_those_of_hits() {
     ] {
         let (sphere, ray) = (unit_sphere_at(x, y, z), forward_from(DVec3::ZERO));
         let hit = sphere.hit(&ray);
-        assert_eq!(sphere.is_hit(&ray), hit.is_some());
+        assert_eq!(sphere.is_met(&ray, 0.0), hit.is_some());
         let relative = sphere.relative_to(ray.origin);
         assert_eq!(sphere.hit_from_viewpoint(&relative, &ray, 1.0), hit);
+    }
+}
+
+#[test]
+fn origin_that_may_lie_on_the_surface_counts_as_lying_on_it() {
+    let sphere = unit_sphere_at(0.0, 0.0, 5.0);
+    for offset in [-1e-15, 0.0, 1e-15] {
+        let leaving = forward_from(DVec3::new(0.0, 0.0, 6.0 + offset));
+        let entering = forward_from(DVec3::new(0.0, 0.0, 4.0 + offset));
+        assert!(!sphere.is_met(&leaving, 2e-15));
+        assert!(sphere.is_met(&entering, 2e-15));
+        // Known exactly, a ray from inside meets the far side.
+        assert_eq!(sphere.is_met(&leaving, 0.0), offset < 0.0);
     }
 }

@@ -6,6 +6,7 @@ mod near;
 mod ordinary;
 mod random;
 mod tangent;
+mod tuned;
 
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
@@ -28,7 +29,7 @@ struct Draft {
 }
 
 /// Every family.
-pub(crate) const FAMILIES: [Family; 43] = [
+pub(crate) const FAMILIES: [Family; 46] = [
     Family::new("generic", ordinary::generic),
     Family::new("inside", ordinary::inside),
     Family::new("behind", ordinary::behind),
@@ -46,6 +47,7 @@ pub(crate) const FAMILIES: [Family; 43] = [
     Family::new("graze, rounded", grazing::rounded),
     Family::new("graze by whole numbers", grazing::by_whole_numbers),
     Family::new("graze at any scale", grazing::at_any_scale),
+    Family::new("graze, tuned", tuned::grazing),
     Family::new("tangent along an axis", tangent::along_axis),
     Family::new("tangent obliquely", tangent::oblique),
     Family::new("tangent, scaled", tangent::scaled),
@@ -55,6 +57,8 @@ pub(crate) const FAMILIES: [Family; 43] = [
     Family::new("on the surface", near::on_surface),
     Family::new("surface, neighbors", near::on_surface_neighbors),
     Family::new("surface, to rounding", near::rounded_surface),
+    Family::new("surface, tuned", tuned::near_surface),
+    Family::new("along, tuned", tuned::both),
     Family::new("along the surface", near::along_surface),
     Family::new("cancellation", near::cancellation),
     Family::new("near-equal shells", near::concentric),

@@ -11,11 +11,10 @@
 mod integers;
 mod score;
 
-use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 use num_bigint::{BigInt, BigUint};
 
-use integers::{cross, dot, integers, shifted};
+use integers::{cross, dot, integers, shifted, to_float};
 
 /// Binary digits of distance and normal that are right: a unit in the last place of a double is
 /// 2⁷⁰ times as large at least.
@@ -39,6 +38,17 @@ pub(crate) fn judge(sphere: &Sphere, ray: &Ray) -> Option<ExactHit> {
     quadratic.is_hit().then(|| quadratic.hit())
 }
 
+/// K and Q / A, each to some 2⁻⁵² of itself.
+pub(crate) fn powers(sphere: &Sphere, ray: &Ray) -> (f64, f64) {
+    let quadratic = Quadratic::new(sphere, ray);
+    let unit = 2 * quadratic.scene_unit;
+    let ratio = to_float(&quadratic.discriminant, 0) / to_float(&quadratic.direction_sq, 0);
+    (
+        to_float(&quadratic.outside, unit),
+        libm::scalbn(ratio, unit as i32),
+    )
+}
+
 struct Quadratic {
     direction: [BigInt; 3],
     to_center: [BigInt; 3],
@@ -51,7 +61,8 @@ struct Quadratic {
     outside: BigInt,
     /// Q.
     discriminant: BigInt,
-    /// The binary exponent of the solutions' unit.
+    /// The binary exponents of the coordinates' unit, and of the solutions'.
+    scene_unit: i64,
     unit: i64,
 }
 
@@ -80,6 +91,7 @@ impl Quadratic {
             to_center,
             radius,
             direction_sq,
+            scene_unit,
             unit: scene_unit - direction_unit,
         }
     }

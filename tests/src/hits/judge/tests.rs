@@ -1,5 +1,7 @@
 //! The judge before its own judge: signs of the quadratic, and numbers known otherwise.
 
+use glam::DVec3;
+
 use super::super::families::FAMILIES;
 use super::*;
 

@@ -1,0 +1,144 @@
+//! Ways to meet a sphere, compared: wrong decisions, errors, time; and which floor answered.
+//!
+//! `cargo hits` prints tables in Markdown.
+
+#[path = "../src/hits/families/mod.rs"]
+mod families;
+#[path = "../src/hits/forms.rs"]
+mod forms;
+#[path = "../src/hits/frames.rs"]
+mod frames;
+#[path = "../src/hits/judge/mod.rs"]
+#[expect(dead_code, reason = "the tests use the rest")]
+mod judge;
+#[path = "hits/table.rs"]
+mod table;
+#[path = "../src/hits/tally.rs"]
+mod tally;
+#[path = "hits/timing.rs"]
+mod timing;
+
+use std::io::{self, Write};
+
+use families::{FAMILIES, Family};
+use forms::FORMS;
+use frames::Frame;
+use marbles_core::{Floor, Ray, Sphere};
+use rayon::prelude::*;
+use table::{Table, number};
+use tally::Tally;
+
+/// Cases a family.
+const CASES: u64 = 5_000;
+
+/// The form that the others' times are held against, in [`FORMS`].
+const PERPENDICULAR: usize = 2;
+
+fn main() -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    let tallies: Vec<_> = FAMILIES.par_iter().map(judge_forms).collect();
+    let frames = [frames::ball(), frames::cloud()];
+    writeln!(out, "{}", compare_forms(&tallies, &frames))?;
+    writeln!(out, "{}", count_floors(&tallies, &frames))
+}
+
+/// What every form makes of a family.
+fn judge_forms(family: &Family) -> [Tally; FORMS.len()] {
+    let mut tallies = FORMS.map(|_| Tally::default());
+    for index in 0..CASES {
+        let (sphere, ray) = family.case(index);
+        let exact = judge::judge(&sphere, &ray);
+        for (tally, (_, form)) in tallies.iter_mut().zip(FORMS) {
+            tally.count(exact.as_ref(), form(&sphere, &ray));
+        }
+    }
+    tallies
+}
+
+fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table {
+    let mut table = Table::new(&[
+        "method",
+        "false hits",
+        "false misses",
+        "t, median ulp",
+        "t, worst ulp",
+        "n, worst 2^-53 rad",
+        "ball, ns a ray",
+        "of perpendicular",
+        "cloud, ns a ray",
+        "of perpendicular",
+    ]);
+    let times = frames.each_ref().map(timing::nanoseconds_a_test);
+    for (index, (name, _)) in FORMS.into_iter().enumerate() {
+        let mut whole = Tally::default();
+        for family in tallies {
+            whole.add(family[index].clone());
+        }
+        let mut row = vec![
+            name.to_owned(),
+            whole.false_hits.to_string(),
+            whole.false_misses.to_string(),
+            number(table::median(&mut whole.distances)),
+            number(whole.worst_distance()),
+            number(whole.worst_angle),
+        ];
+        for times in times {
+            row.push(format!("{:.2}", times[index]));
+            row.push(format!("{:.2}", times[index] / times[PERPENDICULAR]));
+        }
+        table.push(row);
+    }
+    table
+}
+
+/// How often each floor answers, and how often the forms are wrong there.
+fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
+    let mut table = Table::new(&[
+        "rays",
+        "tests",
+        "hits",
+        "doubles",
+        "twice as long",
+        "integers",
+        "wrong: school",
+        "stable",
+        "perpendicular",
+        "marbles",
+    ]);
+    for frame in frames {
+        let tests = frame
+            .rays
+            .iter()
+            .flat_map(|ray| frame.spheres.iter().map(move |sphere| (*sphere, *ray)));
+        let mut row = vec![frame.name.to_owned()];
+        row.extend(floors(tests));
+        row.extend(FORMS.map(|_| String::new()));
+        table.push(row);
+    }
+    for (family, tallies) in FAMILIES.iter().zip(tallies) {
+        let mut row = vec![family.name.to_owned()];
+        row.extend(floors((0..CASES).map(|number| family.case(number))));
+        for tally in tallies {
+            row.push((tally.false_hits + tally.false_misses).to_string());
+        }
+        table.push(row);
+    }
+    table
+}
+
+/// The number of tests and of hits, and the number that each floor decided.
+fn floors(tests: impl Iterator<Item = (Sphere, Ray)>) -> [String; 5] {
+    let (mut count, mut hits) = (0_u64, 0_u64);
+    let mut floors = [0_u64; 3];
+    for (sphere, ray) in tests {
+        let (hit, floor) = sphere.hit_and_floor(&ray);
+        count += 1;
+        hits += u64::from(hit.is_some());
+        floors[match floor {
+            Floor::Fast => 0,
+            Floor::Double => 1,
+            Floor::Exact => 2,
+        }] += 1;
+    }
+    [count, hits, floors[0], floors[1], floors[2]].map(|count| count.to_string())
+}
