@@ -94,7 +94,8 @@ impl Sphere {
     /// # Accuracy
     /// Hit or miss is decided exactly for the given doubles. Bounds: `t` lies within one unit in
     /// the last place of the exact distance (a distance beyond the largest double is infinite),
-    /// `normal` within 2 · 2⁻⁵³ radians of the exact normal. Derived in the three floors;
+    /// `normal` within 2 · 2⁻⁵³ radians of the exact normal and its length within 2.5 · 2⁻⁵³ of 1.
+    /// Derived in the three floors;
     /// `tests/src/hits` measures both against rational arithmetic.
     #[inline]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
