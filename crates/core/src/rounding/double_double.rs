@@ -7,7 +7,8 @@ use super::{fast_two_sum, two_product, two_sum};
 /// An unevaluated sum of two doubles, the second at most half a unit in the last place of the
 /// first: about 106 bits.
 ///
-/// `FUSED` says how products are made, see [`two_product`]; it does not change any result.
+/// `FUSED` says how products are made, see [`two_product`]; it does not change any result, as long
+/// as no product comes near to underflow.
 ///
 /// # Accuracy
 /// Relative errors, with u = 2⁻⁵³ and without over- or underflow: sums 3u² + 13u³, products 5u²,

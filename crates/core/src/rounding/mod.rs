@@ -67,8 +67,9 @@ pub(crate) fn fast_two_sum<T: Number>(a: T, b: T) -> (T, T) {
 /// near to zero (below 2⁻⁹⁶⁹) that its error is lost.
 ///
 /// With `FUSED` by a fused multiplication and addition, which is a slow function where the
-/// processor has none; else by splitting the factors, which must lie below 2⁹⁹⁶. The results are
-/// the same to the bit.
+/// processor has none; else by splitting the factors, which must lie below 2⁹⁹⁶. Where the error is
+/// exact, the results are the same to the bit; below 2⁻⁹⁶⁹ they may differ in the last bits of a
+/// subnormal error.
 #[inline(always)]
 pub(crate) fn two_product<const FUSED: bool, T: Number>(a: T, b: T) -> (T, T) {
     let product = a * b;

@@ -13,7 +13,7 @@ use crate::rounding::{DoubleDouble, UNIT_ROUNDOFF, is_fused, two_difference};
 /// From the relative errors of [`DoubleDouble`], with u the unit roundoff and f exact: K is off
 /// by at most 14u² (f·f + r²) and B by 11u² |d| |f|. Each component of d × f is off by
 /// 8u² (|dⱼ fₖ| + |dₖ fⱼ|), so that the vector is off by 11.4u² |d| |f| and its square by 34u² A f·f;
-/// A r² carries 11u²; with the last subtraction Q is off by at most 37u² A (f·f + r²).
+/// A r² carries 16u²; with the last subtraction Q is off by at most 37u² A (f·f + r²).
 const BOUND: f64 = 64.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// What distance and normal may be off before their last rounding: 2⁻⁵⁷, of t and of the radius.

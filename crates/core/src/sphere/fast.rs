@@ -32,10 +32,12 @@ const DECISION_BOUND: f64 = 24.0 * UNIT_ROUNDOFF;
 
 /// Bound of the error of the accurate residual, relative to f·f + r².
 ///
-/// With M = |f| + r and m = t d (so that |m| ≤ M and M² ≤ 2 (f·f + r²)), the parts w of the
-/// points p = s + w below are at most 2u (|mᵢ| + |fᵢ|) and off by 3u² (|mᵢ| + |fᵢ|). The residual
-/// leaves out w·w ≤ 32u² (f·f + r²), inherits 24u² from the error of w, and its ten low-order
-/// roundings cost 220u² at most. 2⁹ u² covers the three.
+/// Let m = t₀ d and p = m − f. As t₀ lies within a third of the chord of its root (see
+/// [`refine`]), |p| ≤ 5/3 r and |m| ≤ |f| + 5/3 r, so that (|m| + |f|)² ≤ 7 (f·f + r²) and
+/// |p| (|m| + |f|) ≤ 3.6 (f·f + r²). The parts w of the points p = s + w below are at most
+/// 2u (|mᵢ| + |fᵢ|) and off by 3u² (|mᵢ| + |fᵢ|). The residual leaves out w·w ≤ 28u² (f·f + r²),
+/// inherits 22u² from the error of w, and its low-order roundings cost 150u² at most; the two
+/// high-order ones are relative to the residual itself. 2⁹ u² covers them.
 const RESIDUAL_BOUND: f64 = 512.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// What the decision computed, for the distance and the normal.
@@ -217,13 +219,18 @@ fn refine_portably(sphere: &Sphere, ray: &Ray, certain: &Certain) -> Option<Hit>
 ///
 /// > t = t₀ ± R / (2 √Q) ∓ A e² / (2 √Q),
 ///
-/// where e is the error of t₀. The step δ = R / (2 √Q) is computed; what it misses is
+/// where e is the error of t₀. With u the unit roundoff, the computed Q exceeds 48u A (f·f + r²)
+/// here and the exact one 26u A (f·f + r²), so that the computed √Q is at most 1.36 times the
+/// exact one. By that t₀ may be off by 0.18 of the chord 2 √Q / A; by the error of K, 7u (f·f + r²)
+/// over |B| + √Q, by 0.135 of it; the rest is of the order √u. Hence |e| is less than a third of
+/// the chord, and R / (2 √Q) at least 2/3 of |e|.
+///
+/// The step δ = R / (2 √Q) is computed; what it misses is
 /// - the error of R, at most `RESIDUAL_BOUND` (f·f + r²), over 2 √Q;
-/// - |δ| times the relative error of the computed √Q, at most half the discriminant's bound over
-///   Q, and of two roundings;
-/// - A e² / (2 √Q): since the discriminant exceeds twice its bound, t₀ is nearer to its root than
-///   a third of the chord, so that |e| ≤ 2 |δ| (up to the first item) and the term is below
-///   4 A δ² / √Q.
+/// - |δ| times the relative error of the computed √Q, at most the discriminant's bound over the
+///   computed Q, and of five roundings;
+/// - A e² / (2 √Q): with |e| ≤ 3/2 · 1.36 |δ| (up to the first item) it is below 4 A δ² / √Q, with
+///   the computed Q.
 ///
 /// Each is held below 2⁻⁵⁷ t₀, so that the sum rounds to within one unit in the last place, and
 /// below 2⁻⁵⁷ √Q / A ≤ 2⁻⁵⁷ r / |d|, so that the point moves by less than 2⁻⁵⁵ r. The normal's
