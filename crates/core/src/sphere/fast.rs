@@ -104,15 +104,18 @@ impl Relative {
         let bound = DECISION_BOUND * scale + slack;
         let discriminant = along * along - direction_sq * outside;
         let discriminant_bound = direction_sq * bound;
-        // Outside for certain, a computed B of 0 or less is a miss: were the exact one greater,
-        // it would be so small that B² < A K. Without branches in between, as most rays miss.
         let moderate = are_moderate(direction_sq, scale);
-        let misses = (along <= 0.0) | (discriminant < -discriminant_bound);
-        if moderate & (outside > bound) & misses {
+        // Most rays miss: what they need comes first.
+        if discriminant < -discriminant_bound && outside > bound && moderate {
             return Decision::Miss;
         }
         if !moderate | (outside.abs() <= bound) | (discriminant <= 2.0 * discriminant_bound) {
             return Decision::Undecided;
+        }
+        // Were the exact B greater than 0 against the computed one, it would be so small that
+        // B² < A K: a miss all the same.
+        if outside > 0.0 && along <= 0.0 {
+            return Decision::Miss;
         }
         Decision::Hit(Certain {
             direction_sq,
@@ -221,16 +224,16 @@ fn refine_portably(sphere: &Sphere, ray: &Ray, certain: &Certain) -> Option<Hit>
 ///
 /// where e is the error of t₀. With u the unit roundoff, the computed Q exceeds 48u A (f·f + r²)
 /// here and the exact one 26u A (f·f + r²), so that the computed √Q is at most 1.36 times the
-/// exact one. By that t₀ may be off by 0.18 of the chord 2 √Q / A; by the error of K, 7u (f·f + r²)
-/// over |B| + √Q, by 0.135 of it; the rest is of the order √u. Hence |e| is less than a third of
-/// the chord, and R / (2 √Q) at least 2/3 of |e|.
+/// exact one. By that t₀ may be off by 0.18 of the chord 2 √Q / A; the errors of B and of the sum
+/// are of the order √u of it. Hence |e| is less than a fifth of the chord, and R / (2 √Q) at least
+/// 4/5 of |e|.
 ///
 /// The step δ = R / (2 √Q) is computed; what it misses is
 /// - the error of R, at most `RESIDUAL_BOUND` (f·f + r²), over 2 √Q;
 /// - |δ| times the relative error of the computed √Q, at most the discriminant's bound over the
 ///   computed Q, and of five roundings;
-/// - A e² / (2 √Q): with |e| ≤ 3/2 · 1.36 |δ| (up to the first item) it is below 4 A δ² / √Q, with
-///   the computed Q.
+/// - A e² / (2 √Q): with |e| ≤ 5/4 · 1.36 |δ| (up to the first item) it is below 2 A δ² / √Q, with
+///   the computed Q; four times A δ² / √Q leaves room.
 ///
 /// Each is held below 2⁻⁵⁷ t₀, so that the sum rounds to within one unit in the last place, and
 /// below 2⁻⁵⁷ √Q / A ≤ 2⁻⁵⁷ r / |d|, so that the point moves by less than 2⁻⁵⁵ r. The normal's
@@ -253,17 +256,9 @@ fn refine<const FUSED: bool, S: Simd>(
     // f·f + r², up to roundings that the bounds leave room for.
     let scale = outside + 2.0 * sphere.radius * sphere.radius;
     let root = discriminant.sqrt();
-    let (numerator, denominator) = if inner_side {
-        let far = along.abs() + root;
-        if along < 0.0 {
-            (-outside, far)
-        } else {
-            (far, direction_sq)
-        }
-    } else {
-        (outside, along + root)
-    };
-    let plain_t = numerator / denominator;
+    // The step below makes up for what cancels here; a quotient by B ± √Q would keep it waiting.
+    let half_chord = if inner_side { root } else { -root };
+    let plain_t = (along + half_chord) * (1.0 / direction_sq);
 
     // Side by side x, y, z and, for its square, the radius.
     let lanes =
@@ -285,8 +280,7 @@ fn refine<const FUSED: bool, S: Simd>(
     let rest = (rests[0] + rests[1]) + (rests[2] - rests[3]);
     let residual = difference + ((first + second) + rest);
 
-    let sign = if inner_side { -0.5 } else { 0.5 };
-    let step = residual * (sign / root);
+    let step = residual * (-0.5 / half_chord);
     let distance = plain_t * direction_sq;
     let smallest = TOLERANCE * if distance < root { distance } else { root };
     let step_size = step.abs() * direction_sq;

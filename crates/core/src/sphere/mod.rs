@@ -104,13 +104,13 @@ impl Sphere {
     /// `normal` within 2 · 2⁻⁵³ radians of the exact normal and its length within 2.5 · 2⁻⁵³ of 1.
     /// Derived in the three floors;
     /// `tests/src/hits` measures both against rational arithmetic.
-    #[inline]
+    #[inline(always)]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         self.hit_and_floor(ray).0
     }
 
     /// [`Sphere::hit`], and which arithmetic settled it.
-    #[inline]
+    #[inline(always)]
     pub fn hit_and_floor(&self, ray: &Ray) -> (Option<Hit>, Floor) {
         self.settle(ray, fast::hit(self, ray))
     }
@@ -120,6 +120,7 @@ impl Sphere {
     /// Where that error leaves open on which side of the surface the origin lies, it counts as
     /// lying on it: the ray then meets the sphere where it goes inward. So a point keeps the light
     /// that leaves a surface it shares with this sphere, and none that enters there.
+    #[inline(always)]
     pub(crate) fn is_met(&self, ray: &Ray, origin_error: f64) -> bool {
         let relative = Relative::new(self, ray.origin);
         let direction_sq = ray.direction.length_squared();
