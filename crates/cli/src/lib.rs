@@ -9,6 +9,7 @@ mod console;
 mod failure;
 mod frames;
 mod interrupt;
+mod memory;
 mod messages;
 mod numbers;
 mod output;

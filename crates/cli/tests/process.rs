@@ -531,3 +531,42 @@ fn links_are_written_through() {
         assert!(errors.starts_with(&start), "{errors}");
     }
 }
+
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_memory_is_an_error() {
+    const KILOBYTES: u32 = 400_000;
+    let folder = Folder::new();
+    let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
+    fs::write(folder.path("ball.ron"), colored).unwrap();
+    let mut codes = Vec::new();
+    for (side, frames) in [
+        (900, "1-3"),
+        (1700, "1"),
+        (1900, "1-4"),
+        (2600, "1"),
+        (4000, "1"),
+    ] {
+        for options in ["-o #.exr --float", "-o #.png --bits 16"] {
+            let arguments = format!(
+                "render ball.ron {options} --samples 1 --threads 2 --size {side}x{side} \
+                 --frames {frames}"
+            );
+            let marbles = folder.marbles(&arguments);
+            let output = Command::new("sh")
+                .args(["-c", &format!("ulimit -v {KILOBYTES}; exec \"$@\""), "sh"])
+                .arg(marbles.get_program())
+                .args(marbles.get_args())
+                .current_dir(&folder.0)
+                .output()
+                .unwrap();
+            let errors = text(&output.stderr);
+            let code = output.status.code();
+            assert!(matches!(code, Some(0 | 1)), "{arguments}: {errors}");
+            let refused = errors.contains(" memory");
+            assert_eq!(refused, code == Some(1), "{arguments}: {errors}");
+            codes.push(code);
+        }
+    }
+    assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
+}

@@ -18,6 +18,7 @@ pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
 use self::temporary::TemporaryFile;
 use crate::failure::{Failure, lower};
+use crate::memory::Form;
 
 /// What files say about who wrote them.
 const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
@@ -27,6 +28,16 @@ const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
 pub(crate) enum Encoding {
     Png(PngOptions),
     Exr(ExrOptions),
+}
+
+impl Encoding {
+    /// Bytes that encoding a picture of this form takes at most, the file's own included.
+    pub(crate) fn memory(self, form: &Form) -> u64 {
+        match self {
+            Self::Png(options) => options.memory(form),
+            Self::Exr(options) => options.memory(form),
+        }
+    }
 }
 
 /// What a file says about its picture beside the pixels, where the format has room for it.
