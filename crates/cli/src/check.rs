@@ -13,8 +13,8 @@ use crate::numbers::short;
 use crate::render::FRAME_OF_A_STILL;
 use crate::status;
 
-/// Frames that are looked at for the range of the camera, spread evenly over longer animations.
-const FRAMES_LOOKED_AT: i64 = 1000;
+/// Frames that are looked at, spread evenly over longer animations.
+const FRAMES_LOOKED_AT: i64 = 100_000;
 /// Lights that are listed one by one.
 const LIGHTS_LISTED: usize = 8;
 /// Width of the column with the names of things.
@@ -34,6 +34,10 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
     }
     rows.extend(world(&scene));
     rows.push(("frames", duration(&scene)));
+    let (count, looked_at) = (count(&frames), views.len() + errors.len());
+    if looked_at as i64 != count {
+        rows.push(("", format!("{looked_at} of {count} were looked at")));
+    }
     rows.extend(cameras(scene.description().camera, &views));
     for (name, text) in rows {
         console.result(format!("{name:NAMES$}{text}").trim_end());
@@ -41,12 +45,21 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
 
     match errors.first() {
         None => Ok(status::SUCCESS),
-        Some(error) if errors.len() == 1 => Err(Failure::Work(error.to_string())),
-        Some(error) => Err(Failure::Work(format!(
-            "{error}, and {} more of the frames that were looked at",
-            errors.len() - 1
-        ))),
+        Some(error) => {
+            let mut message = format!("{}: {error}", arguments.scene.display());
+            if errors.len() > 1 {
+                message.push_str(&format!(
+                    ", and {} more of the {looked_at} frames that were looked at have no view",
+                    errors.len() - 1
+                ));
+            }
+            Err(Failure::Frames(message))
+        }
     }
+}
+
+fn count(frames: &RangeInclusive<i32>) -> i64 {
+    i64::from(*frames.end()) - i64::from(*frames.start()) + 1
 }
 
 /// Views of evenly spread frames, the first and the last among them, and what is wrong with
@@ -142,7 +155,7 @@ fn duration(scene: &Scene) -> String {
         return "a still".to_owned();
     };
     let (first, last) = (*frames.start(), *frames.end());
-    let count = i64::from(last) - i64::from(first) + 1;
+    let count = count(&frames);
     let mut text = if count == 1 {
         format!("{first}")
     } else {

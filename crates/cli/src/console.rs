@@ -1,12 +1,12 @@
 //! Where the user reads: results on stdout, all else on stderr.
 
 use std::env;
-use std::io::{self, IsTerminal, Write};
-use std::sync::{Mutex, PoisonError};
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::builder::StyledStr;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, reason};
 
 const BOLD_RED: &str = "\x1b[1;31m";
 const BOLD_YELLOW: &str = "\x1b[1;33m";
@@ -14,7 +14,7 @@ const RESET: &str = "\x1b[0m";
 
 /// The two streams, shared by threads.
 ///
-/// Nothing that is printed can fail: when the reader has gone, the work goes on.
+/// Printing does not fail: the work goes on. Whether results were lost is told at the end.
 pub(crate) struct Console {
     out: Stream,
     err: Stream,
@@ -22,6 +22,8 @@ pub(crate) struct Console {
 
 struct Stream {
     write: Mutex<Box<dyn Write + Send>>,
+    /// Why something could not be printed, the first time.
+    error: OnceLock<io::Error>,
     terminal: bool,
     styled: bool,
 }
@@ -34,11 +36,13 @@ impl Console {
         Self {
             out: Stream {
                 write: Mutex::new(Box::new(io::stdout())),
+                error: OnceLock::new(),
                 terminal: io::stdout().is_terminal(),
                 styled: colors && io::stdout().is_terminal(),
             },
             err: Stream {
                 write: Mutex::new(Box::new(io::stderr())),
+                error: OnceLock::new(),
                 terminal: io::stderr().is_terminal(),
                 styled: colors && io::stderr().is_terminal(),
             },
@@ -50,6 +54,7 @@ impl Console {
     pub(crate) fn to(out: impl Write + Send + 'static, err: impl Write + Send + 'static) -> Self {
         let plain = |write: Box<dyn Write + Send>| Stream {
             write: Mutex::new(write),
+            error: OnceLock::new(),
             terminal: false,
             styled: false,
         };
@@ -69,6 +74,13 @@ impl Console {
         self.out.print(&format!("{line}\n"));
     }
 
+    /// That results could not be printed, where a reader still waits for them.
+    pub(crate) fn lost_results(&self) -> Option<Failure> {
+        let error = self.out.error.get()?;
+        let message = format!("cannot write the results: {}", reason(error));
+        Some(Failure::Work(message))
+    }
+
     /// A line about how things go.
     pub(crate) fn note(&self, line: &str) {
         self.err.print(&format!("{line}\n"));
@@ -85,7 +97,7 @@ impl Console {
     /// Why something was not done.
     pub(crate) fn failure(&self, failure: &Failure) {
         match failure {
-            Failure::Usage(message) | Failure::Work(message) => {
+            Failure::Usage(message) | Failure::Frames(message) | Failure::Work(message) => {
                 self.note(&format!(
                     "{} {message}",
                     self.err.paint("marbles:", BOLD_RED)
@@ -110,10 +122,16 @@ impl Console {
 impl Stream {
     fn print(&self, text: &str) {
         let mut write = self.write.lock().unwrap_or_else(PoisonError::into_inner);
-        // A reader that has gone is no reason to stop: the pictures are what was asked for.
-        let _ = write
+        let written = write
             .write_all(text.as_bytes())
             .and_then(|()| write.flush());
+        match written {
+            // A reader that has gone has read enough.
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                self.error.get_or_init(|| error);
+            }
+            _ => {}
+        }
     }
 
     fn paint(&self, text: &str, style: &str) -> String {

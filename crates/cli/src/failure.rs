@@ -14,6 +14,8 @@ pub(crate) enum Failure {
     Usage(String),
     /// The scene file was refused.
     Scene(Box<SceneError>),
+    /// Frames of the scene have no view.
+    Frames(String),
     /// Something else went wrong.
     Work(String),
 }
@@ -26,20 +28,25 @@ impl Failure {
 
     /// A failure of the operating system to do what `what` names with the file at `path`.
     pub(crate) fn io(path: &Path, what: &str, error: &io::Error) -> Self {
-        let reason = error.to_string();
-        // The number in "No such file or directory (os error 2)" helps nobody.
-        let reason = reason
-            .rsplit_once(" (os error")
-            .map_or(&*reason, |(reason, _)| reason);
-        Self::at(path, &format!("{what}: {}", lower(reason)))
+        Self::at(path, &format!("{what}: {}", reason(error)))
     }
 
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Usage(_) | Self::Scene(_) => status::REFUSED,
+            Self::Usage(_) | Self::Scene(_) | Self::Frames(_) => status::REFUSED,
             Self::Work(_) => status::FAILURE,
         }
     }
+}
+
+/// What the operating system says, in our manner.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let reason = error.to_string();
+    // The number in "No such file or directory (os error 2)" helps nobody.
+    let reason = reason
+        .rsplit_once(" (os error")
+        .map_or(&*reason, |(reason, _)| reason);
+    lower(reason)
 }
 
 /// A message of others in our manner, without a capital letter at the start.

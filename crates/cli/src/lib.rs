@@ -9,6 +9,7 @@ mod console;
 mod failure;
 mod frames;
 mod interrupt;
+mod memory;
 mod messages;
 mod numbers;
 mod output;
@@ -34,6 +35,22 @@ pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
 
 /// As [`run`], with a console to print to, and the exit code of `status`.
 fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
+    let code = command(args, console);
+    match console.lost_results() {
+        Some(failure) => {
+            console.failure(&failure);
+            if code == status::SUCCESS {
+                failure.exit_code()
+            } else {
+                code
+            }
+        }
+        None => code,
+    }
+}
+
+/// Does what the command line asks for.
+fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     let arguments = match Arguments::try_parse_from(args) {
         Ok(arguments) => arguments,
         Err(message) => {
@@ -106,7 +123,7 @@ mod tests {
         assert!(out.contains("Examples:") && !out.contains('\x1b'));
         let (code, out, err) = run_here(&["render", "a.ron", "--frames", "5-1"]);
         assert_eq!((code, &*out), (2, ""));
-        assert!(err.contains("`5-1` runs backward, expected 1-5"), "{err}");
+        assert!(err.contains("expected the smaller frame first"), "{err}");
     }
 
     #[test]

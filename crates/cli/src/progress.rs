@@ -1,4 +1,5 @@
-//! How far the work is: a bar on a terminal, a line for each frame elsewhere, or nothing.
+//! How far the work is: a bar on a terminal, a line for each frame of a sequence elsewhere,
+//! or nothing.
 
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -79,6 +80,10 @@ impl<'a> Progress<'a> {
     pub(crate) fn written(&self, frame: i32, done: u64) {
         if let Display::Lines { started } = &self.display {
             let frames = self.frames;
+            if frames == 1 {
+                // The line of results says it all.
+                return;
+            }
             let mut line = format!("frame {frame}: {done} of {frames} done");
             if done < frames {
                 let per_frame = started.elapsed().as_secs_f64() / done as f64;

@@ -16,14 +16,15 @@ use crate::args::Size;
 use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
+use crate::memory::{self, Form};
 use crate::messages;
 use crate::output::{self, Encoding, Facts};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
 
-/// Finished pictures that may wait while another is written. More would only take memory: in the
-/// long run the slower of rendering and writing sets the pace.
-const WAITING: usize = 1;
+/// Pictures in memory: one is rendered, one waits, one is written. If more waited, it would only
+/// take memory: in the long run the slower of rendering and writing sets the pace.
+const MOST_PICTURES: u64 = 3;
 
 /// What is rendered, and where it goes.
 #[derive(Clone, Copy, Debug)]
@@ -66,8 +67,21 @@ impl Sequence<'_> {
     /// A frame that cannot be rendered is reported and left out; a file that cannot be written
     /// ends the work, as the next would fare no better.
     pub(crate) fn render(&self, threads: &ThreadPool, progress: &Progress) -> Tally {
+        let frames = self.frames.count();
+        let pictures = match self.pictures_at_a_time() {
+            Ok(pictures) => pictures,
+            Err(failure) => {
+                progress.failure(&failure);
+                return Tally {
+                    frames,
+                    failed: true,
+                    ..Tally::default()
+                };
+            }
+        };
         let write_failed = AtomicBool::new(false);
-        let (sender, receiver) = sync_channel(WAITING);
+        let waiting = pictures.saturating_sub(2) as usize;
+        let (sender, receiver) = sync_channel(waiting);
         let (left_out, written) = thread::scope(|scope| {
             let writer = scope.spawn(|| self.write_all(receiver, &write_failed, progress));
             let left_out = threads.install(|| self.render_all(sender, &write_failed, progress));
@@ -77,7 +91,6 @@ impl Sequence<'_> {
                 written.unwrap_or_else(|panic| panic::resume_unwind(panic)),
             )
         });
-        let frames = self.frames.count();
         Tally {
             frames,
             failed: left_out || write_failed.into_inner(),
@@ -109,10 +122,6 @@ impl Sequence<'_> {
                     continue;
                 }
             };
-            if let Err(failure) = self.check_memory(&view) {
-                progress.failure(&failure);
-                return true;
-            }
             progress.begin(index as u64, u64::from(view.width) * u64::from(view.height));
             let started = Instant::now();
             let image =
@@ -202,24 +211,24 @@ impl Sequence<'_> {
         }
     }
 
-    /// Refuses a picture for which there is certainly no memory, where allocating it would end
-    /// the process.
-    fn check_memory(&self, view: &View) -> Result<(), Failure> {
-        let channels = if self.scene.world().is_grey() { 1 } else { 3 };
-        let channels = channels + u64::from(self.settings.alpha);
-        // Of core's pictures: the channels and the error in double precision, and the status.
-        let bytes_per_pixel = 8 * (channels + 1) + 1;
-        let bytes = u64::from(view.width) * u64::from(view.height) * bytes_per_pixel;
-        let available = usize::try_from(bytes)
-            .is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok());
-        if available {
-            return Ok(());
-        }
-        Err(Failure::Work(format!(
-            "a picture of {} x {} pixels needs {:.1} GB of memory, more than there is",
-            view.width,
-            view.height,
-            bytes as f64 / 1e9
-        )))
+    /// How many pictures may be in memory at a time: one that is rendered, one that is written, and
+    /// as a rule one that waits in between.
+    fn pictures_at_a_time(&self) -> Result<u64, Failure> {
+        // All frames have the same size.
+        let Some(view) = self
+            .frames
+            .iter()
+            .find_map(|frame| self.scene.view(frame).ok())
+        else {
+            return Ok(1);
+        };
+        let is_grey = self.scene.world().is_grey();
+        let form = Form::of(&self.resized(view), is_grey, self.settings.alpha);
+        let (least, most) = match self.frames.count() {
+            0..=1 => (1, 1),
+            2 => (2, 2),
+            _ => (2, MOST_PICTURES),
+        };
+        memory::pictures_at_a_time(&form, self.encoding, least, most)
     }
 }

@@ -185,8 +185,22 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
     );
 
     let output = folder.run("check through.ron");
-    assert_eq!(code(&output), 1);
-    assert!(text(&output.stderr).starts_with("marbles: frame 2: "));
+    assert_eq!(code(&output), 2);
+    let errors = text(&output.stderr);
+    let start = "marbles: through.ron: frame 2: ";
+    assert!(errors.starts_with(start), "{errors}");
+
+    // Only the frame in the middle has no view, and there are too many to look at all.
+    for (last, expected) in [(99_999, 2), (1_000_001, 0)] {
+        let far = THROUGH
+            .replace("frame: 3", &format!("frame: {last}"))
+            .replace("(1, 3)", &format!("(1, {last})"));
+        fs::write(folder.path("far.ron"), far).unwrap();
+        let output = folder.run("check far.ron");
+        assert_eq!(code(&output), expected, "{last} frames");
+        let all = !text(&output.stdout).contains("100000 of 1000001 were looked at\n");
+        assert_eq!(all, last < 100_000);
+    }
 }
 
 #[test]
@@ -212,6 +226,10 @@ fn a_line_is_printed_for_each_file() {
     assert!(progress[0].starts_with("frame 8: 1 of 2 done, "));
     assert!(progress[0].ends_with(" s left"));
     assert_eq!(progress[1], "frame 9: 2 of 2 done");
+
+    let output = folder.run("render ball.ron -o a.png --size 30x20");
+    assert_eq!(text(&output.stdout).lines().count(), 1);
+    assert_eq!(text(&output.stderr), "");
 }
 
 #[test]
@@ -354,6 +372,26 @@ fn a_closed_pipe_does_not_stop_the_work() {
     }
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_written_are_an_error() {
+    let folder = Folder::new();
+    for arguments in [
+        "check ball.ron",
+        "render ball.ron --size 9x9 --frames 1-3 -o #.png",
+        "--help",
+    ] {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let output = folder.marbles(arguments).stdout(full).output().unwrap();
+        assert_eq!(code(&output), 1, "marbles {arguments}");
+        let errors = text(&output.stderr);
+        let expected = "marbles: cannot write the results: no space left on device\n";
+        assert!(errors.ends_with(expected), "{errors}");
+        assert_eq!(errors.matches("cannot").count(), 1, "{errors}");
+    }
+    assert_eq!(folder.names(".").len(), 4);
+}
+
 /// Runs `marbles` while a file system with these options is mounted at `out`, which nobody else
 /// sees. The output ends with the names in `out`; `None` where nothing can be mounted.
 fn run_on_file_system(folder: &Folder, options: &str, arguments: &str) -> Option<Output> {
@@ -444,4 +482,91 @@ fn pictures_replace_older_ones() {
     let output = folder.run("render ball.ron -o a.png --size 9x9");
     assert_eq!(code(&output), 0);
     assert_complete(&folder.path("a.png"));
+}
+
+#[test]
+fn the_longest_names_can_be_written() {
+    let folder = Folder::new();
+    // 255 bytes are the most that common file systems take; the ö has two.
+    for length in [248, 251, 255] {
+        let name = format!("{}ö.png", "a".repeat(length - "ö.png".len()));
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        assert_complete(&folder.path(&name));
+    }
+    assert_eq!(folder.names(".").len(), 4);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_written_through() {
+    use std::os::unix::fs::symlink;
+
+    let folder = Folder::new();
+    fs::create_dir(folder.path("real")).unwrap();
+    fs::write(folder.path("real/old.png"), "older").unwrap();
+    symlink("real/old.png", folder.path("old.png")).unwrap();
+    symlink("real/new.png", folder.path("new.png")).unwrap();
+    symlink("new.png", folder.path("twice.png")).unwrap();
+    for name in ["old", "twice"] {
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        let link = fs::symlink_metadata(folder.path(&format!("{name}.png")));
+        assert!(link.unwrap().is_symlink());
+    }
+    assert_complete(&folder.path("real/old.png"));
+    assert_complete(&folder.path("real/new.png"));
+    assert_eq!(folder.names("real"), ["new.png", "old.png"]);
+
+    symlink("circle.png", folder.path("circle.png")).unwrap();
+    symlink("/dev/null", folder.path("null.png")).unwrap();
+    for (name, expected) in [
+        ("circle", "cannot create the file: too many"),
+        ("null", "cannot write the picture: there is something"),
+    ] {
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
+        assert_eq!(code(&output), 1);
+        let start = format!("marbles: {name}.png: {expected}");
+        let errors = text(&output.stderr);
+        assert!(errors.starts_with(&start), "{errors}");
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_memory_is_an_error() {
+    const KILOBYTES: u32 = 400_000;
+    let folder = Folder::new();
+    let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
+    fs::write(folder.path("ball.ron"), colored).unwrap();
+    let mut codes = Vec::new();
+    for (side, frames) in [
+        (900, "1-3"),
+        (1700, "1"),
+        (1900, "1-4"),
+        (2600, "1"),
+        (4000, "1"),
+    ] {
+        for options in ["-o #.exr --float", "-o #.png --bits 16"] {
+            let arguments = format!(
+                "render ball.ron {options} --samples 1 --threads 2 --size {side}x{side} \
+                 --frames {frames}"
+            );
+            let marbles = folder.marbles(&arguments);
+            let output = Command::new("sh")
+                .args(["-c", &format!("ulimit -v {KILOBYTES}; exec \"$@\""), "sh"])
+                .arg(marbles.get_program())
+                .args(marbles.get_args())
+                .current_dir(&folder.0)
+                .output()
+                .unwrap();
+            let errors = text(&output.stderr);
+            let code = output.status.code();
+            assert!(matches!(code, Some(0 | 1)), "{arguments}: {errors}");
+            let refused = errors.contains(" memory");
+            assert_eq!(refused, code == Some(1), "{arguments}: {errors}");
+            codes.push(code);
+        }
+    }
+    assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
 }

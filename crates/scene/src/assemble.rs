@@ -1,6 +1,6 @@
 //! From the file's structures to what core renders; checks what concerns more than one value.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
@@ -178,9 +178,11 @@ struct UnknownNames<'f> {
 impl<'f> UnknownNames<'f> {
     fn new(file: &'f File) -> Self {
         let names = file.materials.0.iter();
+        let mut seen = HashSet::new();
         Self {
             known: names
                 .filter_map(|(name, _)| name.value.as_ref().map(|name| name.0.as_str()))
+                .filter(|&name| seen.insert(name))
                 .collect(),
             reported: 0,
         }

@@ -1,8 +1,10 @@
 //! Colors as a scene file writes them.
 
 use glam::DVec3;
+use serde::de::IgnoredAny;
+use serde::{Deserialize, Deserializer};
 
-use crate::fault::Slice;
+use crate::fault::{Names, Slice, note_failure};
 use crate::placed::{Read, read_simple, read_tuple};
 use crate::quantity::{ColorChannel, number};
 
@@ -37,6 +39,18 @@ impl<'t> Read<'t> for Color {
         };
         let grey = number(slice, expected, |x| x >= 0.0)?;
         Some(Self(DVec3::splat(grey)))
+    }
+
+    fn read_strictly<D: Deserializer<'t>>(deserializer: D) -> Result<Option<Self>, D::Error> {
+        // `#rrggbb` without its quotation marks breaks the syntax of the file.
+        IgnoredAny::deserialize(deserializer)
+            .inspect_err(|_| {
+                note_failure(Names {
+                    noun: "color",
+                    form: ANY_FORM,
+                })
+            })
+            .map(|_| None)
     }
 }
 

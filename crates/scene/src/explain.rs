@@ -134,6 +134,9 @@ pub(crate) fn explain(error: &SpannedError, slice: Slice<'_>, names: Names) -> F
             let expected = String::from("expected a value (a string stands between `\"`)");
             Fault::at_token(slice.start + quote, expected)
         }
+        _ if names.noun == "color" && text[stop..].starts_with('#') => {
+            at_stop(r##"a color "#rrggbb" in quotation marks"##)
+        }
         _ => at_stop("a value"),
     }
 }

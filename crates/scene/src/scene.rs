@@ -1,6 +1,7 @@
 //! A scene: a world, a camera over time, and the image.
 
-use std::io::ErrorKind;
+use std::fs::File as OpenFile;
+use std::io::{self, ErrorKind, Read as _};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
@@ -13,6 +14,10 @@ use crate::file::{self, File};
 use crate::motion::{self, Motion};
 use crate::placed::Read;
 use crate::token;
+
+/// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
+/// for files that never end.
+const LARGEST_FILE: u64 = 1 << 30;
 
 /// A scene file that was read and found valid.
 #[derive(Clone, Debug)]
@@ -42,7 +47,8 @@ impl Scene {
     /// Reads and checks the scene file at `path`.
     ///
     /// # Errors
-    /// Refuses what is not a readable file, and everything that the format does not allow.
+    /// Refuses what is not a readable file of at most 1 GiB, and everything that the format does
+    /// not allow.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         if path.is_dir() {
             return Err(SceneError::unreadable(
@@ -50,10 +56,14 @@ impl Scene {
                 "expected a scene file, found a folder",
             ));
         }
-        let bytes = std::fs::read(path).map_err(|error| {
+        let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
             let reason = match error.kind() {
                 ErrorKind::NotFound => String::from("no such file"),
                 ErrorKind::PermissionDenied => String::from("no permission to read this file"),
+                ErrorKind::FileTooLarge => {
+                    String::from("expected a scene file of at most 1 GiB, found a larger one")
+                }
+                ErrorKind::OutOfMemory => String::from("there is no memory to read this file"),
                 _ => error.to_string(),
             };
             SceneError::unreadable(path, &reason)
@@ -160,6 +170,21 @@ impl Scene {
             },
         })
     }
+}
+
+/// The bytes of a file that has at most `most`; [`ErrorKind::FileTooLarge`] where it has more.
+fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let file = OpenFile::open(path)?;
+    let mut bytes = Vec::new();
+    // What the size says is not always so: devices and pipes have none.
+    let size = file.metadata()?.len();
+    if size <= most {
+        file.take(most + 1).read_to_end(&mut bytes)?;
+    }
+    if size.max(bytes.len() as u64) > most {
+        return Err(ErrorKind::FileTooLarge.into());
+    }
+    Ok(bytes)
 }
 
 /// The text behind a byte order mark.

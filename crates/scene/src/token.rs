@@ -112,8 +112,13 @@ pub(crate) enum Unclosed {
 /// What the text opens and does not close, if anything.
 pub(crate) fn unclosed(text: &str) -> Option<Unclosed> {
     let mut open = Vec::new();
-    let mut at = skip_trivia(text, 0);
-    while at < text.len() {
+    let mut end = 0;
+    loop {
+        let at = skip_trivia(text, end);
+        if at == text.len() {
+            let comment = unclosed_comment(text, end).map(Unclosed::Comment);
+            return comment.or(open.pop().map(Unclosed::Bracket));
+        }
         let rest = &text[at..];
         match rest.as_bytes()[0] {
             b'(' | b'[' | b'{' => open.push(at),
@@ -125,15 +130,8 @@ pub(crate) fn unclosed(text: &str) -> Option<Unclosed> {
         if string_length(rest).is_some_and(|length| length > rest.len()) {
             return Some(Unclosed::String(at));
         }
-        let end = token_end(text, at);
-        at = skip_trivia(text, end);
-        if at == text.len()
-            && let Some(comment) = unclosed_comment(text, end)
-        {
-            return Some(Unclosed::Comment(comment));
-        }
+        end = token_end(text, at);
     }
-    open.pop().map(Unclosed::Bracket)
 }
 
 /// White space as `ron` has it.
@@ -284,6 +282,7 @@ mod tests {
         assert_eq!(unclosed("(a: [1, 2], b: (c"), Some(Unclosed::Bracket(15)));
         assert_eq!(unclosed("(a: \"b, c)"), Some(Unclosed::String(4)));
         assert_eq!(unclosed("(a: 1) /* b"), Some(Unclosed::Comment(7)));
+        assert_eq!(unclosed(" /* a */ /* /* b"), Some(Unclosed::Comment(9)));
         assert_eq!(unclosed("(a: 1 /* b */)"), None);
         assert_eq!(unclosed(")]"), None);
     }

@@ -11,6 +11,7 @@ use glam::DVec3;
 use marbles_core::{Camera, Image, Method};
 
 use super::{Encoded, Facts, SOFTWARE, half, header};
+use crate::memory::{self, Form};
 use crate::rational;
 
 /// CIE xy of the primaries and the white of Rec. 709.
@@ -28,7 +29,36 @@ pub(crate) struct ExrOptions {
     pub(crate) float: bool,
 }
 
+/// Rows that are compressed together.
+const ROWS_OF_A_BLOCK: u64 = 16;
+/// What a file has besides its blocks, generously.
+const HEADER_BYTES: u64 = 1 << 16;
+
 impl ExrOptions {
+    /// Bytes that [`ExrOptions::encode`] takes at most: the samples, as many for the file, and
+    /// some copies of a block while it is compressed.
+    pub(super) fn memory(self, form: &Form) -> u64 {
+        const COPIES_OF_A_BLOCK: u64 = 8;
+        let samples = form.pixels() * self.bytes_per_pixel(form.alpha);
+        let row = u64::from(form.width) * self.bytes_per_pixel(form.alpha);
+        let file = self.file_bytes(form.width, form.height, form.alpha);
+        samples + file + COPIES_OF_A_BLOCK * ROWS_OF_A_BLOCK * row
+    }
+
+    /// Bytes that a file has at most: blocks that compression would make larger are stored as
+    /// they are.
+    fn file_bytes(self, width: u32, height: u32, alpha: bool) -> u64 {
+        // Its place in the file, its first row and its size.
+        const BYTES_OF_A_BLOCK: u64 = 8 + 4 + 4;
+        let blocks = u64::from(height).div_ceil(ROWS_OF_A_BLOCK);
+        let samples = u64::from(width) * u64::from(height) * self.bytes_per_pixel(alpha);
+        samples + blocks * BYTES_OF_A_BLOCK + HEADER_BYTES
+    }
+
+    fn bytes_per_pixel(self, alpha: bool) -> u64 {
+        (3 + u64::from(alpha)) * if self.float { 4 } else { 2 }
+    }
+
     /// The bytes of the file, the same for the same picture and facts.
     pub(super) fn encode(self, image: &Image, facts: &Facts) -> Result<Encoded, String> {
         let (width, height) = (image.width() as usize, image.height() as usize);
@@ -40,12 +70,16 @@ impl ExrOptions {
             }
             let values = pixels(image).map(|(col, row)| image.rgba(col, row)[index]);
             let samples = if self.float {
-                let values = values.map(|value| float(clip(value, f32::MAX.into(), &mut clipped)));
-                FlatSamples::F32(values.collect())
+                let mut samples: Vec<f32> = memory::reserve(width * height)?;
+                let largest = f32::MAX.into();
+                samples.extend(values.map(|value| float(clip(value, largest, &mut clipped))));
+                FlatSamples::F32(samples)
             } else {
-                let values =
-                    values.map(|value| half::nearest(clip(value, half::LARGEST, &mut clipped)));
-                FlatSamples::F16(values.collect::<Vec<f16>>())
+                let mut samples: Vec<f16> = memory::reserve(width * height)?;
+                let largest = half::LARGEST;
+                samples
+                    .extend(values.map(|value| half::nearest(clip(value, largest, &mut clipped))));
+                FlatSamples::F16(samples)
             };
             channels.push(AnyChannel::new(name, samples));
         }
@@ -59,7 +93,8 @@ impl ExrOptions {
         let mut file = ExrImage::from_layer(layer);
         file.attributes.chromaticities = Some(REC_709);
 
-        let mut bytes = Cursor::new(Vec::new());
+        let most = self.file_bytes(image.width(), image.height(), image.has_alpha());
+        let mut bytes = Cursor::new(memory::reserve(most as usize)?);
         file.write()
             .non_parallel()
             .to_buffered(&mut bytes)

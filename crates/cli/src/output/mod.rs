@@ -18,6 +18,7 @@ pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
 use self::temporary::TemporaryFile;
 use crate::failure::{Failure, lower};
+use crate::memory::Form;
 
 /// What files say about who wrote them.
 const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
@@ -27,6 +28,16 @@ const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
 pub(crate) enum Encoding {
     Png(PngOptions),
     Exr(ExrOptions),
+}
+
+impl Encoding {
+    /// Bytes that encoding a picture of this form takes at most, the file's own included.
+    pub(crate) fn memory(self, form: &Form) -> u64 {
+        match self {
+            Self::Png(options) => options.memory(form),
+            Self::Exr(options) => options.memory(form),
+        }
+    }
 }
 
 /// What a file says about its picture beside the pixels, where the format has room for it.
@@ -54,16 +65,11 @@ pub(crate) struct Written {
 
 /// Makes sure that a file can be created at `path`, folders included, and leaves none.
 pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
-    let folder = folder(path);
+    let destination = destination(path)?;
+    let folder = folder(&destination);
     std::fs::create_dir_all(folder)
         .map_err(|error| Failure::io(folder, "cannot create the folder", &error))?;
-    if path.is_dir() {
-        return Err(Failure::at(
-            path,
-            "cannot write the picture: there is a folder",
-        ));
-    }
-    TemporaryFile::beside(path)
+    TemporaryFile::beside(&destination)
         .map(drop)
         .map_err(|error| Failure::io(path, "cannot create the file", &error))
 }
@@ -85,13 +91,36 @@ pub(crate) fn write(
             &format!("cannot encode the picture: {}", lower(&error)),
         )
     })?;
-    TemporaryFile::beside(&path)
+    let destination = destination(&path)?;
+    TemporaryFile::beside(&destination)
         .and_then(|mut file| {
             file.write(&bytes)?;
             file.persist()
         })
         .map_err(|error| Failure::io(&path, "cannot write the picture", &error))?;
     Ok(Written { clipped })
+}
+
+/// Where the file for `path` belongs: at the end of symbolic links, which stay as they are, and
+/// only in place of another file.
+fn destination(path: &Path) -> Result<PathBuf, Failure> {
+    /// As many as Linux follows.
+    const MOST_LINKS: usize = 40;
+    let mut destination = path.to_owned();
+    for _ in 0..=MOST_LINKS {
+        let Ok(target) = std::fs::read_link(&destination) else {
+            return match std::fs::metadata(&destination) {
+                Ok(found) if found.is_dir() => Err("there is a folder"),
+                Ok(found) if !found.is_file() => Err("there is something that is no file"),
+                _ => Ok(destination),
+            }
+            .map_err(|what| Failure::at(path, &format!("cannot write the picture: {what}")));
+        };
+        // A relative target starts at the folder of the link; an absolute one replaces it.
+        destination = folder(&destination).join(target);
+    }
+    let what = "cannot create the file: too many symbolic links";
+    Err(Failure::at(path, what))
 }
 
 /// The folder that a file lies in.

@@ -1,10 +1,13 @@
 //! Files that exist under a temporary name until they are complete.
 
+use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+/// The longest names, in bytes, that common file systems take.
+const LONGEST_NAME: usize = 255;
 /// How many left-over files of killed processes with the same id are stepped over.
 const ATTEMPTS: u32 = 1000;
 
@@ -19,7 +22,7 @@ pub(super) struct TemporaryFile<'path> {
 }
 
 impl<'path> TemporaryFile<'path> {
-    /// Creates the file, named after its destination.
+    /// Creates the file, named after its destination, with a shorter stem where there is no room.
     ///
     /// A file that is already there belongs to a process that was killed, or to one on another
     /// machine that has the same id and still writes: it is left alone.
@@ -27,12 +30,11 @@ impl<'path> TemporaryFile<'path> {
         let process = std::process::id();
         let mut open = lock();
         for attempt in 0..ATTEMPTS {
-            let mut path = destination.as_os_str().to_owned();
-            path.push(match attempt {
+            let ending = match attempt {
                 0 => format!(".{process}.tmp"),
                 _ => format!(".{process}-{attempt}.tmp"),
-            });
-            let path = PathBuf::from(path);
+            };
+            let path = with_ending(destination, &ending);
             match File::options().write(true).create_new(true).open(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
@@ -76,6 +78,24 @@ impl Drop for TemporaryFile<'_> {
             let _ = fs::remove_file(&self.path);
         }
     }
+}
+
+/// The path with an ending added to its name, which is cut at the end of a character where the
+/// whole would be too long.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let name = path.file_name().unwrap_or_default();
+    let room = LONGEST_NAME.saturating_sub(ending.len());
+    let mut name = if name.len() <= room {
+        name.to_owned()
+    } else {
+        let name = name.to_string_lossy();
+        let characters = name.char_indices();
+        let ends = characters.map(|(start, character)| start + character.len_utf8());
+        let end = ends.take_while(|&end| end <= room).last().unwrap_or(0);
+        OsString::from(&name[..end])
+    };
+    name.push(ending);
+    path.with_file_name(name)
 }
 
 /// Removes all temporary files; as long as the answer lives, no file appears or moves.
@@ -124,6 +144,19 @@ mod tests {
         assert!(path.exists());
         drop(file);
         assert!(!path.exists() && !destination.exists());
+    }
+
+    #[test]
+    fn names_are_cut_between_characters() {
+        let long = "ö".repeat(LONGEST_NAME / 2);
+        let path = with_ending(&Path::new("folder").join(&long), ".7.tmp");
+        // 249 bytes are left, and 248 are filled.
+        let expected = format!("{}.7.tmp", &long[..248]);
+        assert_eq!(path, Path::new("folder").join(expected));
+        assert_eq!(
+            with_ending(Path::new("a.png"), ".7.tmp"),
+            Path::new("a.png.7.tmp")
+        );
     }
 
     #[test]

@@ -113,3 +113,22 @@ fn partly_covered_pixels_keep_their_light() {
         });
     assert!(edge, "the scene should test something");
 }
+
+#[test]
+fn noise_does_not_grow() {
+    const SIDES: (u32, u32) = (700, 300);
+    let mut state = 1_u32;
+    let mut noise = || {
+        // Numerical Recipes' generator, whose high bits are good.
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        (state >> 24) as u8
+    };
+    let samples: Vec<u8> = (0..SIDES.0 * SIDES.1 * 3).map(|_| noise()).collect();
+    let bytes = file(SIDES, ColorType::Rgb, BitDepth::Eight, &samples).unwrap();
+    assert!(bytes.len() as u64 <= file_bytes(samples.len() as u64, SIDES.1));
+    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+    let mut decoded = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut decoded).unwrap();
+    reader.finish().unwrap();
+    assert!(decoded == samples);
+}
