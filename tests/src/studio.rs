@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, Color, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View,
-    World, render,
+    Angle, Camera, Color, DirectionalLight, Image, Lens, Material, Method, Renderer, Settings,
+    Sphere, View, World,
 };
 
 pub(crate) const GREY_HALF: Color = Color::splat(0.5);
@@ -84,7 +84,9 @@ pub(crate) fn picture(world: &World, view: &View, samples: u32, alpha: bool) -> 
         method: Method::Samples(samples),
         alpha,
     };
-    render(world, view, &settings, &|_| ControlFlow::Continue(())).unwrap()
+    Renderer::new(world)
+        .render(view, &settings, &|_| ControlFlow::Continue(()))
+        .unwrap()
 }
 
 /// All pixels (column, row) of an image.

@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use marbles_core::{Image, Settings, View};
+use marbles_core::{Image, Renderer, Settings, View};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
@@ -108,6 +108,7 @@ impl Sequence<'_> {
         progress: &Progress,
     ) -> bool {
         let stop = || interrupt::requested() || write_failed.load(Ordering::Relaxed);
+        let renderer = Renderer::new(self.scene.world());
         let mut left_out = false;
         for (index, frame) in self.frames.iter().enumerate() {
             if stop() {
@@ -124,15 +125,14 @@ impl Sequence<'_> {
             };
             progress.begin(index as u64, u64::from(view.width) * u64::from(view.height));
             let started = Instant::now();
-            let image =
-                marbles_core::render(self.scene.world(), &view, &self.settings, &|pixels| {
-                    progress.advance(pixels);
-                    if stop() {
-                        ControlFlow::Break(())
-                    } else {
-                        ControlFlow::Continue(())
-                    }
-                });
+            let image = renderer.render(&view, &self.settings, &|pixels| {
+                progress.advance(pixels);
+                if stop() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            });
             let Ok(image) = image else { break };
             let rendered = Rendered {
                 image,

@@ -1,7 +1,7 @@
 //! The maths of marbles: spheres lit by directional lights, seen by a pinhole camera, and the
 //! average of their light over each pixel.
 //!
-//! A [`World`] is what is rendered, a [`View`] is from where; [`render`] turns both into an
+//! A [`World`] is what is rendered, a [`View`] is from where; a [`Renderer`] turns both into an
 //! [`Image`] whose every pixel says its value, its error and its [`Status`].
 //!
 //! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Colour is
@@ -36,8 +36,7 @@ pub use integration::Status;
 pub use light::DirectionalLight;
 pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
-pub use render::{Cancelled, Method, Settings, render};
+pub use render::{Cancelled, Method, Renderer, Settings};
 pub use sphere::{Floor, Hit, Sphere, SphereError};
 pub use view::View;
-pub use visibility::Visibility;
 pub use world::{MaterialId, World};

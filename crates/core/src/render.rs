@@ -7,6 +7,7 @@ use rayon::iter::ParallelIterator;
 use thiserror::Error;
 
 use crate::integration::{Integrator, Supersampling, Tile};
+use crate::visibility::{Seen, Visibility};
 use crate::{Channels, Color, Image, Radiance, View, World};
 
 /// Side of a tile, in pixels.
@@ -28,43 +29,62 @@ pub enum Method {
     Samples(NonZeroU32),
 }
 
-/// The caller of [`render`] asked it to stop.
+/// The caller of [`Renderer::render`] asked it to stop.
 #[derive(Clone, Copy, Debug, Eq, Error, PartialEq)]
 #[error("the rendering was stopped")]
 pub struct Cancelled;
 
-/// Renders what `view` sees of `world`, on the threads of the current rayon pool.
-///
-/// The picture does not depend on the number of threads. `progress` is called, from any of them,
-/// with the number of pixels that were just finished; when it breaks, the rendering ends soon.
-/// A world without color makes a picture with one channel.
-///
-/// # Errors
-/// [`Cancelled`] when `progress` broke.
-pub fn render(
-    world: &World,
-    view: &View,
-    settings: &Settings,
-    progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-) -> Result<Image, Cancelled> {
-    let Method::Samples(samples) = settings.method;
-    let integrator = Supersampling::new(world, view, samples, settings.alpha);
-    let is_grey = if settings.alpha {
-        world.has_grey_spheres()
-    } else {
-        world.is_grey()
-    };
-    let channels = if is_grey {
-        Channels::Grey
-    } else {
-        Channels::Rgb
-    };
-    let mut image = Image::new(view.width, view.height, channels, settings.alpha);
-    match channels {
-        Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
-        Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
-    }?;
-    Ok(image)
+/// A world that is ready to be rendered: what does not depend on the view is done once.
+#[derive(Clone, Debug)]
+pub struct Renderer<'world> {
+    world: &'world World,
+    visibility: Visibility<'world>,
+}
+
+impl<'world> Renderer<'world> {
+    /// Prepares a world.
+    pub fn new(world: &'world World) -> Self {
+        Self {
+            world,
+            visibility: Visibility::new(world),
+        }
+    }
+
+    /// Renders what `view` sees of the world, on the threads of the current rayon pool.
+    ///
+    /// The picture does not depend on the number of threads. `progress` is called, from any of
+    /// them, with the number of pixels that were just finished; when it breaks, the rendering ends
+    /// soon. A world without color makes a picture with one channel.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` broke.
+    pub fn render(
+        &self,
+        view: &View,
+        settings: &Settings,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Image, Cancelled> {
+        let Method::Samples(samples) = settings.method;
+        let seen = Seen::new(&self.visibility, view, TILE_SIDE);
+        let integrator = Supersampling::new(self.world, view, &seen, samples, settings.alpha);
+        let world = self.world;
+        let is_grey = if settings.alpha {
+            world.has_grey_spheres()
+        } else {
+            world.is_grey()
+        };
+        let channels = if is_grey {
+            Channels::Grey
+        } else {
+            Channels::Rgb
+        };
+        let mut image = Image::new(view.width, view.height, channels, settings.alpha);
+        match channels {
+            Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
+            Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+        }?;
+        Ok(image)
+    }
 }
 
 fn fill<C: Radiance>(
@@ -142,7 +162,9 @@ mod tests {
             done.fetch_add(pixels, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        let image = render(&world, &view, &settings, &count).unwrap();
+        let image = Renderer::new(&world)
+            .render(&view, &settings, &count)
+            .unwrap();
         assert_eq!(done.into_inner(), 37 * 21);
         assert_eq!(image.summary().pixels, 37 * 21);
         assert_eq!(image.status(36, 20), Status::NoTolerance);
@@ -152,7 +174,7 @@ mod tests {
     fn breaking_progress_cancels() {
         let (world, view, settings) = ball();
         assert_eq!(
-            render(&world, &view, &settings, &|_| ControlFlow::Break(())),
+            Renderer::new(&world).render(&view, &settings, &|_| ControlFlow::Break(())),
             Err(Cancelled)
         );
     }
@@ -161,12 +183,12 @@ mod tests {
     fn grey_and_colored_rendering_agree_to_the_bit() {
         let (mut world, view, settings) = ball();
         let go = |_| ControlFlow::Continue(());
-        let grey = render(&world, &view, &settings, &go).unwrap();
+        let grey = Renderer::new(&world).render(&view, &settings, &go).unwrap();
         // A second light behind the ball adds color to the world, but none to the picture.
         world
             .lights
             .extend(DirectionalLight::new(DVec3::Z, Color::X));
-        let colored = render(&world, &view, &settings, &go).unwrap();
+        let colored = Renderer::new(&world).render(&view, &settings, &go).unwrap();
         assert_eq!(
             (grey.channels(), colored.channels()),
             (Channels::Grey, Channels::Rgb)

@@ -3,7 +3,8 @@
 use glam::DVec3;
 
 use crate::roughness::PixelKey;
-use crate::{Hit, Radiance, Ray, Visibility, World};
+use crate::visibility::Visibility;
+use crate::{Hit, Radiance, Ray, World};
 
 /// Radiance of a sphere toward the origin of the ray that hit it.
 pub(crate) fn shade<C: Radiance>(
@@ -28,7 +29,7 @@ pub(crate) fn shade<C: Radiance>(
         None => hit.normal,
     };
     let mut mirrored = C::ZERO;
-    for light in &world.lights {
+    for (index, light) in world.lights.iter().enumerate() {
         let facing = normal.dot(light.toward());
         if facing <= 0.0 {
             continue;
@@ -38,7 +39,7 @@ pub(crate) fn shade<C: Radiance>(
                 origin: ray.at(hit.t),
                 direction: light.toward(),
             };
-            if visibility.is_blocked(&to_light, ray.point_error(hit.t), sphere) {
+            if visibility.is_blocked(index, &to_light, ray.point_error(hit.t), sphere) {
                 continue;
             }
         }

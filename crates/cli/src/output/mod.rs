@@ -184,6 +184,8 @@ pub(crate) mod tests {
             method: Method::Samples(NonZeroU32::new(3).unwrap()),
             alpha,
         };
-        marbles_core::render(&world, &view, &settings, &|_| ControlFlow::Continue(())).unwrap()
+        marbles_core::Renderer::new(&world)
+            .render(&view, &settings, &|_| ControlFlow::Continue(()))
+            .unwrap()
     }
 }

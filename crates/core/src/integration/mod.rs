@@ -5,7 +5,7 @@
 
 mod supersampling;
 
-pub use supersampling::Supersampling;
+pub(crate) use supersampling::Supersampling;
 
 use crate::Radiance;
 

@@ -5,7 +5,8 @@ use std::num::NonZeroU32;
 use super::{Integrator, Pixel, Status, Tile};
 use crate::roughness::PixelKey;
 use crate::shading::shade;
-use crate::{Radiance, View, Visibility, World};
+use crate::visibility::{Candidate, Seen};
+use crate::{Radiance, View, World};
 
 /// The mean over the midpoints of a regular N × N division of every pixel.
 ///
@@ -16,10 +17,10 @@ use crate::{Radiance, View, Visibility, World};
 /// estimate of a picture covers its largest error. `tests/src/truth.rs` measures all three. One
 /// sample alone says nothing: its error is infinite.
 #[derive(Clone, Debug)]
-pub struct Supersampling<'scene> {
+pub(crate) struct Supersampling<'scene> {
     world: &'scene World,
     view: &'scene View,
-    visibility: Visibility<'scene>,
+    seen: &'scene Seen<'scene>,
     samples: NonZeroU32,
     alpha: bool,
 }
@@ -27,17 +28,23 @@ pub struct Supersampling<'scene> {
 impl<'scene> Supersampling<'scene> {
     /// Prepares `samples` × `samples` points in every pixel; with `alpha` the background sends
     /// no light.
-    pub fn new(world: &'scene World, view: &'scene View, samples: NonZeroU32, alpha: bool) -> Self {
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &'scene View,
+        seen: &'scene Seen<'scene>,
+        samples: NonZeroU32,
+        alpha: bool,
+    ) -> Self {
         Self {
             world,
             view,
-            visibility: Visibility::new(world, view.camera.position),
+            seen,
             samples,
             alpha,
         }
     }
 
-    fn pixel<C: Radiance>(&self, col: u32, row: u32) -> Pixel<C> {
+    fn pixel<C: Radiance>(&self, candidates: &[Candidate], col: u32, row: u32) -> Pixel<C> {
         let side = self.samples.get();
         let key = PixelKey {
             col,
@@ -61,10 +68,10 @@ impl<'scene> Supersampling<'scene> {
                 let ray = self
                     .view
                     .ray(self.view.cell_center(cell_col, cell_row, side));
-                let light = match self.visibility.nearest(ray.direction) {
+                let light = match self.seen.nearest(candidates, ray.direction) {
                     Some((sphere, hit)) => {
                         covered += 1;
-                        shade(self.world, &self.visibility, &ray, sphere, &hit, key)
+                        shade(self.world, self.seen.visibility, &ray, sphere, &hit, key)
                     }
                     None => background,
                 };
@@ -87,7 +94,11 @@ impl<'scene> Supersampling<'scene> {
 
 impl<C: Radiance> Integrator<C> for Supersampling<'_> {
     fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) {
-        pixels.extend(tile.pixels().map(|(col, row)| self.pixel(col, row)));
+        let candidates = self.seen.candidates(tile);
+        pixels.extend(
+            tile.pixels()
+                .map(|(col, row)| self.pixel(&candidates, col, row)),
+        );
     }
 }
 
@@ -113,6 +124,7 @@ mod tests {
     use glam::{DVec2, DVec3};
 
     use super::*;
+    use crate::visibility::Visibility;
     use crate::{Angle, Camera, Color, Lens, Material, Sphere};
 
     /// A 2 × 1 picture whose right pixel is covered but for its left quarter, by a sphere so
@@ -146,17 +158,17 @@ mod tests {
 
     fn pixels<C: Radiance>(samples: u32, alpha: bool) -> Vec<Pixel<C>> {
         let (world, view) = scene();
+        let visibility = Visibility::new(&world);
+        let seen = Seen::new(&visibility, &view, 8);
         let samples = NonZeroU32::new(samples).unwrap();
+        let tile = Tile {
+            col: 0,
+            row: 0,
+            width: 2,
+            height: 1,
+        };
         let mut pixels = Vec::new();
-        Supersampling::new(&world, &view, samples, alpha).integrate(
-            Tile {
-                col: 0,
-                row: 0,
-                width: 2,
-                height: 1,
-            },
-            &mut pixels,
-        );
+        Supersampling::new(&world, &view, &seen, samples, alpha).integrate(tile, &mut pixels);
         pixels
     }
 

@@ -166,16 +166,23 @@ impl Sphere {
             .0
     }
 
-    /// Whether this sphere's hit lies nearer than another's on the same ray; exact, and false for
-    /// equal distances.
+    /// Which of two spheres' hits on the same ray lies nearer; exact.
     #[inline(always)]
-    pub(crate) fn is_nearer(&self, hit: &Hit, other: &Self, other_hit: &Hit, ray: &Ray) -> bool {
+    pub(crate) fn compare(&self, hit: &Hit, other: &Self, other_hit: &Hit, ray: &Ray) -> Ordering {
         /// Two distances that are each off by a unit in the last place at most, relatively.
         const CLOSE: f64 = 4.0 * f64::EPSILON;
         if (hit.t - other_hit.t).abs() > CLOSE * other_hit.t {
-            return hit.t < other_hit.t;
+            return if hit.t < other_hit.t {
+                Ordering::Less
+            } else {
+                Ordering::Greater
+            };
         }
-        self != other && exact::compare_distances(self, other, ray) == Ordering::Less
+        if self == other {
+            Ordering::Equal
+        } else {
+            exact::compare_distances(self, other, ray)
+        }
     }
 
     #[inline(always)]

@@ -135,12 +135,12 @@ fn shells_that_differ_in_the_last_bit_are_told_apart() {
         assert_eq!(order(&sphere(1.0), &sphere(1.0), &ray), Ordering::Equal);
         let [hit, larger_hit] = [sphere(1.0), larger].map(|sphere| sphere.hit(&ray).unwrap());
         assert_eq!(
-            larger.is_nearer(&larger_hit, &sphere(1.0), &hit, &ray),
-            outside
+            larger.compare(&larger_hit, &sphere(1.0), &hit, &ray),
+            expected.reverse()
         );
         assert_eq!(
-            sphere(1.0).is_nearer(&hit, &larger, &larger_hit, &ray),
-            !outside
+            sphere(1.0).compare(&hit, &larger, &larger_hit, &ray),
+            expected
         );
     }
 }

@@ -1,0 +1,59 @@
+//! Which sphere a ray meets.
+//!
+//! [`Visibility`] is what depends on the world alone, [`Seen`] what depends on a view too. Both
+//! leave out what cannot matter, by bounds that are rounded outward; every decision about what
+//! remains is exact for the given doubles.
+
+mod casters;
+mod frustum;
+mod seen;
+
+pub(crate) use seen::{Candidate, Seen};
+
+use self::casters::Casters;
+use crate::{Ray, Sphere, World};
+
+/// Answers whether a sphere stands between a point and a light.
+#[derive(Clone, Debug)]
+pub(crate) struct Visibility<'world> {
+    spheres: &'world [Sphere],
+    /// For every light what may keep it from a point; nothing in a world without shadows.
+    casters: Vec<Casters>,
+}
+
+impl<'world> Visibility<'world> {
+    /// Prepares the search in a world.
+    pub(crate) fn new(world: &'world World) -> Self {
+        let spheres = world.spheres();
+        let lights = if world.shadows {
+            &world.lights[..]
+        } else {
+            &[]
+        };
+        let casters = lights
+            .iter()
+            .map(|light| Casters::new(spheres, light.toward()))
+            .collect();
+        Self { spheres, casters }
+    }
+
+    /// Whether any sphere but the one with the index `except` stands between a point of that
+    /// one's surface, known up to a distance of `point_error`, and the light with this index.
+    ///
+    /// Another sphere whose surface passes through the point within that error hides the light if
+    /// it lies toward it: coincident spheres do not darken each other, touching ones do not leak.
+    pub(crate) fn is_blocked(
+        &self,
+        light: usize,
+        to_light: &Ray,
+        point_error: f64,
+        except: usize,
+    ) -> bool {
+        self.casters[light]
+            .near(to_light.origin)
+            .any(|index| index != except && self.spheres[index].is_met(to_light, point_error))
+    }
+}
+
+#[cfg(test)]
+mod tests;

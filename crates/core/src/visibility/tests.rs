@@ -1,0 +1,276 @@
+//! What is left out can never matter: against asking every sphere, on sets of every kind.
+
+use std::cmp::Ordering;
+
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::integration::Tile;
+use crate::{Angle, Camera, Color, DirectionalLight, Hit, Lens, Material, View};
+
+/// Uniform numbers from 0 to 1.
+struct Random(u64);
+
+impl Random {
+    fn number(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A point of the cube from −1 to 1.
+    fn point(&mut self) -> DVec3 {
+        DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
+    }
+}
+
+const SIDE: u32 = 8;
+
+fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) -> World {
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    for (center, radius) in balls {
+        world.add_sphere(Sphere::new(center, radius).unwrap(), white);
+    }
+    for toward in [random.point(), DVec3::Y, random.point()] {
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, Color::ONE));
+    }
+    world
+}
+
+/// A view of the surroundings of the origin, wide or narrow, rolled and shifted.
+fn view(random: &mut Random) -> View {
+    let mut degrees = |range: f64| Angle::from_degrees(range * (random.number() - 0.5));
+    let (azimuth, elevation, roll) = (degrees(720.0), degrees(300.0), degrees(360.0));
+    let camera = Camera::orbit(
+        random.point(),
+        6.0 * random.number(),
+        azimuth,
+        elevation,
+        roll,
+    );
+    let shift = DVec2::new(random.number() - 0.5, random.number() - 0.5);
+    let lens = Lens {
+        width: 0.3 + 4.0 * random.number(),
+        distance: 1.0,
+        shift,
+    };
+    View {
+        camera,
+        lens,
+        zoom: 1.0,
+        width: 37,
+        height: 27,
+        frame: 1,
+    }
+}
+
+/// The answer of every sphere, in their order.
+fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
+    let mut nearest: Option<(usize, Hit)> = None;
+    for (index, sphere) in spheres.iter().enumerate() {
+        let Some(hit) = sphere.hit(ray) else { continue };
+        let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
+            sphere.compare(&hit, &spheres[*other], other_hit, ray) == Ordering::Less
+        });
+        if is_nearer {
+            nearest = Some((index, hit));
+        }
+    }
+    nearest
+}
+
+/// Asks for every pixel of some views, and from every point that they see for every light.
+fn agrees_with_asking_all(world: &World, random: &mut Random) {
+    let spheres = world.spheres();
+    let visibility = Visibility::new(world);
+    for _ in 0..6 {
+        let view = view(random);
+        let seen = Seen::new(&visibility, &view, SIDE);
+        for (row, col) in (0..view.height)
+            .step_by(8)
+            .flat_map(|row| (0..view.width).step_by(8).map(move |col| (row, col)))
+        {
+            let tile = Tile {
+                col,
+                row,
+                width: SIDE.min(view.width - col),
+                height: SIDE.min(view.height - row),
+            };
+            let candidates = seen.candidates(tile);
+            for (col, row) in tile.pixels() {
+                let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
+                let found = seen.nearest(&candidates, ray.direction);
+                let expected = nearest_of_all(spheres, &ray);
+                // Distances agree to the last place; what is known from the viewpoint is rounded
+                // another way.
+                assert_eq!(
+                    found.map(|(index, _)| index),
+                    expected.map(|(index, _)| index)
+                );
+                let (Some((index, hit)), Some((_, other))) = (found, expected) else {
+                    continue;
+                };
+                assert!((hit.t - other.t).abs() <= 2.0 * f64::EPSILON * other.t);
+                for (number, light) in world.lights.iter().enumerate() {
+                    let to_light = Ray {
+                        origin: ray.at(hit.t),
+                        direction: light.toward(),
+                    };
+                    let error = ray.point_error(hit.t);
+                    let expected = spheres
+                        .iter()
+                        .enumerate()
+                        .any(|(caster, sphere)| caster != index && sphere.is_met(&to_light, error));
+                    assert_eq!(
+                        visibility.is_blocked(number, &to_light, error, index),
+                        expected
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn random_clouds() {
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let count = [1, 2, 10, 60, 200, 400][seed as usize];
+        let balls: Vec<_> = (0..count)
+            .map(|_| (random.point(), 0.02 + 0.2 * random.number()))
+            .collect();
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+#[test]
+fn no_spheres() {
+    let mut random = Random(1);
+    agrees_with_asking_all(&world_of([], &mut random), &mut random);
+}
+
+#[test]
+fn all_equal_all_nested_and_all_on_a_line() {
+    let mut random = Random(2);
+    let center = DVec3::new(0.1, 0.2, 0.3);
+    let equal = [(center, 0.5); 20];
+    let nested: Vec<_> = (1..20)
+        .map(|index| (center, 0.05 * f64::from(index)))
+        .collect();
+    let line: Vec<_> = (0..60)
+        .map(|index| (DVec3::X * (0.1 * f64::from(index) - 3.0), 0.06))
+        .collect();
+    let column: Vec<_> = (0..60)
+        .map(|index| (DVec3::Y * (0.1 * f64::from(index) - 3.0), 0.05))
+        .collect();
+    for balls in [equal.to_vec(), nested, line, column] {
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+#[test]
+fn huge_among_tiny_and_radii_over_twelve_decades() {
+    let mut random = Random(3);
+    let mut floor: Vec<_> = (0..60).map(|_| (random.point(), 0.05)).collect();
+    floor.push((DVec3::new(0.0, -1e6 - 0.5, 0.0), 1e6));
+    let decades: Vec<_> = (0..80)
+        .map(|_| {
+            let radius = libm::exp10(-6.0 + 12.0 * random.number());
+            (random.point() * (1.0 + radius), radius)
+        })
+        .collect();
+    for balls in [floor, decades] {
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+#[test]
+fn far_from_the_origin() {
+    let mut random = Random(4);
+    for exponent in [-600, -300, 300, 600] {
+        let scale = libm::scalbn(1.0, exponent);
+        let balls: Vec<_> = (0..40)
+            .map(|_| (random.point() * scale, 0.2 * scale))
+            .collect();
+        let world = world_of(balls, &mut random);
+        let visibility = Visibility::new(&world);
+        let mut view = view(&mut random);
+        view.camera.position *= scale;
+        let seen = Seen::new(&visibility, &view, SIDE);
+        let tile = Tile {
+            col: 16,
+            row: 8,
+            width: SIDE,
+            height: SIDE,
+        };
+        let candidates = seen.candidates(tile);
+        for (col, row) in tile.pixels() {
+            let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
+            let found = seen.nearest(&candidates, ray.direction);
+            let expected = nearest_of_all(world.spheres(), &ray);
+            assert_eq!(
+                found.map(|(index, _)| index),
+                expected.map(|(index, _)| index)
+            );
+        }
+    }
+}
+
+/// Counted work: most spheres are not even asked.
+#[test]
+fn tiles_and_points_ask_few_spheres() {
+    let mut random = Random(5);
+    let balls: Vec<_> = (0..1000)
+        .map(|_| (random.point() * 100.0, 3.0 + 9.0 * random.number()))
+        .collect();
+    let world = world_of(balls, &mut random);
+    let visibility = Visibility::new(&world);
+    let degrees = Angle::from_degrees(20.0);
+    let camera = Camera::orbit(DVec3::ZERO, 400.0, degrees, degrees, Angle::ZERO);
+    let lens = Lens {
+        width: 600.0,
+        distance: 700.0,
+        shift: DVec2::ZERO,
+    };
+    let view = View {
+        camera,
+        lens,
+        zoom: 1.0,
+        width: 600,
+        height: 600,
+        frame: 1,
+    };
+    let seen = Seen::new(&visibility, &view, SIDE);
+    let tiles = (0..75).flat_map(|row| (0..75).map(move |col| (row * SIDE, col * SIDE)));
+    let candidates: usize = tiles
+        .map(|(row, col)| {
+            seen.candidates(Tile {
+                col,
+                row,
+                width: SIDE,
+                height: SIDE,
+            })
+            .len()
+        })
+        .sum();
+    assert!(
+        candidates < 10 * 75 * 75,
+        "{} a tile",
+        candidates as f64 / (75.0 * 75.0)
+    );
+    let asked: usize = world
+        .spheres()
+        .iter()
+        .map(|sphere| {
+            visibility.casters[0]
+                .near(sphere.center() + DVec3::Y)
+                .count()
+        })
+        .sum();
+    assert!(asked < 45 * 1000, "{} a point", asked as f64 / 1000.0);
+}
