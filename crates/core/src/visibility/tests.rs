@@ -84,6 +84,29 @@ fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
     nearest
 }
 
+/// Divisions of a pixel so fine that the cells along a tile's edge lie on it, nearly.
+const FINE: u32 = 1 << 20;
+
+/// For every pixel of a tile a cell in its middle; for those at the edge also cells at the edge.
+fn cells_and_edges(tile: Tile) -> Vec<(u64, u64)> {
+    let fine = u64::from(FINE);
+    let steps = |first: u32, count: u32| {
+        let first = u64::from(first) * fine;
+        let last = first + u64::from(count) * fine - 1;
+        let middles = (0..u64::from(count)).map(move |pixel| first + pixel * fine + fine / 2);
+        [first]
+            .into_iter()
+            .chain(middles)
+            .chain([last])
+            .collect::<Vec<u64>>()
+    };
+    let rows = steps(tile.row, tile.height);
+    let cols = steps(tile.col, tile.width);
+    rows.iter()
+        .flat_map(|&row| cols.iter().map(move |&col| (col, row)))
+        .collect()
+}
+
 /// Asks for every pixel of some views, and from every point that they see for every light.
 fn agrees_with_asking_all(world: &World, random: &mut Random) {
     let spheres = world.spheres();
@@ -102,8 +125,8 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
                 height: SIDE.min(view.height - row),
             };
             let candidates = seen.candidates(tile);
-            for (col, row) in tile.pixels() {
-                let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
+            for cell in cells_and_edges(tile) {
+                let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
                 let found = seen.nearest(&candidates, ray.direction);
                 let expected = nearest_of_all(spheres, &ray);
                 // Distances agree to the last place; what is known from the viewpoint is rounded
