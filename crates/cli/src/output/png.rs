@@ -24,26 +24,14 @@ impl PngOptions {
             (false, false) => ColorType::Rgb,
             (false, true) => ColorType::Rgba,
         };
-        let mut bytes = Vec::new();
-        let mut encoder = Encoder::new(&mut bytes, image.width(), image.height());
-        encoder.set_color(color_type);
-        encoder.set_depth(if self.deep {
-            BitDepth::Sixteen
-        } else {
-            BitDepth::Eight
-        });
-        encoder.set_compression(Compression::Fast);
-        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         let samples = self.samples(image, color_type);
-        encoder
-            .add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())
-            .and_then(|()| encoder.write_header())
-            .and_then(|mut writer| {
-                writer.write_image_data(&samples)?;
-                writer.finish()
-            })
-            .map_err(|error| error.to_string())?;
-        Ok(Encoded { bytes, clipped: 0 })
+        file(
+            image.width(),
+            image.height(),
+            color_type,
+            self.deep,
+            &samples,
+        )
     }
 
     /// The codes of all pixels, row by row, big end first.
@@ -76,6 +64,40 @@ impl PngOptions {
         }
         samples
     }
+}
+
+/// The bytes of a grey picture in 8 bit, with these codes row by row.
+pub(super) fn grey(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, String> {
+    file(width, height, ColorType::Grayscale, false, codes)
+}
+
+/// The bytes of a file with these samples, of 16 bit where it is `deep`.
+fn file(
+    width: u32,
+    height: u32,
+    color_type: ColorType,
+    deep: bool,
+    samples: &[u8],
+) -> Result<Encoded, String> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(color_type);
+    encoder.set_depth(if deep {
+        BitDepth::Sixteen
+    } else {
+        BitDepth::Eight
+    });
+    encoder.set_compression(Compression::Fast);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder
+        .add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())
+        .and_then(|()| encoder.write_header())
+        .and_then(|mut writer| {
+            writer.write_image_data(samples)?;
+            writer.finish()
+        })
+        .map_err(|error| error.to_string())?;
+    Ok(Encoded { bytes, clipped: 0 })
 }
 
 /// The light of the covered part of a pixel alone.
