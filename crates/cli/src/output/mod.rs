@@ -141,6 +141,24 @@ pub(crate) mod tests {
         World,
     };
 
+    use super::{ExrOptions, Facts, PngOptions};
+
+    /// The bytes of a PNG file.
+    pub(crate) fn png(image: &Image, options: PngOptions) -> Vec<u8> {
+        options.encode(image).unwrap().bytes
+    }
+
+    /// The bytes of an EXR file.
+    pub(crate) fn exr(image: &Image, options: ExrOptions) -> Vec<u8> {
+        let facts = Facts {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            frame: 1,
+            frames_per_second: None,
+            method: Method::Samples(NonZeroU32::MIN),
+        };
+        options.encode(image, &facts).unwrap().bytes
+    }
+
     /// Light on a ball.
     #[derive(Clone, Copy, Debug)]
     pub(crate) enum Scene {
