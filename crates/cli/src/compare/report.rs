@@ -57,7 +57,7 @@ impl Report<'_> {
             let clipped = self.count(statistics.clipped);
             rows.push((
                 "clipped",
-                format!("{clipped}, of these: above a file's largest number"),
+                format!("{clipped}, of these, too bright for a file"),
             ));
         }
         if let Some((col, row)) = statistics.first_not_finite {

@@ -1,5 +1,7 @@
 //! EXR, as it is: linear light, premultiplied.
 
+mod channels;
+
 use std::collections::BTreeSet;
 use std::io::Cursor;
 
@@ -8,8 +10,10 @@ use exr::prelude::{
     AnyChannels, FlatSamples, Image, IntegerBounds, Layer, ReadChannels, ReadLayers, f16,
 };
 
+use self::channels::choose;
 use super::{Picture, check_memory};
 
+/// A part of a file, with all its channels.
 type Part = Layer<AnyChannels<FlatSamples>>;
 
 /// The numbers of a file, channel by channel.
@@ -22,15 +26,6 @@ pub(super) struct Samples {
     /// Red, green and blue, or one that stands for all three.
     colors: Vec<FlatSamples>,
     alpha: Option<FlatSamples>,
-}
-
-/// Where the light of a picture is found.
-struct Chosen {
-    part: usize,
-    /// What stands before the names of its channels: nothing, or `layer.`.
-    prefix: String,
-    /// The names after the prefix.
-    colors: &'static [&'static str],
 }
 
 /// The picture in the bytes of an EXR file.
@@ -125,47 +120,6 @@ fn check_sizes(bytes: &[u8]) -> Result<(), String> {
         )?;
     }
     Ok(())
-}
-
-/// The first part with channels `R`, `G`, `B` or `Y`; failing that, the first with a layer that
-/// has such, in the order of the layers' names.
-fn choose(parts: &[Part]) -> Result<Chosen, String> {
-    const COLORS: [&[&str]; 2] = [&["R", "G", "B"], &["Y"]];
-    let names: Vec<BTreeSet<String>> = parts
-        .iter()
-        .map(|part| {
-            let channels = part.channel_data.list.iter();
-            channels.map(|channel| channel.name.to_string()).collect()
-        })
-        .collect();
-    let prefixes = |names: &BTreeSet<String>| -> BTreeSet<String> {
-        let prefix = |name: &String| name.rfind('.').map(|dot| name[..=dot].to_owned());
-        names.iter().filter_map(prefix).collect()
-    };
-    let plain = (0..parts.len()).map(|part| (part, String::new()));
-    let layers = names.iter().enumerate().flat_map(|(part, names)| {
-        prefixes(names)
-            .into_iter()
-            .map(move |prefix| (part, prefix))
-    });
-    for (part, prefix) in plain.chain(layers) {
-        let has = |name: &&str| names[part].contains(&format!("{prefix}{name}"));
-        if has(&"RY") || has(&"BY") {
-            return Err("its colors are luminance and chroma, expected R, G, B or Y".to_owned());
-        }
-        if let Some(colors) = COLORS.into_iter().find(|colors| colors.iter().all(has)) {
-            return Ok(Chosen {
-                part,
-                prefix,
-                colors,
-            });
-        }
-    }
-    let found: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
-    Err(format!(
-        "expected channels R, G, B or Y, found {}",
-        found.join(", ")
-    ))
 }
 
 /// The types of numbers, each once: `half`, `float + half`.

@@ -64,7 +64,7 @@ impl Picture {
     /// The picture in the bytes of a file, or what is wrong with them.
     pub(crate) fn decode(bytes: &[u8]) -> Result<Self, String> {
         if bytes.starts_with(PNG_MAGIC) {
-            png::decode(bytes).map_err(|reason| format!("not a valid PNG: {}", lower(&reason)))
+            png::decode(bytes).map_err(|reason| format!("not a usable PNG: {}", lower(&reason)))
         } else if bytes.starts_with(EXR_MAGIC) {
             exr::decode(bytes).map_err(|reason| format!("not a usable EXR: {}", lower(&reason)))
         } else if bytes.is_empty() {

@@ -1,21 +1,13 @@
 //! PNG of any kind, as linear light.
 
+mod curve;
+
 use std::io::Cursor;
 
-use png::{BitDepth, ColorType, Decoder, Info, Limits, Transformations};
+use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 
+use self::curve::Curve;
 use super::{Picture, check_memory};
-use crate::output::srgb;
-
-/// A gAMA chunk counts in these units.
-const GAMMA_UNIT: f64 = 100_000.0;
-/// What gAMA says of sRGB pictures, whose curve it can only approximate.
-const GAMMA_OF_SRGB: u32 = 45_455;
-/// "Linear" and "sRGB" in a cICP chunk.
-///
-/// Source: ITU-T H.273, table 3.
-const LINEAR_TRANSFER: u8 = 8;
-const SRGB_TRANSFER: u8 = 13;
 
 /// The codes of a file, and their light.
 #[derive(Debug)]
@@ -31,15 +23,6 @@ pub(super) struct Samples {
     light: Vec<f64>,
     /// The light half a step above every code; that is farther than the one half a step below.
     light_above: Vec<f64>,
-}
-
-/// How codes from 0 to 1 stand for light.
-#[derive(Clone, Copy, Debug)]
-enum Curve {
-    Srgb,
-    Linear,
-    /// Light is this power of the code.
-    Power(f64),
 }
 
 /// The picture in the bytes of a PNG file.
@@ -59,7 +42,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         height as usize,
         color_type.samples() * depth_bytes,
     )?;
-    let (curve, remarks) = curve(info)?;
+    let (curve, remarks) = Curve::of(info)?;
     // The entries of a palette have 8 bit, however short their numbers are.
     let bits = match info.color_type {
         ColorType::Indexed => 8,
@@ -98,52 +81,6 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, String> {
             light_above: light(half_step).collect(),
         }),
     })
-}
-
-/// What a file says about its curve, the strongest word first, and what could not be followed.
-///
-/// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
-fn curve(info: &Info) -> Result<(Curve, Vec<String>), String> {
-    if let Some(points) = info.coding_independent_code_points {
-        return match points.transfer_function {
-            SRGB_TRANSFER => Ok((Curve::Srgb, Vec::new())),
-            LINEAR_TRANSFER => Ok((Curve::Linear, Vec::new())),
-            other => Err(format!(
-                "its cICP chunk names the transfer function {other}, expected \
-                 {SRGB_TRANSFER} (sRGB) or {LINEAR_TRANSFER} (linear)"
-            )),
-        };
-    }
-    if info.icc_profile.is_some() {
-        let remark = "its ICC profile is not applied, its colors are taken as sRGB";
-        return Ok((Curve::Srgb, vec![remark.to_owned()]));
-    }
-    let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
-    let curve = match gamma {
-        _ if info.srgb.is_some() => Curve::Srgb,
-        None | Some(0 | GAMMA_OF_SRGB) => Curve::Srgb,
-        Some(gamma) if f64::from(gamma) == GAMMA_UNIT => Curve::Linear,
-        Some(gamma) => Curve::Power(GAMMA_UNIT / f64::from(gamma)),
-    };
-    Ok((curve, Vec::new()))
-}
-
-impl Curve {
-    fn name(self) -> String {
-        match self {
-            Self::Srgb => "sRGB".to_owned(),
-            Self::Linear => "linear".to_owned(),
-            Self::Power(power) => format!("gamma {power:.2}"),
-        }
-    }
-
-    fn light(self, code: f64) -> f64 {
-        match self {
-            Self::Srgb => srgb::decode(code),
-            Self::Linear => code,
-            Self::Power(power) => libm::pow(code, power),
-        }
-    }
 }
 
 impl Samples {

@@ -2,7 +2,7 @@ use png::Encoder;
 
 use super::*;
 use crate::output::tests::{Scene, render};
-use crate::output::{self, PngOptions};
+use crate::output::{self, PngOptions, srgb};
 
 fn decoded(color_type: ColorType, depth: BitDepth, width: u32, samples: &[u8]) -> Picture {
     Picture::decode(&encoded(color_type, depth, width, samples, |_| {})).unwrap()
