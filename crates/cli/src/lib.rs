@@ -1,13 +1,15 @@
 //! The command line of marbles.
 //!
-//! Every command is a file, `render` and `check`. Frames follow each other in `sequence` and become
-//! files in `output`.
+//! Every command is a file, `render`, `check` and `compare`. Frames follow each other in `sequence`
+//! and become files in `output`; `input` reads pictures back.
 
 mod args;
 mod check;
+mod compare;
 mod console;
 mod failure;
 mod frames;
+mod input;
 mod interrupt;
 mod memory;
 mod messages;
@@ -65,6 +67,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
+        Command::Compare(arguments) => compare::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);

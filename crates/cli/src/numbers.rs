@@ -4,11 +4,16 @@ use std::time::Duration;
 
 /// An upper bound with two digits, rounded up: `8.3e-04`, `inf`.
 pub(crate) fn bound(value: f64) -> String {
+    bound_with(value, 1)
+}
+
+/// An upper bound with so many decimals, rounded up: `8.314e-04` with three.
+pub(crate) fn bound_with(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
     let digits = |value: f64| -> (f64, i32) {
-        let text = format!("{value:.1e}");
+        let text = format!("{value:.decimals$e}");
         let parts = text.split_once('e').map(|(mantissa, exponent)| {
             let mantissa = mantissa.parse().unwrap_or_default();
             (mantissa, exponent.parse().unwrap_or_default())
@@ -16,12 +21,13 @@ pub(crate) fn bound(value: f64) -> String {
         parts.unwrap_or_default()
     };
     let (mut mantissa, mut exponent) = digits(value);
-    let shown = |mantissa: f64, exponent: i32| format!("{mantissa:.1}e{exponent}").parse();
+    let shown = |mantissa: f64, exponent: i32| format!("{mantissa:.decimals$}e{exponent}").parse();
     if shown(mantissa, exponent).is_ok_and(|shown: f64| shown < value) {
-        (mantissa, exponent) = digits(shown(mantissa + 0.1, exponent).unwrap_or(value));
+        let step = libm::pow(10.0, -(decimals as f64));
+        (mantissa, exponent) = digits(shown(mantissa + step, exponent).unwrap_or(value));
     }
     let sign = if exponent < 0 { '-' } else { '+' };
-    format!("{mantissa:.1}e{sign}{:02}", exponent.abs())
+    format!("{mantissa:.decimals$}e{sign}{:02}", exponent.abs())
 }
 
 /// A number with six digits at most, without zeros that say nothing.
@@ -86,12 +92,18 @@ mod tests {
         assert_eq!(bound(123.0), "1.3e+02");
         assert_eq!(bound(1e-300), "1.0e-300");
         assert_eq!(bound(f64::INFINITY), "inf");
+        assert_eq!(bound_with(8.3141e-4, 3), "8.315e-04");
+        assert_eq!(bound_with(9.9991e-4, 3), "1.000e-03");
+        assert_eq!(bound_with(1e-3, 3), "1.000e-03");
         for exponent in -320..=300 {
             for mantissa in 10..=99 {
                 let value: f64 = format!("{mantissa}e{exponent}").parse().unwrap();
                 for value in [value.next_down(), value, value.next_up()] {
-                    let shown: f64 = bound(value).parse().unwrap();
-                    assert!(shown >= value, "{value:e} as {}", bound(value));
+                    for decimals in [1, 3] {
+                        let text = bound_with(value, decimals);
+                        let shown: f64 = text.parse().unwrap();
+                        assert!(shown >= value, "{value:e} as {text}");
+                    }
                 }
             }
         }

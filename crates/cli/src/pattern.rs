@@ -138,7 +138,8 @@ impl Pattern {
 }
 
 impl Format {
-    fn of(name: &str) -> Option<Self> {
+    /// The format that the ending of a name asks for.
+    pub(crate) fn of(name: &str) -> Option<Self> {
         let (_, ending) = name.rsplit_once('.')?;
         [("png", Self::Png), ("exr", Self::Exr)]
             .into_iter()

@@ -83,26 +83,54 @@ impl ExrOptions {
             };
             channels.push(AnyChannel::new(name, samples));
         }
-        let encoding = Encoding {
-            compression: Compression::ZIP16,
-            blocks: Blocks::ScanLines,
-            line_order: LineOrder::Increasing,
-        };
-        let channels = AnyChannels::sort(channels);
-        let layer = Layer::new((width, height), attributes(facts), encoding, channels);
-        let mut file = ExrImage::from_layer(layer);
-        file.attributes.chromaticities = Some(REC_709);
-
         let most = self.file_bytes(image.width(), image.height(), image.has_alpha());
-        let mut bytes = Cursor::new(memory::reserve(most as usize)?);
-        file.write()
-            .non_parallel()
-            .to_buffered(&mut bytes)
-            .map_err(|error| error.to_string())?;
-        let mut bytes = bytes.into_inner();
-        header::sort_attributes(&mut bytes).ok_or("the header has an unknown form")?;
+        let bytes = file((width, height), channels, attributes(facts), most)?;
         Ok(Encoded { bytes, clipped })
     }
+}
+
+/// The bytes of a picture in single precision, of channels with these names.
+pub(super) fn floats(
+    size: (usize, usize),
+    channels: Vec<(&str, Vec<f32>)>,
+) -> Result<Encoded, String> {
+    let channel = |(name, values)| AnyChannel::new(name, FlatSamples::F32(values));
+    let channels = channels.into_iter().map(channel).collect();
+    let attributes = LayerAttributes {
+        software_name: Some(Text::from(SOFTWARE)),
+        ..LayerAttributes::default()
+    };
+    // Room to start with: the vector grows where the channels are more.
+    let most = (size.0 * size.1) as u64 * 16;
+    let bytes = file(size, channels, attributes, most)?;
+    Ok(Encoded { bytes, clipped: 0 })
+}
+
+/// The bytes of a file with these channels, in any order.
+fn file(
+    size: (usize, usize),
+    channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    attributes: LayerAttributes,
+    most_bytes: u64,
+) -> Result<Vec<u8>, String> {
+    let encoding = Encoding {
+        compression: Compression::ZIP16,
+        blocks: Blocks::ScanLines,
+        line_order: LineOrder::Increasing,
+    };
+    let channels = AnyChannels::sort(channels);
+    let layer = Layer::new(size, attributes, encoding, channels);
+    let mut file = ExrImage::from_layer(layer);
+    file.attributes.chromaticities = Some(REC_709);
+
+    let mut bytes = Cursor::new(memory::reserve(most_bytes as usize)?);
+    file.write()
+        .non_parallel()
+        .to_buffered(&mut bytes)
+        .map_err(|error| error.to_string())?;
+    let mut bytes = bytes.into_inner();
+    header::sort_attributes(&mut bytes).ok_or("the header has an unknown form")?;
+    Ok(bytes)
 }
 
 fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {

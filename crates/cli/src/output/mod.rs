@@ -7,7 +7,7 @@ mod exr;
 mod half;
 mod header;
 mod png;
-mod srgb;
+pub(crate) mod srgb;
 pub(crate) mod temporary;
 
 use std::path::{Path, PathBuf};
@@ -81,23 +81,51 @@ pub(crate) fn write(
     encoding: Encoding,
     path: PathBuf,
 ) -> Result<Written, Failure> {
-    let Encoded { bytes, clipped } = match encoding {
+    let encoded = match encoding {
         Encoding::Png(options) => options.encode(image),
         Encoding::Exr(options) => options.encode(image, facts),
-    }
-    .map_err(|error| {
+    };
+    save(encoded, &path)
+}
+
+/// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
+pub(crate) fn write_codes(
+    width: u32,
+    height: u32,
+    codes: &[u8],
+    path: &Path,
+) -> Result<Written, Failure> {
+    save(png::grey(width, height, codes), path)
+}
+
+/// Writes an EXR of channels in single precision, whole or not at all.
+pub(crate) fn write_floats(
+    width: u32,
+    height: u32,
+    channels: Vec<(&str, Vec<f32>)>,
+    path: &Path,
+) -> Result<Written, Failure> {
+    save(
+        exr::floats((width as usize, height as usize), channels),
+        path,
+    )
+}
+
+/// Puts a file where it belongs, if it could be encoded.
+fn save(encoded: Result<Encoded, String>, path: &Path) -> Result<Written, Failure> {
+    let Encoded { bytes, clipped } = encoded.map_err(|error| {
         Failure::at(
-            &path,
+            path,
             &format!("cannot encode the picture: {}", lower(&error)),
         )
     })?;
-    let destination = destination(&path)?;
+    let destination = destination(path)?;
     TemporaryFile::beside(&destination)
         .and_then(|mut file| {
             file.write(&bytes)?;
             file.persist()
         })
-        .map_err(|error| Failure::io(&path, "cannot write the picture", &error))?;
+        .map_err(|error| Failure::io(path, "cannot write the picture", &error))?;
     Ok(Written { clipped })
 }
 
@@ -141,6 +169,24 @@ pub(crate) mod tests {
         Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View,
         World,
     };
+
+    use super::{ExrOptions, Facts, PngOptions};
+
+    /// The bytes of a PNG file.
+    pub(crate) fn png(image: &Image, options: PngOptions) -> Vec<u8> {
+        options.encode(image).unwrap().bytes
+    }
+
+    /// The bytes of an EXR file.
+    pub(crate) fn exr(image: &Image, options: ExrOptions) -> Vec<u8> {
+        let facts = Facts {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            frame: 1,
+            frames_per_second: None,
+            method: Method::Samples(NonZeroU32::MIN),
+        };
+        options.encode(image, &facts).unwrap().bytes
+    }
 
     /// Light on a ball.
     #[derive(Clone, Copy, Debug)]

@@ -138,6 +138,17 @@ impl Write for Bounded<'_> {
     }
 }
 
+/// The bytes of a grey picture in 8 bit, with these codes row by row.
+pub(super) fn grey(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, String> {
+    let bytes = file(
+        (width, height),
+        ColorType::Grayscale,
+        BitDepth::Eight,
+        codes,
+    )?;
+    Ok(Encoded { bytes, clipped: 0 })
+}
+
 /// The light of the covered part of a pixel alone.
 fn straight(premultiplied: f64, alpha: f64) -> f64 {
     if alpha > 0.0 {

@@ -1,4 +1,4 @@
-//! The sRGB transfer curve, rounded to the nearest code.
+//! The sRGB transfer curve: codes rounded to the nearest, and back.
 //!
 //! Source: IEC 61966-2-1. NaN and negative light are black, light above 1 is white.
 
@@ -33,6 +33,15 @@ fn encode(linear: f64) -> f64 {
         12.92 * linear
     } else {
         1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055
+    }
+}
+
+/// The linear light of an sRGB value; the curve goes on above 1.
+pub(crate) fn decode(encoded: f64) -> f64 {
+    if encoded <= 0.040_45 {
+        encoded / 12.92
+    } else {
+        libm::pow((encoded + 0.055) / 1.055, 2.4)
     }
 }
 
@@ -97,15 +106,6 @@ fn cell(value: f64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The linear light of an sRGB value.
-    fn decode(encoded: f64) -> f64 {
-        if encoded <= 0.040_45 {
-            encoded / 12.92
-        } else {
-            libm::pow((encoded + 0.055) / 1.055, 2.4)
-        }
-    }
 
     fn direct(linear: f64) -> u8 {
         (encode(linear) * 255.0 + 0.5) as u8
