@@ -124,8 +124,8 @@ impl Sphere {
     pub(crate) fn is_met(&self, ray: &Ray, origin_error: f64) -> bool {
         let relative = Relative::new(self, ray.origin);
         let direction_sq = ray.direction.length_squared();
-        // |f|² moves by 2 |f| times the error, and |f| = r where that matters.
-        let slack = 2.0 * self.radius * origin_error;
+        // An origin off by e moves |f|² by e (2 |f| + e), and |f| = r where that matters.
+        let slack = origin_error * (2.0 * self.radius + origin_error);
         match relative.decide(ray.direction, direction_sq, slack) {
             Decision::Miss => false,
             Decision::Hit(_) => true,
@@ -140,7 +140,8 @@ impl Sphere {
             return false;
         }
         let scaled = Scaled::new(self, ray);
-        let slack = 2.0 * scaled.sphere.radius * scaled.length(origin_error);
+        let origin_error = scaled.length(origin_error);
+        let slack = origin_error * (2.0 * scaled.sphere.radius + origin_error);
         let outside = double::outside(&scaled.sphere, scaled.ray.origin);
         if outside.abs() <= slack {
             let to_center = scaled.sphere.center - scaled.ray.origin;

@@ -16,8 +16,10 @@ impl InCamera {
     /// From the vector to the center in the world frame.
     ///
     /// With u the unit roundoff, the rotation costs 6u |f|, the rotation's own columns are unit and
-    /// orthogonal up to 16u, a pixel's ray deviates by 16u from its place on the retina, and the
-    /// planes below cost 8u |f|; 128u |f| covers twice the sum.
+    /// orthogonal up to 16u, a ray deviates by 16u from its place on the retina, and the planes
+    /// below cost 8u |f|; 128u |f| covers twice the sum. The places themselves are rounded, which a
+    /// large shift of the lens makes worse; but samples lie half a cell inside their pixels, and
+    /// cells are far larger than that.
     pub(super) fn new(to_center: DVec3, radius: f64, view: &View) -> Self {
         let center = view.camera.world_from_camera.transpose() * to_center;
         let slack = 128.0 * UNIT_ROUNDOFF * (to_center.abs().element_sum() + radius);

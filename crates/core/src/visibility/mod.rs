@@ -49,9 +49,12 @@ impl<'world> Visibility<'world> {
         point_error: f64,
         except: usize,
     ) -> bool {
-        self.casters[light]
-            .near(to_light.origin)
-            .any(|index| index != except && self.spheres[index].is_met(to_light, point_error))
+        let own = &self.spheres[except];
+        self.casters[light].any(to_light.origin, point_error, |index| {
+            let caster = &self.spheres[index];
+            // A sphere that coincides with the point's own is settled by n·l as that one is.
+            index != except && caster.is_met(to_light, point_error) && caster != own
+        })
     }
 }
 

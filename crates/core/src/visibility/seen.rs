@@ -1,5 +1,7 @@
 //! What a view sees of a world.
 
+use std::ops::RangeInclusive;
+
 use glam::DVec3;
 
 use super::Visibility;
@@ -7,6 +9,9 @@ use super::frustum::{InCamera, Planes};
 use crate::integration::Tile;
 use crate::sphere::Relative;
 use crate::{Hit, Ray, View};
+
+/// Sums of squares that have neither overflowed nor lost digits to underflow.
+const TRUSTED_SQUARES: RangeInclusive<f64> = 1e-280..=f64::MAX;
 
 /// A world as one view sees it, ready to be asked tile by tile.
 #[derive(Clone, Debug)]
@@ -86,12 +91,12 @@ impl<'world> Seen<'world> {
         /// The distance to the center is off by less, relatively.
         const BELOW: f64 = 1.0 - 8.0 * f64::EPSILON;
         let sphere = &self.visibility.spheres[index as usize];
-        let distance = (sphere.center() - self.viewpoint).length();
-        // Where squares overflow, the order tells nothing and no sphere may be left out.
-        let nearest = if distance.is_finite() {
-            distance * BELOW - sphere.radius()
+        let distance_sq = (sphere.center() - self.viewpoint).length_squared();
+        let nearest = if TRUSTED_SQUARES.contains(&distance_sq) {
+            distance_sq.sqrt() * BELOW - sphere.radius()
         } else {
-            0.0
+            // The order tells nothing, and the sphere may not be left out.
+            f64::NEG_INFINITY
         };
         Candidate {
             index,
@@ -114,8 +119,8 @@ impl<'world> Seen<'world> {
             direction,
         };
         let direction_sq = direction.length_squared();
-        // Where the square underflows, every sphere is asked.
-        let length = if direction_sq >= f64::MIN_POSITIVE {
+        // Otherwise every sphere is asked.
+        let length = if TRUSTED_SQUARES.contains(&direction_sq) {
             direction_sq.sqrt() * ABOVE
         } else {
             f64::INFINITY
