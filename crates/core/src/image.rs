@@ -3,7 +3,8 @@
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
-use crate::integration::{Pixel, Tile};
+use crate::Tile;
+use crate::integration::Pixel;
 use crate::{Radiance, Status};
 
 /// Which numbers a picture holds for each pixel.

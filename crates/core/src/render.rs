@@ -6,7 +6,8 @@ use std::ops::ControlFlow;
 use rayon::iter::ParallelIterator;
 use thiserror::Error;
 
-use crate::integration::{Integrator, Supersampling, Tile};
+use crate::Tile;
+use crate::integration::{Integrator, Supersampling};
 use crate::visibility::{Seen, Visibility};
 use crate::{Channels, Color, Image, Radiance, View, World};
 

@@ -7,41 +7,20 @@ mod supersampling;
 
 pub(crate) use supersampling::Supersampling;
 
-use crate::Radiance;
-
-/// A rectangle of pixels that are worked on together.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub struct Tile {
-    /// First column.
-    pub col: u32,
-    /// First row.
-    pub row: u32,
-    /// Number of columns.
-    pub width: u32,
-    /// Number of rows.
-    pub height: u32,
-}
-
-impl Tile {
-    /// The pixels of the tile as (column, row), row by row.
-    pub fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
-        (self.row..self.row + self.height)
-            .flat_map(move |row| (self.col..self.col + self.width).map(move |col| (col, row)))
-    }
-}
+use crate::{Radiance, Tile};
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pixel<C> {
+pub(crate) struct Pixel<C> {
     /// Average of the light over the pixel's square.
-    pub value: C,
+    pub(crate) value: C,
     /// Fraction of the pixel's square that spheres cover.
-    pub alpha: f64,
+    pub(crate) alpha: f64,
     /// How far value and alpha may be from the exact averages, in any channel; infinite where
     /// nothing is known.
-    pub error: f64,
+    pub(crate) error: f64,
     /// How the work on the pixel ended.
-    pub status: Status,
+    pub(crate) status: Status,
 }
 
 /// How the work on a pixel ended.
@@ -62,7 +41,7 @@ impl Status {
 }
 
 /// A way to average light over pixels.
-pub trait Integrator<C: Radiance>: Sync {
+pub(crate) trait Integrator<C: Radiance>: Sync {
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`].
     fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>);
 }

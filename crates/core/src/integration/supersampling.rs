@@ -2,7 +2,8 @@
 
 use std::num::NonZeroU32;
 
-use super::{Integrator, Pixel, Status, Tile};
+use super::{Integrator, Pixel, Status};
+use crate::Tile;
 use crate::roughness::PixelKey;
 use crate::shading::shade;
 use crate::visibility::{Candidate, Seen};

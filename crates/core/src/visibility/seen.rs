@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::Visibility;
 use super::frustum::{InCamera, Planes};
-use crate::integration::Tile;
+use crate::Tile;
 use crate::sphere::Relative;
 use crate::{Hit, Ray, View};
 
