@@ -94,3 +94,14 @@ pub(crate) fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
     let (width, height) = (image.width(), image.height());
     (0..height).flat_map(move |row| (0..width).map(move |col| (col, row)))
 }
+
+/// The picture to a tolerance.
+pub(crate) fn exact_picture(world: &World, view: &View, tolerance: f64, alpha: bool) -> Image {
+    let settings = Settings {
+        method: Method::Tolerance(tolerance),
+        alpha,
+    };
+    Renderer::new(world)
+        .render(view, &settings, &|_| ControlFlow::Continue(()))
+        .unwrap()
+}

@@ -11,5 +11,6 @@ mod refused;
 mod repeatability;
 mod shading;
 mod studio;
+mod tolerance;
 mod truth;
 mod turntable;

@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
+use marbles_core::Status;
 use marbles_scene::Scene;
 
-use crate::studio::{picture, single_pixel};
+use crate::studio::{exact_picture, picture, single_pixel};
 
 /// A pixel of the files.
 struct ExactPixel {
@@ -133,5 +134,33 @@ fn the_error_estimate_holds_but_for_edges_that_no_sample_saw() {
             score.largest_estimate <= 10.0 * score.largest_error,
             "{name}: {score:?}"
         );
+    }
+}
+
+/// Every pixel of every file is within the tolerance, and says so.
+#[test]
+fn tolerances_are_met() {
+    for name in ["seed1", "ground", "cloud1k"] {
+        let scene = Scene::load(&folder().join(format!("{name}.ron"))).unwrap();
+        let view = scene.view(1).unwrap();
+        for tolerance in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
+            for exact in exact_pixels(name) {
+                let pixel = single_pixel(&view, exact.col, exact.row);
+                let image = exact_picture(scene.world(), &pixel, tolerance, true);
+                let [value, _, _, alpha] = image.rgba(0, 0);
+                let error = (value - exact.value).abs().max((alpha - exact.alpha).abs());
+                let place = format!("{name}, row {}, column {}", exact.row, exact.col);
+                assert!(
+                    error <= tolerance,
+                    "{place}: off by {error:e} at {tolerance:e}"
+                );
+                assert!(
+                    image.error(0, 0) <= tolerance,
+                    "{place}: claims {}",
+                    image.error(0, 0)
+                );
+                assert_eq!(image.status(0, 0), Status::Met, "{place}");
+            }
+        }
     }
 }

@@ -37,6 +37,7 @@ Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron -o small.png --frames 7 --size 150x150
 
 Exit codes:
@@ -66,6 +67,10 @@ pub(crate) struct RenderArguments {
     /// Average N × N samples in every pixel
     #[arg(long, value_name = "N", default_value = "4", value_parser = samples)]
     pub(crate) samples: NonZeroU32,
+
+    /// Bring every channel of every pixel within E of its exact value instead, in linear light
+    #[arg(long, value_name = "E", value_parser = tolerance_above_zero, conflicts_with = "samples")]
+    pub(crate) tolerance: Option<f64>,
 
     /// Render on N threads; the picture is the same for every N [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
@@ -182,6 +187,19 @@ impl FromStr for Size {
             Some((Some(width), Some(height))) => Ok(Self { width, height }),
             _ => Err(expected),
         }
+    }
+}
+
+/// What a picture can be brought within.
+fn tolerance_above_zero(text: &str) -> Result<f64, String> {
+    /// Nearer to the exact value rounding has a say.
+    const SMALLEST: f64 = 1e-9;
+    let expected = || format!("expected a number from {SMALLEST:e}");
+    let tolerance = tolerance(text).map_err(|_| expected())?;
+    if tolerance >= SMALLEST {
+        Ok(tolerance)
+    } else {
+        Err(expected())
     }
 }
 

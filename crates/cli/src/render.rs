@@ -55,7 +55,10 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         frames: &frames,
         size: arguments.size,
         settings: Settings {
-            method: Method::Samples(arguments.samples),
+            method: match arguments.tolerance {
+                Some(tolerance) => Method::Tolerance(tolerance),
+                None => Method::Samples(arguments.samples),
+            },
             alpha: arguments.alpha,
         },
         pattern: &pattern,

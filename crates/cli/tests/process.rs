@@ -570,3 +570,23 @@ fn too_little_memory_is_an_error() {
     }
     assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
 }
+
+#[test]
+fn a_tolerance_that_is_not_met_ends_with_1() {
+    let folder = Folder::new();
+    let met = folder.run("render ball.ron --tolerance 1e-3 --size 30x30 -o met.png");
+    assert_eq!(code(&met), 0);
+    assert!(text(&met.stdout).contains(" 0 over the tolerance"));
+    // Lines cannot be trusted with numbers of this size.
+    let huge = BALL.replace("(0, 0, 400), radius: 300", "(0, 0, 4e200), radius: 3e200");
+    fs::write(folder.path("huge.ron"), huge).unwrap();
+    let missed = folder.run("render huge.ron --tolerance 1e-3 --size 30x30 -o missed.png");
+    assert_eq!(code(&missed), 1);
+    assert!(!text(&missed.stdout).contains(" 0 over the tolerance"));
+    assert!(folder.path("missed.png").exists());
+    assert!(text(&missed.stderr).contains("tolerance"));
+    for refused in ["0", "-1", "1e-10", "NaN", "much"] {
+        let output = folder.run(&format!("render ball.ron --tolerance={refused}"));
+        assert_eq!(code(&output), 2, "{refused}");
+    }
+}

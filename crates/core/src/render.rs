@@ -7,7 +7,7 @@ use rayon::iter::ParallelIterator;
 use thiserror::Error;
 
 use crate::Tile;
-use crate::integration::{Integrator, Supersampling};
+use crate::integration::{Integrator, Lines, Supersampling};
 use crate::visibility::{Seen, Visibility};
 use crate::{Channels, Color, Image, Radiance, View, World};
 
@@ -28,6 +28,8 @@ pub struct Settings {
 pub enum Method {
     /// Over the midpoints of an N × N division of every pixel.
     Samples(NonZeroU32),
+    /// Along lines with exact spans, until every channel of every pixel is within this.
+    Tolerance(f64),
 }
 
 /// The caller of [`Renderer::render`] asked it to stop.
@@ -65,9 +67,7 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
-        let Method::Samples(samples) = settings.method;
         let seen = Seen::new(&self.visibility, view, TILE_SIDE);
-        let integrator = Supersampling::new(self.world, view, &seen, samples, settings.alpha);
         let world = self.world;
         let is_grey = if settings.alpha {
             world.has_grey_spheres()
@@ -80,9 +80,21 @@ impl<'world> Renderer<'world> {
             Channels::Rgb
         };
         let mut image = Image::new(view.width, view.height, channels, settings.alpha);
-        match channels {
-            Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
-            Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+        match settings.method {
+            Method::Samples(samples) => {
+                let integrator = Supersampling::new(world, view, &seen, samples, settings.alpha);
+                match channels {
+                    Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
+                    Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+                }
+            }
+            Method::Tolerance(tolerance) => {
+                let integrator = Lines::new(world, view, &seen, tolerance, settings.alpha);
+                match channels {
+                    Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
+                    Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+                }
+            }
         }?;
         Ok(image)
     }

@@ -15,43 +15,71 @@ pub(crate) fn shade<C: Radiance>(
     hit: &Hit,
     pixel: PixelKey,
 ) -> C {
-    let material = world.material(sphere);
-    let albedo = C::from_color(material.albedo);
-    let mut diffuse = C::from_color(world.ambient);
     if hit.inner_side {
-        return albedo * diffuse;
+        return shade_inner_side(world, sphere);
     }
+    let point = Surface {
+        sphere,
+        normal: hit.normal,
+        to_viewer: -ray.direction,
+        pixel,
+    };
+    shade_lit(world, &point, |light| {
+        let toward = world.lights[light].toward();
+        let to_light = Ray {
+            origin: ray.at(hit.t),
+            direction: toward,
+        };
+        !world.shadows || !visibility.is_blocked(light, &to_light, ray.point_error(hit.t), sphere)
+    })
+}
+
+/// Radiance of a sphere's inner side, which only the ambient light reaches.
+pub(crate) fn shade_inner_side<C: Radiance>(world: &World, sphere: usize) -> C {
+    C::from_color(world.material(sphere).albedo) * C::from_color(world.ambient)
+}
+
+/// A point of a sphere's outer side, and who looks at it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surface {
+    pub(crate) sphere: usize,
+    /// Unit outward normal, in the world frame.
+    pub(crate) normal: DVec3,
+    /// The direction toward the viewpoint, of any length.
+    pub(crate) to_viewer: DVec3,
+    pub(crate) pixel: PixelKey,
+}
+
+/// Radiance of a point under those lights that it faces and for which `is_lit` holds.
+pub(crate) fn shade_lit<C: Radiance>(
+    world: &World,
+    point: &Surface,
+    is_lit: impl Fn(usize) -> bool,
+) -> C {
+    let material = world.material(point.sphere);
     let normal = match &material.roughness {
         Some(roughness) => {
-            let radius = world.spheres()[sphere].radius();
-            roughness.perturb(hit.normal, radius, sphere, pixel)
+            let radius = world.spheres()[point.sphere].radius();
+            roughness.perturb(point.normal, radius, point.sphere, point.pixel)
         }
-        None => hit.normal,
+        None => point.normal,
     };
+    let mut diffuse = C::from_color(world.ambient);
     let mut mirrored = C::ZERO;
     for (index, light) in world.lights.iter().enumerate() {
         let facing = normal.dot(light.toward());
-        if facing <= 0.0 {
+        if facing <= 0.0 || !is_lit(index) {
             continue;
-        }
-        if world.shadows {
-            let to_light = Ray {
-                origin: ray.at(hit.t),
-                direction: light.toward(),
-            };
-            if visibility.is_blocked(index, &to_light, ray.point_error(hit.t), sphere) {
-                continue;
-            }
         }
         let intensity = C::from_color(light.intensity());
         diffuse += intensity * power(facing, material.exponent);
         if let Some(highlight) = &material.highlight {
-            let half = half_vector(light.toward(), -ray.direction);
+            let half = half_vector(light.toward(), point.to_viewer);
             let spot = power(normal.dot(half).max(0.0), highlight.shininess);
             mirrored += intensity * (highlight.strength * spot);
         }
     }
-    albedo * diffuse + mirrored
+    C::from_color(material.albedo) * diffuse + mirrored
 }
 
 /// Unit vector half-way between a unit vector and a vector of any length; zero where they are

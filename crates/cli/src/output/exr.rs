@@ -164,6 +164,7 @@ fn attributes(facts: &Facts) -> LayerAttributes {
     custom("frame", AttributeValue::I32(facts.frame));
     match facts.method {
         // The command line keeps the number far below this limit.
+        Method::Tolerance(tolerance) => custom("tolerance", AttributeValue::F32(tolerance as f32)),
         Method::Samples(samples) => custom(
             "samples",
             AttributeValue::I32(i32::try_from(samples.get()).unwrap_or(i32::MAX)),

@@ -3,8 +3,10 @@
 //! An [`Integrator`] answers for every pixel of a tile what its value is, how far that may be
 //! from the exact area average, and how its work ended.
 
+mod lines;
 mod supersampling;
 
+pub(crate) use lines::Lines;
 pub(crate) use supersampling::Supersampling;
 
 use crate::{Radiance, Tile};
@@ -29,13 +31,18 @@ pub(crate) struct Pixel<C> {
 pub enum Status {
     /// No tolerance was asked for; the error is an estimate.
     NoTolerance,
+    /// The error, an estimate, is within the tolerance.
+    Met,
+    /// The work that a pixel may cost did not suffice.
+    OutOfBudget,
 }
 
 impl Status {
     /// Whether a tolerance was asked for and not met.
     pub fn is_over_tolerance(self) -> bool {
         match self {
-            Self::NoTolerance => false,
+            Self::NoTolerance | Self::Met => false,
+            Self::OutOfBudget => true,
         }
     }
 }

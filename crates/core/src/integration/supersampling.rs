@@ -93,6 +93,19 @@ impl<'scene> Supersampling<'scene> {
     }
 }
 
+impl Supersampling<'_> {
+    /// A pixel for which a tolerance was asked that cannot be met.
+    pub(crate) fn pixel_of_last_resort<C: Radiance>(&self, key: PixelKey) -> Pixel<C> {
+        let PixelKey { col, row, .. } = key;
+        let tile = self.seen.tile_of(col, row);
+        let candidates = self.seen.candidates(tile);
+        Pixel {
+            status: Status::OutOfBudget,
+            ..self.pixel(&candidates, col, row)
+        }
+    }
+}
+
 impl<C: Radiance> Integrator<C> for Supersampling<'_> {
     fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) {
         let candidates = self.seen.candidates(tile);

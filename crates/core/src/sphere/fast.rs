@@ -91,6 +91,11 @@ impl Relative {
         }
     }
 
+    /// K.
+    pub(crate) fn outside(&self) -> f64 {
+        self.outside
+    }
+
     /// Whether the ray with this direction meets the sphere, where K is known up to `slack` more
     /// than rounding costs.
     #[inline(always)]

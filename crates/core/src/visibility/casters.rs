@@ -92,6 +92,22 @@ impl Casters {
                 .any(|grid| grid.near(low, high).any(|list| list.iter().any(&mut holds)))
     }
 
+    /// Appends the indices of all spheres whose disc may reach into the box of some points, made
+    /// larger by `around`; each once.
+    pub(super) fn within(&self, points: &[DVec3], around: f64, indices: &mut Vec<usize>) {
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for &point in points {
+            let (center, around) = (self.project(point), around + slack(point, 0.0));
+            (low, high) = (low.min(center - around), high.max(center + around));
+        }
+        indices.extend(self.everywhere.iter().map(|&index| index as usize));
+        for grid in &self.grids {
+            indices.extend(grid.near(low, high).flatten().map(|&index| index as usize));
+        }
+        indices.sort_unstable();
+        indices.dedup();
+    }
+
     fn project(&self, point: DVec3) -> DVec2 {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }

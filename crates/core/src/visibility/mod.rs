@@ -10,6 +10,8 @@ mod seen;
 
 pub(crate) use seen::{Candidate, Seen};
 
+use glam::DVec3;
+
 use self::casters::Casters;
 use crate::{Ray, Sphere, World};
 
@@ -55,6 +57,18 @@ impl<'world> Visibility<'world> {
             // A sphere that coincides with the point's own is settled by n·l as that one is.
             index != except && caster.is_met(to_light, point_error) && caster != own
         })
+    }
+
+    /// Appends the spheres that may keep the light with this index from points that lie within
+    /// `around` of the box of `points`, seen along the light.
+    pub(crate) fn casters(
+        &self,
+        light: usize,
+        points: &[DVec3],
+        around: f64,
+        casters: &mut Vec<usize>,
+    ) {
+        self.casters[light].within(points, around, casters);
     }
 }
 

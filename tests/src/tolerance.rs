@@ -1,0 +1,132 @@
+//! Tolerances on scenes of every kind, against fine supersampling.
+
+use std::path::Path;
+
+use marbles_core::{Status, View};
+use marbles_scene::Scene;
+
+use crate::studio::{exact_picture, picture, pixels, single_pixel};
+
+fn scene(body: &str) -> Scene {
+    let text = format!("(image: (width: 60, height: 40), {body})");
+    Scene::parse(&text, Path::new("scene.ron")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Touching, nested, intersecting balls and specks, on a floor.
+const BALLS: &str = "spheres: [
+    (center: (0, -1001, 8), radius: 1000, material: \"m\"),
+    (center: (0, 0, 8), radius: 1, material: \"m\"), (center: (2, 0, 8), radius: 1),
+    (center: (0.9, 0.8, 7.3), radius: 0.6, material: \"m\"), (center: (0.2, 0.1, 7.9), radius: 0.7),
+    (center: (-1.2, -0.8, 6.5), radius: 0.2), (center: (-1.5, 0.4, 6), radius: 0.004, material: \"m\"),
+    (center: (-0.5, 0.9, 7.0), radius: 0.0008),
+]";
+
+/// A scene, and how many of its pixels may be over the tolerance without saying so: none.
+fn scenes() -> Vec<Scene> {
+    let lights = "lights: [Directional(toward: (-1, 1, -1), intensity: (0.9, 0.8, 0.6)),
+        Directional(toward: (2, 0.6, -0.5), intensity: (0.1, 0.2, 0.5))], background: \"#203040\"";
+    let look = "lens: Fov(40), camera: Free(position: (0, 0.3, 0), tilt: -2, roll: 13)";
+    let material = |inside: &str| format!("materials: {{ \"m\": ({inside}) }}");
+    let mut scenes = Vec::new();
+    for inside in [
+        "exponent: 1",
+        "exponent: 0.5",
+        "exponent: 3.7",
+        "exponent: 20",
+        "albedo: \"#d02840\", highlight: (strength: 0.7, shininess: 60)",
+    ] {
+        scenes.push(scene(&format!(
+            "{look}, {lights}, {}, {BALLS}",
+            material(inside)
+        )));
+    }
+    let plain = material("exponent: 1");
+    for view in [
+        "lens: Fov(140), camera: Free(position: (0, 0.3, 3), pan: 20)",
+        "lens: Fov(5), camera: Free(position: (0, 0.3, -8), pan: -1)",
+        "lens: Retina(width: 2, distance: 3, shift: (0.5, -0.3)), camera: Free(), zoom: 1.4",
+        // Just above the floor, inside a ball, and with a ball across the plane of the eye.
+        "lens: Fov(60), camera: Free(position: (-2, -0.99, 4), pan: 20)",
+        "lens: Fov(60), camera: Free(position: (2, 0, 8.1))",
+        "lens: Fov(100), camera: Free(position: (1.1, 0, 7.5), pan: 30)",
+    ] {
+        scenes.push(scene(&format!("{view}, {lights}, {plain}, {BALLS}")));
+    }
+    scenes
+}
+
+/// The mean of N × N samples, twice, and what it may be off by: the difference of both.
+fn reference(scene: &Scene, pixel: &View) -> ([f64; 4], f64) {
+    let [coarse, fine] =
+        [40, 110].map(|samples| picture(scene.world(), pixel, samples, true).rgba(0, 0));
+    let apart = coarse
+        .iter()
+        .zip(fine)
+        .map(|(coarse, fine)| (coarse - fine).abs())
+        .fold(0.0, f64::max);
+    (fine, apart)
+}
+
+#[test]
+fn every_kind_of_scene_meets_its_tolerance() {
+    let tolerance = 1e-3;
+    let mut checked = 0;
+    for (number, scene) in scenes().iter().enumerate() {
+        let view = scene.view(1).unwrap();
+        let image = exact_picture(scene.world(), &view, tolerance, true);
+        for (index, (col, row)) in pixels(&image).enumerate() {
+            let found = image.rgba(col, row);
+            assert!(found.iter().all(|value| value.is_finite()));
+            let met = image.status(col, row) == Status::Met;
+            assert!(
+                met,
+                "scene {number}, pixel ({col}, {row}) claims {:e}",
+                image.error(col, row)
+            );
+            // Not all: the reference is slow.
+            if index % 13 != number % 13 {
+                continue;
+            }
+            checked += 1;
+            let (expected, uncertain) = reference(scene, &single_pixel(&view, col, row));
+            for (found, expected) in found.into_iter().zip(expected) {
+                let error = (found - expected).abs();
+                assert!(
+                    error <= tolerance + 2.0 * uncertain,
+                    "scene {number}, pixel ({col}, {row}) is off by {error:e} ± {uncertain:e}"
+                );
+            }
+        }
+    }
+    assert!(checked > 1500);
+}
+
+/// Numbers beyond what lines can handle: the samples' value, and no claim to have met anything,
+/// unless nothing of the sphere is in sight.
+#[test]
+fn extreme_numbers_are_not_claimed_to_be_met() {
+    for body in [
+        "lens: Fov(40), camera: Free(), spheres: [(center: (0, 0, 4e200), radius: 1e200)]",
+        "lens: Fov(40), camera: Free(), spheres: [(center: (0, 0, 4e-200), radius: 1e-200)]",
+        "lens: Retina(width: 1e200, distance: 1e200), camera: Free(), spheres: [(center: (0, 0, 4), radius: 1)]",
+        "lens: Fov(1e-11), camera: Free(), spheres: [(center: (0, 0, 1e12), radius: 0.1)]",
+        "lens: Fov(40), camera: Free(tilt: -20), spheres: [(center: (0, -1e13, 0), radius: 9999999999999)]",
+    ] {
+        let scene = scene(&format!(
+            "{body}, ambient: 0.5, lights: [Directional(toward: (-1, 1, -1))]"
+        ));
+        let view = View {
+            width: 12,
+            height: 8,
+            ..scene.view(1).unwrap()
+        };
+        let image = exact_picture(scene.world(), &view, 1e-3, true);
+        let samples = picture(scene.world(), &view, 8, true);
+        let mut unmet = 0;
+        for (col, row) in pixels(&image) {
+            assert_eq!(image.rgba(col, row), samples.rgba(col, row), "{body}");
+            unmet += u32::from(image.status(col, row) != Status::Met);
+        }
+        assert!(unmet > 10, "{body}: {unmet} pixels make no claim");
+    }
+}
