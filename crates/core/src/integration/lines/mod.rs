@@ -1,5 +1,6 @@
 //! Lines with exact spans: the integral over a pixel as an integral over integrals along lines.
 
+mod across;
 mod arc;
 mod line;
 mod pixel;
