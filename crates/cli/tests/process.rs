@@ -535,17 +535,18 @@ fn links_are_written_through() {
 #[cfg(target_os = "linux")]
 #[test]
 fn too_little_memory_is_an_error() {
-    const KILOBYTES: u32 = 400_000;
+    /// Of address space, of which the allocator sets aside up to 64 MiB for every thread.
+    const KILOBYTES: u32 = 900_000;
     let folder = Folder::new();
     let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
     fs::write(folder.path("ball.ron"), colored).unwrap();
     let mut codes = Vec::new();
     for (side, frames) in [
-        (900, "1-3"),
-        (1700, "1"),
-        (1900, "1-4"),
-        (2600, "1"),
-        (4000, "1"),
+        (500, "1-3"),
+        (2400, "1"),
+        (2700, "1-4"),
+        (3600, "1"),
+        (6000, "1"),
     ] {
         for options in ["-o #.exr --float", "-o #.png --bits 16"] {
             let arguments = format!(
