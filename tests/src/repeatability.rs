@@ -6,7 +6,7 @@ use marbles_core::{
     World,
 };
 
-use crate::studio::{looking_forward, picture};
+use crate::studio::{exact_picture, looking_forward, picture};
 
 /// A world that uses every term of the shading.
 fn everything() -> World {
@@ -42,7 +42,7 @@ fn everything() -> World {
     world
 }
 
-fn with_threads(threads: usize) -> Image {
+fn with_threads(threads: usize, tolerance: Option<f64>) -> Image {
     let mut view = looking_forward(93, 71, 90.0);
     let degrees = Angle::from_degrees;
     view.camera = Camera::free(DVec3::ZERO, degrees(3.0), degrees(-2.0), degrees(25.0));
@@ -50,13 +50,18 @@ fn with_threads(threads: usize) -> Image {
         .num_threads(threads)
         .build()
         .unwrap();
-    pool.install(|| picture(&everything(), &view, 3, true))
+    pool.install(|| match tolerance {
+        Some(tolerance) => exact_picture(&everything(), &view, tolerance, true),
+        None => picture(&everything(), &view, 3, true),
+    })
 }
 
 #[test]
 fn threads_do_not_change_a_bit() {
-    let one = with_threads(1);
-    assert!(one.summary().largest_error > 0.0);
-    assert_eq!(one, with_threads(2));
-    assert_eq!(one, with_threads(7));
+    for tolerance in [None, Some(1e-2)] {
+        let one = with_threads(1, tolerance);
+        assert!(one.summary().largest_error > 0.0);
+        assert_eq!(one, with_threads(2, tolerance));
+        assert_eq!(one, with_threads(7, tolerance));
+    }
 }

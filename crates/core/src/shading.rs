@@ -86,7 +86,8 @@ pub(crate) fn shade_lit<C: Radiance>(
 /// opposite.
 fn half_vector(light: DVec3, view: DVec3) -> DVec3 {
     // A power of two taken out first changes nothing but that no square over- or underflows.
-    let exponent = libm::ilogb(view.abs().max_element());
+    // (Zero has no exponent: it stays zero with any.)
+    let exponent = libm::ilogb(view.abs().max_element()).clamp(-1100, 1100);
     let view = view.map(|part| libm::scalbn(part, -exponent));
     (light + view.normalize_or_zero()).normalize_or_zero()
 }

@@ -97,8 +97,13 @@ impl Supersampling<'_> {
     /// A pixel for which a tolerance was asked that cannot be met.
     pub(crate) fn pixel_of_last_resort<C: Radiance>(&self, key: PixelKey) -> Pixel<C> {
         let PixelKey { col, row, .. } = key;
-        let tile = self.seen.tile_of(col, row);
-        let candidates = self.seen.candidates(tile);
+        let (width, height) = (1, 1);
+        let candidates = self.seen.candidates(Tile {
+            col,
+            row,
+            width,
+            height,
+        });
         Pixel {
             status: Status::OutOfBudget,
             ..self.pixel(&candidates, col, row)

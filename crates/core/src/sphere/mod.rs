@@ -143,7 +143,8 @@ impl Sphere {
         let origin_error = scaled.length(origin_error);
         let slack = origin_error * (2.0 * scaled.sphere.radius + origin_error);
         let outside = double::outside(&scaled.sphere, scaled.ray.origin);
-        if outside.abs() <= slack {
+        // An origin that is known exactly is left to the exact decision.
+        if slack > 0.0 && outside.abs() <= slack {
             let to_center = scaled.sphere.center - scaled.ray.origin;
             return scaled.ray.direction.dot(to_center) > 0.0;
         }

@@ -36,8 +36,8 @@ impl Scaled {
         let largest = to_center
             .iter()
             .fold(radius, |largest, part| largest.max(part.0.abs()));
-        let scene = libm::ilogb(largest);
-        let turn = libm::ilogb(ray.direction.abs().max_element());
+        let scene = exponent(largest);
+        let turn = exponent(ray.direction.abs().max_element());
         let scale = |value: f64| libm::scalbn(value, -scene);
         Self {
             sphere: Sphere {
@@ -80,4 +80,9 @@ impl Scaled {
             ..hit
         }
     }
+}
+
+/// The exponent of a number, and some small one for 0, which a denormal radius may shrink to.
+fn exponent(value: f64) -> i32 {
+    libm::ilogb(value).clamp(-1100, 1100)
 }

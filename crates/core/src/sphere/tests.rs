@@ -229,3 +229,11 @@ fn origin_that_may_lie_on_the_surface_counts_as_lying_on_it() {
         assert_eq!(sphere.is_met(&leaving, 0.0), offset < 0.0);
     }
 }
+
+#[test]
+fn least_sphere_around_the_farthest_viewpoint_makes_no_panic() {
+    let place = DVec3::splat(1e308);
+    let sphere = Sphere::new(place, f64::from_bits(1)).unwrap();
+    assert!(sphere.hit(&forward_from(place)).is_some());
+    assert!(sphere.is_met(&forward_from(place), 0.0));
+}

@@ -87,16 +87,6 @@ impl<'world> Seen<'world> {
         candidates
     }
 
-    /// The tile in which a pixel lies, as far as candidates are concerned.
-    pub(crate) fn tile_of(&self, col: u32, row: u32) -> Tile {
-        Tile {
-            col,
-            row,
-            width: 1,
-            height: 1,
-        }
-    }
-
     /// The indices of the spheres that may be seen in a tile.
     pub(crate) fn indices(&self, tile: Tile) -> Vec<usize> {
         self.candidates(tile)
