@@ -1,11 +1,14 @@
 //! The command line, as clap reads it.
 
+mod report;
+
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 
+pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
 
 /// Sides of pictures, as in scene files.
@@ -30,6 +33,7 @@ pub(crate) enum Command {
     Render(RenderArguments),
     Check(CheckArguments),
     Compare(CompareArguments),
+    Report(ReportArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -38,6 +42,7 @@ Examples:
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
+  marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
   marbles render ball.ron -o small.png --frames 7 --size 150x150
 
 Exit codes:
@@ -64,13 +69,15 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
-    /// Average N × N samples in every pixel
-    #[arg(long, value_name = "N", default_value = "4", value_parser = samples)]
-    pub(crate) samples: NonZeroU32,
+    /// Bring every channel of every pixel within E of its exact value, the average over the
+    /// pixel's square in linear light; E is absolute, and a white surface facing a light of
+    /// intensity 1 has the value 1
+    #[arg(long, value_name = "E", default_value = "1e-3", value_parser = tolerance_above_zero)]
+    pub(crate) tolerance: f64,
 
-    /// Bring every channel of every pixel within E of its exact value instead, in linear light
-    #[arg(long, value_name = "E", value_parser = tolerance_above_zero, conflicts_with = "samples")]
-    pub(crate) tolerance: Option<f64>,
+    /// Average N × N samples in every pixel instead, whatever the error
+    #[arg(long, value_name = "N", value_parser = samples, conflicts_with = "tolerance")]
+    pub(crate) samples: Option<NonZeroU32>,
 
     /// Render on N threads; the picture is the same for every N [default: one per core]
     #[arg(long, value_name = "N", value_parser = threads)]
@@ -96,6 +103,10 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) float: bool,
 
+    /// Store each pixel's error in an EXR as well, in a channel `error` in single precision
+    #[arg(long)]
+    pub(crate) error_channel: bool,
+
     /// Print nothing but errors and warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
@@ -115,7 +126,8 @@ Examples:
   marbles compare a.png b.png --diff diff.png         a picture of where they differ
 
 PNG codes are decoded to linear light and multiplied by alpha, as in EXR. Grey stands for three
-equal colors, and alpha is 1 in a picture that has none.
+equal colors, and alpha is 1 in a picture that has none. The channel `error` of an EXR is no light, and
+not compared.
 
 Rows of the result:
   largest     the largest difference of any channel of any pixel

@@ -1,6 +1,6 @@
 //! The command line of marbles.
 //!
-//! Every command is a file, `render`, `check` and `compare`. Frames follow each other in `sequence`
+//! Every command is a file, `render`, `check`, `compare` and `report`. Frames follow each other in `sequence`
 //! and become files in `output`; `input` reads pictures back.
 
 mod args;
@@ -19,8 +19,10 @@ mod pattern;
 mod progress;
 mod rational;
 mod render;
+mod report;
 mod sequence;
 mod status;
+mod threads;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -68,6 +70,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Render(arguments) => render::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
+        Command::Report(arguments) => report::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);

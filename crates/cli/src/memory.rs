@@ -38,14 +38,14 @@ impl Form {
         u64::from(self.width) * u64::from(self.height)
     }
 
-    /// Bytes of one of core's pictures: the channels and the error in double precision, and the
-    /// status.
+    /// Bytes of one of core's pictures: the channels and the error in double precision, what
+    /// stands behind it, and the status.
     fn picture_bytes(&self) -> u64 {
         let colors = match self.channels {
             Channels::Grey => 1,
             Channels::Rgb => 3,
         };
-        self.pixels() * (8 * (colors + u64::from(self.alpha) + 1) + 1)
+        self.pixels() * (8 * (colors + u64::from(self.alpha) + 1) + 2)
     }
 
     /// Whether there is memory for so many pictures at a time and the encoding of one.
@@ -83,6 +83,19 @@ pub(crate) fn pictures_at_a_time(
             "{what} needs {gigabytes:.1} GB of memory, more than there is"
         ))
     })
+}
+
+/// Refuses pictures for which there is no memory, so many at a time.
+pub(crate) fn check_pictures(form: &Form, count: u64) -> Result<(), Failure> {
+    let bytes = count * form.picture_bytes() + SMALL_THINGS;
+    if can_reserve(bytes) {
+        return Ok(());
+    }
+    let Form { width, height, .. } = form;
+    Err(Failure::Work(format!(
+        "{count} pictures of {width} x {height} pixels need {:.1} GB of memory, more than there is",
+        bytes as f64 / 1e9
+    )))
 }
 
 fn can_reserve(bytes: u64) -> bool {
@@ -126,5 +139,7 @@ mod tests {
             panic!("{failure:?}");
         };
         assert!(message.ends_with("GB of memory, more than there is"));
+        assert!(check_pictures(&form(9), 3).is_ok());
+        assert!(check_pictures(&form(1 << 26), 3).is_err());
     }
 }

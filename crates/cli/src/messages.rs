@@ -1,8 +1,8 @@
-//! What is said about a file that was written.
+//! What is said about files that were written.
 
 use std::time::Duration;
 
-use marbles_core::{Image, Summary};
+use marbles_core::{Evidence, Image, Summary};
 
 use crate::numbers::bound;
 use crate::output::Encoding;
@@ -10,12 +10,27 @@ use crate::output::Encoding;
 /// The line of results; `time` is the rendering's alone.
 pub(crate) fn result(path: &str, summary: &Summary, time: Duration) -> String {
     format!(
-        "{path}: {} pixels, error <= {} (estimate), {} over the tolerance, {:.3} s",
+        "{path}: {} pixels, {}, {} over the tolerance, {:.3} s",
         summary.pixels,
-        bound(summary.largest_error),
+        claim(summary),
         summary.over_tolerance,
         time.as_secs_f64()
     )
+}
+
+/// The line of results of several files together, in the form of a file's own.
+pub(crate) fn total(files: u64, summary: &Summary, time: Duration) -> String {
+    let noun = if files == 1 { "frame" } else { "frames" };
+    result(&format!("{files} {noun}"), summary, time)
+}
+
+/// How large the errors are, and what that is worth: `error <= 8.3e-04 (bound)`.
+pub(crate) fn claim(summary: &Summary) -> String {
+    let evidence = match summary.evidence {
+        Evidence::Bound => "bound",
+        Evidence::Estimate => "estimate",
+    };
+    format!("error <= {} ({evidence})", bound(summary.largest_error))
 }
 
 /// That numbers were too large for the file's floats.
@@ -43,4 +58,28 @@ pub(crate) fn over_tolerance(path: &str, image: &Image, count: u64) -> String {
     });
     let pixels = if count == 1 { "pixel" } else { "pixels" };
     format!("{path}: {count} {pixels} over the tolerance{worst}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_say_what_stands_behind_the_error() {
+        let summary = |evidence| Summary {
+            pixels: 600,
+            largest_error: 8.21e-4,
+            evidence,
+            over_tolerance: 2,
+        };
+        let time = Duration::from_millis(12);
+        assert_eq!(
+            result("a.png", &summary(Evidence::Bound), time),
+            "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, 0.012 s"
+        );
+        assert_eq!(
+            total(7, &summary(Evidence::Estimate), time),
+            "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, 0.012 s"
+        );
+    }
 }

@@ -50,6 +50,60 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
+/// A time that was measured, with three digits: `1.23 ms`.
+pub(crate) fn duration(seconds: f64) -> String {
+    const UNITS: [(f64, &str); 3] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];
+    let unit = UNITS.iter().find(|(size, _)| seconds >= 0.9995 * size);
+    let (size, unit) = unit.unwrap_or(&UNITS[2]);
+    format!("{} {unit}", digits(seconds / size, 3))
+}
+
+/// How many times something is something else, with two or three digits: `0.12`, `5.3`, `53`,
+/// `5260`, `123,000`, `4.7e7`.
+pub(crate) fn factor(ratio: f64) -> String {
+    if ratio == 0.0 {
+        return "0".to_owned();
+    }
+    if ratio >= 999_500.0 {
+        return format!("{ratio:.1e}");
+    }
+    let text = digits(ratio, if ratio < 999.5 { 2 } else { 3 });
+    match text.len().checked_sub(3) {
+        // Four digits are read as well without a comma.
+        Some(thousands) if thousands > 1 && !text.contains('.') => {
+            format!("{},{}", &text[..thousands], &text[thousands..])
+        }
+        _ => text,
+    }
+}
+
+/// A part of a whole, with two digits: `0.12`, `0.0012`, `1.2e-7`.
+pub(crate) fn fraction(ratio: f64) -> String {
+    if ratio == 0.0 {
+        "0".to_owned()
+    } else if ratio < 1e-4 {
+        format!("{ratio:.1e}")
+    } else {
+        digits(ratio, 2)
+    }
+}
+
+/// A number above 0 with so many digits, those that count; no digit before the point is lost, but
+/// it may be a zero.
+fn digits(value: f64, digits: i32) -> String {
+    if !value.is_finite() || value <= 0.0 {
+        return value.to_string();
+    }
+    let round = |value: f64| -> f64 {
+        let decimals = usize::try_from(digits - 1).unwrap_or_default();
+        format!("{value:.decimals$e}").parse().unwrap_or(value)
+    };
+    let rounded = round(value);
+    let before_point = libm::log10(rounded).floor() as i32 + 1;
+    let decimals = usize::try_from(digits - before_point).unwrap_or_default();
+    format!("{rounded:.decimals$}")
+}
+
 /// A number of pixels: `360 kpx`, `21.6 Mpx`.
 pub(crate) fn pixels(pixels: u64) -> String {
     const UNITS: [(f64, &str); 3] = [(1e9, "Gpx"), (1e6, "Mpx"), (1e3, "kpx")];
@@ -126,6 +180,33 @@ mod tests {
         for (value, text) in cases {
             assert_eq!(short(value), text);
         }
+    }
+
+    #[test]
+    fn measured_numbers_have_the_digits_that_count() {
+        let times = [
+            0.0123456, 1.23456, 123.456, 9.996e-4, 4.5e-7, 0.9999, 1234.5,
+        ];
+        let texts = [
+            "12.3 ms",
+            "1.23 s",
+            "123 s",
+            "1.00 ms",
+            "0.450 µs",
+            "1.00 s",
+            "1230 s",
+        ];
+        assert_eq!(times.map(duration), texts.map(str::to_owned));
+        let ratios = [
+            0.0, 0.123, 0.999, 5.26, 52.6, 526.0, 5263.0, 123_456.0, 1.0, 4.66e7,
+        ];
+        let texts = [
+            "0", "0.12", "1.0", "5.3", "53", "530", "5260", "123,000", "1.0", "4.7e7",
+        ];
+        assert_eq!(ratios.map(factor), texts.map(str::to_owned));
+        let parts = [0.0, 0.5, 0.001_234, 1.234e-7, f64::INFINITY];
+        let texts = ["0", "0.50", "0.0012", "1.2e-7", "inf"];
+        assert_eq!(parts.map(fraction), texts.map(str::to_owned));
     }
 
     #[test]

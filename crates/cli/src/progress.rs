@@ -37,7 +37,7 @@ impl<'a> Progress<'a> {
         let display = if quiet {
             Display::Quiet
         } else if console.is_interactive() {
-            let bar = ProgressBar::new(0).with_style(style(frames));
+            let bar = ProgressBar::new(0).with_style(style(frames > 1));
             // Terminals that cannot go back to the start of a line have no bars.
             if bar.is_hidden() {
                 lines()
@@ -128,8 +128,9 @@ impl<'a> Progress<'a> {
     }
 }
 
-fn style(frames: u64) -> ProgressStyle {
-    let template = if frames > 1 {
+/// A bar in pixels, after a message where there is one.
+pub(crate) fn style(has_message: bool) -> ProgressStyle {
+    let template = if has_message {
         "{msg} {wide_bar} {percent:>3}% of {total}{left}"
     } else {
         "{wide_bar} {percent:>3}% of {total}{left}"

@@ -2,18 +2,19 @@
 
 use marbles_core::{Method, Settings};
 use marbles_scene::Scene;
-use rayon::ThreadPoolBuilder;
 
 use crate::args::RenderArguments;
 use crate::console::Console;
-use crate::failure::{Failure, lower};
+use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
+use crate::messages;
 use crate::output::{self, Encoding, ExrOptions, PngOptions};
 use crate::pattern::{Format, Pattern};
 use crate::progress::Progress;
 use crate::sequence::{Sequence, Tally};
 use crate::status;
+use crate::threads;
 
 /// The frame that a scene without animation is rendered as.
 pub(crate) const FRAME_OF_A_STILL: i32 = 1;
@@ -38,13 +39,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         )));
     }
 
-    let threads = ThreadPoolBuilder::new()
-        .num_threads(arguments.threads.unwrap_or_default())
-        .build()
-        .map_err(|error| {
-            let reason = lower(&error.to_string());
-            Failure::Work(format!("cannot start the threads that render: {reason}"))
-        })?;
+    let threads = threads::start(arguments.threads)?;
     interrupt::listen();
     if let Some(first) = frames.iter().next() {
         output::prepare(&pattern.path(first))?;
@@ -55,9 +50,9 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         frames: &frames,
         size: arguments.size,
         settings: Settings {
-            method: match arguments.tolerance {
-                Some(tolerance) => Method::Tolerance(tolerance),
-                None => Method::Samples(arguments.samples),
+            method: match arguments.samples {
+                Some(samples) => Method::Samples(samples),
+                None => Method::Tolerance(arguments.tolerance),
             },
             alpha: arguments.alpha,
         },
@@ -67,6 +62,12 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     let progress = Progress::new(console, arguments.quiet, frames.count());
     let tally = sequence.render(&threads, &progress);
     progress.finish();
+    if tally.frames > 1
+        && !arguments.quiet
+        && let Some(total) = &tally.total
+    {
+        console.result(&messages::total(tally.written, total, tally.time));
+    }
     Ok(conclusion(&tally, console))
 }
 
@@ -87,6 +88,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     };
     match format {
         Format::Png if arguments.float => refused("--float", "EXR", "PNG"),
+        Format::Png if arguments.error_channel => refused("--error-channel", "EXR", "PNG"),
         Format::Exr if arguments.rgb => refused("--rgb", "PNG", "EXR"),
         Format::Exr if arguments.bits.is_some() => refused("--bits", "PNG", "EXR"),
         Format::Png => Ok(Encoding::Png(PngOptions {
@@ -95,6 +97,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         })),
         Format::Exr => Ok(Encoding::Exr(ExrOptions {
             float: arguments.float,
+            error: arguments.error_channel,
         })),
     }
 }
@@ -109,7 +112,7 @@ fn conclusion(tally: &Tally, console: &Console) -> u8 {
             "interrupted: {written} of {frames} frames written"
         ));
         status::INTERRUPTED
-    } else if tally.failed || tally.over_tolerance {
+    } else if tally.failed || tally.is_over_tolerance() {
         if tally.failed && *frames > 1 {
             console.warn(&format!("{written} of {frames} frames written"));
         }

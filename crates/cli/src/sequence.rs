@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use marbles_core::{Image, Renderer, Settings, View};
+use marbles_core::{Image, Renderer, Settings, Summary, View};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
@@ -47,10 +47,36 @@ pub(crate) struct Tally {
     pub(crate) written: u64,
     /// Whether some frame could not be rendered or written.
     pub(crate) failed: bool,
-    /// Whether some pixel of a written frame did not meet the tolerance.
-    pub(crate) over_tolerance: bool,
+    /// What the written frames together achieved.
+    pub(crate) total: Option<Summary>,
+    /// What rendering the written frames took.
+    pub(crate) time: Duration,
     /// Whether the user ended the work.
     pub(crate) interrupted: bool,
+}
+
+impl Tally {
+    /// Counts a frame that was written.
+    fn add(&mut self, summary: Summary, time: Duration) {
+        self.written += 1;
+        self.time += time;
+        self.total = Some(self.total.map_or(summary, |total| both(&total, &summary)));
+    }
+
+    /// Whether some pixel of a written frame did not meet the tolerance.
+    pub(crate) fn is_over_tolerance(&self) -> bool {
+        self.total.is_some_and(|total| total.over_tolerance > 0)
+    }
+}
+
+/// What is true of two pictures together.
+fn both(one: &Summary, other: &Summary) -> Summary {
+    Summary {
+        pixels: one.pixels + other.pixels,
+        largest_error: one.largest_error.max(other.largest_error),
+        evidence: one.evidence.min(other.evidence),
+        over_tolerance: one.over_tolerance + other.over_tolerance,
+    }
 }
 
 /// A picture on its way to its file.
@@ -163,9 +189,8 @@ impl Sequence<'_> {
         for picture in pictures {
             let frame = picture.facts.frame;
             match self.write(picture, progress) {
-                Ok(over_tolerance) => {
-                    tally.written += 1;
-                    tally.over_tolerance |= over_tolerance;
+                Ok((summary, time)) => {
+                    tally.add(summary, time);
                     progress.written(frame, tally.written);
                 }
                 Err(failure) => {
@@ -178,8 +203,12 @@ impl Sequence<'_> {
         tally
     }
 
-    /// Writes a picture and says so. Whether some pixel did not meet the tolerance.
-    fn write(&self, rendered: Rendered, progress: &Progress) -> Result<bool, Failure> {
+    /// Writes a picture and says so. What it achieved, and in which time.
+    fn write(
+        &self,
+        rendered: Rendered,
+        progress: &Progress,
+    ) -> Result<(Summary, Duration), Failure> {
         let Rendered {
             image,
             facts,
@@ -197,7 +226,7 @@ impl Sequence<'_> {
             let message = messages::over_tolerance(&shown, &image, summary.over_tolerance);
             progress.warn(&message);
         }
-        Ok(summary.over_tolerance > 0)
+        Ok((summary, time))
     }
 
     fn resized(&self, view: View) -> View {
@@ -230,5 +259,37 @@ impl Sequence<'_> {
             _ => (2, MOST_PICTURES),
         };
         memory::pictures_at_a_time(&form, self.encoding, least, most)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use marbles_core::Evidence;
+
+    use super::*;
+
+    #[test]
+    fn a_sequence_is_as_good_as_its_worst_frame() {
+        let summary = |largest_error, evidence, over_tolerance| Summary {
+            pixels: 100,
+            largest_error,
+            evidence,
+            over_tolerance,
+        };
+        let mut tally = Tally::default();
+        assert!(!tally.is_over_tolerance());
+        let time = Duration::from_millis(5);
+        tally.add(summary(1e-4, Evidence::Bound, 0), time);
+        assert_eq!(tally.total, Some(summary(1e-4, Evidence::Bound, 0)));
+        assert!(!tally.is_over_tolerance());
+        tally.add(summary(3e-4, Evidence::Estimate, 2), time);
+        tally.add(summary(2e-4, Evidence::Bound, 1), time);
+        let total = Summary {
+            pixels: 300,
+            ..summary(3e-4, Evidence::Estimate, 3)
+        };
+        assert_eq!(tally.total, Some(total));
+        assert_eq!((tally.written, tally.time), (3, 3 * time));
+        assert!(tally.is_over_tolerance());
     }
 }

@@ -25,12 +25,12 @@ impl Folder {
         fs::create_dir_all(&folder.0).unwrap();
         fs::write(folder.0.join("ball.ron"), BALL).unwrap();
         for arguments in [
-            "-o a.exr",
-            "-o a.png",
-            "-o float.exr --float",
-            "-o deep.png --bits 16 --rgb",
+            "-o a.exr --samples 4",
+            "-o a.png --samples 4",
+            "-o float.exr --samples 4 --float",
+            "-o deep.png --samples 4 --bits 16 --rgb",
             "-o fine.exr --samples 16",
-            "-o wide.exr --size 60x41",
+            "-o wide.exr --samples 4 --size 60x41",
         ] {
             let output = folder.run(&format!("render ball.ron --quiet {arguments}"));
             assert!(output.status.success(), "{arguments}");
@@ -164,6 +164,24 @@ fn the_picture_of_differences_holds_them() {
     for name in ["largest", "rms", "99.9 %"] {
         assert_eq!(row(&output, name), row(&compared, name));
     }
+}
+
+#[test]
+fn the_error_channel_is_told_and_not_compared() {
+    let folder = Folder::new("error");
+    let rendered = folder.run("render ball.ron -o e.exr --samples 4 --error-channel --quiet");
+    assert!(rendered.status.success());
+    let output = folder.run("compare a.exr e.exr --tolerance 0");
+    assert_eq!(output.status.code(), Some(0));
+    let name = "e.exr: 60 x 40, EXR, half, RGB and error";
+    assert_eq!(row(&output, "B"), name);
+    assert!(output.stderr.is_empty());
+    let refused = folder.run("render ball.ron -o e.png --error-channel");
+    assert_eq!(refused.status.code(), Some(2));
+    assert_eq!(
+        text(&refused.stderr),
+        "marbles: --error-channel is for EXR files, and the output is PNG\n"
+    );
 }
 
 #[test]

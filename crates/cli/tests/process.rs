@@ -142,6 +142,8 @@ fn exit_codes_tell_what_happened() {
         ("render .", 2),
         ("check missing.ron", 2),
         ("render ball.ron --threads 0", 2),
+        ("render ball.ron --size 9x9 --samples 2", 0),
+        ("render ball.ron --samples 2 --tolerance 1e-3", 2),
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
     ] {
@@ -210,14 +212,21 @@ fn a_line_is_printed_for_each_file() {
     assert_eq!(code(&output), 0);
     let lines = text(&output.stdout);
     let lines: Vec<&str> = lines.lines().collect();
-    assert_eq!(lines.len(), 2);
-    for (line, name) in lines.iter().zip(["08", "09"]) {
-        let start = format!("out/{name}.png: 600 pixels, error <= ");
+    assert_eq!(lines.len(), 3);
+    let starts = [
+        "out/08.png: 600 pixels, ",
+        "out/09.png: 600 pixels, ",
+        "2 frames: 1200 pixels, ",
+    ];
+    for (line, start) in lines.iter().zip(starts) {
+        let start = format!("{start}error <= ");
         let rest = line.strip_prefix(&start).unwrap();
         let (error, rest) = rest.split_once(' ').unwrap();
-        assert!(error == "inf" || error.parse::<f64>().unwrap() > 0.0);
-        let rest = rest.strip_prefix("(estimate), 0 over the tolerance, ");
-        let seconds = rest.unwrap().strip_suffix(" s").unwrap();
+        // The default tolerance.
+        assert!(error.parse::<f64>().unwrap() <= 1e-3);
+        let (evidence, rest) = rest.split_once(", 0 over the tolerance, ").unwrap();
+        assert!(["(bound)", "(estimate)"].contains(&evidence), "{line}");
+        let seconds = rest.strip_suffix(" s").unwrap();
         assert!(seconds.parse::<f64>().unwrap() < 60.0);
     }
     let progress = text(&output.stderr);
@@ -429,7 +438,7 @@ fn a_full_disk_is_an_error() {
     };
     assert_eq!(code(&output), 1);
     let errors = text(&output.stderr);
-    let expected = ".exr: cannot write the picture: no space left on device\n";
+    let expected = ".exr: cannot write the file: no space left on device\n";
     assert_eq!(errors.matches(expected).count(), 1, "{errors}");
     let names = text(&output.stdout);
     let names: Vec<&str> = names.lines().filter(|line| !line.contains(' ')).collect();
@@ -471,7 +480,7 @@ fn a_file_in_place_of_a_folder_is_an_error() {
     assert_eq!(code(&output), 0);
     let output = folder.run("render ball.ron -o a.png --size 9x9");
     assert_eq!(code(&output), 1);
-    let expected = "marbles: a.png: cannot write the picture: there is a folder\n";
+    let expected = "marbles: a.png: cannot write the file: there is a folder\n";
     assert_eq!(text(&output.stderr), expected);
 }
 
@@ -522,7 +531,7 @@ fn links_are_written_through() {
     symlink("/dev/null", folder.path("null.png")).unwrap();
     for (name, expected) in [
         ("circle", "cannot create the file: too many"),
-        ("null", "cannot write the picture: there is something"),
+        ("null", "cannot write the file: there is something"),
     ] {
         let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
         assert_eq!(code(&output), 1);

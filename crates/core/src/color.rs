@@ -16,6 +16,9 @@ pub trait Radiance:
     /// No light.
     const ZERO: Self;
 
+    /// Number of channels.
+    const CHANNELS: usize;
+
     /// The channels of `color` that this type counts; a grey one keeps the first.
     fn from_color(color: Color) -> Self;
 
@@ -31,6 +34,7 @@ pub trait Radiance:
 
 impl Radiance for f64 {
     const ZERO: Self = 0.0;
+    const CHANNELS: usize = 1;
 
     fn from_color(color: Color) -> Self {
         color.x
@@ -51,6 +55,7 @@ impl Radiance for f64 {
 
 impl Radiance for Color {
     const ZERO: Self = DVec3::ZERO;
+    const CHANNELS: usize = 3;
 
     fn from_color(color: Color) -> Self {
         color

@@ -3,9 +3,9 @@
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
-use crate::Tile;
 use crate::integration::Pixel;
-use crate::{Radiance, Status};
+use crate::plane::{Plane, PlaneBand};
+use crate::{Color, Evidence, Radiance, Status, Tile, TileLight, Work};
 
 /// Which numbers a picture holds for each pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -28,8 +28,9 @@ impl Channels {
 /// A picture: linear light, premultiplied by coverage where it has an alpha channel, and for
 /// every pixel the error of these numbers.
 ///
-/// Row 0 is the top row, column 0 the left one.
-#[derive(Clone, Debug, PartialEq)]
+/// Row 0 is the top row, column 0 the left one. Pictures are equal whose pixels are, and what is
+/// known of them; what they cost does not count.
+#[derive(Clone, Debug)]
 pub struct Image {
     width: u32,
     height: u32,
@@ -37,8 +38,19 @@ pub struct Image {
     alpha: bool,
     /// Row by row, the channels and then the alpha of each pixel.
     values: Vec<f64>,
-    errors: Vec<f64>,
-    statuses: Vec<Status>,
+    errors: Plane<f64>,
+    evidence: Plane<Evidence>,
+    statuses: Plane<Status>,
+    work: Work,
+}
+
+/// What is known of a picture's pixels before they are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prospect {
+    /// The error of all pixels, where it is the same.
+    pub(crate) error: Option<f64>,
+    /// Evidence and status of all pixels, where they are the same.
+    pub(crate) ending: Option<(Evidence, Status)>,
 }
 
 /// What a picture as a whole achieved.
@@ -48,13 +60,22 @@ pub struct Summary {
     pub pixels: u64,
     /// The largest error that any pixel claims.
     pub largest_error: f64,
+    /// What stands behind the errors: a bound only where all of them are.
+    pub evidence: Evidence,
     /// Number of pixels that did not meet the tolerance; 0 where none was asked for.
     pub over_tolerance: u64,
 }
 
 impl Image {
     /// A black picture.
-    pub(crate) fn new(width: u32, height: u32, channels: Channels, alpha: bool) -> Self {
+    pub(crate) fn new(
+        width: u32,
+        height: u32,
+        channels: Channels,
+        alpha: bool,
+        prospect: Prospect,
+    ) -> Self {
+        let Prospect { error, ending } = prospect;
         let pixels = width as usize * height as usize;
         let stride = channels.count() + usize::from(alpha);
         Self {
@@ -63,8 +84,10 @@ impl Image {
             channels,
             alpha,
             values: vec![0.0; pixels * stride],
-            errors: vec![0.0; pixels],
-            statuses: vec![Status::NoTolerance; pixels],
+            errors: Plane::new(pixels, error, 0.0),
+            evidence: Plane::new(pixels, ending.map(|ending| ending.0), Evidence::Bound),
+            statuses: Plane::new(pixels, ending.map(|ending| ending.1), Status::NoTolerance),
+            work: Work::default(),
         }
     }
 
@@ -107,25 +130,44 @@ impl Image {
     /// How far a pixel's numbers may be from the exact area average; infinite where nothing is
     /// known.
     pub fn error(&self, col: u32, row: u32) -> f64 {
-        self.errors[self.index(col, row)]
+        self.errors.at(self.index(col, row))
     }
 
     /// How the work on a pixel ended.
     pub fn status(&self, col: u32, row: u32) -> Status {
-        self.statuses[self.index(col, row)]
+        self.statuses.at(self.index(col, row))
+    }
+
+    /// What stands behind a pixel's error.
+    pub fn evidence(&self, col: u32, row: u32) -> Evidence {
+        self.evidence.at(self.index(col, row))
+    }
+
+    /// What the picture cost.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    pub(crate) fn set_work(&mut self, work: Work) {
+        self.work = work;
     }
 
     /// What the picture as a whole achieved.
     pub fn summary(&self) -> Summary {
-        let over = self
-            .statuses
-            .iter()
-            .filter(|status| status.is_over_tolerance())
-            .count();
+        let is_over = |status: &Status| status.is_over_tolerance();
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        let evidence = self.evidence.distinct().iter().copied().min();
         Summary {
-            pixels: self.errors.len() as u64,
-            largest_error: self.errors.iter().copied().fold(0.0, f64::max),
-            over_tolerance: over as u64,
+            pixels,
+            largest_error: self.errors.distinct().iter().copied().fold(0.0, f64::max),
+            evidence: evidence.unwrap_or(Evidence::Bound),
+            over_tolerance: match &self.statuses {
+                Plane::Same(status) if is_over(status) => pixels,
+                Plane::Same(_) => 0,
+                Plane::Each(statuses) => {
+                    statuses.iter().filter(|&status| is_over(status)).count() as u64
+                }
+            },
         }
     }
 
@@ -134,12 +176,14 @@ impl Image {
         let (width, height) = (self.width, self.height);
         let stride = self.channels.count() + usize::from(self.alpha);
         let pixels = width as usize * rows as usize;
+        let bands = self.height.div_ceil(rows) as usize;
         self.values
             .par_chunks_mut(pixels * stride)
-            .zip(self.errors.par_chunks_mut(pixels))
-            .zip(self.statuses.par_chunks_mut(pixels))
+            .zip(self.errors.bands_mut(pixels, bands))
+            .zip(self.evidence.bands_mut(pixels, bands))
+            .zip(self.statuses.bands_mut(pixels, bands))
             .enumerate()
-            .map(move |(index, ((values, errors), statuses))| {
+            .map(move |(index, (((values, errors), evidence), statuses))| {
                 let row = index as u32 * rows;
                 let area = Tile {
                     col: 0,
@@ -152,6 +196,7 @@ impl Image {
                     stride,
                     values,
                     errors,
+                    evidence,
                     statuses,
                 }
             })
@@ -166,13 +211,25 @@ impl Image {
     }
 }
 
+impl PartialEq for Image {
+    fn eq(&self, other: &Self) -> bool {
+        let size = |image: &Self| (image.width, image.height, image.channels, image.alpha);
+        size(self) == size(other)
+            && self.values == other.values
+            && self.errors == other.errors
+            && self.evidence == other.evidence
+            && self.statuses == other.statuses
+    }
+}
+
 /// Whole rows of a picture, to be written by one thread.
 pub(crate) struct Band<'image> {
     pub(crate) area: Tile,
     stride: usize,
     values: &'image mut [f64],
-    errors: &'image mut [f64],
-    statuses: &'image mut [Status],
+    errors: PlaneBand<'image, f64>,
+    evidence: PlaneBand<'image, Evidence>,
+    statuses: PlaneBand<'image, Status>,
 }
 
 impl Band<'_> {
@@ -180,14 +237,64 @@ impl Band<'_> {
     /// [`Tile::pixels`].
     pub(crate) fn write<C: Radiance>(&mut self, tile: Tile, pixels: &[Pixel<C>]) {
         for ((col, row), pixel) in tile.pixels().zip(pixels) {
-            let index = (row - self.area.row) as usize * self.area.width as usize + col as usize;
+            let index = self.index(col, row);
             let values = &mut self.values[index * self.stride..][..self.stride];
             let channels = pixel.value.channels();
             values[..channels.len()].copy_from_slice(channels);
             // The alpha channel, where there is one.
             values[channels.len()..].fill(pixel.alpha);
-            self.errors[index] = pixel.error;
-            self.statuses[index] = pixel.status;
+            self.errors.write(index, &[pixel.error]);
+            self.evidence.write(index, &[pixel.evidence]);
+            self.statuses.write(index, &[pixel.status]);
         }
+    }
+
+    /// Writes the light of a tile inside the band; all pixels end alike.
+    pub(crate) fn write_light(&mut self, tile: Tile, light: &TileLight) {
+        let width = tile.width as usize;
+        let stride = self.stride;
+        for row in 0..tile.height {
+            let index = self.index(tile.col, tile.row + row);
+            let light = light.row(row);
+            let values = &mut self.values[index * stride..][..width * stride];
+            match (stride, &light.channels) {
+                (1, [grey, ..]) => values.copy_from_slice(&grey[..width]),
+                (2, [grey, ..]) => interleave(values, [grey, &light.alpha]),
+                (3, [red, green, blue]) => interleave(values, [red, green, blue]),
+                (_, [red, green, blue]) => interleave(values, [red, green, blue, &light.alpha]),
+            }
+            self.errors.write(index, &light.errors[..width]);
+        }
+    }
+
+    /// Writes light that is the same in all pixels of a tile inside the band, and in which nothing
+    /// covers them; a new picture has none, nor any error.
+    pub(crate) fn write_even_light(&mut self, tile: Tile, color: Color, error: f64) {
+        let (width, stride) = (tile.width as usize, self.stride);
+        for row in tile.row..tile.row + tile.height {
+            let index = self.index(tile.col, row);
+            if color != Color::ZERO {
+                // The background is left out of a picture with alpha: there are channels only.
+                let values = &mut self.values[index * stride..][..width * stride];
+                for pixel in values.chunks_exact_mut(stride) {
+                    pixel.copy_from_slice(&color.as_ref()[..stride]);
+                }
+            }
+            if error != 0.0 {
+                self.errors.fill(index, width, error);
+            }
+        }
+    }
+
+    fn index(&self, col: u32, row: u32) -> usize {
+        (row - self.area.row) as usize * self.area.width as usize + col as usize
+    }
+}
+
+/// Writes some numbers of every pixel, pixel by pixel.
+fn interleave<const COUNT: usize>(values: &mut [f64], parts: [&[f64; Tile::SIDE as usize]; COUNT]) {
+    let (pixels, _) = values.as_chunks_mut::<COUNT>();
+    for (place, pixel) in pixels.iter_mut().enumerate() {
+        *pixel = parts.map(|part| part[place]);
     }
 }

@@ -8,16 +8,20 @@
 //! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
 //! intensity 1.
 //!
-//! This crate knows no file, no clock and no terminal. Transcendental functions come from `libm`,
-//! so that a picture is the same, bit for bit, on every machine.
+//! This crate knows no file, no clock and no terminal. Transcendental functions come from `libm` or
+//! are written out, so that a picture is the same, bit for bit, on every machine.
 
 mod angle;
 mod camera;
 mod color;
+mod edges;
 mod image;
 mod integration;
+mod lanes;
 mod light;
 mod material;
+mod plane;
+mod power;
 mod ray;
 mod render;
 mod roughness;
@@ -33,7 +37,7 @@ pub use angle::Angle;
 pub use camera::{Camera, Lens};
 pub use color::{Color, Radiance};
 pub use image::{Channels, Image, Summary};
-pub use integration::Status;
+pub use integration::{Evidence, Status, Work};
 pub use light::DirectionalLight;
 pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
@@ -42,4 +46,4 @@ pub use sphere::{Floor, Hit, Sphere, SphereError};
 pub use view::View;
 pub use world::{MaterialId, World};
 
-pub(crate) use tile::Tile;
+pub(crate) use tile::{Tile, TileLight};

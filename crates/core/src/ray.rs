@@ -24,6 +24,10 @@ impl Ray {
     ///
     /// With u the unit roundoff, each component is off by 3u |t dᵢ| and the rounding of the sum,
     /// together 4u (|oᵢ| + |t dᵢ|) at most; the length of three of them is √3 times the largest.
+    #[cfg_attr(
+        not(test),
+        allow(dead_code, reason = "what rays side by side are tested against")
+    )]
     pub(crate) fn point_error(&self, t: f64) -> f64 {
         let largest = |vector: DVec3| vector.abs().max_element();
         7.0 * UNIT_ROUNDOFF * (largest(self.origin) + t * largest(self.direction))

@@ -6,13 +6,10 @@ use std::ops::ControlFlow;
 use rayon::iter::ParallelIterator;
 use thiserror::Error;
 
-use crate::Tile;
-use crate::integration::{Integrator, Lines, Supersampling};
+use crate::image::Prospect;
+use crate::integration::{Exact, Integrator, Supersampling};
 use crate::visibility::{Seen, Visibility};
-use crate::{Channels, Color, Image, Radiance, View, World};
-
-/// Side of a tile, in pixels.
-const TILE_SIDE: u32 = 8;
+use crate::{Channels, Color, Image, Radiance, Tile, TileLight, View, Work, World};
 
 /// How a picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +64,7 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
-        let seen = Seen::new(&self.visibility, view, TILE_SIDE);
+        let seen = Seen::new(&self.visibility, view, Tile::SIDE);
         let world = self.world;
         let is_grey = if settings.alpha {
             world.has_grey_spheres()
@@ -79,7 +76,15 @@ impl<'world> Renderer<'world> {
         } else {
             Channels::Rgb
         };
-        let mut image = Image::new(view.width, view.height, channels, settings.alpha);
+        let prospect = match settings.method {
+            Method::Samples(samples) => Supersampling::prospect(samples),
+            Method::Tolerance(_) => Prospect {
+                error: None,
+                ending: None,
+            },
+        };
+        let (width, height) = (view.width, view.height);
+        let mut image = Image::new(width, height, channels, settings.alpha, prospect);
         match settings.method {
             Method::Samples(samples) => {
                 let integrator = Supersampling::new(world, view, &seen, samples, settings.alpha);
@@ -89,7 +94,7 @@ impl<'world> Renderer<'world> {
                 }
             }
             Method::Tolerance(tolerance) => {
-                let integrator = Lines::new(world, view, &seen, tolerance, settings.alpha);
+                let integrator = Exact::new(world, view, &seen, tolerance, settings.alpha);
                 match channels {
                     Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
                     Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
@@ -105,27 +110,34 @@ fn fill<C: Radiance>(
     integrator: &impl Integrator<C>,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
 ) -> Result<(), Cancelled> {
-    image.bands_mut(TILE_SIDE).try_for_each(|mut band| {
+    let bands = image.bands_mut(Tile::SIDE).map(|mut band| {
+        let mut work = Work::default();
         let Tile {
             row, width, height, ..
         } = band.area;
-        let mut pixels = Vec::with_capacity((TILE_SIDE * height) as usize);
-        for col in (0..width).step_by(TILE_SIDE as usize) {
+        let mut light = TileLight::new();
+        for col in (0..width).step_by(Tile::SIDE as usize) {
             let tile = Tile {
                 col,
                 row,
-                width: TILE_SIDE.min(width - col),
+                width: Tile::SIDE.min(width - col),
                 height,
             };
-            integrator.integrate(tile, &mut pixels);
-            band.write(tile, &pixels);
-            if progress(pixels.len() as u64).is_break() {
+            work += integrator.paint(tile, &mut band, &mut light);
+            let pixels = u64::from(tile.width) * u64::from(tile.height);
+            if progress(pixels).is_break() {
                 return Err(Cancelled);
             }
-            pixels.clear();
         }
-        Ok(())
-    })
+        Ok(work)
+    });
+    let add = |mut sum: Work, work| {
+        sum += work;
+        Ok(sum)
+    };
+    let work = bands.try_reduce(Work::default, add)?;
+    image.set_work(work);
+    Ok(())
 }
 
 #[cfg(test)]

@@ -2,11 +2,16 @@
 
 use glam::DVec3;
 
+use crate::power::Power;
 use crate::roughness::PixelKey;
 use crate::visibility::Visibility;
 use crate::{Hit, Radiance, Ray, World};
 
 /// Radiance of a sphere toward the origin of the ray that hit it.
+#[cfg_attr(
+    not(test),
+    allow(dead_code, reason = "what rays side by side are tested against")
+)]
 pub(crate) fn shade<C: Radiance>(
     world: &World,
     visibility: &Visibility<'_>,
@@ -66,17 +71,21 @@ pub(crate) fn shade_lit<C: Radiance>(
     };
     let mut diffuse = C::from_color(world.ambient);
     let mut mirrored = C::ZERO;
+    let falloff = Power::new(material.exponent);
+    let highlight = material
+        .highlight
+        .map(|highlight| (highlight.strength, Power::new(highlight.shininess)));
     for (index, light) in world.lights.iter().enumerate() {
         let facing = normal.dot(light.toward());
         if facing <= 0.0 || !is_lit(index) {
             continue;
         }
         let intensity = C::from_color(light.intensity());
-        diffuse += intensity * power(facing, material.exponent);
-        if let Some(highlight) = &material.highlight {
+        diffuse += intensity * falloff.scalar(facing);
+        if let Some((strength, falloff)) = &highlight {
             let half = half_vector(light.toward(), point.to_viewer);
-            let spot = power(normal.dot(half).max(0.0), highlight.shininess);
-            mirrored += intensity * (highlight.strength * spot);
+            let spot = falloff.scalar(normal.dot(half));
+            mirrored += intensity * (*strength * spot);
         }
     }
     C::from_color(material.albedo) * diffuse + mirrored
@@ -90,13 +99,4 @@ fn half_vector(light: DVec3, view: DVec3) -> DVec3 {
     let exponent = libm::ilogb(view.abs().max_element()).clamp(-1100, 1100);
     let view = view.map(|part| libm::scalbn(part, -exponent));
     (light + view.normalize_or_zero()).normalize_or_zero()
-}
-
-/// `base` to the power of `exponent`, for a base of at least 0.
-fn power(base: f64, exponent: f64) -> f64 {
-    if exponent == 1.0 {
-        base
-    } else {
-        libm::pow(base, exponent)
-    }
 }

@@ -1,5 +1,7 @@
 //! Tiles of a picture.
 
+use crate::Color;
+
 /// A rectangle of pixels that are worked on together.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Tile {
@@ -14,9 +16,64 @@ pub(crate) struct Tile {
 }
 
 impl Tile {
+    /// Columns and rows of a tile, but for those at the right and lower edge of a picture, which
+    /// may be smaller.
+    pub(crate) const SIDE: u32 = 8;
+
     /// The pixels of the tile as (column, row), row by row.
     pub(crate) fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
         (self.row..self.row + self.height)
             .flat_map(move |row| (self.col..self.col + self.width).map(move |col| (col, row)))
+    }
+}
+
+/// [`Tile::SIDE`] as the length of a row.
+const SIDE: usize = Tile::SIDE as usize;
+
+/// The light of a tile's pixels, number by number.
+#[derive(Clone, Debug)]
+pub(crate) struct TileLight {
+    rows: [RowLight; SIDE],
+}
+
+/// The light of a row of a tile's pixels.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RowLight {
+    /// Red, green, blue; grey has only the first.
+    pub(crate) channels: [[f64; SIDE]; 3],
+    /// Covered fractions.
+    pub(crate) alpha: [f64; SIDE],
+    pub(crate) errors: [f64; SIDE],
+}
+
+impl TileLight {
+    /// No light.
+    pub(crate) fn new() -> Self {
+        let dark = RowLight {
+            channels: [[0.0; SIDE]; 3],
+            alpha: [0.0; SIDE],
+            errors: [0.0; SIDE],
+        };
+        Self { rows: [dark; SIDE] }
+    }
+
+    /// Makes all pixels alike, and nothing cover them.
+    pub(crate) fn fill(&mut self, color: Color, error: f64) {
+        let row = RowLight {
+            channels: color.to_array().map(|channel| [channel; SIDE]),
+            alpha: [0.0; SIDE],
+            errors: [error; SIDE],
+        };
+        self.rows = [row; SIDE];
+    }
+
+    /// A row of pixels, counted from the tile's first.
+    pub(crate) fn row(&self, row: u32) -> &RowLight {
+        &self.rows[row as usize]
+    }
+
+    /// A row of pixels, to be written.
+    pub(crate) fn row_mut(&mut self, row: u32) -> &mut RowLight {
+        &mut self.rows[row as usize]
     }
 }

@@ -71,6 +71,16 @@ impl World {
         &self.materials[self.material_ids[sphere].0 as usize]
     }
 
+    /// The materials in the order in which they were added.
+    pub(crate) fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The place of a sphere's material among the materials.
+    pub(crate) fn material_index(&self, sphere: usize) -> u32 {
+        self.material_ids[sphere].0
+    }
+
     /// Whether nothing that can be seen has a color, so that one channel tells all.
     pub fn is_grey(&self) -> bool {
         is_grey(self.background) && self.has_grey_spheres()

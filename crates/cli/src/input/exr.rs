@@ -75,6 +75,9 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         chosen.colors.concat(),
         if alpha.is_some() { "A" } else { "" }
     );
+    if take("error").is_some() {
+        description.push_str(" and error");
+    }
     let layer = match chosen.prefix.strip_suffix('.') {
         Some(prefix) => Some(prefix.to_owned()),
         None => part_name.filter(|_| chosen.part > 0),

@@ -27,7 +27,13 @@ const REC_709: Chromaticities = Chromaticities {
 pub(crate) struct ExrOptions {
     /// Single precision instead of half.
     pub(crate) float: bool,
+    /// A channel with the error of each pixel.
+    pub(crate) error: bool,
 }
+
+/// The channel with the error of each pixel: how far any of its other channels may be from the
+/// exact average, before they are rounded to the format. Infinite where nothing is known.
+const ERROR_CHANNEL: &str = "error";
 
 /// Rows that are compressed together.
 const ROWS_OF_A_BLOCK: u64 = 16;
@@ -56,7 +62,9 @@ impl ExrOptions {
     }
 
     fn bytes_per_pixel(self, alpha: bool) -> u64 {
-        (3 + u64::from(alpha)) * if self.float { 4 } else { 2 }
+        let light = (3 + u64::from(alpha)) * if self.float { 4 } else { 2 };
+        // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
+        light + if self.error { 4 } else { 0 }
     }
 
     /// The bytes of the file, the same for the same picture and facts.
@@ -82,6 +90,11 @@ impl ExrOptions {
                 FlatSamples::F16(samples)
             };
             channels.push(AnyChannel::new(name, samples));
+        }
+        if self.error {
+            let mut samples: Vec<f32> = memory::reserve(width * height)?;
+            samples.extend(pixels(image).map(|(col, row)| float_above(image.error(col, row))));
+            channels.push(AnyChannel::new(ERROR_CHANNEL, FlatSamples::F32(samples)));
         }
         let most = self.file_bytes(image.width(), image.height(), image.has_alpha());
         let bytes = file((width, height), channels, attributes(facts), most)?;
@@ -141,6 +154,16 @@ fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
 /// The nearest float.
 fn float(value: f64) -> f32 {
     value as f32
+}
+
+/// The least float that is no smaller: a bound stays one.
+fn float_above(value: f64) -> f32 {
+    let nearest = float(value);
+    if f64::from(nearest) < value {
+        nearest.next_up()
+    } else {
+        nearest
+    }
 }
 
 /// Keeps finite values below infinity, and counts where that was needed.

@@ -1,4 +1,4 @@
-//! Pictures as files.
+//! Pictures as files, and what else is written.
 //!
 //! A file is encoded in memory, written beside its place under a temporary name, and moved there
 //! when it is complete.
@@ -98,6 +98,21 @@ pub(crate) fn write_codes(
     save(png::grey(width, height, codes), path)
 }
 
+/// Writes a PNG of 8 bit codes of red, green and blue, row by row, whole or not at all.
+pub(crate) fn write_rgb_codes(
+    width: u32,
+    height: u32,
+    codes: &[u8],
+    path: &Path,
+) -> Result<(), Failure> {
+    save(png::rgb(width, height, codes), path).map(drop)
+}
+
+/// Writes a file that is no picture, or already encoded, whole or not at all.
+pub(crate) fn write_bytes(bytes: Vec<u8>, path: &Path) -> Result<(), Failure> {
+    save(Ok(Encoded { bytes, clipped: 0 }), path).map(drop)
+}
+
 /// Writes an EXR of channels in single precision, whole or not at all.
 pub(crate) fn write_floats(
     width: u32,
@@ -125,7 +140,7 @@ fn save(encoded: Result<Encoded, String>, path: &Path) -> Result<Written, Failur
             file.write(&bytes)?;
             file.persist()
         })
-        .map_err(|error| Failure::io(path, "cannot write the picture", &error))?;
+        .map_err(|error| Failure::io(path, "cannot write the file", &error))?;
     Ok(Written { clipped })
 }
 
@@ -142,7 +157,7 @@ fn destination(path: &Path) -> Result<PathBuf, Failure> {
                 Ok(found) if !found.is_file() => Err("there is something that is no file"),
                 _ => Ok(destination),
             }
-            .map_err(|what| Failure::at(path, &format!("cannot write the picture: {what}")));
+            .map_err(|what| Failure::at(path, &format!("cannot write the file: {what}")));
         };
         // A relative target starts at the folder of the link; an absolute one replaces it.
         destination = folder(&destination).join(target);

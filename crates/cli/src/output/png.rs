@@ -149,6 +149,12 @@ pub(super) fn grey(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, Str
     Ok(Encoded { bytes, clipped: 0 })
 }
 
+/// The bytes of a picture in 8 bit, with the codes of red, green and blue row by row.
+pub(super) fn rgb(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, String> {
+    let bytes = file((width, height), ColorType::Rgb, BitDepth::Eight, codes)?;
+    Ok(Encoded { bytes, clipped: 0 })
+}
+
 /// The light of the covered part of a pixel alone.
 fn straight(premultiplied: f64, alpha: f64) -> f64 {
     if alpha > 0.0 {

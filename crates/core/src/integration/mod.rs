@@ -3,13 +3,16 @@
 //! An [`Integrator`] answers for every pixel of a tile what its value is, how far that may be
 //! from the exact area average, and how its work ended.
 
-mod lines;
 mod supersampling;
+mod tolerance;
 
-pub(crate) use lines::Lines;
 pub(crate) use supersampling::Supersampling;
+pub(crate) use tolerance::Exact;
 
-use crate::{Radiance, Tile};
+use std::ops::AddAssign;
+
+use crate::image::Band;
+use crate::{Radiance, Tile, TileLight};
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,8 +24,39 @@ pub(crate) struct Pixel<C> {
     /// How far value and alpha may be from the exact averages, in any channel; infinite where
     /// nothing is known.
     pub(crate) error: f64,
+    /// What the error is worth.
+    pub(crate) evidence: Evidence,
     /// How the work on the pixel ended.
     pub(crate) status: Status,
+}
+
+/// What stands behind an error.
+#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
+pub enum Evidence {
+    /// It is inferred from rules and samples that agree.
+    Estimate,
+    /// It is proved.
+    Bound,
+}
+
+/// What pixels cost, counted.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[non_exhaustive]
+pub struct Work {
+    /// Points at which light was computed.
+    pub samples: u64,
+    /// Lines that were cut where something happens on them.
+    pub lines: u64,
+    /// Spheres that were asked whether a pixel, or a ray, may see them.
+    pub candidate_tests: u64,
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.lines += other.lines;
+        self.candidate_tests += other.candidate_tests;
+    }
 }
 
 /// How the work on a pixel ended.
@@ -31,8 +65,10 @@ pub(crate) struct Pixel<C> {
 pub enum Status {
     /// No tolerance was asked for; the error is an estimate.
     NoTolerance,
-    /// The error, an estimate, is within the tolerance.
+    /// The error is within the tolerance.
     Met,
+    /// Nothing but rounding keeps the error from the tolerance.
+    AtRoundoff,
     /// The work that a pixel may cost did not suffice.
     OutOfBudget,
 }
@@ -42,13 +78,24 @@ impl Status {
     pub fn is_over_tolerance(self) -> bool {
         match self {
             Self::NoTolerance | Self::Met => false,
-            Self::OutOfBudget => true,
+            Self::AtRoundoff | Self::OutOfBudget => true,
         }
     }
 }
 
 /// A way to average light over pixels.
 pub(crate) trait Integrator<C: Radiance>: Sync {
-    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`].
-    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>);
+    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; what they cost.
+    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work;
+
+    /// Writes the tile's pixels into the band of a picture that contains it; what they cost.
+    ///
+    /// `light` is room for those that compute pixels side by side, to be used again and again.
+    fn paint(&self, tile: Tile, band: &mut Band<'_>, light: &mut TileLight) -> Work {
+        let _ = light;
+        let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
+        let work = self.integrate(tile, &mut pixels);
+        band.write(tile, &pixels);
+        work
+    }
 }

@@ -31,8 +31,9 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> {
 }
 
 /// K of a sphere of moderate size as seen from `origin`, rounded once.
-pub(super) fn outside(sphere: &Sphere, origin: DVec3) -> f64 {
-    let to_center = to_center::<false>(sphere, origin);
+#[inline(always)]
+pub(super) fn outside<const FUSED: bool>(sphere: &Sphere, origin: DVec3) -> f64 {
+    let to_center = to_center::<FUSED>(sphere, origin);
     (dot(to_center, to_center) - DoubleDouble::product(sphere.radius, sphere.radius)).high
 }
 

@@ -83,7 +83,7 @@ impl Relative {
         let plain = Self::new(sphere, origin);
         if are_moderate(1.0, plain.scale) {
             Self {
-                outside: double::outside(sphere, origin),
+                outside: double::outside::<false>(sphere, origin),
                 ..plain
             }
         } else {

@@ -12,11 +12,13 @@
 //! decide; [`double`] does the same with twice the digits; [`exact`] computes with integers and
 //! always answers.
 
+mod ball;
 mod double;
 mod exact;
 mod fast;
 mod scaled;
 
+pub(crate) use ball::Ball;
 pub(crate) use fast::Relative;
 
 use std::cmp::Ordering;
@@ -142,7 +144,7 @@ impl Sphere {
         let scaled = Scaled::new(self, ray);
         let origin_error = scaled.length(origin_error);
         let slack = origin_error * (2.0 * scaled.sphere.radius + origin_error);
-        let outside = double::outside(&scaled.sphere, scaled.ray.origin);
+        let outside = double::outside::<false>(&scaled.sphere, scaled.ray.origin);
         // An origin that is known exactly is left to the exact decision.
         if slack > 0.0 && outside.abs() <= slack {
             let to_center = scaled.sphere.center - scaled.ray.origin;

@@ -19,6 +19,8 @@ pub(super) struct Casters {
     /// The coordinates of the plane.
     right: DVec3,
     up: DVec3,
+    /// Unit vector toward the light.
+    toward: DVec3,
     grids: Vec<Grid>,
     /// Discs whose size or place is not finite.
     everywhere: Vec<u32>,
@@ -46,6 +48,7 @@ impl Casters {
         let mut casters = Self {
             right,
             up,
+            toward,
             grids: Vec::new(),
             everywhere: Vec::new(),
         };
@@ -108,7 +111,17 @@ impl Casters {
         indices.dedup();
     }
 
-    fn project(&self, point: DVec3) -> DVec2 {
+    /// The axes of the plane.
+    pub(super) fn axes(&self) -> (DVec3, DVec3) {
+        (self.right, self.up)
+    }
+
+    /// How far toward the light a point lies.
+    pub(super) fn height(&self, point: DVec3) -> f64 {
+        point.dot(self.toward)
+    }
+
+    pub(super) fn project(&self, point: DVec3) -> DVec2 {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }
 }
@@ -140,12 +153,14 @@ impl Grid {
 
     /// The lists of the cells that a box reaches into, or of all discs where these are many.
     fn near(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = &[u32]> {
-        /// More would take longer than to ask all discs of their size, which then are tiny.
-        const MOST_CELLS: i64 = 9;
+        /// More take longer than to ask all discs of their size, unless these are many more.
+        const MOST_CELLS: usize = 9;
+        const DISCS_PER_CELL: usize = 4;
+        let most_cells = MOST_CELLS.max(self.all.len() / DISCS_PER_CELL);
         let (first, last) = (cell(low, self.side), cell(high, self.side));
         let columns = last.0.saturating_sub(first.0).saturating_add(1);
         let rows = last.1.saturating_sub(first.1).saturating_add(1);
-        let is_small = columns.saturating_mul(rows) <= MOST_CELLS;
+        let is_small = columns.saturating_mul(rows) <= most_cells as i64;
         let (last_row, all) = if is_small {
             (last.1, None)
         } else {
@@ -173,7 +188,7 @@ fn cell(place: DVec2, side: f64) -> Cell {
 /// With u the unit roundoff and M = |c| + r: the projection is off by 4u √3 M; the light and the
 /// axes are orthogonal up to 8u, over which the ray of light between a point and the sphere drifts
 /// by 8u times the sum of both M.
-fn slack(center: DVec3, radius: f64) -> f64 {
+pub(super) fn slack(center: DVec3, radius: f64) -> f64 {
     32.0 * UNIT_ROUNDOFF * (center.abs().element_sum() + radius)
 }
 

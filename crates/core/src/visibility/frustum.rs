@@ -1,4 +1,4 @@
-//! The planes between the viewpoint and the edges of pixels.
+//! Which tiles a sphere may be seen in.
 
 use glam::{DVec2, DVec3};
 
@@ -35,59 +35,137 @@ impl InCamera {
     }
 }
 
-/// The planes through the viewpoint and the edges of tiles, in the camera's frame.
+/// The tiles of a picture, along one axis of the retina.
 #[derive(Clone, Debug)]
-pub(super) struct Planes {
-    /// Between tiles side by side, from the left; the normals point right.
-    columns: Vec<DVec2>,
-    /// Between tiles one above the other, from the top; the normals point down.
-    rows: Vec<DVec2>,
+struct Axis {
+    /// Planes through the viewpoint between neighboring tiles, in the order of the tiles; the
+    /// normals point to higher tiles.
+    planes: Vec<DVec2>,
+    /// A slope, along the axis over forward, times this is in tiles,
+    tiles_per_slope: f64,
+    /// and so far from the first.
+    offset: f64,
 }
 
-impl Planes {
-    /// The planes of tiles with this side.
-    pub(super) fn new(view: &View, tile_side: u32) -> Self {
+/// First and last tile.
+type Span = (u32, u32);
+
+impl Axis {
+    fn new(view: &View, tile_side: u32, pixels: u32, sign: f64, shift: f64) -> Self {
         let distance = view.lens.distance * view.zoom;
         let pixel = view.pixel_size();
-        let planes = |pixels: u32, sign: f64, shift: f64| {
-            let edges = (0..pixels).step_by(tile_side as usize).chain([pixels]);
-            let plane = |edge: u32| {
-                let on_retina = sign * (f64::from(edge) - 0.5 * f64::from(pixels)) * pixel + shift;
-                let length = libm::hypot(distance, on_retina);
-                sign * DVec2::new(distance / length, -on_retina / length)
-            };
-            edges.map(plane).collect()
+        let edges = (0..pixels).step_by(tile_side as usize).chain([pixels]);
+        let plane = |edge: u32| {
+            let on_retina = sign * (f64::from(edge) - 0.5 * f64::from(pixels)) * pixel + shift;
+            let length = libm::hypot(distance, on_retina);
+            sign * DVec2::new(distance / length, -on_retina / length)
         };
+        let side = f64::from(tile_side);
         Self {
-            columns: planes(view.width, 1.0, view.lens.shift.x),
-            rows: planes(view.height, -1.0, view.lens.shift.y),
+            planes: edges.map(plane).collect(),
+            tiles_per_slope: sign * (distance / pixel) / side,
+            offset: (0.5 * f64::from(pixels) - sign * (shift / pixel)) / side,
         }
     }
 
-    /// Tiles side by side.
-    pub(super) fn columns(&self) -> usize {
-        self.columns.len() - 1
+    fn tiles(&self) -> u32 {
+        self.planes.len() as u32 - 1
     }
 
-    /// Tiles one above the other.
-    pub(super) fn rows(&self) -> usize {
-        self.rows.len() - 1
-    }
-
-    /// Whether the sphere may be seen in this column of tiles.
-    pub(super) fn is_in_column(&self, sphere: &InCamera, column: usize) -> bool {
-        let across = DVec2::new(sphere.center.x, sphere.center.z);
-        is_between(&self.columns[column..column + 2], across, sphere.radius)
-    }
-
-    /// Whether the sphere may be seen in this row of tiles.
-    pub(super) fn is_in_row(&self, sphere: &InCamera, row: usize) -> bool {
-        let across = DVec2::new(sphere.center.y, sphere.center.z);
-        is_between(&self.rows[row..row + 2], across, sphere.radius)
+    /// The tiles that a sphere reaches into, and few others.
+    fn span(&self, center: DVec2, radius: f64) -> Option<Span> {
+        /// Far above the rounding errors of the quotient and of the place in tiles: those are
+        /// below 10⁻¹² of the sums of absolute values that this is relative to.
+        const MARGIN: f64 = 1e-10;
+        /// A sphere this much nearer than its radius to the eye's plane has ends too far out.
+        const CLEAR: f64 = 1.0 + 1.0 / 64.0;
+        let (along, forward) = (center.x, center.y);
+        if forward > CLEAR * radius {
+            let product = (forward - radius) * (forward + radius);
+            let half = radius * (along * along + product).sqrt();
+            let scale = self.tiles_per_slope / product;
+            let (a, b) = (
+                (along * forward - half) * scale,
+                (along * forward + half) * scale,
+            );
+            let size = (along.abs() * forward + half) * scale.abs() + self.offset.abs();
+            let margin = MARGIN * (size + f64::from(self.tiles()));
+            let (low, high) = (
+                a.min(b) + self.offset - margin,
+                a.max(b) + self.offset + margin,
+            );
+            if low <= high {
+                let last = f64::from(self.tiles() - 1);
+                // In this range the casts cut off what follows the point.
+                return (high >= 0.0 && low < last + 1.0)
+                    .then(|| (low.max(0.0) as u32, high.min(last) as u32));
+            }
+        }
+        let is_in = |tile: &u32| {
+            let tile = *tile as usize;
+            is_between(&self.planes[tile..tile + 2], center, radius)
+        };
+        let first = (0..self.tiles()).find(is_in)?;
+        let last = (0..self.tiles()).rfind(is_in)?;
+        Some((first, last))
     }
 }
 
 /// Whether a sphere reaches between two planes; true where a number is not finite.
 fn is_between(planes: &[DVec2], center: DVec2, radius: f64) -> bool {
     !(planes[0].dot(center) < -radius || planes[1].dot(center) > radius)
+}
+
+/// The tiles of a picture, from a viewpoint.
+#[derive(Clone, Debug)]
+pub(super) struct Frustum {
+    columns: Axis,
+    rows: Axis,
+}
+
+/// A rectangle of tiles, ends included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TileRange {
+    pub(super) columns: Span,
+    pub(super) rows: Span,
+}
+
+impl TileRange {
+    pub(super) fn count(&self) -> u64 {
+        let along = |span: Span| u64::from(span.1 - span.0 + 1);
+        along(self.columns) * along(self.rows)
+    }
+}
+
+impl Frustum {
+    /// The frustum of a view cut into tiles with this side.
+    pub(super) fn new(view: &View, tile_side: u32) -> Self {
+        let shift = view.lens.shift;
+        Self {
+            columns: Axis::new(view, tile_side, view.width, 1.0, shift.x),
+            rows: Axis::new(view, tile_side, view.height, -1.0, shift.y),
+        }
+    }
+
+    /// Tiles side by side.
+    pub(super) fn columns(&self) -> u32 {
+        self.columns.tiles()
+    }
+
+    /// Tiles one above the other.
+    pub(super) fn rows(&self) -> u32 {
+        self.rows.tiles()
+    }
+
+    /// A rectangle around the tiles that the sphere may be seen in.
+    pub(super) fn range(&self, sphere: &InCamera) -> Option<TileRange> {
+        if sphere.is_behind() {
+            return None;
+        }
+        let DVec3 { x, y, z } = sphere.center;
+        Some(TileRange {
+            columns: self.columns.span(DVec2::new(x, z), sphere.radius)?,
+            rows: self.rows.span(DVec2::new(y, z), sphere.radius)?,
+        })
+    }
 }

@@ -4,16 +4,26 @@
 //! leave out what cannot matter, by bounds that are rounded outward; every decision about what
 //! remains is exact for the given doubles.
 
+mod bins;
 mod casters;
+mod discs;
 mod frustum;
 mod seen;
 
+pub(crate) use discs::Disc;
 pub(crate) use seen::{Candidate, Seen};
+
+use std::ops::Range;
+use std::sync::OnceLock;
 
 use glam::DVec3;
 
 use self::casters::Casters;
+use self::discs::Remembered;
 use crate::{Ray, Sphere, World};
+
+/// Lengths whose squares are far from over- and underflow.
+const MODERATE: Range<f64> = 1e-35..1e35;
 
 /// Answers whether a sphere stands between a point and a light.
 #[derive(Clone, Debug)]
@@ -21,6 +31,10 @@ pub(crate) struct Visibility<'world> {
     spheres: &'world [Sphere],
     /// For every light what may keep it from a point; nothing in a world without shadows.
     casters: Vec<Casters>,
+    /// For every light and sphere what may keep it from that, once it was asked for.
+    discs: Vec<Box<[OnceLock<Remembered>]>>,
+    /// Whether squares of all lengths are far from over- and underflow.
+    is_moderate: bool,
 }
 
 impl<'world> Visibility<'world> {
@@ -36,7 +50,27 @@ impl<'world> Visibility<'world> {
             .iter()
             .map(|light| Casters::new(spheres, light.toward()))
             .collect();
-        Self { spheres, casters }
+        let unasked = || spheres.iter().map(|_| OnceLock::new()).collect();
+        let is_moderate = spheres.iter().all(|sphere| {
+            let largest = sphere.center().abs().max_element();
+            MODERATE.contains(&sphere.radius()) && largest < MODERATE.end
+        });
+        Self {
+            spheres,
+            casters,
+            discs: lights.iter().map(|_| unasked()).collect(),
+            is_moderate,
+        }
+    }
+
+    /// Whether squares of all lengths of the spheres are far from over- and underflow.
+    pub(crate) fn is_moderate(&self) -> bool {
+        self.is_moderate
+    }
+
+    /// The spheres, by their indices.
+    pub(crate) fn spheres(&self) -> &'world [Sphere] {
+        self.spheres
     }
 
     /// Whether any sphere but the one with the index `except` stands between a point of that
@@ -73,4 +107,4 @@ impl<'world> Visibility<'world> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

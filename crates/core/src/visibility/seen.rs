@@ -3,12 +3,15 @@
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 
 use super::Visibility;
-use super::frustum::{InCamera, Planes};
+use super::bins::Bins;
+use super::frustum::{Frustum, InCamera, TileRange};
 use crate::Tile;
-use crate::sphere::Relative;
-use crate::{Hit, Ray, View};
+use crate::sphere::{Ball, Relative};
+use crate::{Hit, Ray, Sphere, View};
 
 /// Sums of squares that have neither overflowed nor lost digits to underflow.
 const TRUSTED_SQUARES: RangeInclusive<f64> = 1e-280..=f64::MAX;
@@ -19,11 +22,12 @@ pub(crate) struct Seen<'world> {
     pub(crate) visibility: &'world Visibility<'world>,
     viewpoint: DVec3,
     tile_side: u32,
-    planes: Planes,
-    /// The spheres in the camera's frame.
-    in_camera: Vec<InCamera>,
-    /// For every row of tiles the indices of the spheres that may be seen there.
-    rows: Vec<Vec<u32>>,
+    /// Lengths of the balls are those of the world times 2 to the power of minus this.
+    length_exponent: i32,
+    /// The spheres that may be seen at all, those that come nearest first.
+    balls: Vec<Ball>,
+    /// Which of the balls may be seen in which tile.
+    bins: Bins,
 }
 
 /// A sphere that may be seen in a tile.
@@ -40,62 +44,73 @@ impl<'world> Seen<'world> {
     /// Finds out what a view with tiles of this side may see where.
     pub(crate) fn new(visibility: &'world Visibility<'world>, view: &View, tile_side: u32) -> Self {
         let viewpoint = view.camera.position;
-        let planes = Planes::new(view, tile_side);
-        let in_camera: Vec<InCamera> = visibility
-            .spheres
-            .iter()
-            .map(|sphere| InCamera::new(sphere.center() - viewpoint, sphere.radius(), view))
+        let spheres = visibility.spheres;
+        // The power of two and its inverse are doubles; whatever is lost makes odd balls.
+        let length_exponent = libm::ilogb(largest_size(spheres, viewpoint)).clamp(-1000, 1000);
+        let scale = libm::scalbn(1.0, -length_exponent);
+
+        let frustum = Frustum::new(view, tile_side);
+        let visible = |(index, sphere): (usize, &Sphere)| {
+            let to_center = (sphere.center() - viewpoint) * scale;
+            let radius = sphere.radius() * scale;
+            let range = frustum.range(&InCamera::new(to_center, radius, view))?;
+            let nearest = rising_bits(Ball::nearest(to_center, radius));
+            let index = index as u32;
+            Some(Visible {
+                nearest,
+                index,
+                range,
+            })
+        };
+        let spheres_here = spheres.par_iter().enumerate();
+        let mut order: Vec<Visible> = spheres_here
+            .with_min_len(FEWEST_TO_SHARE)
+            .filter_map(visible)
             .collect();
-        let mut rows = vec![Vec::new(); planes.rows()];
-        for (index, sphere) in in_camera.iter().enumerate() {
-            if sphere.is_behind()
-                || !(0..planes.columns()).any(|column| planes.is_in_column(sphere, column))
-            {
-                continue;
-            }
-            for (row, seen) in rows.iter_mut().enumerate() {
-                if planes.is_in_row(sphere, row) {
-                    seen.push(index as u32);
-                }
-            }
+        let key = |visible: &Visible| (visible.nearest, visible.index);
+        if order.len() < FEWEST_TO_SHARE {
+            order.sort_unstable_by_key(key);
+        } else {
+            order.par_sort_unstable_by_key(key);
         }
+        let indices = order.iter().map(|visible| visible.index);
+        let ranges = || order.iter().map(|visible| visible.range);
         Self {
             visibility,
             viewpoint,
             tile_side,
-            planes,
-            in_camera,
-            rows,
+            length_exponent,
+            balls: Ball::all(spheres, indices, viewpoint, length_exponent),
+            bins: Bins::new(frustum.columns(), frustum.rows(), ranges),
         }
+    }
+
+    /// The exponent of the power of two that lengths of the world were divided by.
+    pub(crate) fn length_exponent(&self) -> i32 {
+        self.length_exponent
+    }
+
+    /// The balls that may be seen in a tile, those that come nearest first.
+    pub(crate) fn balls(&self, tile: Tile) -> impl Iterator<Item = &Ball> {
+        let (column, row) = (tile.col / self.tile_side, tile.row / self.tile_side);
+        let places = self.bins.at(column, row);
+        places.map(|place| &self.balls[place as usize])
     }
 
     /// The spheres that may be seen in a tile, those that come nearest first.
     pub(crate) fn candidates(&self, tile: Tile) -> Vec<Candidate> {
-        let (column, row) = (
-            (tile.col / self.tile_side) as usize,
-            (tile.row / self.tile_side) as usize,
-        );
-        let seen = self.rows[row].iter().copied();
-        let mut candidates: Vec<Candidate> = seen
-            .filter(|&index| {
-                self.planes
-                    .is_in_column(&self.in_camera[index as usize], column)
-            })
-            .map(|index| self.candidate(index))
-            .collect();
-        candidates.sort_by(|a, b| a.nearest.total_cmp(&b.nearest));
-        candidates
+        self.balls(tile)
+            .map(|ball| self.candidate(ball.index))
+            .collect()
     }
 
     /// The indices of the spheres that may be seen in a tile.
     pub(crate) fn indices(&self, tile: Tile) -> Vec<usize> {
-        self.candidates(tile)
-            .iter()
-            .map(|candidate| candidate.index as usize)
-            .collect()
+        self.balls(tile).map(|ball| ball.index as usize).collect()
     }
 
-    fn candidate(&self, index: u32) -> Candidate {
+    /// A sphere as a candidate, by its index.
+    pub(crate) fn candidate(&self, index: u32) -> Candidate {
         /// The distance to the center is off by less, relatively.
         const BELOW: f64 = 1.0 - 8.0 * f64::EPSILON;
         let sphere = &self.visibility.spheres[index as usize];
@@ -113,7 +128,7 @@ impl<'world> Seen<'world> {
         }
     }
 
-    /// The first of a tile's candidates in a direction from the viewpoint, by index, and where it
+    /// The first of some candidates in a direction from the viewpoint, by index, and where it
     /// is hit; of coincident surfaces the sphere with the lower index.
     pub(crate) fn nearest(
         &self,
@@ -139,15 +154,13 @@ impl<'world> Seen<'world> {
                 .as_ref()
                 .is_some_and(|(_, hit)| candidate.nearest > hit.t * length)
             {
-                break;
+                // Rounding may have ordered some others after this one.
+                continue;
             }
-            let index = candidate.index as usize;
-            let spheres = self.visibility.spheres;
-            let Some(hit) =
-                spheres[index].hit_from_viewpoint(&candidate.relative, &ray, direction_sq)
-            else {
+            let Some(hit) = self.hit(candidate, &ray, direction_sq) else {
                 continue;
             };
+            let (index, spheres) = (candidate.index as usize, self.visibility.spheres);
             let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
                 match spheres[index].compare(&hit, &spheres[*other], other_hit, &ray) {
                     std::cmp::Ordering::Less => true,
@@ -161,4 +174,44 @@ impl<'world> Seen<'world> {
         }
         nearest
     }
+
+    /// Where a ray from the viewpoint, with this square of its direction, hits a candidate.
+    pub(crate) fn hit(&self, candidate: &Candidate, ray: &Ray, direction_sq: f64) -> Option<Hit> {
+        self.visibility.spheres[candidate.index as usize].hit_from_viewpoint(
+            &candidate.relative,
+            ray,
+            direction_sq,
+        )
+    }
+}
+
+/// Threads share the work on no fewer spheres than this.
+const FEWEST_TO_SHARE: usize = 4096;
+
+/// A sphere that may be seen.
+struct Visible {
+    /// Rises with the distance.
+    nearest: u64,
+    index: u32,
+    range: TileRange,
+}
+
+/// The largest finite radius or coordinate of a center as seen from the viewpoint.
+fn largest_size(spheres: &[Sphere], viewpoint: DVec3) -> f64 {
+    let size = |sphere: &Sphere| {
+        let to_center = (sphere.center() - viewpoint).abs().max_element();
+        to_center.max(sphere.radius())
+    };
+    spheres
+        .iter()
+        .map(size)
+        .filter(|size| size.is_finite())
+        .fold(0.0, f64::max)
+}
+
+/// Bits that rise with the number.
+fn rising_bits(value: f64) -> u64 {
+    const SIGN: u64 = 1 << 63;
+    let bits = value.to_bits();
+    if bits & SIGN == 0 { bits | SIGN } else { !bits }
 }

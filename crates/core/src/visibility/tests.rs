@@ -9,10 +9,10 @@ use crate::Tile;
 use crate::{Angle, Camera, Color, DirectionalLight, Hit, Lens, Material, View};
 
 /// Uniform numbers from 0 to 1.
-pub(super) struct Random(pub(super) u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    pub(super) fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
@@ -21,7 +21,7 @@ impl Random {
     }
 
     /// A point of the cube from −1 to 1.
-    pub(super) fn point(&mut self) -> DVec3 {
+    pub(crate) fn point(&mut self) -> DVec3 {
         DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
     }
 }

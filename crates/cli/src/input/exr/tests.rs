@@ -164,7 +164,7 @@ fn what_render_writes_comes_back() {
     for scene in [Scene::Grey, Scene::Color] {
         for (alpha, float) in [(false, false), (false, true), (true, false)] {
             let image = render(scene, alpha);
-            let bytes = output::tests::exr(&image, ExrOptions { float });
+            let bytes = output::tests::exr(&image, ExrOptions { float, error: true });
             let picture = Picture::decode(&bytes).unwrap();
             assert_eq!(picture.alpha, alpha);
             for (col, row) in (0..19).flat_map(|row| (0..23).map(move |col| (col, row))) {

@@ -8,8 +8,14 @@ use marbles_core::Angle;
 use super::*;
 use crate::output::tests::{Scene, render};
 
-const HALF: ExrOptions = ExrOptions { float: false };
-const FLOAT: ExrOptions = ExrOptions { float: true };
+const HALF: ExrOptions = ExrOptions {
+    float: false,
+    error: false,
+};
+const FLOAT: ExrOptions = ExrOptions {
+    float: true,
+    error: false,
+};
 
 fn facts() -> Facts {
     let [pan, tilt, roll] = [30.0, -10.0, 5.0].map(Angle::from_degrees);
@@ -73,6 +79,34 @@ fn compare(image: &Image, channels: &AnyChannels<FlatSamples>, is_float: bool) {
 }
 
 #[test]
+fn errors_are_floats_that_stay_bounds() {
+    let image = render(Scene::Color, true);
+    for light in [HALF, FLOAT] {
+        let options = ExrOptions {
+            error: true,
+            ..light
+        };
+        let file = read(&options.encode(&image, &facts()).unwrap().bytes);
+        let channels = file.layer_data.channel_data.list;
+        let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
+        assert_eq!(names, ["A", "B", "G", "R", "error"]);
+        let FlatSamples::F32(stored) = &channels[4].sample_data else {
+            panic!("expected floats");
+        };
+        let mut some = false;
+        for (&stored, (col, row)) in stored.iter().zip(pixels(&image)) {
+            let (stored, error) = (f64::from(stored), image.error(col, row));
+            assert!(stored >= error && stored <= error * (1.0 + f64::from(f32::EPSILON)));
+            some |= error > 0.0;
+        }
+        assert!(some);
+    }
+    assert_eq!(float_above(f64::INFINITY), f32::INFINITY);
+    assert_eq!(float_above(0.1), 0.1);
+    assert_eq!(float_above(0.7), 0.7_f32.next_up());
+}
+
+#[test]
 fn the_header_tells_the_facts() {
     let image = render(Scene::Color, false);
     let bytes = HALF.encode(&image, &facts()).unwrap().bytes;
@@ -85,6 +119,15 @@ fn the_header_tells_the_facts() {
     assert_eq!(custom("samples"), Some(&AttributeValue::I32(1)));
     assert_eq!(custom("frame"), Some(&AttributeValue::I32(-7)));
     let matrix = attributes.world_to_camera.unwrap().map(f64::from);
+    let to_a_tolerance = Facts {
+        method: Method::Tolerance(1e-3),
+        ..facts()
+    };
+    let file = read(&HALF.encode(&image, &to_a_tolerance).unwrap().bytes);
+    let custom = &file.layer_data.attributes.other;
+    let tolerance = custom.get(&Text::from("tolerance"));
+    assert_eq!(tolerance, Some(&AttributeValue::F32(1e-3)));
+    assert!(!custom.contains_key(&Text::from("samples")));
 
     let camera = facts().camera;
     let row_times_matrix = |p: DVec3| {

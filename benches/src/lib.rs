@@ -1,0 +1,159 @@
+//! What the benchmarks share: scenes, and a clock that lets all settings take turns.
+//!
+//! Every benchmark answers one question, asserts that its pictures are right and prints a table of
+//! medians. Pictures are rendered on one thread.
+
+use std::num::NonZeroU32;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use glam::DVec3;
+use marbles_core::{
+    Color, DirectionalLight, Image, Material, Method, Renderer, Settings, Sphere, View, World,
+};
+use marbles_scene::Scene;
+
+/// Something to be timed.
+pub struct Case<'scene, T> {
+    /// What the table calls it.
+    pub name: String,
+    /// How many of the table's units it makes, in millions.
+    pub millions: f64,
+    /// What is timed.
+    pub run: Box<dyn Fn() -> T + Send + Sync + 'scene>,
+}
+
+/// Runs all benchmarks of a file on one thread, if `cargo bench` is what started it: other commands
+/// that build everything run it, too.
+pub fn main(benchmarks: impl FnOnce() + Send) {
+    if std::env::args().any(|argument| argument == "--bench") {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        pool.expect("a thread can be had").install(benchmarks);
+    }
+}
+
+/// Runs all cases in turns, until `seconds` are over, but once at least; prints the median times
+/// and the units a second. What each case made.
+///
+/// # Panics
+/// Without a case.
+#[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
+pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) -> Vec<T> {
+    const MOST_ROUNDS: usize = 25;
+    let start = Instant::now();
+    let mut times = vec![Vec::new(); cases.len()];
+    let mut results = Vec::new();
+    while times[0].is_empty()
+        || times[0].len() < MOST_ROUNDS && start.elapsed() < Duration::from_secs(seconds)
+    {
+        results.clear();
+        for (case, times) in cases.iter().zip(&mut times) {
+            let start = Instant::now();
+            results.push((case.run)());
+            times.push(start.elapsed().as_secs_f64());
+        }
+    }
+    println!("\n{title}, medians of {}", times[0].len());
+    for (case, times) in cases.iter().zip(&mut times) {
+        times.sort_unstable_by(f64::total_cmp);
+        let median = times[times.len() / 2];
+        let (milliseconds, rate) = (1e3 * median, case.millions / median);
+        println!(
+            "{:>24} {milliseconds:>12.3} ms {rate:>10.2} M {unit}/s",
+            case.name
+        );
+    }
+    results
+}
+
+/// A scene of the repository, by its path there without the ending.
+///
+/// # Panics
+/// When it cannot be read.
+pub fn load(name: &str) -> Scene {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
+    let path = root.join(format!("{name}.ron"));
+    Scene::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The first view of a scene, as a square with this side.
+///
+/// # Panics
+/// When the scene has no frame 1.
+pub fn square_view(scene: &Scene, side: u32) -> View {
+    let view = scene.view(1).expect("scenes begin with frame 1");
+    View {
+        width: side,
+        height: side,
+        ..view
+    }
+}
+
+/// A cloud of balls, at random but always the same, in a cube of side 200 around (0, 0, 400): what
+/// a thousand with radii from 3 to 12 fill of it.
+pub fn cloud(count: u32) -> World {
+    let mut state = u64::from(count);
+    let mut random = || {
+        // Knuth's linear congruence, of which the upper bits are good.
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    let scale = (1e3 / f64::from(count)).cbrt();
+    for _ in 0..count {
+        let point = DVec3::new(random(), random(), random()) - 0.5;
+        let radius = scale * (3.0 + 9.0 * random());
+        let sphere = Sphere::new(200.0 * point + 400.0 * DVec3::Z, radius);
+        world.add_sphere(sphere.expect("radii are positive"), white);
+    }
+    let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+    world.lights.extend(light);
+    world
+}
+
+/// The picture to a tolerance.
+pub fn to_tolerance(renderer: &Renderer<'_>, view: &View, tolerance: f64) -> Image {
+    render(renderer, view, Method::Tolerance(tolerance))
+}
+
+/// The picture by N × N samples a pixel.
+///
+/// # Panics
+/// For no samples.
+pub fn by_samples(renderer: &Renderer<'_>, view: &View, samples: u32) -> Image {
+    let samples = NonZeroU32::new(samples).expect("at least one sample");
+    render(renderer, view, Method::Samples(samples))
+}
+
+fn render(renderer: &Renderer<'_>, view: &View, method: Method) -> Image {
+    let settings = Settings {
+        method,
+        alpha: false,
+    };
+    let image = renderer.render(view, &settings, &|_| ControlFlow::Continue(()));
+    image.expect("nobody stops it")
+}
+
+/// The mean of a picture's first channel.
+pub fn mean(image: &Image) -> f64 {
+    let pixels = f64::from(image.width()) * f64::from(image.height());
+    places(image)
+        .map(|(col, row)| image.rgba(col, row)[0])
+        .sum::<f64>()
+        / pixels
+}
+
+/// The largest difference between the first channels of pictures of one size.
+pub fn largest_difference(one: &Image, other: &Image) -> f64 {
+    let difference = |(col, row)| (one.rgba(col, row)[0] - other.rgba(col, row)[0]).abs();
+    places(one).map(difference).fold(0.0, f64::max)
+}
+
+fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+    let width = image.width();
+    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
+}

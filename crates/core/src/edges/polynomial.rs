@@ -1,0 +1,158 @@
+//! Polynomials of the coordinates (x, y) of a cell.
+
+use std::ops::{Add, Mul, Sub};
+
+use fearless_simd::prelude::*;
+
+use fearless_simd::f64x8;
+
+/// `one + x·x + y·y`, the coefficients named after what they multiply.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Linear {
+    pub(crate) one: f64,
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+}
+
+/// A polynomial of degree 2, the coefficients named after what they multiply.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Quadratic {
+    pub(crate) one: f64,
+    pub(crate) x: f64,
+    pub(crate) y: f64,
+    pub(crate) xx: f64,
+    pub(crate) xy: f64,
+    pub(crate) yy: f64,
+}
+
+/// Where a conic crosses eight lines: once with its polynomial rising in the direction of x, once
+/// with it falling; NaN, infinite or far off where it does not.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossings<S: Simd> {
+    pub(crate) rising: f64x8<S>,
+    pub(crate) falling: f64x8<S>,
+}
+
+impl Quadratic {
+    /// A bound of the distance between the values in the square −½ ≤ x, y ≤ ½ and that in its
+    /// middle.
+    pub(crate) fn spread(&self) -> f64 {
+        0.5 * (self.x.abs() + self.y.abs()) + 0.25 * (self.xx.abs() + self.xy.abs() + self.yy.abs())
+    }
+
+    /// Whether the polynomial may have a zero in the square −½ ≤ x, y ≤ ½.
+    pub(crate) fn may_vanish(&self) -> bool {
+        // The tiny part is for the rounding of the coefficients. NaN may be anything.
+        let spread = self.spread();
+        let most = spread + 1e-12 * (spread + self.one.abs());
+        self.one.abs() <= most || !most.is_finite()
+    }
+
+    /// The same with x and y in each other's place.
+    pub(crate) fn transposed(&self) -> Self {
+        Self {
+            x: self.y,
+            y: self.x,
+            xx: self.yy,
+            yy: self.xx,
+            ..*self
+        }
+    }
+
+    /// Where the zeros cross the lines with these y.
+    ///
+    /// The root that adds numbers of one sign is computed as it stands, the other from the product
+    /// of both: a x² + 2 b x + c.
+    #[inline(always)]
+    pub(crate) fn crossings<S: Simd>(&self, y: f64x8<S>) -> Crossings<S> {
+        let b = (y * self.xy + self.x) * 0.5;
+        let c = (y * self.yy + self.y) * y + self.one;
+        // Where rounding decides whether there are two roots or none, there is a double one: a plane
+        // through the eye cuts a sphere in a circle that is seen as a line.
+        const DOUBLE: f64 = 1e-13;
+        let (square, product) = (b * b, c * self.xx);
+        let discriminant = square - product;
+        let is_double = discriminant
+            .abs()
+            .simd_lt((square + product.abs()) * DOUBLE);
+        let root = is_double.select(square * 0.0, discriminant).sqrt();
+        let sum = b.abs() + root;
+        let (near, far) = (c / sum, sum / self.xx);
+        let positive = b.simd_gt(0.0);
+        Crossings {
+            rising: positive.select(-near, far),
+            falling: positive.select(-far, near),
+        }
+    }
+
+    /// The lines y = const that the zeros touch, as (x, y) of the points where they do; NaN where
+    /// there are none.
+    pub(crate) fn extremes(&self) -> [(f64, f64); 2] {
+        // The discriminant of the crossings, as a polynomial of y.
+        let leading = 0.25 * self.xy * self.xy - self.xx * self.yy;
+        let half = 0.25 * self.x * self.xy - 0.5 * self.xx * self.y;
+        let constant = 0.25 * self.x * self.x - self.xx * self.one;
+        let root = (half * half - leading * constant).sqrt();
+        let sum = -(half + root.copysign(half));
+        [sum / leading, constant / sum].map(|y| {
+            let x = -0.5 * (self.x + self.xy * y) / self.xx;
+            (x, y)
+        })
+    }
+}
+
+impl Mul for Linear {
+    type Output = Quadratic;
+
+    fn mul(self, other: Self) -> Quadratic {
+        Quadratic {
+            one: self.one * other.one,
+            x: self.one * other.x + self.x * other.one,
+            y: self.one * other.y + self.y * other.one,
+            xx: self.x * other.x,
+            xy: self.x * other.y + self.y * other.x,
+            yy: self.y * other.y,
+        }
+    }
+}
+
+impl Mul<f64> for Quadratic {
+    type Output = Self;
+
+    fn mul(self, factor: f64) -> Self {
+        Self {
+            one: self.one * factor,
+            x: self.x * factor,
+            y: self.y * factor,
+            xx: self.xx * factor,
+            xy: self.xy * factor,
+            yy: self.yy * factor,
+        }
+    }
+}
+
+impl Add for Quadratic {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            one: self.one + other.one,
+            x: self.x + other.x,
+            y: self.y + other.y,
+            xx: self.xx + other.xx,
+            xy: self.xy + other.xy,
+            yy: self.yy + other.yy,
+        }
+    }
+}
+
+impl Sub for Quadratic {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + other * -1.0
+    }
+}
+
+#[cfg(test)]
+mod tests;

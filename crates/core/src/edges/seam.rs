@@ -1,0 +1,78 @@
+//! The circles in which spheres intersect.
+
+use glam::DVec3;
+
+use super::cell::{Ball, Cell, dot};
+use super::polynomial::Quadratic;
+
+/// Vanishes where the ray through (x, y) meets both spheres in one point, on their near sides or
+/// on others.
+///
+/// The circle lies in the plane p · w = (K₁ − K₂) / 2, w = c₁ − c₂, which is cut with the smaller
+/// sphere.
+pub(crate) fn seam(cell: &Cell, one: &Ball, other: &Ball) -> Quadratic {
+    let (small, large) = if one.radius <= other.radius {
+        (one, other)
+    } else {
+        (other, one)
+    };
+    let between = small.center - large.center;
+    let length = between.length();
+    let normal = between / length;
+    // The plane's distance from the smaller center along the normal: from the radii, or from K,
+    // whichever rounds less.
+    let by_radii = (large.radius - length) * (large.radius + length) - small.radius * small.radius;
+    let by_outside = small.outside - large.outside - 2.0 * small.center.dot(between);
+    let radii_cost = large.radius.max(length) * length.max(1e-300);
+    let outside_cost = small.outside.abs() + large.outside.abs() + small.center.length() * length;
+    let twice = if radii_cost <= outside_cost {
+        by_radii
+    } else {
+        by_outside
+    };
+    plane_cut(cell, small, normal, 0.5 * twice / length)
+}
+
+/// Vanishes where the ray through (x, y) meets a sphere in the plane (p − c) · w = `offset`, w
+/// a unit vector.
+///
+/// # Source
+/// With q = d·w and m = c·w + μ, μ the offset, the point t d = (m / q) d of the plane lies on the
+/// sphere where A m² − 2 B m q + K q² = 0. For an eye far outside the terms nearly cancel; with
+/// ĉ = c / |c|, w∥ = ĉ·w and Lagrange's identities they become
+///
+/// > w∥² |d × c|² + ((c × d) · (ĉ × w))² − r² q² + A μ² + 2 μ (d × c) · (d × w).
+pub(super) fn plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quadratic {
+    let (center, radius_sq) = (ball.center, ball.radius * ball.radius);
+    let q = cell.dot(w);
+    let ray_sq = cell.ray_sq();
+    if !ball.is_apart() {
+        let along = cell.dot(center);
+        let m = center.dot(w) + offset;
+        return ray_sq * (m * m) - along * q * (2.0 * m) + q * q * ball.outside;
+    }
+    let across = cell.cross(center);
+    let toward_center = center.normalize();
+    let share = toward_center.dot(w);
+    // (c × d) · (ĉ × w) = −(d × c) · (ĉ × w), of which only the square counts.
+    let turned = {
+        let side = toward_center.cross(w);
+        let part = |pick: fn(&super::Linear) -> f64| {
+            pick(&across[0]) * side.x + pick(&across[1]) * side.y + pick(&across[2]) * side.z
+        };
+        super::Linear {
+            one: part(|linear| linear.one),
+            x: part(|linear| linear.x),
+            y: part(|linear| linear.y),
+        }
+    };
+    let central = dot(&across, &across) * (share * share) + turned * turned - q * q * radius_sq;
+    if offset == 0.0 {
+        return central;
+    }
+    let mixed = dot(&across, &cell.cross(w));
+    central + ray_sq * (offset * offset) + mixed * (2.0 * offset)
+}
+
+#[cfg(test)]
+mod tests;

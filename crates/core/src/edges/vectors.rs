@@ -1,0 +1,102 @@
+//! Eight vectors at a time.
+//!
+//! As in [`crate::lanes`] there are no closures in what computes with them.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+/// Eight vectors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Vectors<S: Simd> {
+    pub(crate) x: f64x8<S>,
+    pub(crate) y: f64x8<S>,
+    pub(crate) z: f64x8<S>,
+}
+
+impl<S: Simd> Vectors<S> {
+    /// One vector, eight times.
+    #[inline(always)]
+    pub(crate) fn splat(simd: S, vector: DVec3) -> Self {
+        Self {
+            x: f64x8::splat(simd, vector.x),
+            y: f64x8::splat(simd, vector.y),
+            z: f64x8::splat(simd, vector.z),
+        }
+    }
+
+    /// The component along the axis with this number.
+    #[inline(always)]
+    pub(crate) fn along(&self, axis: usize) -> f64x8<S> {
+        match axis {
+            0 => self.x,
+            1 => self.y,
+            _ => self.z,
+        }
+    }
+
+    /// The same, but for one component that has something added.
+    #[inline(always)]
+    pub(crate) fn moved(mut self, axis: usize, by: f64x8<S>) -> Self {
+        match axis {
+            0 => self.x += by,
+            1 => self.y += by,
+            _ => self.z += by,
+        }
+        self
+    }
+
+    #[inline(always)]
+    pub(crate) fn plus(&self, other: &Self) -> Self {
+        Self {
+            x: self.x + other.x,
+            y: self.y + other.y,
+            z: self.z + other.z,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn minus(&self, other: &Self) -> Self {
+        Self {
+            x: self.x - other.x,
+            y: self.y - other.y,
+            z: self.z - other.z,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn times(&self, factor: f64x8<S>) -> Self {
+        Self {
+            x: self.x * factor,
+            y: self.y * factor,
+            z: self.z * factor,
+        }
+    }
+
+    /// The scalar products.
+    #[inline(always)]
+    pub(crate) fn dot(&self, other: &Self) -> f64x8<S> {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    /// The scalar products with one vector.
+    #[inline(always)]
+    pub(crate) fn dot_one(&self, other: DVec3) -> f64x8<S> {
+        self.x * other.x + self.y * other.y + self.z * other.z
+    }
+
+    #[inline(always)]
+    pub(crate) fn length_squared(&self) -> f64x8<S> {
+        self.dot(self)
+    }
+
+    /// The vector products.
+    #[inline(always)]
+    pub(crate) fn cross(&self, other: &Self) -> Self {
+        Self {
+            x: self.y * other.z - self.z * other.y,
+            y: self.z * other.x - self.x * other.z,
+            z: self.x * other.y - self.y * other.x,
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! The light of what eight rays see.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8};
+
+use super::lanes::{LANES, Vectors, lanes_of};
+use super::near::Near;
+use super::rays::Place;
+use super::shadow::Shadows;
+use super::trace::{Group, Groups, Sight};
+use crate::power::Power;
+use crate::roughness::PixelKey;
+use crate::{Color, DirectionalLight, Material, World};
+
+/// Light of eight rays, in one channel or in three.
+pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
+
+/// What shading asks of a world; the same light as [`shade`](crate::shading::shade), but for
+/// rounding.
+#[derive(Clone, Debug)]
+pub(super) struct Shading<'scene> {
+    pub(super) world: &'scene World,
+    pub(super) frame: i64,
+    /// Whether no surface is rough.
+    is_smooth: bool,
+}
+
+impl<'scene> Shading<'scene> {
+    pub(super) fn new(world: &'scene World, frame: i64) -> Self {
+        let is_smooth = !world
+            .materials()
+            .iter()
+            .any(|material| material.roughness.is_some());
+        Self {
+            world,
+            frame,
+            is_smooth,
+        }
+    }
+
+    /// The light of rays that see anything; of the others any numbers.
+    #[inline(always)]
+    pub(super) fn light<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &Looks<'_>),
+        place: Place,
+        shadows: &mut Option<Shadows<'_>>,
+    ) -> Light<S, CHANNELS> {
+        let world = self.world;
+        let zero = f64x8::splat(simd, 0.0);
+        let normal = if self.is_smooth {
+            sight.normal
+        } else {
+            self.roughened(sight, place, groups)
+        };
+        let splat = |color: Color| -> Light<S, CHANNELS> {
+            std::array::from_fn(|channel| f64x8::splat(simd, color[channel]))
+        };
+        let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
+        let mut diffuse = splat(world.ambient);
+        let mut mirrored = [zero; CHANNELS];
+        for (index, light) in world.lights.iter().enumerate() {
+            let toward = Vectors::splat(simd, light.toward());
+            let facing = normal.dot(toward);
+            let mut lit = facing.simd_gt(zero) & outer;
+            if !lit.any_true() {
+                continue;
+            }
+            if let Some(shadows) = shadows {
+                let bits = shadows.lit(simd, index, light, sight, groups, lit.to_bitmask());
+                lit = mask64x8::from_bitmask(simd, bits);
+                if bits == 0 {
+                    continue;
+                }
+            }
+            let intensity = light.intensity();
+            let spread = looks.powers(simd, facing, |material| material.exponent);
+            let spread = lit.select(spread, zero);
+            for (channel, sum) in diffuse.iter_mut().enumerate() {
+                *sum += spread * intensity[channel];
+            }
+            if looks.has_highlight {
+                let spot = looks.spots(simd, lit, light, normal, sight);
+                for (channel, sum) in mirrored.iter_mut().enumerate() {
+                    *sum += spot * intensity[channel];
+                }
+            }
+        }
+        let albedo: Light<S, CHANNELS> = looks.select(simd, |material| splat(material.albedo));
+        std::array::from_fn(|channel| albedo[channel] * diffuse[channel] + mirrored[channel])
+    }
+
+    /// The normals with the bumps of rough surfaces.
+    #[cold]
+    #[inline(never)]
+    fn roughened<S: Simd>(
+        &self,
+        sight: &Sight<S>,
+        place: Place,
+        groups: &Groups<'_>,
+    ) -> Vectors<S> {
+        let mut normal = sight.normal;
+        for Group { near, lanes } in groups.as_slice() {
+            let index = near.ball.index as usize;
+            let Some(roughness) = &self.world.material(index).roughness else {
+                continue;
+            };
+            let radius = self.world.spheres()[index].radius();
+            for lane in lanes_of(lanes & !sight.inner) {
+                let key = PixelKey {
+                    col: place.col + lane as u32,
+                    row: place.row,
+                    frame: self.frame,
+                };
+                let bumpy = roughness.perturb(sight.normal.lane(lane), radius, index, key);
+                normal.set_lane(lane, bumpy);
+            }
+        }
+        normal
+    }
+}
+
+/// The materials that eight rays see, each once.
+pub(super) struct Looks<'scene> {
+    list: [Look<'scene>; LANES],
+    count: usize,
+    has_highlight: bool,
+}
+
+/// A material, and the rays that see it as bits.
+#[derive(Clone, Copy)]
+struct Look<'scene> {
+    material: &'scene Material,
+    number: u32,
+    lanes: u64,
+}
+
+impl<'scene> Looks<'scene> {
+    /// One look: that of the world's only material, or any.
+    pub(super) fn new(world: &'scene World, near: &Near) -> Self {
+        let material = world.material(near.ball.index as usize);
+        let look = Look {
+            material,
+            number: near.material,
+            lanes: 0,
+        };
+        Self {
+            list: [look; LANES],
+            count: 1,
+            has_highlight: material.highlight.is_some(),
+        }
+    }
+
+    /// Takes in what is seen.
+    #[inline(always)]
+    pub(super) fn see(&mut self, world: &'scene World, groups: &Groups<'_>) {
+        if world.materials().len() > 1 {
+            self.see_any(world, groups);
+        }
+    }
+
+    fn see_any(&mut self, world: &'scene World, groups: &Groups<'_>) {
+        self.count = 0;
+        self.has_highlight = false;
+        for group in groups.as_slice() {
+            let number = group.near.material;
+            let known = &mut self.list[..self.count];
+            if let Some(look) = known.iter_mut().find(|look| look.number == number) {
+                look.lanes |= group.lanes;
+                continue;
+            }
+            let material = &world.materials()[number as usize];
+            self.list[self.count] = Look {
+                material,
+                number,
+                lanes: group.lanes,
+            };
+            self.count += 1;
+            self.has_highlight |= material.highlight.is_some();
+        }
+    }
+
+    /// What each ray's material says.
+    #[inline(always)]
+    fn select<S: Simd, const COUNT: usize>(
+        &self,
+        simd: S,
+        value: impl Fn(&Material) -> [f64x8<S>; COUNT],
+    ) -> [f64x8<S>; COUNT] {
+        let mut selected = value(self.list[0].material);
+        for look in &self.list[1..self.count] {
+            let mask = mask64x8::from_bitmask(simd, look.lanes);
+            for (selected, value) in selected.iter_mut().zip(value(look.material)) {
+                *selected = mask.select(value, *selected);
+            }
+        }
+        selected
+    }
+
+    /// Bases to powers that the materials choose.
+    #[inline(always)]
+    fn powers<S: Simd>(
+        &self,
+        simd: S,
+        base: f64x8<S>,
+        exponent: impl Fn(&Material) -> f64,
+    ) -> f64x8<S> {
+        let [powers] = self.select(
+            simd,
+            |material| [Power::new(exponent(material)).lanes(base)],
+        );
+        powers
+    }
+
+    /// The highlights of a light of intensity 1, where `lit` holds; else 0.
+    #[inline(always)]
+    fn spots<S: Simd>(
+        &self,
+        simd: S,
+        lit: mask64x8<S>,
+        light: &DirectionalLight,
+        normal: Vectors<S>,
+        sight: &Sight<S>,
+    ) -> f64x8<S> {
+        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
+        let toward = Vectors::splat(simd, light.toward());
+        let view = sight.direction.scaled(one / sight.length_sq.sqrt());
+        let half = toward.minus(view);
+        let half_sq = half.dot(half);
+        // Zero where the viewer looks along the light.
+        let inverse = half_sq.simd_gt(zero).select(one / half_sq.sqrt(), zero);
+        let facing = normal.dot(half) * inverse;
+        let facing = facing.simd_gt(zero).select(facing, zero);
+        let [spots] = self.select(simd, |material| {
+            [match &material.highlight {
+                Some(highlight) => {
+                    Power::new(highlight.shininess).lanes(facing) * highlight.strength
+                }
+                None => zero,
+            }]
+        });
+        lit.select(spots, zero)
+    }
+}

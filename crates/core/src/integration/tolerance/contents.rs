@@ -1,0 +1,410 @@
+//! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
+
+use std::ops::Range;
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::{DVec2, DVec3};
+
+use super::scene::InCamera;
+use super::surface::{Finish, Points};
+use crate::edges::{Ball, Caster, Cell, Linear, Quadratic, Vectors, seam, silhouette, terminator};
+use crate::roughness::PixelKey;
+use crate::rounding::UNIT_ROUNDOFF;
+
+/// A sphere that may be seen in a cell.
+#[derive(Clone, Debug)]
+pub(super) struct Active {
+    pub(super) sphere: usize,
+    pub(super) ball: Ball,
+    /// The discriminant Q of the ray.
+    pub(super) discriminant: Quadratic,
+    /// d · c.
+    pub(super) along: Linear,
+    /// Whether the terminators belong to a surface without bumps.
+    pub(super) is_smooth: bool,
+}
+
+/// How a light may reach a sphere in a cell.
+#[derive(Clone, Debug)]
+pub(super) enum Reach {
+    /// Nowhere.
+    Nowhere,
+    /// Where none of these casters is in the way.
+    Past(Range<usize>),
+}
+
+/// A curve on which light may change abruptly.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Kind {
+    /// Of the active sphere with this position.
+    Silhouette(usize),
+    Seam,
+    /// Of a light on an active sphere.
+    Terminator(usize),
+}
+
+/// All that matters in a cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Contents {
+    pub(super) active: Vec<Active>,
+    pub(super) conics: Vec<(Kind, Quadratic)>,
+    /// For every active sphere and every light.
+    pub(super) reach: Vec<Reach>,
+    pub(super) casters: Vec<Caster>,
+    pub(super) pixel: Option<PixelKey>,
+    /// How far, in sides of the cell, rounding may move an edge.
+    pub(super) rounding: f64,
+}
+
+/// Where in space a cell sees a sphere: within `around` of the way between two points.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patch {
+    pub(super) ends: [DVec3; 2],
+    pub(super) around: f64,
+}
+
+impl Patch {
+    /// For an eye outside. The ray d through the middle of the cell is off by half its diagonal at
+    /// most; with Q = B² − A K ≥ 0, t = K / (B + √Q) lies between K / (B⁺ + √Q⁺) and √(K / A⁻).
+    pub(super) fn new(cell: &Cell, ball: &Ball, discriminant: &Quadratic, along: &Linear) -> Self {
+        let k = ball.outside;
+        let spread = discriminant.spread();
+        let (lowest, highest) = (discriminant.one - spread, discriminant.one + spread);
+        let half = 0.5 * (along.x.abs() + along.y.abs());
+        let half_diagonal = 0.5 * cell.size[0].hypot(cell.size[1]);
+        let shortest = (cell.middle.length() - half_diagonal).max(1.0);
+        let nearest = k / (along.one + half + highest.max(0.0).sqrt());
+        let mut farthest = k.sqrt() / shortest;
+        if along.one > half {
+            farthest = farthest.min(k / (along.one - half + lowest.max(0.0).sqrt()));
+        }
+        Self {
+            ends: [cell.middle * nearest, cell.middle * farthest],
+            around: farthest * half_diagonal * (1.0 + 1e-9)
+                + 1e-12 * farthest * cell.middle.length(),
+        }
+    }
+}
+
+/// What rounding moves points by, relative to the largest numbers that they are computed from: some
+/// units in the last place.
+const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
+
+/// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
+const FOLLOWED: f64 = 4.0;
+
+/// What a caster does to a patch.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Shade {
+    Nothing,
+    Edge,
+    Everything,
+}
+
+/// What a caster does to a patch under a light in the unit direction `toward`.
+pub(super) fn shade(patch: &Patch, caster: &Caster, toward: DVec3) -> Shade {
+    let around = patch.around + 1e-12 * caster.center.abs().max_element();
+    let [start, end] = patch.ends.map(|point| caster.project(point));
+    let ahead = patch.ends.map(|point| (point - caster.center).dot(toward));
+    if ahead[0].min(ahead[1]) - around > 0.0 {
+        return Shade::Nothing;
+    }
+    if distance_to_segment(start, end) - around > caster.radius {
+        return Shade::Nothing;
+    }
+    let farthest = start.length().max(end.length()) + around;
+    if farthest < caster.radius && ahead[0].max(ahead[1]) + around < 0.0 {
+        return Shade::Everything;
+    }
+    Shade::Edge
+}
+
+/// Distance of the origin from the way between two points.
+fn distance_to_segment(start: DVec2, end: DVec2) -> f64 {
+    let way = end - start;
+    let length_sq = way.length_squared();
+    let share = if length_sq > 0.0 {
+        (-start.dot(way) / length_sq).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
+    (start + way * share).length()
+}
+
+impl Contents {
+    /// Takes in the spheres that a cell may see, out of some, and their edges.
+    pub(super) fn see(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        spheres: &[usize],
+        cache: &mut CasterCache,
+    ) {
+        self.active.clear();
+        self.conics.clear();
+        self.reach.clear();
+        self.casters.clear();
+        let size = cell.size[0].min(cell.size[1]);
+        self.rounding = ROUNDINGS * cell.middle.length() / size;
+        for &sphere in spheres {
+            let ball = scene.balls[sphere];
+            let discriminant = silhouette(cell, &ball);
+            let along = cell.dot(ball.center);
+            let spread = discriminant.spread();
+            let slack = 1e-12 * (spread + discriminant.one.abs());
+            let half = 0.5 * (along.x.abs() + along.y.abs());
+            let is_outside = ball.outside > 0.0;
+            if is_outside && (discriminant.one + spread + slack < 0.0 || along.one + half <= 0.0) {
+                continue;
+            }
+            let position = self.active.len();
+            if is_outside && discriminant.may_vanish() {
+                self.conics.push((Kind::Silhouette(position), discriminant));
+            }
+            self.add_seams(cell, &ball);
+            let is_smooth = scene.world.material(sphere).roughness.is_none();
+            let active = Active {
+                sphere,
+                ball,
+                discriminant,
+                along,
+                is_smooth,
+            };
+            for light in 0..scene.lights.len() {
+                let reach = if is_outside && !scene.is_enclosed {
+                    self.reach_of(scene, cell, &active, light, cache)
+                } else {
+                    Reach::Nowhere
+                };
+                if is_smooth && matches!(reach, Reach::Past(_)) {
+                    let terminator = terminator(cell, &ball, scene.lights[light].toward);
+                    if terminator.may_vanish() {
+                        self.conics.push((Kind::Terminator(position), terminator));
+                    }
+                }
+                self.reach.push(reach);
+            }
+            self.active.push(active);
+        }
+    }
+
+    /// Adds where a sphere intersects those that are there.
+    fn add_seams(&mut self, cell: &Cell, ball: &Ball) {
+        for other in &self.active {
+            let apart = (ball.center - other.ball.center).length();
+            let sum = ball.radius + other.ball.radius;
+            let difference = (ball.radius - other.ball.radius).abs();
+            let slack = 1e-12 * (sum + apart);
+            if apart < sum + slack && apart > difference - slack && apart > 0.0 {
+                let seam = seam(cell, ball, &other.ball);
+                if seam.may_vanish() {
+                    self.conics.push((Kind::Seam, seam));
+                    // The plane's place, by the radii or by K, whichever rounds less.
+                    let by_radii = ball.radius.max(other.ball.radius).max(apart);
+                    let by_outside = (ball.outside.abs() + other.ball.outside.abs()) / apart
+                        + ball.center.length().min(other.ball.center.length());
+                    let nearest = ball.outside.abs().min(other.ball.outside.abs())
+                        / ball.radius.min(other.ball.radius).max(ball.center.length());
+                    let size = cell.size[0].min(cell.size[1]) * nearest.max(f64::MIN_POSITIVE);
+                    let moved = ROUNDINGS * by_radii.min(by_outside) / size;
+                    self.rounding = self.rounding.max(moved);
+                }
+            }
+        }
+    }
+
+    /// How a light reaches a sphere that the eye is outside of.
+    fn reach_of(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        active: &Active,
+        light: usize,
+        cache: &mut CasterCache,
+    ) -> Reach {
+        let first = self.casters.len();
+        if scene.world.shadows {
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let in_camera = &scene.lights[light];
+            let range = cache.casters(scene, active.sphere, light);
+            for &index in &cache.indices[range] {
+                let caster = in_camera.caster(&scene.balls[index]);
+                match shade(&patch, &caster, in_camera.toward) {
+                    Shade::Nothing => {}
+                    Shade::Edge => {
+                        let reach = |ball: &Ball| ball.center.length() + ball.radius;
+                        let largest = reach(&active.ball).max(reach(&scene.balls[index]));
+                        let distance = patch.ends[0].length() / cell.middle.length();
+                        let size = cell.size[0].min(cell.size[1]) * distance;
+                        self.rounding = self.rounding.max(ROUNDINGS * largest / size);
+                        self.casters.push(caster);
+                    }
+                    Shade::Everything => {
+                        self.casters.truncate(first);
+                        return Reach::Nowhere;
+                    }
+                }
+            }
+        }
+        Reach::Past(first..self.casters.len())
+    }
+
+    /// Whether highlights are too sharp for rules along lines of the cell.
+    #[inline(always)]
+    pub(super) fn is_sharp<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        negligible: f64,
+    ) -> bool {
+        let lights = scene.lights.len();
+        for (position, active) in self.active.iter().enumerate() {
+            let material = scene.world.material(active.sphere);
+            let Some(pixel) = self.pixel else { continue };
+            let Some(highlight) = material.highlight.filter(|_| active.ball.outside > 0.0) else {
+                continue;
+            };
+            // The patch is no longer than this; bumps turn with it, as a rule, a few times as fast.
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
+            let turn = 0.5 * length / active.ball.radius + cell.size[0];
+            if highlight.shininess * turn * turn < 2.0 * FOLLOWED {
+                continue;
+            }
+            let finish = Finish::new(scene, active.sphere, pixel);
+            let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
+            for light in 0..lights {
+                let reach = &self.reach[position * lights + light];
+                let Reach::Past(_) = reach else { continue };
+                let turn = f64x8::splat(simd, turn);
+                let light = &scene.lights[light];
+                if finish.too_sharp(simd, &points, light, turn, FOLLOWED, negligible) != 0 {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether edges would rather be crossed by lines in the other direction.
+    pub(super) fn prefers_transposed(&self, scene: &InCamera<'_>, cell: &Cell) -> bool {
+        /// Lines along an edge are no worse than this.
+        const STEEPEST: f64 = 10.0;
+        let mut sum = 0.0;
+        let mut note = |x: f64, y: f64| {
+            let (x, y) = (x.abs(), y.abs());
+            if x + y > 0.0 {
+                sum += (y / x).min(STEEPEST) - (x / y).min(STEEPEST);
+            }
+        };
+        for (_, conic) in &self.conics {
+            note(conic.x, conic.y);
+        }
+        let lights = scene.lights.len();
+        let [along, across] = cell.axes();
+        for (position, active) in self.active.iter().enumerate() {
+            let ball = &active.ball;
+            let root = active.discriminant.one.sqrt();
+            if root.is_nan() {
+                continue;
+            }
+            let ray = cell.middle;
+            let t = ball.outside / (active.along.one + root);
+            let point = ray * t;
+            let normal = point - ball.center;
+            for light in 0..lights {
+                let Reach::Past(casters) = &self.reach[position * lights + light] else {
+                    continue;
+                };
+                for caster in &self.casters[casters.clone()] {
+                    let aside = caster.project(point);
+                    let gradient = caster.right * aside.x + caster.up * aside.y;
+                    // How the point moves in the tangent plane.
+                    let slope = |axis: usize| {
+                        let step = DVec3::AXES[axis];
+                        gradient.dot(step - ray * (normal.dot(step) / normal.dot(ray)))
+                    };
+                    note(slope(along) * cell.size[0], slope(across) * cell.size[1]);
+                }
+            }
+        }
+        sum > 0.0
+    }
+
+    /// The same for the transposed cell.
+    pub(super) fn transpose(&mut self) {
+        for (_, conic) in &mut self.conics {
+            *conic = conic.transposed();
+        }
+        for active in &mut self.active {
+            active.discriminant = active.discriminant.transposed();
+            std::mem::swap(&mut active.along.x, &mut active.along.y);
+        }
+    }
+}
+
+/// The spheres that may keep lights from what a tile sees, found when they are asked for.
+#[derive(Clone, Debug)]
+pub(super) struct CasterCache {
+    tile: Cell,
+    /// Sphere, light, and where their casters stand.
+    known: Vec<(usize, usize, Range<usize>)>,
+    pub(super) indices: Vec<usize>,
+    found: Vec<usize>,
+}
+
+impl CasterCache {
+    /// Nothing is known yet of the tile that covers this cell.
+    pub(super) fn new(tile: Cell) -> Self {
+        Self {
+            tile,
+            known: Vec::new(),
+            indices: Vec::new(),
+            found: Vec::new(),
+        }
+    }
+
+    /// Where in `indices` the spheres are that may keep a light from a sphere.
+    pub(super) fn casters(
+        &mut self,
+        scene: &InCamera<'_>,
+        sphere: usize,
+        light: usize,
+    ) -> Range<usize> {
+        let known = self
+            .known
+            .iter()
+            .find(|known| known.0 == sphere && known.1 == light);
+        if let Some((_, _, range)) = known {
+            return range.clone();
+        }
+        let ball = &scene.balls[sphere];
+        let discriminant = silhouette(&self.tile, ball);
+        let along = self.tile.dot(ball.center);
+        let patch = Patch::new(&self.tile, ball, &discriminant, &along);
+        let points = patch.ends.map(|point| scene.in_world(point));
+        let around = patch.around * (1.0 + 1e-9);
+        self.found.clear();
+        scene
+            .visibility
+            .casters(light, &points, around, &mut self.found);
+        let own = scene.world.spheres()[sphere];
+        let toward = scene.lights[light].toward;
+        let first = self.indices.len();
+        for &candidate in &self.found {
+            let caster = scene.lights[light].caster(&scene.balls[candidate]);
+            let is_other = candidate != sphere && scene.world.spheres()[candidate] != own;
+            if is_other && shade(&patch, &caster, toward) != Shade::Nothing {
+                self.indices.push(candidate);
+            }
+        }
+        let range = first..self.indices.len();
+        self.known.push((sphere, light, range.clone()));
+        range
+    }
+}
+
+#[cfg(test)]
+mod tests;

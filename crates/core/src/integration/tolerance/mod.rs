@@ -1,0 +1,110 @@
+//! The integral over a pixel, to a tolerance.
+//!
+//! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
+//! known as curves, between whose events the light is smooth.
+
+mod breaks;
+mod cell;
+mod contents;
+mod cut;
+mod fill;
+mod glimpse;
+mod piece;
+mod pixel;
+mod rule;
+mod scene;
+mod smooth;
+mod surface;
+mod tile;
+mod trust;
+
+use std::num::NonZeroU32;
+
+use fearless_simd::{Level, dispatch};
+
+use self::scene::InCamera;
+use self::trust::trusted;
+use super::{Integrator, Pixel, Supersampling, Work};
+use crate::edges::Cell;
+use crate::visibility::Seen;
+use crate::{Radiance, Tile, View, World};
+
+/// Averages to a tolerance.
+#[derive(Clone, Debug)]
+pub(crate) struct Exact<'scene> {
+    scene: InCamera<'scene>,
+    view: &'scene View,
+    seen: &'scene Seen<'scene>,
+    /// For every sphere whether doubles can be trusted with it.
+    trusted: Vec<bool>,
+    /// For pixels that cannot be integrated.
+    fallback: Supersampling<'scene>,
+    tolerance: f64,
+    alpha: bool,
+    level: Level,
+    /// About the largest difference of light that an edge may make.
+    contrast: f64,
+}
+
+/// Samples on a side of a pixel that cannot be integrated.
+const FALLBACK_SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
+impl<'scene> Exact<'scene> {
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &'scene View,
+        seen: &'scene Seen<'scene>,
+        tolerance: f64,
+        alpha: bool,
+    ) -> Self {
+        let scene = InCamera::new(world, seen.visibility, view);
+        let lights = world
+            .lights
+            .iter()
+            .map(|light| light.intensity().max_element());
+        let contrast = 1.0
+            + world.ambient.max_element()
+            + world.background.max_element()
+            + lights.sum::<f64>();
+        Self {
+            trusted: trusted(&scene, view),
+            scene,
+            view,
+            seen,
+            fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
+            tolerance,
+            alpha,
+            level: Level::new(),
+            contrast,
+        }
+    }
+
+    /// The cell that covers some pixels.
+    fn cell(&self, tile: Tile) -> Cell {
+        let distance = self.view.lens.distance * self.view.zoom;
+        let pixel = self.view.pixel_size() / distance;
+        let center = |col: u32, row: u32| {
+            self.view.cell_center(u64::from(col), u64::from(row), 1) / distance
+        };
+        let first = center(tile.col, tile.row);
+        let last = center(tile.col + tile.width - 1, tile.row + tile.height - 1);
+        Cell {
+            middle: (0.5 * (first + last)).extend(1.0),
+            size: [
+                pixel * f64::from(tile.width),
+                pixel * f64::from(tile.height),
+            ],
+            is_transposed: false,
+        }
+    }
+}
+
+impl<C: Radiance> Integrator<C> for Exact<'_> {
+    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work {
+        let candidates = self.seen.indices(tile);
+        dispatch!(self.level, simd => self.tile(simd, tile, &candidates, pixels))
+    }
+}
+
+#[cfg(test)]
+mod tests;

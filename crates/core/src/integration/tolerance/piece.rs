@@ -1,0 +1,565 @@
+//! The integral over lines that are alike.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::contents::{Active, Contents, Reach};
+use super::cut::{self, MOST_LIGHTS, NOTHING, Signature, branch_of_conic, is_lit, sphere_of};
+use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
+use super::scene::InCamera;
+use super::surface::{Finish, Points};
+use crate::edges::{Arcs, Cell};
+use crate::roughness::NoiseCells;
+use crate::{Color, Radiance, World};
+
+/// An integral over a part of a cell whose area is 1.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    pub(super) value: Color,
+    pub(super) covered: f64,
+    pub(super) error: f64,
+    /// What of the error comes from along the lines.
+    pub(super) along: f64,
+    /// What of the error comes from rounding.
+    pub(super) rounding: f64,
+}
+
+impl Part {
+    pub(super) const NOTHING: Self = Self {
+        value: Color::ZERO,
+        covered: 0.0,
+        error: 0.0,
+        along: 0.0,
+        rounding: 0.0,
+    };
+
+    pub(super) fn add(&mut self, other: &Self, share: f64) {
+        self.value += other.value * share;
+        self.covered += other.covered * share;
+        self.error += other.error * share;
+        self.along += other.along * share;
+        self.rounding += other.rounding * share;
+    }
+}
+
+/// Lines that were held to be alike are not.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unlike;
+
+/// Lines from `start` to `end` with one signature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'a> {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) roots: Roots,
+    pub(super) signature: &'a Signature,
+    /// Parts into which every interval of a line is divided.
+    pub(super) division: u32,
+    /// How far from the start and from the end lines need not have the signature.
+    pub(super) loose: [f64; 2],
+    /// What is narrower along lines may be anything.
+    pub(super) gap: f64,
+}
+
+/// What pieces of a cell have in common.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surroundings<'a> {
+    pub(super) scene: &'a InCamera<'a>,
+    pub(super) cell: &'a Cell,
+    pub(super) contents: &'a Contents,
+    /// Light where no sphere is seen.
+    pub(super) background: Color,
+}
+
+impl Surroundings<'_> {
+    /// The integral over the lines of a piece; the number of samples that it took is added to
+    /// `samples`.
+    #[inline(always)]
+    pub(super) fn integrate<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        piece: &Piece<'_>,
+        scratch: &mut Vec<f64>,
+        noise: &mut Option<Box<NoiseCells>>,
+        samples: &mut u64,
+    ) -> Result<Part, Unlike> {
+        let &Self {
+            scene,
+            cell,
+            contents,
+            background,
+        } = self;
+        let length = piece.end - piece.start;
+        let rule = Rule::of(piece.roots);
+        let nodes: f64x8<S> = rule.nodes.simd_into(simd);
+        let y = nodes * length + piece.start;
+        let signature = piece.signature;
+        let zero = f64x8::splat(simd, 0.0);
+        let mut sum = [zero; 3];
+        let mut covered = zero;
+        let mut along = zero;
+        let is_strict = (y.simd_gt(piece.start + piece.loose[0])
+            & y.simd_lt(piece.end - piece.loose[1]))
+        .to_bitmask();
+        let mut start = f64x8::splat(simd, -0.5);
+        for index in 0..=signature.changes {
+            let mut end = if index == signature.changes {
+                f64x8::splat(simd, 0.5)
+            } else {
+                self.place(simd, signature.branches[index], y, scratch)
+            };
+            let is_ordered = (end - start).simd_ge(-piece.gap);
+            if !is_ordered.to_bitmask() & is_strict != 0 {
+                return Err(Unlike);
+            }
+            // Elsewhere what is not there has no width.
+            end = is_ordered.select(end, start);
+            let width = end - start;
+            let view = signature.views[index];
+            let found = cut::views(simd, scene, cell, contents, (start + end) * 0.5, y);
+            let wide = width.simd_gt(piece.gap).to_bitmask() & is_strict;
+            for (lane, found) in found.iter().enumerate() {
+                if wide >> lane & 1 == 1 && *found != view {
+                    return Err(Unlike);
+                }
+            }
+            let width = width.max(zero);
+            if view == NOTHING {
+                for channel in 0..C::CHANNELS {
+                    sum[channel] += width * background[channel];
+                }
+            } else {
+                covered += width;
+                let interval = Interval {
+                    start,
+                    width,
+                    view,
+                    before: (index > 0).then(|| signature.branches[index - 1]),
+                    after: (index < signature.changes).then(|| signature.branches[index]),
+                    division: piece.division,
+                };
+                self.add::<S, C>(simd, &interval, y, &mut sum, &mut along, noise, samples);
+            }
+            start = end;
+        }
+        let is_rough = signature.views[..=signature.changes].iter().any(|&view| {
+            let lit = view >> 32 != 0;
+            lit && sphere_of(view).is_some_and(|position| !contents.active[position].is_smooth)
+        });
+        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, is_rough))
+    }
+
+    /// The integral across the lines, from what is along them.
+    #[inline(always)]
+    fn sum_up<S: Simd, C: Radiance>(
+        &self,
+        rule: &Rule,
+        sum: &[f64x8<S>; 3],
+        covered: f64x8<S>,
+        along: f64x8<S>,
+        is_rough: bool,
+    ) -> Part {
+        let mut part = Part::NOTHING;
+        let mut error: f64 = 0.0;
+        for (channel, sum) in sum.iter().enumerate().take(C::CHANNELS) {
+            let (value, estimate) = across(rule, sum, is_rough);
+            part.value[channel] = value;
+            error = error.max(estimate);
+        }
+        let (value, estimate) = across(rule, &covered, false);
+        part.covered = value;
+        error = error.max(estimate);
+        for index in 0..NODES {
+            part.along += rule.fine[index] * along[index];
+        }
+        part.error = error + part.along;
+        part
+    }
+
+    /// Adds the light of an interval of the lines.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(always)]
+    fn add<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        interval: &Interval<S>,
+        y: f64x8<S>,
+        sum: &mut [f64x8<S>; 3],
+        error: &mut f64x8<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+        samples: &mut u64,
+    ) {
+        let &Self {
+            scene, contents, ..
+        } = self;
+        let world: &World = scene.world;
+        let Some(position) = sphere_of(interval.view) else {
+            return;
+        };
+        let active = &contents.active[position];
+        let material = world.material(active.sphere);
+        if interval.view >> 32 == 0 {
+            let constant = material.albedo * world.ambient;
+            for channel in 0..C::CHANNELS {
+                sum[channel] += interval.width * constant[channel];
+            }
+            return;
+        }
+        let exponent = material.exponent;
+        let root_at = |branch: Option<u16>| {
+            branch.is_some_and(|branch| cut::has_root_at(contents, branch, position, exponent))
+        };
+        let Some(pixel) = contents.pixel else { return };
+        let finish = Finish::new(scene, active.sphere, pixel);
+        let mut lit = [0; MOST_LIGHTS];
+        for (light, lit) in lit.iter_mut().enumerate() {
+            *lit = if is_lit(interval.view, light) {
+                0xff
+            } else {
+                0
+            };
+        }
+        if finish.is_rough() {
+            self.add_rough::<S, C>(
+                simd, interval, active, &finish, &lit, y, sum, error, noise, samples,
+            );
+            return;
+        }
+        let step = 1.0 / f64::from(interval.division);
+        let width = interval.width * step;
+        for part in 0..interval.division {
+            let rule = Rule::of(Roots {
+                at_start: part == 0 && root_at(interval.before),
+                at_end: part + 1 == interval.division && root_at(interval.after),
+            });
+            let start = interval.start + width * f64::from(part);
+            *samples += 8 * NODES as u64;
+            self.add_stretch::<S, C>(
+                simd, active, &finish, &lit, rule, start, width, y, sum, error, noise,
+            );
+        }
+    }
+
+    /// Adds the light of an interval on a rough surface, which has terminators inside its bumps: they
+    /// are found between points, line by line.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(never)]
+    fn add_rough<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        interval: &Interval<S>,
+        active: &Active,
+        finish: &Finish<'_>,
+        lit: &[u64; MOST_LIGHTS],
+        y: f64x8<S>,
+        sum: &mut [f64x8<S>; 3],
+        error: &mut f64x8<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+        samples: &mut u64,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let end = interval.start + interval.width;
+                let mut turns = Turns::default();
+                let points = LOOKS * interval.division;
+                *samples += 8 * u64::from(points + 1);
+                let step = interval.width * (1.0 / f64::from(points));
+                let mut last = [f64x8::splat(simd, 0.0); MOST_LIGHTS];
+                let mut last_x = interval.start;
+                for index in 0..=points {
+                    let x = interval.start + step * f64::from(index);
+                    let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
+                    let normal = finish.normal(simd, self.scene, &at, noise);
+                    for (light, in_camera) in self.scene.lights.iter().enumerate() {
+                        if lit[light] == 0 {
+                            continue;
+                        }
+                        let facing = normal.dot_one(in_camera.toward);
+                        if index > 0 {
+                            let turned = facing.simd_gt(0.0) ^ last[light].simd_gt(0.0);
+                            let turned = turned.to_bitmask();
+                            if turned != 0 {
+                                let root = self.turn(
+                                    simd,
+                                    active,
+                                    finish,
+                                    in_camera.toward,
+                                    y,
+                                    [last_x, x],
+                                    [last[light], facing],
+                                    noise,
+                                );
+                                *samples += 8 * u64::from(STEPS);
+                                for lane in 0..8 {
+                                    if turned >> lane & 1 == 1 {
+                                        turns.note(lane, root[lane]);
+                                    }
+                                }
+                            }
+                        }
+                        last[light] = facing;
+                    }
+                    last_x = x;
+                }
+                let is_eased = !finish.has_whole_exponent();
+                let rule = Rule::of(Roots {
+                    at_start: is_eased,
+                    at_end: is_eased,
+                });
+                let mut start = interval.start;
+                let ends: [f64; 8] = end.into();
+                for index in 0..=turns.most() {
+                    let stop: f64x8<S> = turns.stops(index, &ends).simd_into(simd);
+                    let division = interval.division;
+                    let width = (stop - start) * (1.0 / f64::from(division));
+                    for part in 0..division {
+                        *samples += 8 * NODES as u64;
+                        let start = start + width * f64::from(part);
+                        self.add_stretch::<S, C>(
+                            simd, active, finish, lit, rule, start, width, y, sum, error, noise,
+                        );
+                    }
+                    start = stop;
+                }
+            },
+        )
+    }
+
+    /// Where between two places the surface turns away from a light or toward it: by the rule of
+    /// false position, with one value halved when the other end stays (Illinois).
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(never)]
+    fn turn<S: Simd>(
+        &self,
+        simd: S,
+        active: &Active,
+        finish: &Finish<'_>,
+        toward: DVec3,
+        y: f64x8<S>,
+        [mut low, mut high]: [f64x8<S>; 2],
+        [mut at_low, mut at_high]: [f64x8<S>; 2],
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> f64x8<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut x = low;
+                for _ in 0..STEPS {
+                    let share = at_low / (at_low - at_high);
+                    x = low + (high - low) * share;
+                    let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
+                    let facing = finish.normal(simd, self.scene, &at, noise).dot_one(toward);
+                    let is_low = !(facing.simd_gt(0.0) ^ at_low.simd_gt(0.0));
+                    low = is_low.select(x, low);
+                    at_high = is_low.select(at_high * 0.5, facing);
+                    at_low = is_low.select(facing, at_low * 0.5);
+                    high = is_low.select(high, x);
+                }
+                x
+            },
+        )
+    }
+
+    /// Adds the light of stretches of the lines on which it is smooth.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(never)]
+    fn add_stretch<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        active: &Active,
+        finish: &Finish<'_>,
+        lit: &[u64; MOST_LIGHTS],
+        rule: &Rule,
+        start: f64x8<S>,
+        width: f64x8<S>,
+        y: f64x8<S>,
+        sum: &mut [f64x8<S>; 3],
+        error: &mut f64x8<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let (scene, cell) = (self.scene, self.cell);
+                let one = f64x8::splat(simd, 1.0);
+                let zero = f64x8::splat(simd, 0.0);
+                let mut fine = [zero; 3];
+                let mut coarse = [zero; 3];
+                let mut lowest = one * f64::INFINITY;
+                let mut highest = one * f64::NEG_INFINITY;
+                for node in 0..NODES {
+                    let x = start + width * rule.nodes[node];
+                    let points = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
+                    let light = finish.radiance::<S, C>(simd, scene, &points, lit, noise, None);
+                    for channel in 0..C::CHANNELS {
+                        fine[channel] += light[channel] * rule.fine[node];
+                        coarse[channel] += light[channel] * rule.coarse[node];
+                    }
+                    let mut gauge = light[0];
+                    for channel in &light[1..C::CHANNELS] {
+                        gauge += *channel;
+                    }
+                    lowest = lowest.min(gauge);
+                    highest = highest.max(gauge);
+                }
+                let spread = highest - lowest;
+                let mut largest = zero;
+                for channel in 0..C::CHANNELS {
+                    let difference = (fine[channel] - coarse[channel]).abs();
+                    let estimate = if active.is_smooth {
+                        let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);
+                        (spread * ratio * ratio).min(difference)
+                    } else {
+                        // The noise has no third derivative where its cells meet.
+                        difference
+                    };
+                    largest = largest.max(estimate);
+                    sum[channel] += fine[channel] * width;
+                }
+                *error += largest * width;
+            },
+        )
+    }
+
+    /// Where a branch crosses lines; NaN where it does not.
+    #[inline(never)]
+    fn place<S: Simd>(
+        &self,
+        simd: S,
+        branch: u16,
+        y: f64x8<S>,
+        scratch: &mut Vec<f64>,
+    ) -> f64x8<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let contents = self.contents;
+                let branch = usize::from(branch);
+                let conics = contents.conics.len();
+                if branch < 2 * conics {
+                    let crossings = contents.conics[branch / 2].1.crossings(y);
+                    return if branch_of_conic(branch / 2, true) == branch as u16 {
+                        crossings.falling
+                    } else {
+                        crossings.rising
+                    };
+                }
+                let (caster, which) = ((branch - 2 * conics) / 4, (branch - 2 * conics) % 4);
+                let lights = self.scene.lights.len();
+                let of = contents.reach.iter().position(
+                    |reach| matches!(reach, Reach::Past(casters) if casters.contains(&caster)),
+                );
+                let Some(of) = of else {
+                    return f64x8::splat(simd, f64::NAN);
+                };
+                let ball = &contents.active[of / lights].ball;
+                let arcs = Arcs::new(simd, self.cell, ball, y);
+                let places = arcs.crossings(simd, self.cell, &contents.casters[caster], scratch);
+                places[which / 2][which % 2]
+            },
+        )
+    }
+}
+
+/// The integral over lines with these integrals, and an estimate of its error: for rough surfaces,
+/// whose terminators come and go between lines, the difference of the rules as it is.
+#[inline(always)]
+fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, is_rough: bool) -> (f64, f64) {
+    let (mut fine, mut coarse) = (0.0, 0.0);
+    for index in 0..NODES {
+        fine += rule.fine[index] * of[index];
+        coarse += rule.coarse[index] * of[index];
+    }
+    let mut spread = 0.0;
+    for index in 0..NODES {
+        spread += rule.fine[index] * (of[index] - fine).abs();
+    }
+    let difference = (fine - coarse).abs();
+    if is_rough {
+        return (fine, difference);
+    }
+    (fine, error_estimate(difference, spread))
+}
+
+/// Points of an interval at which a rough surface is looked at for terminators.
+const LOOKS: u32 = 8;
+
+/// Steps to a terminator.
+const STEPS: u32 = 7;
+
+/// Places on eight lines, at most so many each, in order.
+#[derive(Clone, Copy, Debug)]
+struct Turns {
+    places: [[f64; 8]; MOST_TURNS],
+    counts: [usize; 8],
+}
+
+/// Terminators in an interval that are told apart; more make the rules worse, which they notice.
+const MOST_TURNS: usize = 16;
+
+impl Default for Turns {
+    fn default() -> Self {
+        Self {
+            places: [[f64::INFINITY; 8]; MOST_TURNS],
+            counts: [0; 8],
+        }
+    }
+}
+
+impl Turns {
+    /// Adds a place on a line.
+    fn note(&mut self, lane: usize, place: f64) {
+        if self.counts[lane] == MOST_TURNS {
+            return;
+        }
+        let mut at = self.counts[lane];
+        while at > 0 && self.places[at - 1][lane] > place {
+            self.places[at][lane] = self.places[at - 1][lane];
+            at -= 1;
+        }
+        self.places[at][lane] = place;
+        self.counts[lane] += 1;
+    }
+
+    /// The largest number of places on a line.
+    fn most(&self) -> usize {
+        self.counts.iter().copied().max().unwrap_or(0)
+    }
+
+    /// The places with this number, or the ends of the lines.
+    fn stops(&self, index: usize, ends: &[f64; 8]) -> [f64; 8] {
+        let mut stops = *ends;
+        if index < MOST_TURNS {
+            for (stop, place) in stops.iter_mut().zip(&self.places[index]) {
+                *stop = stop.min(*place);
+            }
+        }
+        stops
+    }
+}
+
+/// A part of eight lines on which one sphere is seen.
+#[derive(Clone, Copy, Debug)]
+struct Interval<S: Simd> {
+    start: f64x8<S>,
+    width: f64x8<S>,
+    view: u64,
+    /// The branches at its ends, where these are not the sides of the cell.
+    before: Option<u16>,
+    after: Option<u16>,
+    division: u32,
+}

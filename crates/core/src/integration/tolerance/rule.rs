@@ -1,0 +1,174 @@
+//! Rules of integration on 0 to 1.
+
+/// Nodes of the rules.
+pub(super) const NODES: usize = 7;
+
+/// Nodes on 0 to 1 with the weights of Kronrod's rule and of Gauss's with three points, which is
+/// held against it, after a change of variable.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rule {
+    /// In the order of the nodes, the last one twice: eight can be computed at a time.
+    pub(super) nodes: [f64; 8],
+    /// Kronrod's; the eighth is zero.
+    pub(super) fine: [f64; 8],
+    /// Gauss's.
+    pub(super) coarse: [f64; 8],
+}
+
+/// Where the integrand is a function of the root of the distance to an end of the interval.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub(super) struct Roots {
+    pub(super) at_start: bool,
+    pub(super) at_end: bool,
+}
+
+impl Rule {
+    /// The rule for an interval with such ends: by x = s², x = 1 − (1 − s)² or x = s² (3 − 2 s) the
+    /// integrand becomes smooth.
+    pub(super) fn of(roots: Roots) -> &'static Self {
+        &RULES[usize::from(roots.at_start) + 2 * usize::from(roots.at_end)]
+    }
+}
+
+const RULES: [Rule; 4] = {
+    /// Abscissas and weights on −1 to 1.
+    ///
+    /// # Source
+    /// Kronrod, Nodes and Weights of Quadrature Formulas, 1965.
+    const NODE: [f64; 7] = [
+        -0.960_491_268_708_020_3,
+        -0.774_596_669_241_483_4,
+        -0.434_243_749_346_802_6,
+        0.0,
+        0.434_243_749_346_802_6,
+        0.774_596_669_241_483_4,
+        0.960_491_268_708_020_3,
+    ];
+    const KRONROD: [f64; 7] = [
+        0.104_656_226_026_467_3,
+        0.268_488_089_868_333_4,
+        0.401_397_414_775_962_2,
+        0.450_916_538_658_474_1,
+        0.401_397_414_775_962_2,
+        0.268_488_089_868_333_4,
+        0.104_656_226_026_467_3,
+    ];
+    const GAUSS: [f64; 7] = [0.0, 5.0 / 9.0, 0.0, 8.0 / 9.0, 0.0, 5.0 / 9.0, 0.0];
+    let mut rules = [Rule {
+        nodes: [0.0; 8],
+        fine: [0.0; 8],
+        coarse: [0.0; 8],
+    }; 4];
+    let mut kind = 0;
+    while kind < 4 {
+        let mut index = 0;
+        while index < 7 {
+            let s = 0.5 + 0.5 * NODE[index];
+            let (node, slope) = match kind {
+                0 => (s, 1.0),
+                1 => (s * s, 2.0 * s),
+                2 => (1.0 - (1.0 - s) * (1.0 - s), 2.0 * (1.0 - s)),
+                _ => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)),
+            };
+            rules[kind].nodes[index] = node;
+            rules[kind].fine[index] = 0.5 * KRONROD[index] * slope;
+            rules[kind].coarse[index] = 0.5 * GAUSS[index] * slope;
+            index += 1;
+        }
+        rules[kind].nodes[7] = rules[kind].nodes[6];
+        kind += 1;
+    }
+    rules
+};
+
+/// How much larger than the ratio of the rules' errors their difference is taken to be.
+pub(super) const CAUTION: f64 = 7.0;
+
+/// An estimate of the error of Kronrod's rule, by its difference to Gauss's and the integrand's
+/// mean distance from its mean.
+///
+/// For analytic functions the former's relative error is about the square of the latter's.
+pub(super) fn error_estimate(difference: f64, spread: f64) -> f64 {
+    if difference <= 0.0 {
+        return 0.0;
+    }
+    let ratio = (CAUTION * difference / spread).min(1.0);
+    let estimate = (spread * ratio * ratio).min(difference);
+    // What is not a number is not lost.
+    if difference.is_nan() || spread.is_nan() {
+        f64::NAN
+    } else {
+        estimate
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rules_integrate_what_their_changes_of_variable_are_for() {
+        for (at_start, at_end) in [(false, false), (true, false), (false, true), (true, true)] {
+            let rule = Rule::of(Roots { at_start, at_end });
+            let of = |weights: &[f64; 8], f: &dyn Fn(f64) -> f64| -> f64 {
+                (0..8)
+                    .map(|index| weights[index] * f(rule.nodes[index]))
+                    .sum()
+            };
+            // The area of half a disc, or of a quarter of one with its steep end at either side.
+            let (f, expected): (&dyn Fn(f64) -> f64, f64) = match (at_start, at_end) {
+                (false, false) => (&|x| (3.0 * x).exp(), ((3.0_f64).exp() - 1.0) / 3.0),
+                (true, false) => (
+                    &|x: f64| (x * (2.0 - x)).sqrt(),
+                    0.25 * std::f64::consts::PI,
+                ),
+                (false, true) => (&|x: f64| (1.0 - x * x).sqrt(), 0.25 * std::f64::consts::PI),
+                (true, true) => (&|x: f64| (x * (1.0 - x)).sqrt(), std::f64::consts::PI / 8.0),
+            };
+            assert!((of(&rule.fine, f) - expected).abs() < 2e-6 * expected);
+            assert!((of(&rule.coarse, f) - expected).abs() < 2e-2 * expected);
+            assert!((of(&rule.fine, &|_| 1.0) - 1.0).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn nodes_lie_in_order_between_the_ends_and_weights_are_positive() {
+        for rule in &RULES {
+            let inside = &rule.nodes[..NODES];
+            assert!(inside.iter().all(|node| (0.0..1.0).contains(node)));
+            assert!(inside.is_sorted() && rule.nodes[7] == rule.nodes[6]);
+            assert!(rule.fine[..NODES].iter().all(|&weight| weight > 0.0));
+            assert!(rule.fine[7] == 0.0 && rule.coarse[7] == 0.0);
+            assert!(rule.coarse.iter().filter(|&&weight| weight > 0.0).count() == 3);
+        }
+    }
+
+    /// Kronrod's rule with 7 points is exact to degree 11, Gauss's with 3 to degree 5.
+    #[test]
+    fn plain_rules_are_exact_for_polynomials() {
+        let rule = Rule::of(Roots::default());
+        for degree in 0..=12 {
+            let exact = 1.0 / f64::from(degree + 1);
+            let off = |weights: &[f64; 8]| {
+                let terms = weights.iter().zip(rule.nodes);
+                let sum: f64 = terms.map(|(weight, node)| weight * node.powi(degree)).sum();
+                (sum - exact).abs()
+            };
+            assert!((off(&rule.fine) < 1e-15) == (degree <= 11), "{degree}");
+            assert!((off(&rule.coarse) < 1e-15) == (degree <= 5), "{degree}");
+        }
+    }
+
+    #[test]
+    fn estimates_grow_with_the_difference_and_never_exceed_it() {
+        let mut last = 0.0;
+        for exponent in -16..=0 {
+            let difference = 10.0_f64.powi(exponent);
+            let estimate = error_estimate(difference, 1.0);
+            assert!(last < estimate && estimate <= difference);
+            last = estimate;
+        }
+        assert_eq!(error_estimate(0.0, 1.0), 0.0);
+        assert!(error_estimate(f64::NAN, f64::NAN).is_nan());
+    }
+}

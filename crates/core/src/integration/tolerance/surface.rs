@@ -1,0 +1,308 @@
+//! Points of spheres and their light, eight at a time.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+use glam::{DMat3, DVec3};
+
+use super::cut::MOST_LIGHTS;
+use super::scene::{InCamera, Light};
+use crate::edges::{Ball, Vectors};
+use crate::power::Power;
+use crate::roughness::{Bumps, NoiseCells, PixelKey, unit};
+use crate::{Material, Radiance};
+
+/// Points of a sphere that the eye sees from outside.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Points<S: Simd> {
+    pub(super) ray: Vectors<S>,
+    pub(super) ray_sq: f64x8<S>,
+    /// In multiples of the ray.
+    pub(super) t: f64x8<S>,
+    /// Unit outward normals.
+    pub(super) normal: Vectors<S>,
+}
+
+impl<S: Simd> Points<S> {
+    /// The points in the directions `ray`; a ray that misses counts as grazing.
+    #[inline(always)]
+    pub(super) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let ray_sq = ray.length_squared();
+        let along = ray.dot_one(ball.center);
+        if ball.is_apart() {
+            let across = ray.cross(&Vectors::splat(simd, ball.center));
+            let discriminant = ray_sq * (ball.radius * ball.radius) - across.length_squared();
+            let root = discriminant.max(zero).sqrt();
+            let t = one * ball.outside / (along + root);
+            // From the center to the foot of the perpendicular, times d·d, and back to the eye.
+            let foot = ray.cross(&across);
+            let normal = foot
+                .minus(&ray.times(root))
+                .times(one / (ray_sq * ball.radius));
+            Self {
+                ray,
+                ray_sq,
+                t,
+                normal,
+            }
+        } else {
+            let discriminant = along * along - ray_sq * ball.outside;
+            let root = discriminant.max(zero).sqrt();
+            let t = one * ball.outside / (along + root);
+            let from_center = ray.times(t).minus(&Vectors::splat(simd, ball.center));
+            Self {
+                ray,
+                ray_sq,
+                t,
+                normal: from_center.times(one * (1.0 / ball.radius)),
+            }
+        }
+    }
+
+    /// The points, from the eye.
+    #[inline(always)]
+    pub(super) fn place(&self) -> Vectors<S> {
+        self.ray.times(self.t)
+    }
+}
+
+/// What the light of a sphere's outer side depends on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Finish<'scene> {
+    material: &'scene Material,
+    diffuse: Power,
+    specular: Option<(f64, Power)>,
+    shininess: f64,
+    bumps: Relief,
+}
+
+/// What turns the normals of a surface.
+#[derive(Clone, Copy, Debug)]
+enum Relief {
+    Smooth,
+    Bumpy(Bumps),
+    /// Factors of the components, in the world's frame.
+    Factors(DVec3),
+}
+
+impl<'scene> Finish<'scene> {
+    pub(super) fn new(scene: &InCamera<'scene>, sphere: usize, pixel: PixelKey) -> Self {
+        let material = scene.world.material(sphere);
+        let bumps = match &material.roughness {
+            None => Relief::Smooth,
+            Some(roughness) => match roughness.bumps(scene.balls[sphere].radius, sphere) {
+                Some(bumps) => Relief::Bumpy(bumps),
+                None => Relief::Factors(roughness.pixel_factors(sphere, pixel)),
+            },
+        };
+        Self {
+            material,
+            diffuse: Power::new(material.exponent),
+            specular: material
+                .highlight
+                .map(|highlight| (highlight.strength, Power::new(highlight.shininess))),
+            shininess: material
+                .highlight
+                .map_or(0.0, |highlight| highlight.shininess),
+            bumps,
+        }
+    }
+
+    /// Where a highlight may be too sharp for a rule, bit by bit: where normals and half vectors turn
+    /// by an angle δ toward each other, it falls to exp(−κ) of its height with κ = shininess · δ² / 2;
+    /// too sharp is more than `most`.
+    ///
+    /// Points at which it is nowhere higher than `negligible` do not count.
+    #[inline(always)]
+    pub(super) fn too_sharp<S: Simd>(
+        &self,
+        simd: S,
+        points: &Points<S>,
+        light: &Light,
+        turn: f64x8<S>,
+        most: f64,
+        negligible: f64,
+    ) -> u64 {
+        let Some((strength, power)) = &self.specular else {
+            return 0;
+        };
+        let one = f64x8::splat(simd, 1.0);
+        let is_turning = (turn * turn * self.shininess).simd_gt(2.0 * most);
+        if is_turning.to_bitmask() == 0 {
+            return 0;
+        }
+        let scale = -one / points.ray_sq.sqrt();
+        let to_eye = points.normal.dot(&points.ray) * scale;
+        let along = points.ray.dot_one(light.toward) * scale;
+        let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
+        let half = (points.normal.dot_one(light.toward) + to_eye) / length_sq.sqrt();
+        let half = half.min(one);
+        // cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ.
+        let sine = (one - half * half).max(one * 0.0).sqrt();
+        let highest = turn
+            .simd_ge(sine)
+            .select(one, (half + turn * sine).min(one));
+        let height = power.lanes(highest.max(one * 0.0)) * *strength;
+        (is_turning & height.simd_gt(negligible)).to_bitmask()
+    }
+
+    /// Whether the surface may avert itself from a light that its sphere faces.
+    pub(super) fn is_rough(&self) -> bool {
+        !matches!(self.bumps, Relief::Smooth)
+    }
+
+    /// The normals that light is computed with.
+    #[inline(always)]
+    pub(super) fn normal<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        points: &Points<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Vectors<S> {
+        match &self.bumps {
+            Relief::Smooth => points.normal,
+            relief => relief.turned(simd, scene, &points.normal, noise),
+        }
+    }
+
+    /// Whether powers of what faces a light are smooth where it begins to be averted.
+    pub(super) fn has_whole_exponent(&self) -> bool {
+        self.material.exponent.fract() == 0.0
+    }
+
+    /// The light that points send to the eye, in the channels that `C` counts; `lit` tells for each
+    /// light, bit by bit, which of the points it reaches.
+    #[inline(always)]
+    pub(super) fn radiance<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        points: &Points<S>,
+        lit: &[u64; MOST_LIGHTS],
+        noise: &mut Option<Box<NoiseCells>>,
+        facings: Option<&mut Facings<S>>,
+    ) -> [f64x8<S>; 3] {
+        let material = self.material;
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let constant = material.albedo * scene.world.ambient;
+        let mut sum = [one * constant.x, one * constant.y, one * constant.z];
+        let normal = self.normal(simd, scene, points, noise);
+        // With v = −d / |d|: n·h = (n·l + n·v) / |l + v|, and |l + v|² = 2 + 2 l·v.
+        let (mut scale, mut to_eye) = (zero, zero);
+        if self.specular.is_some() {
+            scale = -one / points.ray_sq.sqrt();
+            to_eye = normal.dot(&points.ray) * scale;
+        }
+        if let Some(facings) = facings {
+            for (index, light) in scene.lights.iter().enumerate() {
+                let facing = normal.dot_one(light.toward);
+                facings.lowest[index] = facings.lowest[index].min(facing);
+                facings.highest[index] = facings.highest[index].max(facing);
+            }
+        }
+        for (index, light) in scene.lights.iter().enumerate() {
+            if lit[index] == 0 {
+                continue;
+            }
+            let intensity = scene.world.lights[index].intensity();
+            let facing = normal.dot_one(light.toward);
+            let faces = facing.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
+            // Rounding may make it a little more than 1.
+            let diffuse = self.diffuse.lanes(facing.max(zero).min(one));
+            let diffuse = faces.select(diffuse, zero);
+            let color = material.albedo * intensity;
+            for channel in 0..C::CHANNELS {
+                sum[channel] += diffuse * color[channel];
+            }
+            if let Some((strength, power)) = &self.specular {
+                let along = points.ray.dot_one(light.toward) * scale;
+                let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
+                let half = (facing + to_eye) / length_sq.sqrt();
+                let spot = power.lanes(half.max(zero).min(one));
+                let spot = faces.select(spot, zero);
+                for channel in 0..C::CHANNELS {
+                    sum[channel] += spot * (intensity[channel] * strength);
+                }
+            }
+        }
+        sum
+    }
+}
+
+impl Relief {
+    /// The normals of a rough surface.
+    #[inline(never)]
+    fn turned<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        normal: &Vectors<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Vectors<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let rough = turned(normal, &scene.world_from_camera);
+                let [x, y, z] = match self {
+                    Self::Smooth => [rough.x, rough.y, rough.z],
+                    Self::Bumpy(bumps) => {
+                        let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                        bumps.perturb_lanes([rough.x, rough.y, rough.z], noise)
+                    }
+                    Self::Factors(factors) => unit([
+                        rough.x * factors.x,
+                        rough.y * factors.y,
+                        rough.z * factors.z,
+                    ]),
+                };
+                turned(&Vectors { x, y, z }, &scene.world_from_camera.transpose())
+            },
+        )
+    }
+}
+
+/// How a rough surface faces the lights.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Facings<S: Simd> {
+    lowest: [f64x8<S>; MOST_LIGHTS],
+    highest: [f64x8<S>; MOST_LIGHTS],
+}
+
+impl<S: Simd> Facings<S> {
+    /// Of no points yet.
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self {
+            lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
+            highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
+        }
+    }
+
+    /// Where the surface may face a light here and avert itself there, bit by bit: it comes as near
+    /// to that as the facing of the points differs.
+    #[inline(always)]
+    pub(super) fn undecided(&self, lights: usize, lit: &[u64; MOST_LIGHTS]) -> u64 {
+        let mut undecided = 0;
+        for (index, lit) in lit.iter().enumerate().take(lights) {
+            let (low, high) = (self.lowest[index], self.highest[index]);
+            let range = high - low;
+            let may_turn = low.simd_lt(range) & high.simd_gt(-range);
+            undecided |= may_turn.to_bitmask() & lit;
+        }
+        undecided
+    }
+}
+
+/// The vectors in another frame.
+#[inline(always)]
+fn turned<S: Simd>(vectors: &Vectors<S>, matrix: &DMat3) -> Vectors<S> {
+    let rows = matrix.transpose();
+    Vectors {
+        x: vectors.dot_one(rows.x_axis),
+        y: vectors.dot_one(rows.y_axis),
+        z: vectors.dot_one(rows.z_axis),
+    }
+}

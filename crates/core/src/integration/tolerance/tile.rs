@@ -1,0 +1,124 @@
+//! The pixels of a tile: which of them see one sphere and no edge, and which need lines.
+
+use fearless_simd::prelude::*;
+
+use super::Exact;
+use super::cell::Workspace;
+use super::contents::CasterCache;
+use super::glimpse::Glimpse;
+use crate::integration::{Evidence, Pixel, Status, Work};
+use crate::roughness::PixelKey;
+use crate::{Color, Radiance, Tile};
+
+impl Exact<'_> {
+    #[inline(always)]
+    pub(super) fn tile<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        tile: Tile,
+        candidates: &[usize],
+        pixels: &mut Vec<Pixel<C>>,
+    ) -> Work {
+        if candidates.iter().any(|&sphere| !self.trusted[sphere]) {
+            pixels.extend(tile.pixels().map(|(col, row)| {
+                self.fallback.pixel_of_last_resort(PixelKey {
+                    col,
+                    row,
+                    frame: self.view.frame,
+                })
+            }));
+            return Work::default();
+        }
+        let first = pixels.len();
+        let count = tile.width as usize * tile.height as usize;
+        pixels.extend(std::iter::repeat_n(self.empty::<C>(), count));
+        if candidates.is_empty() {
+            return Work::default();
+        }
+        let mut workspace = Workspace::default();
+        let mut cache = CasterCache::new(self.cell(tile));
+        let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
+        let mut spheres: Vec<usize> = Vec::new();
+        for row in 0..tile.height {
+            for left in (0..tile.width).step_by(8) {
+                let width = (tile.width - left).min(8);
+                let start = Tile {
+                    col: tile.col + left,
+                    row: tile.row + row,
+                    width: 1,
+                    height: 1,
+                };
+                let at = first + (row * tile.width + left) as usize;
+                let pixels = &mut pixels[at..at + width as usize];
+                glimpses.clear();
+                workspace.work.candidate_tests += candidates.len() as u64 * u64::from(width);
+                simd.vectorize(
+                    #[inline(always)]
+                    || self.glimpse(simd, start, width, candidates, &mut glimpses),
+                );
+                let mut singles: Vec<(usize, u64)> = Vec::new();
+                for (index, pixel) in pixels.iter_mut().enumerate() {
+                    let seen = |glimpse: &&Glimpse| glimpse.touched >> index & 1 == 1;
+                    let mut touching = glimpses.iter().filter(seen);
+                    let Some(one) = touching.next() else { continue };
+                    let is_single = touching.next().is_none() && one.covered >> index & 1 == 1;
+                    spheres.clear();
+                    if is_single {
+                        spheres.push(one.sphere);
+                    } else {
+                        let here = Tile {
+                            col: start.col + index as u32,
+                            ..start
+                        };
+                        let cell = self.cell(here);
+                        self.visible(&cell, index, &glimpses, &mut spheres);
+                        let covers = |sphere: usize| {
+                            glimpses.iter().any(|glimpse| {
+                                glimpse.sphere == sphere && glimpse.covered >> index & 1 == 1
+                            })
+                        };
+                        if spheres.len() != 1 || !covers(spheres[0]) {
+                            *pixel = self.pixel(simd, here, &spheres, &mut cache, &mut workspace);
+                            continue;
+                        }
+                    }
+                    match singles.iter_mut().find(|single| single.0 == spheres[0]) {
+                        Some(single) => single.1 |= 1 << index,
+                        None => singles.push((spheres[0], 1 << index)),
+                    }
+                }
+                for (sphere, which) in singles {
+                    self.fill(
+                        simd,
+                        start,
+                        sphere,
+                        which,
+                        &glimpses,
+                        &mut cache,
+                        &mut workspace,
+                        pixels,
+                    );
+                }
+            }
+        }
+        workspace.work
+    }
+
+    fn empty<C: Radiance>(&self) -> Pixel<C> {
+        Pixel {
+            value: C::from_color(self.background()),
+            alpha: 0.0,
+            error: 0.0,
+            evidence: Evidence::Bound,
+            status: Status::Met,
+        }
+    }
+
+    pub(super) fn background(&self) -> Color {
+        if self.alpha {
+            Color::ZERO
+        } else {
+            self.scene.world.background
+        }
+    }
+}

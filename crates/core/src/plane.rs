@@ -1,0 +1,73 @@
+//! One number for every pixel, or one for all.
+
+use rayon::iter::{IndexedParallelIterator, IntoParallelIterator};
+
+/// A number for every pixel of a picture, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Plane<T> {
+    /// It is known beforehand to be this one everywhere, and takes no memory.
+    Same(T),
+    /// Every pixel has its own.
+    Each(Vec<T>),
+}
+
+impl<T: Copy + Send + Sync> Plane<T> {
+    /// The same number everywhere if it is known, else `initial` until one is written.
+    pub(crate) fn new(pixels: usize, same: Option<T>, initial: T) -> Self {
+        match same {
+            Some(value) => Self::Same(value),
+            None => Self::Each(vec![initial; pixels]),
+        }
+    }
+
+    /// The number of the pixel with this index.
+    pub(crate) fn at(&self, index: usize) -> T {
+        match self {
+            Self::Same(value) => *value,
+            Self::Each(values) => values[index],
+        }
+    }
+
+    /// The numbers of all pixels, or the one of all.
+    pub(crate) fn distinct(&self) -> &[T] {
+        match self {
+            Self::Same(value) => std::slice::from_ref(value),
+            Self::Each(values) => values,
+        }
+    }
+
+    /// The plane cut into this many bands of `pixels` pixels, the last one perhaps smaller.
+    pub(crate) fn bands_mut(
+        &mut self,
+        pixels: usize,
+        bands: usize,
+    ) -> impl IndexedParallelIterator<Item = PlaneBand<'_, T>> {
+        let cut: Vec<PlaneBand<'_, T>> = match self {
+            Self::Same(_) => (0..bands).map(|_| PlaneBand(None)).collect(),
+            Self::Each(values) => values
+                .chunks_mut(pixels)
+                .map(|band| PlaneBand(Some(band)))
+                .collect(),
+        };
+        cut.into_par_iter()
+    }
+}
+
+/// Some pixels of a plane, to be written.
+pub(crate) struct PlaneBand<'plane, T>(Option<&'plane mut [T]>);
+
+impl<T: Copy> PlaneBand<'_, T> {
+    /// Writes the numbers of some pixels; where all are the same they are known already.
+    pub(crate) fn write(&mut self, index: usize, values: &[T]) {
+        if let Some(band) = &mut self.0 {
+            band[index..index + values.len()].copy_from_slice(values);
+        }
+    }
+
+    /// Writes the same number for some pixels.
+    pub(crate) fn fill(&mut self, index: usize, count: usize, value: T) {
+        if let Some(band) = &mut self.0 {
+            band[index..index + count].fill(value);
+        }
+    }
+}

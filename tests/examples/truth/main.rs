@@ -1,0 +1,63 @@
+//! The renderer's promise, held against the tests' own integrator at any scale.
+//!
+//! `cargo truth` prints how it is used.
+
+mod files;
+mod judge;
+mod numbers;
+mod promise;
+#[path = "../../src/reference/mod.rs"]
+mod reference;
+mod table;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+cargo truth judge SCENE [--tolerance 1e-4] [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT] [--edges] [--single]
+    renders SCENE and compares random pixels, and how far they are off with what they claim;
+    --edges takes only pixels in which a few points differ in what they see,
+    --single renders every pixel as a picture of its own
+cargo truth doubt SCENE [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT]
+    compares the truth of random pixels with that of their quarters
+cargo truth pixel SCENE COL ROW [--size WIDTHxHEIGHT]
+    what is known of one pixel
+cargo truth write [NAME]
+cargo truth check [NAME]
+    write, or compute again, the exact pixels of the scenes in tests/truth/promise, or of those
+    whose names contain NAME
+cargo truth promise [NAME] [--whole]
+    what the test of the promise measures on these scenes, as a table; --whole renders whole
+    pictures instead of single pixels
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            // Nothing is left to do when even this fails.
+            let _ = writeln!(io::stderr(), "{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &[String]) -> Result<(), String> {
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let report = match arguments.as_slice() {
+        ["judge", scene, options @ ..] => judge::judge(scene, options)?,
+        ["doubt", scene, options @ ..] => judge::doubt(scene, options)?,
+        ["pixel", scene, col, row, options @ ..] => judge::pixel(scene, col, row, options)?,
+        ["write"] => files::write("")?,
+        ["write", part] => files::write(part)?,
+        ["check"] => files::check("")?,
+        ["check", part] => files::check(part)?,
+        ["promise"] => table::table("", false),
+        ["promise", "--whole"] => table::table("", true),
+        ["promise", part] => table::table(part, false),
+        ["promise", part, "--whole"] => table::table(part, true),
+        _ => return Err(USAGE.to_owned()),
+    };
+    write!(io::stdout(), "{report}").map_err(|error| error.to_string())
+}

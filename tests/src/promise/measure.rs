@@ -1,0 +1,127 @@
+//! How far the renderer is off, and how far it says it may be.
+
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use glam::{DVec4, Vec4Swizzles};
+use marbles_core::{Image, Lens, Method, Renderer, Settings, View};
+use rayon::prelude::*;
+
+use super::pixels::{self, ExactPixel};
+
+/// A claim counts as idle or not only where it is so many times the truth's own error: what is
+/// left of a true error below that moves a ratio of 1/1000 by a tenth of it.
+const TELLING: f64 = 1e4;
+
+/// What a scene's pixels came to at a tolerance.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Score {
+    pub(crate) pixels: usize,
+    /// Pixels over the tolerance whose status does not say so; and over three times of it.
+    pub(crate) broken: usize,
+    pub(crate) badly_broken: usize,
+    /// Pixels whose status says that the tolerance was not met.
+    pub(crate) unmet: usize,
+    /// Pixels that are off by more than they claim, of those that claim to be within.
+    pub(crate) beyond_claim: usize,
+    /// The largest error of those that claim to be within.
+    pub(crate) worst: f64,
+    /// The median of true / claimed error over pixels with edges, where the truth can tell.
+    pub(crate) honesty: f64,
+}
+
+/// What is judged of a pixel.
+struct Judged {
+    has_edge: bool,
+    error: f64,
+    claimed: f64,
+    is_unmet: bool,
+    uncertain: f64,
+}
+
+/// Renders the pixels of a scene's file, as pictures of one pixel each, or as one whole picture.
+///
+/// Every other pixel is asked for with its background instead of its coverage.
+pub(crate) fn score(scene: &Path, tolerance: f64, whole: bool) -> Score {
+    let exact = pixels::read(scene);
+    let scene = pixels::load(scene);
+    let view = scene.view(1).expect("every scene has a first frame");
+    let world = scene.world();
+    let renderer = Renderer::new(world);
+    let render = |view: &View, alpha: bool| {
+        let settings = Settings {
+            method: Method::Tolerance(tolerance),
+            alpha,
+        };
+        let go = |_| ControlFlow::Continue(());
+        renderer.render(view, &settings, &go).expect("not stopped")
+    };
+    let image = whole.then(|| render(&view, true));
+    let one = |(index, pixel): (usize, &ExactPixel)| {
+        if let Some(image) = &image {
+            return judged(image, (pixel.col, pixel.row), pixel.value, pixel);
+        }
+        let alpha = index % 2 == 0;
+        let image = render(&single_pixel(&view, pixel.col, pixel.row), alpha);
+        let expected = if alpha {
+            pixel.value
+        } else {
+            let background = world.background * (1.0 - pixel.value.w);
+            (pixel.value.xyz() + background).extend(1.0)
+        };
+        judged(&image, (0, 0), expected, pixel)
+    };
+    let judged: Vec<Judged> = exact.par_iter().enumerate().map(one).collect();
+    summarize(&judged, tolerance)
+}
+
+fn judged(image: &Image, (col, row): (u32, u32), expected: DVec4, exact: &ExactPixel) -> Judged {
+    let found = DVec4::from_array(image.rgba(col, row));
+    Judged {
+        has_edge: exact.has_edge,
+        error: (found - expected).abs().max_element(),
+        claimed: image.error(col, row),
+        is_unmet: image.status(col, row).is_over_tolerance(),
+        // The files are rounded, and the background adds its own rounding.
+        uncertain: exact.error + 1e-13,
+    }
+}
+
+fn summarize(judged: &[Judged], tolerance: f64) -> Score {
+    let met = || judged.iter().filter(|pixel| !pixel.is_unmet);
+    let over = |factor: f64| {
+        let beyond = |pixel: &&Judged| pixel.error > factor * tolerance + pixel.uncertain;
+        met().filter(beyond).count()
+    };
+    let mut ratios: Vec<f64> = met()
+        .filter(|pixel| pixel.has_edge && pixel.claimed > TELLING * pixel.uncertain)
+        .map(|pixel| pixel.error / pixel.claimed)
+        .collect();
+    ratios.sort_by(f64::total_cmp);
+    Score {
+        pixels: judged.len(),
+        broken: over(1.0),
+        badly_broken: over(3.0),
+        unmet: judged.len() - met().count(),
+        beyond_claim: met()
+            .filter(|pixel| pixel.error > pixel.claimed + pixel.uncertain)
+            .count(),
+        worst: met().map(|pixel| pixel.error).fold(0.0, f64::max),
+        honesty: ratios.get(ratios.len() / 2).copied().unwrap_or(f64::NAN),
+    }
+}
+
+/// The view whose only pixel is pixel (col, row) of `view`.
+pub(crate) fn single_pixel(view: &View, col: u32, row: u32) -> View {
+    let center = view.cell_center(u64::from(col), u64::from(row), 1);
+    View {
+        lens: Lens {
+            width: view.pixel_size(),
+            shift: center,
+            ..view.lens
+        },
+        width: 1,
+        height: 1,
+        ..*view
+    }
+}

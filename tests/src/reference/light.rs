@@ -1,0 +1,124 @@
+//! What a ray sees: which sphere, which lights reach it there, and the light it sends.
+
+use glam::{DVec3, DVec4};
+
+use super::noise::draw;
+use super::patch::{Candidate, Patch};
+
+/// What may jump, or bend sharply, from one ray to the next.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub(crate) struct Signature {
+    /// One more than the index in the patch's candidates; 0 for the background.
+    pub(crate) seen: usize,
+    /// The lights that reach the point, and those whose highlight does.
+    lit: u64,
+    shines: u64,
+    /// The cell of the surface's noise.
+    cell: [i64; 3],
+}
+
+/// A point of a sphere's outer side.
+pub(crate) struct Spot {
+    /// Relative to the viewpoint.
+    pub(crate) point: DVec3,
+    /// The shading normal.
+    pub(crate) normal: DVec3,
+    pub(crate) cell: [i64; 3],
+}
+
+impl Patch<'_> {
+    /// The nearest candidate in a direction, and where, in multiples of it.
+    pub(crate) fn front(&self, direction: DVec3) -> Option<(usize, f64)> {
+        let mut nearest: Option<(usize, f64)> = None;
+        for (index, candidate) in self.candidates.iter().enumerate() {
+            if let Some(t) = candidate.ball.hit(direction)
+                && nearest.is_none_or(|(_, before)| t < before)
+            {
+                nearest = Some((index, t));
+            }
+        }
+        nearest
+    }
+
+    /// The point of a candidate at `t` multiples of a direction.
+    pub(crate) fn spot(&self, candidate: &Candidate, direction: DVec3, t: f64) -> Spot {
+        let point = direction * t;
+        let normal = candidate.ball.normal(point);
+        match &self.stage.world.material(candidate.sphere).roughness {
+            None => Spot {
+                point,
+                normal,
+                cell: [0; 3],
+            },
+            Some(rough) => {
+                let radius = candidate.ball.radius;
+                let draw = draw(rough, candidate.sphere, radius, normal, self.key);
+                Spot {
+                    point,
+                    normal: (normal * draw.factor).normalize(),
+                    cell: draw.cell,
+                }
+            }
+        }
+    }
+
+    /// Half-way between a light and the direction toward the viewpoint.
+    pub(crate) fn half_way(light: DVec3, direction: DVec3) -> DVec3 {
+        (light - direction.normalize()).normalize_or_zero()
+    }
+
+    pub(crate) fn signature(&self, direction: DVec3) -> Signature {
+        self.look(direction, false).0
+    }
+
+    /// What is seen in a direction, and its light and coverage, if `is_asked`.
+    pub(crate) fn look(&self, direction: DVec3, is_asked: bool) -> (Signature, DVec4) {
+        let mut signature = Signature::default();
+        let Some((index, t)) = self.front(direction) else {
+            return (signature, DVec4::ZERO);
+        };
+        signature.seen = index + 1;
+        let candidate = &self.candidates[index];
+        let world = self.stage.world;
+        let material = world.material(candidate.sphere);
+        if candidate.ball.has_eye_inside() {
+            return (signature, (material.albedo * world.ambient).extend(1.0));
+        }
+        let spot = self.spot(candidate, direction, t);
+        signature.cell = spot.cell;
+        let (mut scattered, mut mirrored) = (world.ambient, DVec3::ZERO);
+        for (number, light) in world.lights.iter().enumerate() {
+            let toward = light.toward();
+            let facing = spot.normal.dot(toward);
+            if facing <= 0.0 || self.is_shadowed(candidate, number, spot.point) {
+                continue;
+            }
+            signature.lit |= 1 << number;
+            if is_asked {
+                scattered += light.intensity() * facing.powf(material.exponent);
+            }
+            if let Some(highlight) = &material.highlight {
+                let cosine = spot.normal.dot(Self::half_way(toward, direction));
+                if cosine > 0.0 {
+                    signature.shines |= 1 << number;
+                    if is_asked {
+                        let shine = highlight.strength * cosine.powf(highlight.shininess);
+                        mirrored += light.intensity() * shine;
+                    }
+                }
+            }
+        }
+        (
+            signature,
+            (material.albedo * scattered + mirrored).extend(1.0),
+        )
+    }
+
+    fn is_shadowed(&self, candidate: &Candidate, light: usize, point: DVec3) -> bool {
+        let toward = self.stage.world.lights[light].toward();
+        candidate.casters[light].iter().any(|&caster| {
+            let (chord_sq, is_ahead) = self.stage.balls[caster].shadow(point, toward);
+            is_ahead && chord_sq >= 0.0
+        })
+    }
+}

@@ -1,0 +1,336 @@
+//! A line across a patch: where what is seen changes, and the light along it.
+//!
+//! Formulas and smooth functions only say where to look: what is seen is decided by looking, on
+//! both sides of every place, in the middle between them, and at every node of the quadrature.
+
+use glam::DVec3;
+
+use super::ball::Ball;
+use super::light::{Signature, Spot};
+use super::patch::{Candidate, Patch};
+use super::quadrature::{Integral, changes, integrate, zeros};
+
+/// Places closer than this are one, in pixels, beside the noise of rounding.
+const CLOSE: f64 = 2e-12;
+/// Parts shorter than this many times that do not count as a difference between two lines.
+const SHORT: f64 = 10.0;
+/// What the light along a line may be off by, in pixels times light, beside the noise.
+const TOLERANCE: f64 = 2e-13;
+/// How often a part of a line may be halved, and how often a line is cut again.
+const HALVINGS: u32 = 12;
+const RETRIES: u32 = 4;
+/// Places at which functions along a visible part are known, before their zeros are sought.
+const NODES: usize = 16;
+
+/// The directions `origin + s · along`, s from `low` to `high`.
+pub(crate) struct Line<'patch> {
+    pub(crate) patch: &'patch Patch<'patch>,
+    pub(crate) origin: DVec3,
+    pub(crate) along: DVec3,
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+    /// Places where quadrature had better start anew, as the light has a peak.
+    pub(crate) peaks: Vec<f64>,
+}
+
+/// A part of a line on which nothing changes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub(crate) start: f64,
+    pub(crate) end: f64,
+    pub(crate) signature: Signature,
+}
+
+impl Line<'_> {
+    fn at(&self, s: f64) -> DVec3 {
+        self.origin + self.along * s
+    }
+
+    fn close(&self) -> f64 {
+        CLOSE + self.patch.noise
+    }
+
+    /// What is seen along the line, in order.
+    pub(crate) fn structure(&self, pieces: &[Piece]) -> Vec<Signature> {
+        let short = SHORT * self.close();
+        let long = pieces
+            .iter()
+            .filter(|piece| piece.end - piece.start > short);
+        let mut signatures: Vec<_> = long.map(|piece| piece.signature).collect();
+        signatures.dedup();
+        signatures
+    }
+
+    /// The light along the line, and its pieces.
+    pub(crate) fn integral(&self) -> (Integral, Vec<Piece>) {
+        let mut surprises = Vec::new();
+        for attempt in 0.. {
+            let pieces = self.pieces(&surprises);
+            let known = surprises.len();
+            let mut sum = Integral::default();
+            for piece in &pieces {
+                sum.add(self.piece_integral(piece, &mut surprises));
+            }
+            if surprises.len() == known {
+                return (sum, pieces);
+            }
+            if attempt == RETRIES {
+                // As where light grazes a ball along the edge of a shadow: it flickers.
+                sum.error += sum.cautious;
+                return (sum, pieces);
+            }
+        }
+        unreachable!("the loop ends by itself")
+    }
+
+    /// Notes a place inside the piece where something else is seen.
+    fn piece_integral(&self, piece: &Piece, surprises: &mut Vec<f64>) -> Integral {
+        let mut surprise = None;
+        let mut light = |s: f64| {
+            let (signature, light) = self.patch.look(self.at(s), true);
+            let inside = (s - piece.start).min(piece.end - s);
+            if signature != piece.signature && inside > 2.0 * self.close() {
+                surprise = Some(s);
+            }
+            light
+        };
+        if piece.signature.seen == 0 {
+            // Nothing to integrate, but to look whether it is so.
+            for step in 1..4 {
+                light(piece.start + (piece.end - piece.start) * (0.25 * f64::from(step)));
+            }
+            surprises.extend(surprise);
+            return Integral::default();
+        }
+        let tolerance = TOLERANCE + self.patch.noise;
+        let mut sum = Integral::default();
+        let mut start = piece.start;
+        let inner = |peak: &&f64| **peak > piece.start && **peak < piece.end;
+        let ends = self.peaks.iter().filter(inner).chain([&piece.end]);
+        for &end in ends {
+            sum.add(integrate(start, end, tolerance, HALVINGS, &mut light));
+            start = end;
+        }
+        surprises.extend(surprise);
+        sum
+    }
+
+    /// The line, cut where what is seen changes; `extra` are places to look at, too.
+    pub(crate) fn pieces(&self, extra: &[f64]) -> Vec<Piece> {
+        let mut pieces = Vec::new();
+        for (start, end, front) in self.runs(extra) {
+            let mut seeds = Vec::new();
+            if let Some(index) = front {
+                let candidate = &self.patch.candidates[index];
+                if !candidate.ball.has_eye_inside() {
+                    self.seeds_on(candidate, start, end, &mut seeds);
+                }
+            }
+            let mut look = |s: f64| self.patch.signature(self.at(s));
+            let cuts = cut((start, end), seeds, extra, self.close(), &mut look);
+            for pair in cuts.windows(2) {
+                let signature = look(0.5 * (pair[0] + pair[1]));
+                pieces.push(Piece {
+                    start: pair[0],
+                    end: pair[1],
+                    signature,
+                });
+            }
+        }
+        pieces
+    }
+
+    /// The parts on which the same sphere is seen.
+    fn runs(&self, extra: &[f64]) -> Vec<(f64, f64, Option<usize>)> {
+        let mut seeds = Vec::new();
+        let candidates = &self.patch.candidates;
+        for (index, candidate) in candidates.iter().enumerate() {
+            self.outline_seeds(&candidate.ball, &mut seeds);
+            for other in &candidates[..index] {
+                self.seam_seeds(&candidate.ball, &other.ball, &mut seeds);
+            }
+        }
+        let mut look = |s: f64| self.patch.front(self.at(s)).map(|(index, _)| index);
+        let cuts = cut((self.low, self.high), seeds, extra, self.close(), &mut look);
+        let part = |pair: &[f64]| (pair[0], pair[1], look(0.5 * (pair[0] + pair[1])));
+        cuts.windows(2).map(part).collect()
+    }
+
+    /// Where the line grazes a ball.
+    fn outline_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
+        if ball.has_eye_inside() {
+            return;
+        }
+        let (o, u, c) = (self.origin, self.along, ball.center);
+        let (k_oo, k_ou, k_uu) = if c.length_squared() > 4.0 * ball.radius * ball.radius {
+            let (a, b, r) = (c.cross(o), c.cross(u), ball.radius);
+            let form = |d: f64, crossed: f64| r * r * d - crossed;
+            (
+                form(o.dot(o), a.dot(a)),
+                form(o.dot(u), a.dot(b)),
+                form(u.dot(u), b.dot(b)),
+            )
+        } else {
+            let form = |a: DVec3, b: DVec3| c.dot(a) * c.dot(b) - ball.power * a.dot(b);
+            (form(o, o), form(o, u), form(u, u))
+        };
+        for mut s in quadratic_roots(k_uu, 2.0 * k_ou, k_oo) {
+            // Newton's steps on a more accurate form of the same function.
+            for _ in 0..3 {
+                let d = self.at(s);
+                let slope = 2.0 * (k_uu * s + k_ou) / d.length_squared();
+                let step = ball.chord_sq(d) / slope;
+                if step.abs() < 1e-3 {
+                    s -= step;
+                }
+            }
+            seeds.push(s);
+        }
+    }
+
+    /// Where the line crosses the circle in which two balls intersect.
+    fn seam_seeds(&self, a: &Ball, b: &Ball, seeds: &mut Vec<f64>) {
+        let apart = a.center - b.center;
+        let distance = apart.length();
+        if distance >= a.radius + b.radius || distance <= (a.radius - b.radius).abs() {
+            return;
+        }
+        // The plane p · apart = m; along a ray, p = t d with t = m / q, q = d · apart, which put
+        // into the sphere's equation gives |d|² m² − 2 (c · d) m q + K q² = 0.
+        let m = 0.5 * (a.power - b.power);
+        let (o, u) = (self.origin, self.along);
+        let form = |d: DVec3, e: DVec3| {
+            let mixed = a.center.dot(d) * apart.dot(e) + a.center.dot(e) * apart.dot(d);
+            d.dot(e) * m * m - m * mixed + a.power * apart.dot(d) * apart.dot(e)
+        };
+        let lead = |s: f64| a.forced_hit(self.at(s)) - b.forced_hit(self.at(s));
+        for mut s in quadratic_roots(form(u, u), 2.0 * form(o, u), form(o, o)) {
+            // Secant steps on what counts: which is in front.
+            let (mut before, mut value) = (s + 1e-7, lead(s));
+            let mut value_before = lead(before);
+            for _ in 0..4 {
+                let step = value * (s - before) / (value - value_before);
+                let is_small = step.abs() < 1e-3;
+                if !is_small || step == 0.0 {
+                    break;
+                }
+                (before, value_before) = (s, value);
+                s -= step;
+                value = lead(s);
+            }
+            seeds.push(s);
+        }
+    }
+
+    /// Where terminators, edges of shadows, and cells of the noise may cross the line on a ball
+    /// that is seen from `start` to `end`.
+    fn seeds_on(&self, candidate: &Candidate, start: f64, end: f64, seeds: &mut Vec<f64>) {
+        let world = self.patch.stage.world;
+        let material = world.material(candidate.sphere);
+        // Dense toward the ends, where the outline makes everything run as a square root.
+        let place = |u: f64| start + (end - start) * (u * u * (3.0 - 2.0 * u));
+        let spot = |u: f64| {
+            let direction = self.at(place(u));
+            let t = candidate.ball.forced_hit(direction);
+            self.patch.spot(candidate, direction, t)
+        };
+        let nodes = nodes();
+        let spots: Vec<Spot> = nodes.iter().map(|&u| spot(u)).collect();
+        let mut found = Vec::new();
+        let mut search = |value: &dyn Fn(&Spot, f64) -> f64| {
+            let values: Vec<f64> = spots
+                .iter()
+                .zip(&nodes)
+                .map(|(spot, &u)| value(spot, u))
+                .collect();
+            zeros(&nodes, &values, &mut |u| value(&spot(u), u), &mut found);
+        };
+        for (light, casters) in world.lights.iter().zip(&candidate.casters) {
+            let toward = light.toward();
+            search(&|spot, _| spot.normal.dot(toward));
+            if material.highlight.is_some() {
+                search(&|spot, u| {
+                    let half = Patch::half_way(toward, self.at(place(u)));
+                    spot.normal.dot(half)
+                });
+            }
+            if spots.iter().all(|spot| spot.normal.dot(toward) < -0.3) {
+                continue;
+            }
+            for &caster in casters {
+                let caster = &self.patch.stage.balls[caster];
+                search(&|spot, _| caster.shadow(spot.point, toward).0);
+            }
+        }
+        if let Some(rough) = &material.roughness
+            && let marbles_core::Grain::Surface(size) = rough.grain
+        {
+            for axis in 0..3 {
+                let coordinate = |spot: &Spot| (spot.point - candidate.ball.center)[axis] / size;
+                let ends = spots.iter().map(coordinate);
+                let (low, high) = ends.fold((f64::MAX, f64::MIN), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                });
+                // Beyond some number of cells their faces do not pay.
+                for face in 0..((high.round() - low.round()) as u32).min(200) {
+                    let face = low.round() + 0.5 + f64::from(face);
+                    search(&|spot, _| coordinate(spot) - face);
+                }
+            }
+        }
+        seeds.extend(found.into_iter().map(place));
+    }
+}
+
+/// Cuts a range where the results of `look` change.
+fn cut<S: PartialEq + Clone>(
+    (low, high): (f64, f64),
+    mut seeds: Vec<f64>,
+    extra: &[f64],
+    close: f64,
+    look: &mut impl FnMut(f64) -> S,
+) -> Vec<f64> {
+    seeds.retain(|seed| *seed > low && *seed < high);
+    seeds.sort_by(f64::total_cmp);
+    let ends: Vec<f64> = [low].into_iter().chain(seeds).chain([high]).collect();
+    let mut samples: Vec<f64> = ends
+        .windows(2)
+        .filter(|pair| pair[1] - pair[0] > close)
+        .map(|pair| 0.5 * (pair[0] + pair[1]))
+        .chain(extra.iter().copied().filter(|s| *s > low && *s < high))
+        .collect();
+    samples.sort_by(f64::total_cmp);
+    let mut cuts = vec![low];
+    let results: Vec<S> = samples.iter().map(|&s| look(s)).collect();
+    for index in 1..samples.len() {
+        let (from, to) = (samples[index - 1], samples[index]);
+        if results[index - 1] != results[index] {
+            let first = ends.partition_point(|seed| *seed <= from);
+            let last = ends.partition_point(|seed| *seed < to);
+            let (from, to) = ((from, &results[index - 1]), (to, &results[index]));
+            changes(from, to, &ends[first..last], close, look, &mut cuts);
+        }
+    }
+    cuts.push(high);
+    cuts
+}
+
+/// From 0 to 1, with more near both ends, where zeros come in pairs more easily.
+fn nodes() -> Vec<f64> {
+    let step = 1.0 / NODES as f64;
+    let near = [0.0, 0.2 * step, 0.5 * step];
+    let middle = (1..NODES).map(|index| index as f64 * step);
+    let far = near.into_iter().rev().map(|u| 1.0 - u);
+    near.into_iter().chain(middle).chain(far).collect()
+}
+
+/// Real zeros of a x² + b x + c.
+fn quadratic_roots(a: f64, b: f64, c: f64) -> Vec<f64> {
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant < 0.0 {
+        return Vec::new();
+    }
+    let sum = -0.5 * (b + discriminant.sqrt().copysign(b));
+    let roots = [sum / a, c / sum];
+    roots.into_iter().filter(|root| root.is_finite()).collect()
+}

@@ -1,0 +1,159 @@
+//! The exact average of light over a pixel, by other means than the renderer's.
+//!
+//! Written from the model in `docs/scenes.md` alone, to hold the renderer's promise against: hits,
+//! shadows and shading are computed here in plain double precision, every point by looking at all
+//! spheres that may matter. The integral over a pixel goes along lines and across them by
+//! Gauss–Kronrod rules between the places where what is seen changes. Formulas suggest such
+//! places; looking on both sides confirms them, and every node of every rule looks again. Lines
+//! run once to the right and once up; where the two answers differ, the pixel is quartered.
+//!
+//! # Accuracy
+//! A [`Truth`] states what it may be off by: the difference of the two directions and their own
+//! estimates. `checks.rs` measures both against pixels in `tests/truth/pixels` and closed forms.
+
+mod across;
+mod ball;
+#[cfg(test)]
+mod checks;
+mod light;
+mod line;
+mod noise;
+mod patch;
+mod quadrature;
+mod seeds;
+
+use glam::{DVec2, DVec4};
+use marbles_core::{View, World};
+
+use across::Way;
+use patch::{Patch, Stage};
+use seeds::Seeds;
+
+/// What both directions may differ by in a pixel before it is quartered.
+const TOLERANCE: f64 = 1e-10;
+/// How often quarters are quartered, and how many lines a pixel may cost.
+const DEPTH: u32 = 5;
+const BUDGET: u32 = 40_000;
+/// What the last digits of lines and edges cost where all else agrees.
+const ROUNDING: f64 = 1e-12;
+
+/// The four quarters of a patch.
+const SIDES: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
+
+/// The average of light and coverage over a pixel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Truth {
+    /// Red, green, blue of the spheres' light, without the background, and the covered fraction.
+    pub(crate) value: DVec4,
+    /// What any channel may be off by.
+    pub(crate) error: f64,
+    /// Whether something changes inside the pixel: a sphere's outline, a shadow, a terminator.
+    pub(crate) has_edge: bool,
+    /// Lines that it took.
+    pub(crate) lines: u32,
+}
+
+/// A world and a view whose pixels can be asked for.
+pub(crate) struct Reference<'world> {
+    stage: Stage<'world>,
+}
+
+impl<'world> Reference<'world> {
+    pub(crate) fn new(world: &'world World, view: &View) -> Self {
+        let stage = Stage::new(world, view);
+        Self { stage }
+    }
+
+    /// The truth of a pixel.
+    pub(crate) fn pixel(&self, col: u32, row: u32) -> Truth {
+        let patch = Patch::of_pixel(&self.stage, col, row);
+        let mut budget = BUDGET;
+        let mut truth = patch_truth(&patch, DEPTH, TOLERANCE, &mut budget);
+        truth.error += ROUNDING + patch.noise;
+        truth
+    }
+
+    /// The truth as the sum of its four quarters': what hides in one hardly hides in both.
+    pub(crate) fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
+        let patch = Patch::of_pixel(&self.stage, col, row);
+        let mut budget = BUDGET;
+        let mut sum = Truth {
+            value: DVec4::ZERO,
+            error: 4.0 * (ROUNDING + patch.noise),
+            has_edge: false,
+            lines: 0,
+        };
+        for side in SIDES {
+            let quarter = patch_truth(&patch.quarter(side), DEPTH, TOLERANCE, &mut budget);
+            sum.value += quarter.value;
+            sum.error += quarter.error;
+            sum.has_edge |= quarter.has_edge;
+            sum.lines += quarter.lines;
+        }
+        sum
+    }
+
+    /// Whether any sphere may be seen in a pixel.
+    pub(crate) fn sees_anything(&self, col: u32, row: u32) -> bool {
+        !Patch::of_pixel(&self.stage, col, row).candidates.is_empty()
+    }
+
+    /// Whether corners and middle of a pixel, a few points in all, differ in what they see.
+    pub(crate) fn seems_to_change(&self, col: u32, row: u32) -> bool {
+        let patch = Patch::of_pixel(&self.stage, col, row);
+        let look = |x: i32, y: i32| {
+            let point = DVec2::new(f64::from(x), f64::from(y)) * 0.25;
+            patch.signature(patch.direction(point))
+        };
+        let middle = look(0, 0);
+        let mut points = (-2..=2).flat_map(|x| (-2..=2).map(move |y| (x, y)));
+        points.any(|(x, y)| look(x, y) != middle)
+    }
+
+    /// The mean of N × N midpoints: slow and rough, but hard to get wrong.
+    pub(crate) fn midpoints(&self, col: u32, row: u32, count: u32) -> DVec4 {
+        let patch = Patch::of_pixel(&self.stage, col, row);
+        let place = |index: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;
+        let mut sum = DVec4::ZERO;
+        for y in 0..count {
+            for x in 0..count {
+                let direction = patch.direction(DVec2::new(place(x), place(y)));
+                sum += patch.look(direction, true).1;
+            }
+        }
+        sum / f64::from(count).powi(2)
+    }
+}
+
+fn patch_truth(patch: &Patch<'_>, depth: u32, tolerance: f64, budget: &mut u32) -> Truth {
+    let seeds = Seeds::of(patch);
+    let right = across::integral(patch, &seeds, Way::Right);
+    let up = across::integral(patch, &seeds, Way::Up);
+    let apart = (right.integral.value - up.integral.value)
+        .abs()
+        .max_element();
+    let better = if right.integral.error < up.integral.error {
+        right.integral
+    } else {
+        up.integral
+    };
+    let own = right.integral.error.max(up.integral.error);
+    let mut truth = Truth {
+        value: better.value,
+        error: apart + own,
+        has_edge: right.has_edge || up.has_edge,
+        lines: right.lines + up.lines,
+    };
+    *budget = budget.saturating_sub(truth.lines);
+    if truth.error <= tolerance.max(4.0 * patch.noise) || depth == 0 || *budget == 0 {
+        return truth;
+    }
+    (truth.value, truth.error) = (DVec4::ZERO, 0.0);
+    for side in SIDES {
+        let quarter = patch_truth(&patch.quarter(side), depth - 1, 0.5 * tolerance, budget);
+        truth.value += quarter.value;
+        truth.error += quarter.error;
+        truth.lines += quarter.lines;
+    }
+    truth
+}

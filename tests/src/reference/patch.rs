@@ -1,0 +1,231 @@
+//! A rectangle of the retina, and the spheres that matter to it.
+
+use glam::{DVec2, DVec3};
+use marbles_core::{View, World};
+
+use super::ball::Ball;
+
+/// Slack of the search for spheres, in units of what is compared: far above rounding.
+const SLACK: f64 = 1e-7;
+
+/// What rounding a direction or a point costs, in units of its own size: some eight operations.
+const ROUNDING: f64 = 8.0 * 0.5 * f64::EPSILON;
+
+/// A world as seen from a viewpoint.
+pub(crate) struct Stage<'world> {
+    pub(crate) world: &'world World,
+    pub(crate) view: View,
+    pub(crate) balls: Vec<Ball>,
+}
+
+impl<'world> Stage<'world> {
+    pub(crate) fn new(world: &'world World, view: &View) -> Self {
+        let eye = view.camera.position;
+        let balls = world
+            .spheres()
+            .iter()
+            .map(|sphere| Ball::new(sphere.center(), sphere.radius(), eye))
+            .collect();
+        Self {
+            world,
+            view: *view,
+            balls,
+        }
+    }
+}
+
+/// A part of a pixel: the directions `origin + s · right + t · up` for s, t in the given ranges,
+/// which lie in [−½, ½].
+pub(crate) struct Patch<'stage> {
+    pub(crate) stage: &'stage Stage<'stage>,
+    pub(crate) key: (u32, u32, i64),
+    pub(crate) origin: DVec3,
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+    pub(crate) low: DVec2,
+    pub(crate) high: DVec2,
+    /// What rounding costs: places along lines are off by so many pixels, light by so much. Lines
+    /// of both directions share it.
+    pub(crate) noise: f64,
+    /// Spheres that may be seen in it.
+    pub(crate) candidates: Vec<Candidate>,
+}
+
+/// A sphere that may be seen, and for every light those that may keep it from the visible part.
+pub(crate) struct Candidate {
+    pub(crate) sphere: usize,
+    pub(crate) ball: Ball,
+    pub(crate) casters: Vec<Vec<usize>>,
+}
+
+impl<'stage> Patch<'stage> {
+    pub(crate) fn of_pixel(stage: &'stage Stage<'stage>, col: u32, row: u32) -> Self {
+        let view = &stage.view;
+        let pixel = view.lens.width / f64::from(view.width);
+        let from_middle = DVec2::new(
+            f64::from(col) + 0.5 - 0.5 * f64::from(view.width),
+            0.5 * f64::from(view.height) - 0.5 - f64::from(row),
+        );
+        let center = view.lens.shift + from_middle * pixel;
+        let axes = view.camera.world_from_camera;
+        let origin = axes * center.extend(view.lens.distance * view.zoom);
+        let (right, up) = (axes.x_axis * pixel, axes.y_axis * pixel);
+        let key = (col, row, view.frame);
+        let half = DVec2::splat(0.5);
+        Self::new(stage, key, [origin, right, up], -half, half)
+    }
+
+    /// The quarter on the left (0) or right (1), below (0) or above (1).
+    pub(crate) fn quarter(&self, side: DVec2) -> Patch<'stage> {
+        let size = 0.5 * (self.high - self.low);
+        let low = self.low + size * side;
+        let frame = [self.origin, self.right, self.up];
+        Patch::new(self.stage, self.key, frame, low, low + size)
+    }
+
+    pub(crate) fn direction(&self, point: DVec2) -> DVec3 {
+        self.origin + self.right * point.x + self.up * point.y
+    }
+
+    /// The point of the pixel's plane in a direction, if that lies ahead.
+    pub(crate) fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let normal = self.right.cross(self.up);
+        let scale = self.origin.dot(normal) / direction.dot(normal);
+        if !(scale > 0.0 && scale.is_finite()) {
+            return None;
+        }
+        let offset = direction * scale - self.origin;
+        let pixel_sq = self.right.length_squared();
+        let point = DVec2::new(offset.dot(self.right), offset.dot(self.up)) / pixel_sq;
+        Some(point)
+    }
+
+    fn new(
+        stage: &'stage Stage<'stage>,
+        key: (u32, u32, i64),
+        [origin, right, up]: [DVec3; 3],
+        low: DVec2,
+        high: DVec2,
+    ) -> Self {
+        let mut patch = Self {
+            stage,
+            key,
+            origin,
+            right,
+            up,
+            low,
+            high,
+            noise: 0.0,
+            candidates: Vec::new(),
+        };
+        let cone = patch.cone();
+        for (sphere, ball) in stage.balls.iter().enumerate() {
+            if cone.may_see(ball) {
+                let casters = patch.casters(&cone, sphere);
+                patch.candidates.push(Candidate {
+                    sphere,
+                    ball: *ball,
+                    casters,
+                });
+            }
+        }
+        // Directions are off in pixels, and normals of small, far balls in radii.
+        let pixel = right.length() / origin.length();
+        let ratio = |ball: &Ball| ball.center.length() / ball.radius;
+        let ratios = patch
+            .candidates
+            .iter()
+            .map(|candidate| ratio(&candidate.ball));
+        patch.noise = ROUNDING * (1.0 / pixel + ratios.fold(0.0, f64::max));
+        patch
+    }
+
+    fn cone(&self) -> Cone {
+        let axis = self.direction(0.5 * (self.low + self.high)).normalize();
+        let corners = [
+            self.low,
+            self.high,
+            DVec2::new(self.low.x, self.high.y),
+            DVec2::new(self.high.x, self.low.y),
+        ];
+        let angles = corners.map(|corner| angle(axis, self.direction(corner)));
+        let angle = angles.into_iter().fold(0.0, f64::max) * (1.0 + SLACK);
+        Cone { axis, angle }
+    }
+
+    /// The spheres that reach the beam from the part of a sphere inside the cone toward a light.
+    fn casters(&self, cone: &Cone, sphere: usize) -> Vec<Vec<usize>> {
+        let world = self.stage.world;
+        let ball = &self.stage.balls[sphere];
+        if !world.shadows || ball.has_eye_inside() {
+            return vec![Vec::new(); world.lights.len()];
+        }
+        // The part lies around this segment, within `around` of it.
+        let (near, far) = cone.distances(ball);
+        let around = far * cone.angle.sin() * (1.0 + SLACK) + SLACK * (far - near);
+        let start = cone.axis * (near * cone.angle.cos());
+        let end = cone.axis * far;
+        let reaches = |toward: DVec3, caster: &Ball| {
+            let flat = |vector: DVec3| vector - toward * vector.dot(toward);
+            let (from, way) = (flat(start - caster.center), flat(end - start));
+            let along = (-from.dot(way) / way.length_squared()).clamp(0.0, 1.0);
+            let along = if along.is_finite() { along } else { 0.0 };
+            let distance = (from + way * along).length();
+            let lowest = start.dot(toward).min(end.dot(toward)) - around;
+            let reach = caster.radius * (1.0 + 1e-12) + around;
+            distance <= reach && caster.center.dot(toward) + reach >= lowest
+        };
+        let of_light = |toward: DVec3| {
+            let others = self.stage.balls.iter().enumerate();
+            others
+                .filter(|(index, caster)| *index != sphere && reaches(toward, caster))
+                // A ray that leaves a surface leaves one that coincides with it, too.
+                .filter(|(_, caster)| caster.center != ball.center || caster.radius != ball.radius)
+                .map(|(index, _)| index)
+                .collect()
+        };
+        world
+            .lights
+            .iter()
+            .map(|light| of_light(light.toward()))
+            .collect()
+    }
+}
+
+/// All directions within an angle from an axis.
+struct Cone {
+    axis: DVec3,
+    angle: f64,
+}
+
+impl Cone {
+    fn may_see(&self, ball: &Ball) -> bool {
+        if ball.has_eye_inside() {
+            return true;
+        }
+        let size = ball.radius.atan2(ball.power.sqrt());
+        angle(self.axis, ball.center) <= (size + self.angle) * (1.0 + SLACK) + 1e-15
+    }
+
+    /// The range of distances from the viewpoint at which it meets the near side of a ball.
+    fn distances(&self, ball: &Ball) -> (f64, f64) {
+        let between = angle(self.axis, ball.center);
+        let distance = |angle: f64| {
+            let along = ball.center.length() * angle.cos();
+            let chord_sq = along * along - ball.power;
+            // Beyond the outline: as far as the outline.
+            if angle >= 1.6 || chord_sq <= 0.0 || along <= 0.0 {
+                ball.power.sqrt()
+            } else {
+                ball.power / (along + chord_sq.sqrt())
+            }
+        };
+        let near = distance((between - self.angle).max(0.0) * (1.0 - SLACK));
+        let far = distance((between + self.angle) * (1.0 + SLACK));
+        (near * (1.0 - 1e-12), far * (1.0 + 1e-12))
+    }
+}
+
+fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b))
+}

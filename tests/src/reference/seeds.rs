@@ -1,0 +1,162 @@
+//! Points of a patch where small things may begin, end, or cross.
+//!
+//! They only say where to put lines for a first look: too many do no harm, and what they miss the
+//! lines between may still find.
+
+use glam::{DVec2, DVec3};
+use marbles_core::DirectionalLight;
+
+use super::ball::Ball;
+use super::patch::{Candidate, Patch};
+
+/// Points of the edge of a shadow that are projected, beside its center.
+const EDGE_POINTS: u32 = 8;
+/// With more casters than this, pairs of them are not followed.
+const MANY: usize = 60;
+
+/// Where to look in a patch.
+#[derive(Debug, Default)]
+pub(crate) struct Seeds {
+    /// Points around which something may change.
+    pub(crate) points: Vec<DVec2>,
+    /// The brightest points of highlights.
+    pub(crate) peaks: Vec<DVec2>,
+}
+
+impl Seeds {
+    pub(crate) fn of(patch: &Patch<'_>) -> Self {
+        let mut seeds = Self::default();
+        let candidates = &patch.candidates;
+        let mut directions = Vec::new();
+        for (index, candidate) in candidates.iter().enumerate() {
+            directions.push(candidate.ball.center);
+            for other in &candidates[..index] {
+                directions.extend(outline_crossings(&candidate.ball, &other.ball));
+            }
+            if !candidate.ball.has_eye_inside() {
+                directions.extend(shadow_points(patch, candidate));
+            }
+        }
+        let inside = |point: &DVec2| point.cmpgt(patch.low).all() && point.cmplt(patch.high).all();
+        let project = |direction: DVec3| patch.project(direction).filter(inside);
+        seeds.points = directions.into_iter().filter_map(project).collect();
+        seeds.peaks = peaks(patch).filter_map(project).collect();
+        seeds
+    }
+}
+
+/// The lines `t` = constant that touch a ball's outline: the plane of the directions
+/// `origin + s · along + t · across` has the normal `origin × along + t · across × along`.
+pub(crate) fn touching_lines(
+    ball: &Ball,
+    origin: DVec3,
+    along: DVec3,
+    across: DVec3,
+) -> impl Iterator<Item = f64> {
+    let (n, m) = (origin.cross(along), across.cross(along));
+    let form = |a: DVec3, b: DVec3| {
+        ball.center.dot(a) * ball.center.dot(b) - ball.radius * ball.radius * a.dot(b)
+    };
+    let (a, half_b, c) = (form(m, m), form(n, m), form(n, n));
+    let root = (half_b * half_b - a * c).max(0.0).sqrt();
+    let sum = -(half_b + root.copysign(half_b));
+    [sum / a, c / sum].into_iter()
+}
+
+/// The two directions in which the outlines of two balls cross: those of the unit vectors d with
+/// d · c = √K for both.
+fn outline_crossings(a: &Ball, b: &Ball) -> Vec<DVec3> {
+    let normal = a.center.cross(b.center);
+    if a.has_eye_inside() || b.has_eye_inside() || normal == DVec3::ZERO {
+        return Vec::new();
+    }
+    let (m, n) = (a.power.sqrt(), b.power.sqrt());
+    let foot = (b.center.cross(normal) * m + normal.cross(a.center) * n) / normal.length_squared();
+    let rest = 1.0 - foot.length_squared();
+    if rest < 0.0 {
+        return Vec::new();
+    }
+    let step = normal * (rest.sqrt() / normal.length());
+    vec![foot + step, foot - step]
+}
+
+/// Directions toward centers and edges of shadows on a candidate, and where these cross each
+/// other and the terminators.
+fn shadow_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
+    let ball = &candidate.ball;
+    let mut points = Vec::new();
+    let stage = patch.stage;
+    let lights = &stage.world.lights;
+    for (index, (light, casters)) in lights.iter().zip(&candidate.casters).enumerate() {
+        let toward = light.toward();
+        let (x, y) = toward.any_orthonormal_pair();
+        // The point of the lit side that has this place in the plane of the light.
+        let land = |place: DVec3| {
+            let from_center = place - ball.center;
+            let flat = from_center - toward * from_center.dot(toward);
+            let height_sq = ball.radius * ball.radius - flat.length_squared();
+            (height_sq >= 0.0).then(|| ball.center + flat + toward * height_sq.sqrt())
+        };
+        for &caster in casters {
+            let caster = &stage.balls[caster];
+            points.extend(land(caster.center));
+            for step in 0..EDGE_POINTS {
+                let angle = std::f64::consts::TAU * f64::from(step) / f64::from(EDGE_POINTS);
+                let edge = x * angle.cos() + y * angle.sin();
+                points.extend(land(caster.center + edge * caster.radius));
+            }
+        }
+        if casters.len() <= MANY {
+            let discs = casters.iter().map(|&caster| &stage.balls[caster]);
+            let discs: Vec<&Ball> = discs.chain([ball]).collect();
+            for (number, a) in discs.iter().enumerate() {
+                for b in &discs[..number] {
+                    points.extend(disc_crossings(a, b, toward).into_iter().filter_map(land));
+                }
+            }
+        }
+        let meets = |other: &DirectionalLight| toward.cross(other.toward()).normalize_or_zero();
+        for other in lights[..index].iter().map(meets) {
+            points.push(ball.center + other * ball.radius);
+            points.push(ball.center - other * ball.radius);
+        }
+    }
+    points
+}
+
+/// Where the outlines of two balls cross, as a light sees them.
+fn disc_crossings(a: &Ball, b: &Ball, toward: DVec3) -> Vec<DVec3> {
+    let way = b.center - a.center;
+    let way = way - toward * way.dot(toward);
+    let distance_sq = way.length_squared();
+    let along = 0.5 + 0.5 * (a.radius - b.radius) * (a.radius + b.radius) / distance_sq;
+    let aside_sq = a.radius * a.radius / distance_sq - along * along;
+    // Also where they are concentric, and nothing is a number.
+    if aside_sq.is_nan() || aside_sq < 0.0 {
+        return Vec::new();
+    }
+    let aside = toward.cross(way) * aside_sq.sqrt();
+    let middle = a.center + way * along;
+    vec![middle + aside, middle - aside]
+}
+
+/// Directions toward the brightest points of the highlights.
+fn peaks(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
+    let world = patch.stage.world;
+    let shiny = |candidate: &&Candidate| {
+        let material = world.material(candidate.sphere);
+        material.highlight.is_some() && !candidate.ball.has_eye_inside()
+    };
+    let candidates = patch.candidates.iter().filter(shiny);
+    candidates.flat_map(move |candidate| {
+        let ball = &candidate.ball;
+        world.lights.iter().map(move |light| {
+            let mut point = ball.center;
+            // Each step brings it nearer by about radius / distance.
+            for _ in 0..40 {
+                point = ball.center + Patch::half_way(light.toward(), point) * ball.radius;
+            }
+            point
+        })
+    })
+}
