@@ -134,10 +134,6 @@ impl Bumps {
     ///
     /// The bound holds for exact arithmetic; rounding adds 2⁻⁵³ times it, and some units in the last
     /// place.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "for kernels that shade in lanes")
-    )]
     pub(crate) fn slope_bound(&self) -> f64 {
         const NOISE_SLOPE: f64 = 2.449_489_742_783_178_4;
         let a = self.amplitude;

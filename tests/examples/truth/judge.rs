@@ -219,6 +219,21 @@ fn report(judged: &[Judged], tolerance: f64, seconds: f64) -> String {
             pixel.col, pixel.row, pixel.error, pixel.truth.error, pixel.claimed
         ));
     }
+    let beyond = |pixel: &Judged| (pixel.error - pixel.truth.error) / pixel.claimed.max(1e-300);
+    let mut rash: Vec<&Judged> = judged.iter().filter(met).collect();
+    rash.retain(|pixel| beyond(pixel) > 1.0);
+    rash.sort_by(|a, b| beyond(b).total_cmp(&beyond(a)));
+    for pixel in rash.into_iter().take(5) {
+        line(format!(
+            "claims too little: column {}, row {}: off by {:.2e} ± {:.0e}, claims {:.2e}{}",
+            pixel.col,
+            pixel.row,
+            pixel.error,
+            pixel.truth.error,
+            pixel.claimed,
+            if pixel.truth.has_edge { ", edge" } else { "" }
+        ));
+    }
     text
 }
 

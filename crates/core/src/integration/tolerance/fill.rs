@@ -9,7 +9,7 @@ use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::cut::MOST_LIGHTS;
 use super::glimpse::Glimpse;
-use super::smooth::{SAMPLES, smooth};
+use super::smooth::{Filled, SAMPLES, smooth};
 use super::surface::{Finish, Points};
 use crate::edges::Vectors;
 use crate::integration::{Evidence, Pixel, Status};
@@ -45,6 +45,7 @@ impl Exact<'_> {
         };
         let mut hard = 0;
         let mut lit = [0_u64; MOST_LIGHTS];
+        let mut turn = f64x8::splat(simd, 0.0);
         if scene.lights.len() > MOST_LIGHTS {
             hard = which;
         } else if ball.outside > 0.0 && !scene.is_enclosed {
@@ -52,9 +53,9 @@ impl Exact<'_> {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    self.lights(
+                    turn = self.lights(
                         simd, start, which, glimpse, cache, &finish, &mut hard, &mut lit,
-                    )
+                    );
                 },
             );
         }
@@ -93,12 +94,20 @@ impl Exact<'_> {
                     *lit &= group;
                 }
                 let noise = &mut workspace.noise;
-                workspace.work.samples += SAMPLES * u64::from(group.count_ones());
+                workspace.work.samples += SAMPLES as u64 * u64::from(group.count_ones());
                 let light = simd.vectorize(
                     #[inline(always)]
                     || {
-                        let (ray, size) = self.rays(simd, start);
-                        smooth::<S, C>(simd, scene, ball, &finish, &ray, size, &group_lit, noise)
+                        let (middle, size) = self.rays(simd, start);
+                        let filled = Filled {
+                            ball,
+                            finish: &finish,
+                            middle,
+                            size,
+                            lit: &group_lit,
+                            turn,
+                        };
+                        smooth::<S, C>(simd, scene, &filled, noise)
                     },
                 );
                 for lane in lanes(group) {
@@ -127,7 +136,7 @@ impl Exact<'_> {
     }
 
     /// Which lights reach all of the pixels `which`, bit by bit, and in which of them that cannot
-    /// be said.
+    /// be said. Returns how far normals turn from the middles, at most.
     #[expect(
         clippy::too_many_arguments,
         reason = "all of it is at hand where it is called"
@@ -143,7 +152,7 @@ impl Exact<'_> {
         finish: &Finish<'_>,
         hard: &mut u64,
         lit: &mut [u64; MOST_LIGHTS],
-    ) {
+    ) -> f64x8<S> {
         let scene = &self.scene;
         let ball = &scene.balls[glimpse.sphere];
         let zero = f64x8::splat(simd, 0.0);
@@ -206,6 +215,7 @@ impl Exact<'_> {
             }
             lit[light] = reached;
         }
+        turn
     }
 }
 

@@ -422,7 +422,7 @@ impl Surroundings<'_> {
                     let difference = (fine[channel] - coarse[channel]).abs();
                     let estimate = if active.is_smooth {
                         let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);
-                        (spread * ratio * ratio).min(difference)
+                        (spread * ratio * ratio.sqrt()).min(difference)
                     } else {
                         // The noise has no third derivative where its cells meet.
                         difference

@@ -152,6 +152,30 @@ impl<'scene> Finish<'scene> {
         !matches!(self.bumps, Relief::Smooth)
     }
 
+    /// How many times as fast as the sphere's the normals turn, at most.
+    pub(super) fn slope_bound(&self) -> f64 {
+        match &self.bumps {
+            Relief::Smooth => 1.0,
+            Relief::Factors(factors) => factors.max_element() / factors.min_element(),
+            Relief::Bumpy(bumps) => bumps.slope_bound(),
+        }
+    }
+
+    /// A bound of what a light may add where it is faced by `facing` at most.
+    #[inline(always)]
+    pub(super) fn brightest<S: Simd>(
+        &self,
+        scene: &InCamera<'_>,
+        light: usize,
+        facing: f64x8<S>,
+    ) -> f64x8<S> {
+        let facing = facing.max(facing * 0.0).min(facing * 0.0 + 1.0);
+        let intensity = scene.world.lights[light].intensity();
+        let specular = self.specular.map_or(0.0, |(strength, _)| strength);
+        let diffuse = (self.material.albedo * intensity).max_element();
+        self.diffuse.lanes(facing) * diffuse + specular * intensity.max_element()
+    }
+
     /// The normals that light is computed with.
     #[inline(always)]
     pub(super) fn normal<S: Simd>(
@@ -281,18 +305,17 @@ impl<S: Simd> Facings<S> {
         }
     }
 
-    /// Where the surface may face a light here and avert itself there, bit by bit: it comes as near
-    /// to that as the facing of the points differs.
+    /// Where the surface may face a light here and avert itself there, when between points its
+    /// facing changes by `reach` at most.
     #[inline(always)]
-    pub(super) fn undecided(&self, lights: usize, lit: &[u64; MOST_LIGHTS]) -> u64 {
-        let mut undecided = 0;
-        for (index, lit) in lit.iter().enumerate().take(lights) {
-            let (low, high) = (self.lowest[index], self.highest[index]);
-            let range = high - low;
-            let may_turn = low.simd_lt(range) & high.simd_gt(-range);
-            undecided |= may_turn.to_bitmask() & lit;
-        }
-        undecided
+    pub(super) fn undecided(&self, light: usize, reach: f64x8<S>) -> mask64x8<S> {
+        self.lowest[light].simd_lt(reach) & self.highest[light].simd_gt(-reach)
+    }
+
+    /// How far the surface faces a light, at most.
+    #[inline(always)]
+    pub(super) fn highest(&self, light: usize) -> f64x8<S> {
+        self.highest[light]
     }
 }
 
