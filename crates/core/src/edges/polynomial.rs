@@ -70,11 +70,14 @@ impl Quadratic {
         // Where rounding decides whether there are two roots or none, there is a double one: a plane
         // through the eye cuts a sphere in a circle that is seen as a line.
         const DOUBLE: f64 = 1e-13;
+        const ROUNDINGS: f64 = 1e-15;
         let (square, product) = (b * b, c * self.xx);
         let discriminant = square - product;
+        let summands = (0.5 * self.x.abs() + 0.25 * self.xy.abs()).powi(2)
+            + self.xx.abs() * (self.one.abs() + 0.5 * self.y.abs() + 0.25 * self.yy.abs());
         let is_double = discriminant
             .abs()
-            .simd_lt((square + product.abs()) * DOUBLE);
+            .simd_lt((square + product.abs()) * DOUBLE + summands * ROUNDINGS);
         let root = is_double.select(square * 0.0, discriminant).sqrt();
         let sum = b.abs() + root;
         let (near, far) = (c / sum, sum / self.xx);

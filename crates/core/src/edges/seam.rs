@@ -38,17 +38,18 @@ pub(crate) fn seam(cell: &Cell, one: &Ball, other: &Ball) -> Quadratic {
 ///
 /// # Source
 /// With q = d·w and m = c·w + μ, μ the offset, the point t d = (m / q) d of the plane lies on the
-/// sphere where A m² − 2 B m q + K q² = 0. For an eye far outside the terms nearly cancel; with
-/// ĉ = c / |c|, w∥ = ĉ·w and Lagrange's identities they become
+/// sphere where A m² − 2 B m q + K q² = 0. For an eye far outside the terms nearly cancel, unless
+/// the plane passes it near by: then the conic is almost a double line, and real only in this form.
+/// Elsewhere, with ĉ = c / |c|, w∥ = ĉ·w and Lagrange's identities, they become
 ///
 /// > w∥² |d × c|² + ((c × d) · (ĉ × w))² − r² q² + A μ² + 2 μ (d × c) · (d × w).
 pub(super) fn plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quadratic {
     let (center, radius_sq) = (ball.center, ball.radius * ball.radius);
     let q = cell.dot(w);
     let ray_sq = cell.ray_sq();
-    if !ball.is_apart() {
+    let m = center.dot(w) + offset;
+    if !ball.is_apart() || m.abs() <= 2.0 * ball.radius {
         let along = cell.dot(center);
-        let m = center.dot(w) + offset;
         return ray_sq * (m * m) - along * q * (2.0 * m) + q * q * ball.outside;
     }
     let across = cell.cross(center);

@@ -91,6 +91,11 @@ impl Patch {
 /// units in the last place.
 const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
+/// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
+/// rounding moves such a line by, in sides of a cell: it is a double root.
+const SEEN_EDGE_ON: f64 = 1e-5;
+const ROOT_OF_ROUNDING: f64 = 1e-7;
+
 /// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
 const FOLLOWED: f64 = 4.0;
 
@@ -209,6 +214,10 @@ impl Contents {
                     let size = cell.size[0].min(cell.size[1]) * nearest.max(f64::MIN_POSITIVE);
                     let moved = ROUNDINGS * by_radii.min(by_outside) / size;
                     self.rounding = self.rounding.max(moved);
+                    let past_eye = 0.5 * (ball.outside - other.ball.outside).abs() / apart;
+                    if past_eye < SEEN_EDGE_ON * ball.radius.min(other.ball.radius) {
+                        self.rounding = self.rounding.max(ROOT_OF_ROUNDING);
+                    }
                 }
             }
         }
