@@ -34,7 +34,7 @@ const POINTS: [Sample; SAMPLES] = {
     /// Kronrod's weights of Gauss's points less theirs.
     const EXCESS: [f64; 3] = [
         0.134_244_044_934_166_84 - 5.0 / 18.0,
-        0.225_458_269_329_335_5 - 4.0 / 9.0,
+        0.225_458_269_329_237_05 - 4.0 / 9.0,
         0.134_244_044_934_166_84 - 5.0 / 18.0,
     ];
     const OTHERS: [(f64, f64); 4] = [
