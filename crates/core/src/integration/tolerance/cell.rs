@@ -68,6 +68,9 @@ const MOST_SAMPLES: u64 = 400_000;
 /// How often something unexpected may happen between lines of a cell that were held to be alike.
 const MOST_SURPRISES: u32 = 6;
 
+/// How often lines are looked at between those that are alike.
+const MOST_SUSPICIONS: u32 = 2;
+
 /// How near to a break lines are looked at.
 const INSET: f64 = 1e-7;
 
@@ -176,6 +179,7 @@ impl Workspace {
                 division: task.division,
                 loose: task.loose,
                 gap: precision.gap,
+                is_suspicious: task.depth <= MOST_SUSPICIONS,
             };
             let surroundings = Surroundings {
                 scene,
@@ -186,20 +190,21 @@ impl Workspace {
             let part = surroundings.integrate::<S, C>(
                 simd,
                 &piece,
+                &mut self.cuts,
                 &mut self.scratch,
                 &mut self.noise,
                 &mut self.work.samples,
             );
             let part = match part {
                 Ok(part) => part,
-                Err(Unlike) if task.depth < MOST_SURPRISES => {
+                Err(Unlike { at }) if task.depth < MOST_SURPRISES => {
                     // Something happens that the lines at the ends knew nothing of.
-                    self.sample_between(simd, scene, cell, &task, &precision, &mut batches)?;
+                    self.sample_between(simd, scene, cell, &task, at, &precision, &mut batches)?;
                     self.resolve(simd, scene, cell, &precision, &mut batches)?;
                     sum.error += goal.contrast * self.make_tasks(&task);
                     continue;
                 }
-                Err(Unlike) => return Err(Hard),
+                Err(Unlike { .. }) => return Err(Hard),
             };
             let is_good =
                 part.error <= 0.5 * goal.tolerance || part.error * share <= 0.02 * goal.tolerance;
@@ -261,7 +266,11 @@ impl Workspace {
         Ok(())
     }
 
-    /// Looks at lines inside a task.
+    /// Looks at lines inside a task, one of them at `at`.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
     #[inline(always)]
     fn sample_between<S: Simd>(
         &mut self,
@@ -269,6 +278,7 @@ impl Workspace {
         scene: &InCamera<'_>,
         cell: &Cell,
         task: &Task,
+        at: Option<f64>,
         precision: &Precision,
         batches: &mut u32,
     ) -> Result<(), Hard> {
@@ -277,6 +287,11 @@ impl Workspace {
         let mut y = [start; 8];
         for (index, y) in y.iter_mut().enumerate() {
             *y += index as f64 * step;
+        }
+        if let Some(at) = at {
+            // In the place of its neighbor before it, but for the first.
+            let before = y.iter().filter(|&&y| y < at).count();
+            y[before.clamp(2, 7) - 1] = at;
         }
         let signatures = self.signatures(simd, scene, cell, &y, precision, batches)?;
         self.samples.clear();

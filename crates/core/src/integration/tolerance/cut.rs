@@ -66,6 +66,8 @@ pub(super) struct Cuts {
     places: Vec<[f64; 8]>,
     branches: Vec<[u16; 8]>,
     counts: [usize; 8],
+    /// Which of the places the changes of the signatures are.
+    changes: [[usize; MOST_CHANGES]; 8],
     scratch: Vec<f64>,
     has_dropped: bool,
 }
@@ -177,6 +179,7 @@ impl Cuts {
                                 return Err(Crowded);
                             }
                             signature.branches[signature.changes] = branch.unwrap_or_default();
+                            self.changes[lane][signature.changes] = gap - 1;
                             signature.changes += 1;
                             signature.views[signature.changes] = views[lane];
                         }
@@ -185,6 +188,42 @@ impl Cuts {
                 Ok(signatures)
             },
         )
+    }
+
+    /// Where the line in a lane of the last signatures changes.
+    pub(super) fn place(&self, lane: usize, change: usize) -> f64 {
+        self.places[self.changes[lane][change]][lane]
+    }
+
+    /// A line between those of the last signatures, all alike with so many changes and at these y in
+    /// order, on which an edge that is seen may cross its neighbor, and on the next back again.
+    pub(super) fn approach(&self, changes: usize, y: &[f64; 8], lanes: usize) -> Option<f64> {
+        for change in 0..changes {
+            for step in [0, 2] {
+                // The distances to the neighbor, while it is the same.
+                let mut distances = [f64::NAN; 8];
+                let mut neighbor = None;
+                for (lane, distance) in distances.iter_mut().enumerate().take(lanes) {
+                    let here = self.changes[lane][change];
+                    let Some(other) = (here + step).checked_sub(1) else {
+                        break;
+                    };
+                    if other >= self.counts[lane] {
+                        break;
+                    }
+                    let branch = self.branches[other][lane];
+                    if *neighbor.get_or_insert(branch) != branch {
+                        break;
+                    }
+                    *distance = (self.places[other][lane] - self.places[here][lane]).abs();
+                }
+                let approach = (1..lanes - 1).find_map(|lane| lowest(&distances, y, lane));
+                if approach.is_some() {
+                    return approach;
+                }
+            }
+        }
+        None
     }
 
     /// Notes where a branch crosses the lines, where it does so inside the cell.
@@ -211,6 +250,24 @@ impl Cuts {
             self.counts[lane] = count + 1;
         }
     }
+}
+
+/// Where the parabola through the distance in a lane and in those beside it is lowest, if that is
+/// much lower than all three.
+fn lowest(distances: &[f64; 8], y: &[f64; 8], lane: usize) -> Option<f64> {
+    /// Nearer edges are one.
+    const ONE: f64 = 1e-9;
+    const MUCH: f64 = 0.3;
+    let [before, here, after] = [-1, 0, 1].map(|step| distances[lane.wrapping_add_signed(step)]);
+    if !(here > ONE && here <= before && here <= after) {
+        return None;
+    }
+    let (left, right) = (y[lane] - y[lane - 1], y[lane + 1] - y[lane]);
+    let (falls, rises) = ((here - before) / left, (after - here) / right);
+    let curvature = (rises - falls) / (left + right);
+    let slope = (falls * right + rises * left) / (left + right);
+    let lowest = here - 0.25 * slope * slope / curvature;
+    (lowest < MUCH * here).then(|| y[lane] - 0.5 * slope / curvature)
 }
 
 /// What is seen at eight points.

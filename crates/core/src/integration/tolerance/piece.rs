@@ -5,7 +5,9 @@ use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use super::contents::{Active, Contents, Reach};
-use super::cut::{self, MOST_LIGHTS, NOTHING, Signature, branch_of_conic, is_lit, sphere_of};
+use super::cut::{
+    self, Cuts, MOST_CHANGES, MOST_LIGHTS, NOTHING, Signature, branch_of_conic, is_lit, sphere_of,
+};
 use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
 use super::scene::InCamera;
 use super::surface::{Finish, Points};
@@ -43,9 +45,11 @@ impl Part {
     }
 }
 
-/// Lines that were held to be alike are not.
+/// Lines that were held to be alike are not, or may not be at `at`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Unlike;
+pub(super) struct Unlike {
+    pub(super) at: Option<f64>,
+}
 
 /// Lines from `start` to `end` with one signature.
 #[derive(Clone, Copy, Debug)]
@@ -60,6 +64,8 @@ pub(super) struct Piece<'a> {
     pub(super) loose: [f64; 2],
     /// What is narrower along lines may be anything.
     pub(super) gap: f64,
+    /// Whether to look for lines between that are not alike.
+    pub(super) is_suspicious: bool,
 }
 
 /// What pieces of a cell have in common.
@@ -80,51 +86,32 @@ impl Surroundings<'_> {
         &self,
         simd: S,
         piece: &Piece<'_>,
+        cuts: &mut Cuts,
         scratch: &mut Vec<f64>,
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
     ) -> Result<Part, Unlike> {
         let &Self {
-            scene,
-            cell,
             contents,
             background,
+            ..
         } = self;
-        let length = piece.end - piece.start;
         let rule = Rule::of(piece.roots);
         let nodes: f64x8<S> = rule.nodes.simd_into(simd);
-        let y = nodes * length + piece.start;
+        let y = nodes * (piece.end - piece.start) + piece.start;
+        let stops = self.stops(simd, piece, y, cuts, scratch)?;
         let signature = piece.signature;
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = [zero; 3];
         let mut covered = zero;
         let mut along = zero;
-        let is_strict = (y.simd_gt(piece.start + piece.loose[0])
-            & y.simd_lt(piece.end - piece.loose[1]))
-        .to_bitmask();
         let mut start = f64x8::splat(simd, -0.5);
-        for index in 0..=signature.changes {
-            let mut end = if index == signature.changes {
-                f64x8::splat(simd, 0.5)
-            } else {
-                self.place(simd, signature.branches[index], y, scratch)
-            };
-            let is_ordered = (end - start).simd_ge(-piece.gap);
-            if !is_ordered.to_bitmask() & is_strict != 0 {
-                return Err(Unlike);
-            }
-            // Elsewhere what is not there has no width.
-            end = is_ordered.select(end, start);
+        for (index, stops) in stops.iter().enumerate().take(signature.changes + 1) {
+            let end: f64x8<S> = (*stops).simd_into(simd);
+            // What is not there has no width.
+            let end = (end - start).simd_ge(0.0).select(end, start);
             let width = end - start;
             let view = signature.views[index];
-            let found = cut::views(simd, scene, cell, contents, (start + end) * 0.5, y);
-            let wide = width.simd_gt(piece.gap).to_bitmask() & is_strict;
-            for (lane, found) in found.iter().enumerate() {
-                if wide >> lane & 1 == 1 && *found != view {
-                    return Err(Unlike);
-                }
-            }
-            let width = width.max(zero);
             if view == NOTHING {
                 for channel in 0..C::CHANNELS {
                     sum[channel] += width * background[channel];
@@ -148,6 +135,64 @@ impl Surroundings<'_> {
             lit && sphere_of(view).is_some_and(|position| !contents.active[position].is_smooth)
         });
         Ok(self.sum_up::<S, C>(rule, &sum, covered, along, is_rough))
+    }
+
+    /// Where the lines of a piece change, and where they end: as the signature says, which all of
+    /// them have but for those near the ends of the piece.
+    #[inline(always)]
+    fn stops<S: Simd>(
+        &self,
+        simd: S,
+        piece: &Piece<'_>,
+        y: f64x8<S>,
+        cuts: &mut Cuts,
+        scratch: &mut Vec<f64>,
+    ) -> Result<[[f64; 8]; MOST_CHANGES + 1], Unlike> {
+        let &Self {
+            scene,
+            cell,
+            contents,
+            ..
+        } = self;
+        let signature = piece.signature;
+        let lines: [f64; 8] = y.into();
+        let found = cuts.signatures(simd, scene, cell, contents, &lines, piece.gap);
+        let found = found.map_err(|_| Unlike { at: None })?;
+        let mut stops = [[0.5; 8]; MOST_CHANGES + 1];
+        let mut unlike = 0_u64;
+        for (lane, found) in found.iter().enumerate() {
+            if found == signature {
+                for (change, stops) in stops.iter_mut().enumerate().take(signature.changes) {
+                    stops[lane] = cuts.place(lane, change);
+                }
+            } else {
+                unlike |= 1 << lane;
+            }
+        }
+        if unlike == 0 {
+            let approach = piece
+                .is_suspicious
+                .then(|| cuts.approach(signature.changes, &lines, NODES));
+            return match approach.flatten() {
+                Some(at) => Err(Unlike { at: Some(at) }),
+                None => Ok(stops),
+            };
+        }
+        let is_strict = (y.simd_gt(piece.start + piece.loose[0])
+            & y.simd_lt(piece.end - piece.loose[1]))
+        .to_bitmask();
+        if unlike & is_strict != 0 {
+            return Err(Unlike { at: None });
+        }
+        for (change, stops) in stops.iter_mut().enumerate().take(signature.changes) {
+            let places = self.place(simd, signature.branches[change], y, scratch);
+            for (lane, stop) in stops.iter_mut().enumerate() {
+                if unlike >> lane & 1 == 1 {
+                    *stop = places[lane];
+                }
+            }
+        }
+        Ok(stops)
     }
 
     /// The integral across the lines, from what is along them.
