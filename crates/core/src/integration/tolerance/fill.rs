@@ -9,7 +9,7 @@ use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::cut::MOST_LIGHTS;
 use super::glimpse::Glimpse;
-use super::smooth::{Filled, SAMPLES, smooth};
+use super::smooth::{Filled, smooth};
 use super::surface::{Finish, Points};
 use crate::edges::Vectors;
 use crate::integration::{Evidence, Pixel, Status};
@@ -45,7 +45,10 @@ impl Exact<'_> {
         };
         let mut hard = 0;
         let mut lit = [0_u64; MOST_LIGHTS];
-        let mut turn = f64x8::splat(simd, 0.0);
+        let mut manner = Manner {
+            turn: f64x8::splat(simd, 0.0),
+            pace: f64x8::splat(simd, 0.0),
+        };
         if scene.lights.len() > MOST_LIGHTS {
             hard = which;
         } else if ball.outside > 0.0 && !scene.is_enclosed {
@@ -53,7 +56,7 @@ impl Exact<'_> {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    turn = self.lights(
+                    manner = self.lights(
                         simd, start, which, glimpse, cache, &finish, &mut hard, &mut lit,
                     );
                 },
@@ -94,7 +97,6 @@ impl Exact<'_> {
                     *lit &= group;
                 }
                 let noise = &mut workspace.noise;
-                workspace.work.samples += SAMPLES as u64 * u64::from(group.count_ones());
                 let light = simd.vectorize(
                     #[inline(always)]
                     || {
@@ -105,11 +107,15 @@ impl Exact<'_> {
                             middle,
                             size,
                             lit: &group_lit,
-                            turn,
+                            turn: manner.turn,
+                            pace: manner.pace,
+                            which: group,
+                            tolerance: self.tolerance,
                         };
                         smooth::<S, C>(simd, scene, &filled, noise)
                     },
                 );
+                workspace.work.samples += light.samples as u64 * u64::from(group.count_ones());
                 for lane in lanes(group) {
                     let error = light.errors[lane];
                     if error <= self.tolerance {
@@ -136,7 +142,7 @@ impl Exact<'_> {
     }
 
     /// Which lights reach all of the pixels `which`, bit by bit, and in which of them that cannot
-    /// be said. Returns how far normals turn from the middles, at most.
+    /// be said.
     #[expect(
         clippy::too_many_arguments,
         reason = "all of it is at hand where it is called"
@@ -152,7 +158,7 @@ impl Exact<'_> {
         finish: &Finish<'_>,
         hard: &mut u64,
         lit: &mut [u64; MOST_LIGHTS],
-    ) -> f64x8<S> {
+    ) -> Manner<S> {
         let scene = &self.scene;
         let ball = &scene.balls[glimpse.sphere];
         let zero = f64x8::splat(simd, 0.0);
@@ -166,11 +172,17 @@ impl Exact<'_> {
         let away = (farthest - points.t).max(points.t - nearest) * length;
         let around = farthest * half_diagonal + farthest * length * 1e-12;
         let turn = (away + around) * (1.0 / ball.radius);
+        let grazing = (points.normal.dot(&ray) * (-one / length)).max(zero);
+        // A root of what vanishes at the silhouette, with the square of this.
+        let mut pace = turn * 2.0 / grazing;
         for (light, in_camera) in scene.lights.iter().enumerate() {
             let toward = in_camera.toward;
             let mut reached = which & !*hard;
             if !finish.is_rough() {
                 let facing = points.normal.dot_one(toward);
+                if !finish.has_whole_exponent() {
+                    pace = facing.simd_gt(zero).select(pace.max(turn / facing), pace);
+                }
                 let faces = facing.simd_gt(turn).to_bitmask();
                 let averts = facing.simd_lt(-turn).to_bitmask();
                 *hard |= which & !faces & !averts;
@@ -215,8 +227,15 @@ impl Exact<'_> {
             }
             lit[light] = reached;
         }
-        turn
+        Manner { turn, pace }
     }
+}
+
+/// How the light of pixels changes; see [`Filled`].
+#[derive(Clone, Copy, Debug)]
+struct Manner<S: Simd> {
+    turn: f64x8<S>,
+    pace: f64x8<S>,
 }
 
 /// How far beyond `center` in the direction of `axis` the rays are at the ends of the ways that they

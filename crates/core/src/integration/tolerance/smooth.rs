@@ -24,18 +24,24 @@ struct Sample {
     bend: [f64; 2],
 }
 
-/// Samples that a pixel takes.
-pub(super) const SAMPLES: usize = 17;
+/// Samples that a pixel takes, at most.
+const SAMPLES: usize = 17;
+
+/// Samples of Gauss's rule.
+const GAUSS_SAMPLES: usize = 9;
+
+/// Its weights along one axis.
+const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 
 /// Gauss's points, then the others of Kronrod's on both diagonals.
 const POINTS: [Sample; SAMPLES] = {
     const OUTER: f64 = 0.387_298_334_620_741_7;
-    const GAUSS: [(f64, f64); 3] = [(-OUTER, 5.0 / 18.0), (0.0, 4.0 / 9.0), (OUTER, 5.0 / 18.0)];
+    const GAUSS: [f64; 3] = [-OUTER, 0.0, OUTER];
     /// Kronrod's weights of Gauss's points less theirs.
     const EXCESS: [f64; 3] = [
-        0.134_244_044_934_166_84 - 5.0 / 18.0,
-        0.225_458_269_329_237_05 - 4.0 / 9.0,
-        0.134_244_044_934_166_84 - 5.0 / 18.0,
+        0.134_244_044_934_166_84 - WEIGHTS[0],
+        0.225_458_269_329_237_05 - WEIGHTS[1],
+        0.134_244_044_934_166_84 - WEIGHTS[0],
     ];
     const OTHERS: [(f64, f64); 4] = [
         (-0.480_245_634_354_010_15, 0.052_328_113_013_233_65),
@@ -53,12 +59,12 @@ const POINTS: [Sample; SAMPLES] = {
         bend: [0.0; 2],
     }; SAMPLES];
     let mut index = 0;
-    while index < 9 {
+    while index < GAUSS_SAMPLES {
         let (row, col) = (index / 3, index % 3);
-        let ((u, along), (v, across)) = (GAUSS[col], GAUSS[row]);
+        let (along, across) = (WEIGHTS[col], WEIGHTS[row]);
         points[index] = Sample {
-            u,
-            v,
+            u: GAUSS[col],
+            v: GAUSS[row],
             average: along * across,
             apart: [
                 if row == col { EXCESS[col] } else { 0.0 },
@@ -91,6 +97,8 @@ const FROM_SAMPLES: f64 = 0.4;
 pub(super) struct Smooth {
     pub(super) values: [Color; 8],
     pub(super) errors: [f64; 8],
+    /// How many samples each of the pixels took.
+    pub(super) samples: usize,
 }
 
 /// Pixels that one sphere fills.
@@ -105,16 +113,22 @@ pub(super) struct Filled<'a, S: Simd> {
     pub(super) lit: &'a [u64; MOST_LIGHTS],
     /// How far normals turn from the middles to the corners, at most.
     pub(super) turn: f64x8<S>,
+    /// How fast light may change: the extent of the pixels over the distance to where it is not
+    /// smooth.
+    pub(super) pace: f64x8<S>,
+    /// The pixels that count, bit by bit, and the error that is allowed in them.
+    pub(super) which: u64,
+    pub(super) tolerance: f64,
 }
 
 /// The averages over pixels that one sphere fills, by Gauss's rule with three points a side.
 ///
 /// # Accuracy
-/// An estimate: along both diagonals, which reach where an edge may be near, the rule is held
-/// against Kronrod's. Should the two agree by accident, how much light bends tells what to expect:
-/// the error of an exponential function that bends so. A rough surface has terminators inside its bumps: where it may avert
-/// itself between samples that face the light, or face it between those that do not, what is missed
-/// is bounded by how fast its normals turn.
+/// An estimate. Where light is calm, how much it bends tells what to expect: the error of an
+/// exponential function that bends so. Elsewhere the rule is held against Kronrod's along both
+/// diagonals, which reach where an edge may be near. A rough surface has terminators inside its
+/// bumps: where it may avert itself between samples that face the light, or face it between those
+/// that do not, what is missed is bounded by how fast its normals turn.
 #[inline(always)]
 pub(super) fn smooth<S: Simd, C: Radiance>(
     simd: S,
@@ -123,52 +137,84 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     noise: &mut Option<Box<NoiseCells>>,
 ) -> Smooth {
     let zero = f64x8::splat(simd, 0.0);
+    let is_rough = filled.finish.is_rough();
     let mut facings = Facings::new(simd);
-    let mut average = [zero; 3];
-    // Along both diagonals: Kronrod's rule less Gauss's. Along both axes: how much the light bends.
+    let mut lights = [[zero; 3]; GAUSS_SAMPLES];
+    // Along both diagonals: Kronrod's rule less Gauss's.
     let mut apart = [[zero; 3]; 2];
-    let mut bend = [[zero; 3]; 2];
-    let mut highest = zero;
-    for sample in &POINTS {
-        let light = filled.light::<C>(simd, scene, sample, &mut facings, noise);
-        for channel in 0..C::CHANNELS {
-            let light = light[channel];
-            highest = highest.max(light);
-            average[channel] += light * sample.average;
-            for axis in 0..2 {
-                apart[axis][channel] += light * sample.apart[axis];
-                bend[axis][channel] += light * sample.bend[axis];
+    let mut calm = Calm {
+        error: zero,
+        settled: mask64x8::splat(simd, false),
+    };
+    let mut samples = SAMPLES;
+    for (index, sample) in POINTS.iter().enumerate() {
+        if index == GAUSS_SAMPLES {
+            calm = filled.calm::<C>(simd, scene, &lights, &facings);
+            if filled.which & !calm.settled.to_bitmask() == 0 {
+                samples = GAUSS_SAMPLES;
+                break;
             }
         }
+        let light = filled.light::<C>(simd, scene, sample, &mut facings, noise);
+        if let Some(lights) = lights.get_mut(index) {
+            *lights = light;
+        }
+        for channel in 0..C::CHANNELS {
+            apart[0][channel] += light[channel] * sample.apart[0];
+            apart[1][channel] += light[channel] * sample.apart[1];
+        }
     }
-    let mut error = zero;
     let mut result = Smooth {
         values: [Color::ZERO; 8],
         errors: [0.0; 8],
+        samples,
     };
     // A function of one coordinate is off by half of what both diagonals tell, and rows are not
     // quite alike, on bumps less than elsewhere.
-    let caution = if filled.finish.is_rough() { 2.0 } else { 0.75 };
+    let caution = if is_rough { 2.0 } else { 0.75 };
+    let mut error = zero;
     for channel in 0..C::CHANNELS {
-        /// The error of an exponential function over the cube of its bend.
-        const NATURAL: f64 = 1.5e-4;
-        let bend = bend[0][channel].abs() + bend[1][channel].abs();
+        let mut average = zero;
+        let mut bend = [zero; 2];
+        let mut highest = zero;
+        for (light, sample) in lights.iter().zip(&POINTS) {
+            average += light[channel] * sample.average;
+            bend[0] += light[channel] * sample.bend[0];
+            bend[1] += light[channel] * sample.bend[1];
+            highest = highest.max(light[channel]);
+        }
+        let bend = bend[0].abs() + bend[1].abs();
         let relative = bend / (highest + f64::MIN_POSITIVE);
         let natural = bend * relative * relative * NATURAL;
         let difference = apart[0][channel].abs() + apart[1][channel].abs();
         // Where a number is not finite, the estimate tells.
-        error = error.max(difference * caution + natural + average[channel].abs() * 1e-15);
-        for (value, average) in result.values.iter_mut().zip(average[channel].iter()) {
+        error = error.max(difference * caution + natural + average.abs() * ROUNDING);
+        for (value, average) in result.values.iter_mut().zip(average.iter()) {
             value[channel] = *average;
         }
     }
-    if filled.finish.is_rough() {
+    if is_rough {
         error += filled.missed(simd, scene, &facings);
     }
+    let error = calm.settled.select(calm.error, error);
     for lane in 0..8 {
         result.errors[lane] = error[lane];
     }
     result
+}
+
+/// The error of an exponential function over the cube of its bend.
+const NATURAL: f64 = 1.5e-4;
+
+/// The relative error that rounding makes.
+const ROUNDING: f64 = 1e-15;
+
+/// What is known of the error by Gauss's samples alone.
+#[derive(Clone, Copy, Debug)]
+struct Calm<S: Simd> {
+    error: f64x8<S>,
+    /// Where that is enough.
+    settled: mask64x8<S>,
 }
 
 impl<S: Simd> Filled<'_, S> {
@@ -189,6 +235,69 @@ impl<S: Simd> Filled<'_, S> {
         let facings = self.finish.is_rough().then_some(facings);
         self.finish
             .radiance::<S, C>(simd, scene, &points, self.lit, noise, facings)
+    }
+
+    /// An estimate of the error by how much light bends, where it is calm.
+    ///
+    /// It is small where light is linear, and compared with how much light changes rather than with
+    /// how much there is, so that a weak highlight on a bright surface counts.
+    #[inline(always)]
+    fn calm<C: Radiance>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        lights: &[[f64x8<S>; 3]; GAUSS_SAMPLES],
+        facings: &Facings<S>,
+    ) -> Calm<S> {
+        /// The pace at which light is no more calm.
+        const HURRIED: f64 = 0.25;
+        /// What the sixth derivative of a root contributes at a pace of 1.
+        const OF_ROOT: f64 = 7.3e-6;
+        /// The error of an exponential function over the cube of its bend and the square of what it
+        /// changes by, when it turns to e times as much in a pixel; less where it changes less.
+        const OF_CHANGE: f64 = 1e-3;
+        /// What a kink of the second derivative, where cells of the noise meet, costs at most.
+        const OF_KINK: f64 = 0.1;
+        let zero = f64x8::splat(simd, 0.0);
+        let is_rough = self.finish.is_rough();
+        let pace_sq = self.pace * self.pace;
+        let root = pace_sq * pace_sq * pace_sq * OF_ROOT;
+        let mut error = zero;
+        for channel in 0..C::CHANNELS {
+            let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
+            let mut bend = zero;
+            for light in lights {
+                highest = highest.max(light[channel]);
+                lowest = lowest.min(light[channel]);
+            }
+            for (index, weight) in WEIGHTS.into_iter().enumerate() {
+                let row = [3 * index, 3 * index + 1, 3 * index + 2];
+                let col = [index, index + 3, index + 6];
+                for [before, middle, after] in [row, col] {
+                    let sides = lights[before][channel] + lights[after][channel];
+                    bend += (sides - lights[middle][channel] * 2.0).abs() * weight;
+                }
+            }
+            let relative = bend / (highest - lowest + f64::MIN_POSITIVE);
+            let mut estimate = bend * relative * relative * OF_CHANGE + highest * (root + ROUNDING);
+            if is_rough {
+                estimate += bend * OF_KINK;
+            }
+            error = error.max(estimate);
+        }
+        let mut settled = self.pace.simd_lt(HURRIED);
+        if is_rough {
+            error += self.missed(simd, scene, facings);
+            if !self.finish.has_whole_exponent() {
+                let reach = self.turn * (self.finish.slope_bound() / HURRIED);
+                for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
+                    let lit = mask64x8::from_bitmask(simd, *lit);
+                    settled &= !(facings.undecided(light, reach) & lit);
+                }
+            }
+        }
+        settled &= error.simd_le(self.tolerance);
+        Calm { error, settled }
     }
 
     /// What samples may miss of the lights that a rough surface faces here and averts itself from
@@ -255,7 +364,9 @@ mod tests {
         let grid = |index: u32| f64::from(index) / 200.0 - 0.5;
         let mut farthest: f64 = 0.0;
         for (x, y) in (0..=200).flat_map(|row| (0..=200).map(move |col| (grid(col), grid(row)))) {
-            let distances = POINTS.iter().map(|at| (x - at.u).hypot(y - at.v));
+            let distances = POINTS[..GAUSS_SAMPLES]
+                .iter()
+                .map(|at| (x - at.u).hypot(y - at.v));
             farthest = farthest.max(distances.fold(f64::INFINITY, f64::min));
         }
         let half_diagonals = farthest / 0.5_f64.sqrt();
