@@ -113,6 +113,11 @@ impl Bumps {
         self.bend(normal, draw)
     }
 
+    /// How many cells of the noise the radius spans.
+    pub(crate) fn cells(&self) -> f64 {
+        self.cells
+    }
+
     /// A bound of |∂n′/∂n|: two points of the sphere whose normals enclose the angle δ, in
     /// radians, have shading normals that differ by at most `slope_bound() · δ`.
     ///

@@ -289,8 +289,8 @@ impl<S: Simd> Filled<'_, S> {
         if is_rough {
             error += self.missed(simd, scene, facings);
             if !self.finish.has_whole_exponent() {
-                let reach = self.turn * (self.finish.slope_bound() / HURRIED);
                 for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
+                    let reach = self.changes(light, facings)[1] * (1.0 / HURRIED);
                     let lit = mask64x8::from_bitmask(simd, *lit);
                     settled &= !(facings.undecided(light, reach) & lit);
                 }
@@ -300,18 +300,37 @@ impl<S: Simd> Filled<'_, S> {
         Calm { error, settled }
     }
 
-    /// What samples may miss of the lights that a rough surface faces here and averts itself from
-    /// there: a bound where no sample faces them, elsewhere an estimate, for twice the facing that is
-    /// possible next to a terminator.
+    /// How much a rough surface's facing of a light changes from the nearest sample, and over all of
+    /// a pixel, at most: as much as its normals may turn; an estimate by its change from sample to
+    /// sample where a pixel is small beside its bumps.
+    #[inline(always)]
+    fn changes(&self, light: usize, facings: &Facings<S>) -> [f64x8<S>; 2] {
+        /// Pixels over cells of the noise that are small.
+        const SMALL: f64 = 0.25;
+        const OF_RANGE: [f64; 2] = [0.75, 1.5];
+        let bound = self.turn * self.finish.slope_bound();
+        let range = facings.range(light);
+        let is_small = (self.turn * self.finish.grain()).simd_lt(SMALL);
+        let least =
+            |bound: f64x8<S>, of_range: f64| is_small.select(bound.min(range * of_range), bound);
+        [
+            least(bound * FROM_SAMPLES, OF_RANGE[0]),
+            least(bound * 2.0, OF_RANGE[1]),
+        ]
+    }
+
+    /// What samples may miss where a rough surface faces a light here and averts itself from it
+    /// there.
     #[inline(always)]
     fn missed(&self, simd: S, scene: &InCamera<'_>, facings: &Facings<S>) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
-        let reach = self.turn * (FROM_SAMPLES * self.finish.slope_bound());
         let mut missed = zero;
         for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
+            let [reach, range] = self.changes(light, facings);
             let undecided = facings.undecided(light, reach) & mask64x8::from_bitmask(simd, *lit);
-            let facing = (facings.highest(light) + reach).min(reach * 2.0);
-            let most = self.finish.brightest(scene, light, facing);
+            let most = self
+                .finish
+                .cost_of_turning(scene, light, range, facings.spot(light));
             missed += undecided.select(most, zero);
         }
         missed
