@@ -12,6 +12,7 @@ mod glimpse;
 mod piece;
 mod pixel;
 mod rule;
+mod samples;
 mod scene;
 mod smooth;
 mod surface;
