@@ -186,6 +186,7 @@ impl Workspace {
                 cell,
                 contents: &self.contents,
                 background: goal.background,
+                tolerance: goal.tolerance,
             };
             let part = surroundings.integrate::<S, C>(
                 simd,

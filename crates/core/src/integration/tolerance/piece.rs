@@ -76,6 +76,7 @@ pub(super) struct Surroundings<'a> {
     pub(super) contents: &'a Contents,
     /// Light where no sphere is seen.
     pub(super) background: Color,
+    pub(super) tolerance: f64,
 }
 
 impl Surroundings<'_> {
@@ -314,7 +315,8 @@ impl Surroundings<'_> {
             || {
                 let end = interval.start + interval.width;
                 let mut turns = Turns::default();
-                let points = LOOKS * interval.division;
+                let Search { looks, steps } = Search::of(self.tolerance);
+                let points = looks * interval.division;
                 *samples += 8 * u64::from(points + 1);
                 let step = interval.width * (1.0 / f64::from(points));
                 let mut last = [f64x8::splat(simd, 0.0); MOST_LIGHTS];
@@ -340,9 +342,10 @@ impl Surroundings<'_> {
                                     y,
                                     [last_x, x],
                                     [last[light], facing],
+                                    steps,
                                     noise,
                                 );
-                                *samples += 8 * u64::from(STEPS);
+                                *samples += 8 * u64::from(steps);
                                 for lane in 0..8 {
                                     if turned >> lane & 1 == 1 {
                                         turns.note(lane, root[lane]);
@@ -394,13 +397,14 @@ impl Surroundings<'_> {
         y: f64x8<S>,
         [mut low, mut high]: [f64x8<S>; 2],
         [mut at_low, mut at_high]: [f64x8<S>; 2],
+        steps: u32,
         noise: &mut Option<Box<NoiseCells>>,
     ) -> f64x8<S> {
         simd.vectorize(
             #[inline(always)]
             || {
                 let mut x = low;
-                for _ in 0..STEPS {
+                for _ in 0..steps {
                     let share = at_low / (at_low - at_high);
                     x = low + (high - low) * share;
                     let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
@@ -540,11 +544,26 @@ fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, is_rough: bool) -> (f64, f64) {
     (fine, error_estimate(difference, spread))
 }
 
-/// Points of an interval at which a rough surface is looked at for terminators.
-const LOOKS: u32 = 8;
+/// How terminators of bumps are looked for.
+#[derive(Clone, Copy, Debug)]
+struct Search {
+    /// Parts of an interval at whose ends a rough surface is looked at.
+    looks: u32,
+    /// Steps to a terminator.
+    steps: u32,
+}
 
-/// Steps to a terminator.
-const STEPS: u32 = 7;
+impl Search {
+    fn of(tolerance: f64) -> Self {
+        /// Small enough for a search in earnest.
+        const FINE: f64 = 9e-5;
+        if tolerance > FINE {
+            Self { looks: 4, steps: 4 }
+        } else {
+            Self { looks: 8, steps: 7 }
+        }
+    }
+}
 
 /// Places on eight lines, at most so many each, in order.
 #[derive(Clone, Copy, Debug)]
