@@ -87,15 +87,13 @@ fn weights<L: Lanes>(offset: L) -> [L; 3] {
 /// four never push each other out.
 #[derive(Clone, Debug)]
 pub(crate) struct NoiseCells {
-    slots: Vec<Slot>,
+    /// Which cells are in the table: apart from the cells, so that a glance takes little memory.
+    names: Vec<Name>,
+    cells: Vec<Cell>,
 }
 
-#[derive(Clone, Copy, Debug)]
-struct Slot {
-    key: u64,
-    index: [i64; 3],
-    cell: Cell,
-}
+/// What tells a cell: the key of its lattice and the lattice point.
+type Name = (u64, [i64; 3]);
 
 /// Bits of the index that choose the slot, for each axis.
 const SLOT_BITS: u32 = 2;
@@ -105,10 +103,10 @@ impl NoiseCells {
     /// An empty table of about 40 KiB.
     pub(crate) fn new() -> Self {
         // Any cell will do for a start, anywhere: it is what its key and index say.
-        let (key, index) = (0, [0; 3]);
-        let cell = Cell::new(key, index);
+        let name = (0, [0; 3]);
         Self {
-            slots: vec![Slot { key, index, cell }; SLOTS],
+            names: vec![name; SLOTS],
+            cells: vec![Cell::new(name.0, name.1); SLOTS],
         }
     }
 
@@ -117,19 +115,17 @@ impl NoiseCells {
     pub(super) fn cell(&mut self, key: u64, index: [i64; 3]) -> &Cell {
         let [x, y, z] = index.map(|index| index as usize % (1 << SLOT_BITS));
         let place = x | y << SLOT_BITS | z << (2 * SLOT_BITS);
-        let slot = &mut self.slots[place.wrapping_add(key as usize) % SLOTS];
-        if slot.key != key || slot.index != index {
-            slot.replace(key, index);
+        let slot = place.wrapping_add(key as usize) % SLOTS;
+        if self.names[slot] != (key, index) {
+            self.replace(slot, key, index);
         }
-        &slot.cell
+        &self.cells[slot]
     }
-}
 
-impl Slot {
     #[inline(never)]
-    fn replace(&mut self, key: u64, index: [i64; 3]) {
-        let cell = Cell::new(key, index);
-        *self = Self { key, index, cell };
+    fn replace(&mut self, slot: usize, key: u64, index: [i64; 3]) {
+        self.names[slot] = (key, index);
+        self.cells[slot] = Cell::new(key, index);
     }
 }
 
@@ -169,8 +165,7 @@ mod tests {
             table.cell(99, index);
         }
         for index in block {
-            let is_there = |slot: &Slot| slot.key == 99 && slot.index == index;
-            assert!(table.slots.iter().any(is_there), "{index:?}");
+            assert!(table.names.contains(&(99, index)), "{index:?}");
         }
     }
 }
