@@ -35,55 +35,26 @@ enum Shortfall {
     Unmet,
 }
 
-const ALLOWANCES: [Allowance; 7] = [
-    // Specks, and shadows of specks, that lie between all lines.
-    Allowance {
-        scene: "specks",
-        what: Shortfall::Broken,
-        pixels: [2, 11, 23, 33, 39],
-    },
-    // Rough terminators near each other; off by twice the tolerance.
+const ALLOWANCES: [Allowance; 2] = [
+    // Bumps that many terminators wind through in a pixel cost more than a pixel may.
     Allowance {
         scene: "candy",
-        what: Shortfall::Broken,
-        pixels: [0, 0, 0, 0, 1],
+        what: Shortfall::Unmet,
+        pixels: [0, 0, 0, 0, 16],
     },
     Allowance {
         scene: "rough_shiny",
-        what: Shortfall::Broken,
-        pixels: [0, 0, 0, 0, 1],
-    },
-    // A viewpoint 0.05 above a floor of radius 10⁶, or 3 above it: rounding is feared.
-    Allowance {
-        scene: "floor_along",
         what: Shortfall::Unmet,
-        pixels: [0, 0, 118, 118, 121],
-    },
-    Allowance {
-        scene: "ground",
-        what: Shortfall::Unmet,
-        pixels: [0, 0, 0, 0, 140],
-    },
-    // Balls of radius 5 to 60 from a million units away.
-    Allowance {
-        scene: "tele",
-        what: Shortfall::Unmet,
-        pixels: [0, 0, 73, 140, 140],
-    },
-    Allowance {
-        scene: "seams",
-        what: Shortfall::Unmet,
-        pixels: [0, 0, 0, 0, 1],
+        pixels: [0, 0, 0, 0, 3],
     },
 ];
 
 /// Of all pixels of all scenes at a tolerance, so many may be off by more than they claim while
-/// within the tolerance, in parts; broken ones are counted above. Most are specks.
-const BEYOND_CLAIM: f64 = 0.01;
+/// within the tolerance, in parts; broken ones are counted above.
+const BEYOND_CLAIM: f64 = 0.002;
 
-/// The least median of true / claimed error over all scenes' medians. The aim is 1/1000; rules of
-/// high order whose neighbors of lower order speak for them fall short of it.
-const LEAST_HONESTY: f64 = 5e-7;
+/// The least median of true / claimed error over all scenes' medians.
+const LEAST_HONESTY: f64 = 1e-3;
 
 fn allowed(scene: &str, what: Shortfall, tolerance: usize) -> usize {
     ALLOWANCES

@@ -20,8 +20,10 @@ fn isolate(b: [f64; 5], low: f64, high: f64, depth: u32, roots: &mut Vec<f64>) {
     }
     let middle = 0.5 * (low + high);
     if depth == DEEPEST {
-        // Roots this close are one, or none: the sign does not tell.
-        roots.push(middle);
+        // Roots this close are one, or none.
+        if (b[0] < 0.0) != (b[4] < 0.0) {
+            roots.push(middle);
+        }
         return;
     }
     let (left, right) = halves(b);
@@ -52,6 +54,11 @@ fn halves(b: [f64; 5]) -> ([f64; 5], [f64; 5]) {
         }
     }
     (left, right)
+}
+
+/// The value at s from 0 to 1.
+pub(super) fn value(bernstein: &[f64; 5], s: f64) -> f64 {
+    evaluate(*bernstein, s).0
 }
 
 /// Value and derivative at s from 0 to 1.

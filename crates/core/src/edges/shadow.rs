@@ -115,7 +115,7 @@ impl<S: Simd> Arcs<S> {
             || {
                 let nothing = f64x8::splat(simd, f64::NAN);
                 let mut places = [[nothing; MOST_ROOTS]; 2];
-                let bernstein = self.shadow(simd, caster);
+                let (bernstein, summands) = self.shadow(simd, caster);
                 let valid = self.low.simd_lt(self.high).to_bitmask();
                 let mut is_inside = [0; 5];
                 let (mut any, mut all) = (0, valid);
@@ -157,6 +157,7 @@ impl<S: Simd> Arcs<S> {
                     }
                     scratch.clear();
                     quartic::roots(row, scratch);
+                    drop_grazed(&row, ROUNDINGS * summands[lane], scratch);
                     let mut is_in = row[0] < 0.0;
                     let mut counts = [0, 0];
                     for &s in scratch.iter() {
@@ -176,9 +177,9 @@ impl<S: Simd> Arcs<S> {
 
     /// The Bernstein coefficients, from `low` to `high`, of |P|² − r² (1 + τ²)², where P / (1 + τ²)
     /// is the vector from the caster's center, seen along the light: negative in the caster's
-    /// cylinder.
+    /// cylinder. And the size of what they are summed from.
     #[inline(always)]
-    fn shadow(&self, simd: S, caster: &Caster) -> [f64x8<S>; 5] {
+    fn shadow(&self, simd: S, caster: &Caster) -> ([f64x8<S>; 5], f64x8<S>) {
         let from_caster = self.middle.minus(&Vectors::splat(simd, caster.center));
         let zero = f64x8::splat(simd, 0.0);
         let mut sums = [zero; 5];
@@ -202,13 +203,15 @@ impl<S: Simd> Arcs<S> {
         let (low, high) = (self.low, self.high);
         let (r0, r1, r2) = (low * low + 1.0, low * high + 1.0, high * high + 1.0);
         let radius_sq = caster.radius * caster.radius;
-        [
+        let summands = sums[0] + sums[4] + (r0 * r0 + r2 * r2) * radius_sq;
+        let bernstein = [
             sums[0] - r0 * r0 * radius_sq,
             sums[1] - r0 * r1 * radius_sq,
             sums[2] - (r0 * r2 + r1 * r1 * 2.0) * (radius_sq / 3.0),
             sums[3] - r1 * r2 * radius_sq,
             sums[4] - r2 * r2 * radius_sq,
-        ]
+        ];
+        (bernstein, summands)
     }
 
     /// The place x at which a point of the arc is seen.
@@ -223,6 +226,23 @@ impl<S: Simd> Arcs<S> {
             + self.across.along(along) * twice;
         let depth = self.middle.z * plus + self.toward.z * minus + self.across.z * twice;
         (along_line / depth - cell.middle[along]) * (1.0 / cell.size[0])
+    }
+}
+
+/// What rounding makes of a polynomial's values, relative to what they are summed from.
+const ROUNDINGS: f64 = 4e-15;
+
+/// Drops pairs of roots between which the polynomial is as good as zero: a cylinder that touches a
+/// sphere all along a line, as a caster's of the same size right before a sphere does.
+fn drop_grazed(bernstein: &[f64; 5], rounding: f64, roots: &mut Vec<f64>) {
+    let mut index = 0;
+    while index + 1 < roots.len() {
+        let middle = 0.5 * (roots[index] + roots[index + 1]);
+        if quartic::value(bernstein, middle).abs() <= rounding {
+            roots.drain(index..index + 2);
+        } else {
+            index += 1;
+        }
     }
 }
 

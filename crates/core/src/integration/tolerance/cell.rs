@@ -24,8 +24,10 @@ pub(super) struct Workspace {
     samples: Vec<Sample>,
     tasks: Vec<Task>,
     pub(super) work: Work,
-    /// Samples after which a pixel is given up.
-    budget: u64,
+    /// What the pixel has cost, and may cost, in spheres and edges looked at along lines, and
+    /// samples.
+    effort: u64,
+    sample_budget: u64,
 }
 
 /// A line whose signature is known.
@@ -64,6 +66,10 @@ const MOST_BATCHES: u32 = 60;
 /// Samples that a pixel may cost: only bumps much smaller than a pixel, or exponents that make steep
 /// terminators of them, ask for so many.
 const MOST_SAMPLES: u64 = 400_000;
+
+/// Spheres and edges that a pixel may cost, each counted for every eight lines: crowds of hundreds
+/// in one pixel ask for so many.
+const MOST_EFFORT: u64 = 400_000;
 
 /// How often something unexpected may happen between lines of a cell that were held to be alike.
 const MOST_SURPRISES: u32 = 6;
@@ -133,12 +139,13 @@ impl Workspace {
 
     /// Begins the work on a pixel.
     pub(super) fn begin_pixel(&mut self) {
-        self.budget = self.work.samples + MOST_SAMPLES;
+        self.effort = 0;
+        self.sample_budget = self.work.samples + MOST_SAMPLES;
     }
 
     /// Whether the pixel has cost as much as a pixel may.
     pub(super) fn is_over_budget(&self) -> bool {
-        self.work.samples > self.budget
+        self.effort > MOST_EFFORT || self.work.samples > self.sample_budget
     }
 
     /// The integral between the breaks.
@@ -166,6 +173,7 @@ impl Workspace {
         sum.error += goal.contrast * self.make_tasks(&Task::WHOLE);
         while let Some(task) = self.tasks.pop() {
             batches += 1;
+            self.effort += self.contents.extent();
             if batches > MOST_BATCHES || self.is_over_budget() {
                 return Err(Hard);
             }
@@ -345,7 +353,8 @@ impl Workspace {
     ) -> Result<[Signature; 8], Hard> {
         *batches += 1;
         self.work.lines += 8;
-        if *batches > MOST_BATCHES {
+        self.effort += self.contents.extent();
+        if *batches > MOST_BATCHES || self.is_over_budget() {
             return Err(Hard);
         }
         Ok(self

@@ -259,6 +259,12 @@ impl Contents {
         Reach::Past(first..self.casters.len())
     }
 
+    /// How much there is to look at on a line: in each gap between edges every sphere may be seen.
+    pub(super) fn extent(&self) -> u64 {
+        let edges = self.conics.len() + 4 * self.casters.len();
+        (8 + edges + self.active.len() * (1 + self.conics.len() / 4)) as u64
+    }
+
     /// Whether highlights are too sharp for rules along lines of the cell.
     #[inline(always)]
     pub(super) fn is_sharp<S: Simd>(

@@ -1,9 +1,11 @@
 //! Pixels with edges.
 
+use std::collections::VecDeque;
+
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::cell::{Goal, Hard, Workspace};
+use super::cell::{Goal, Workspace};
 use super::contents::CasterCache;
 use super::cut::MOST_LIGHTS;
 use super::piece::Part;
@@ -16,7 +18,7 @@ use crate::{Radiance, Tile};
 const LOST: f64 = 0.01;
 
 /// How deep pixels are quartered.
-const DEEPEST: u32 = 4;
+const DEEPEST: i32 = 12;
 
 impl Exact<'_> {
     pub(super) fn key(&self, start: Tile, lane: u32) -> PixelKey {
@@ -45,7 +47,7 @@ impl Exact<'_> {
         let cell = self.cell(here);
         let part = simd.vectorize(
             #[inline(always)]
-            || self.part::<S, C>(simd, &cell, spheres, cache, workspace, 0),
+            || self.parts::<S, C>(simd, cell, spheres, cache, workspace),
         );
         // Samples at least see exactly.
         let is_lost = !(part.error.is_finite() && part.value.is_finite())
@@ -69,7 +71,43 @@ impl Exact<'_> {
         }
     }
 
-    /// The average over a cell, or over its quarters where that is hard.
+    /// The average over a cell, by the averages over its quarters where it is hard, and over theirs:
+    /// large ones first, until the pixel has cost enough.
+    fn parts<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        cell: Cell,
+        spheres: &[usize],
+        cache: &mut CasterCache,
+        workspace: &mut Workspace,
+    ) -> Part {
+        let mut sum = Part::NOTHING;
+        let mut left = VecDeque::from([(cell, 0)]);
+        while let Some((cell, depth)) = left.pop_front() {
+            let share = 0.25_f64.powi(depth);
+            let part = if workspace.is_over_budget() {
+                None
+            } else {
+                self.part::<S, C>(simd, &cell, spheres, cache, workspace, depth)
+            };
+            match part {
+                Some(part) => sum.add(&part, share),
+                None if depth == DEEPEST || workspace.is_over_budget() => {
+                    sum.error += self.contrast * share;
+                }
+                None => {
+                    for y in [[-0.5, 0.0], [0.0, 0.5]] {
+                        for x in [[-0.5, 0.0], [0.0, 0.5]] {
+                            left.push_back((cell.part(x, y), depth + 1));
+                        }
+                    }
+                }
+            }
+        }
+        sum
+    }
+
+    /// The average over a cell, unless that is hard.
     fn part<S: Simd, C: Radiance>(
         &self,
         simd: S,
@@ -77,51 +115,33 @@ impl Exact<'_> {
         spheres: &[usize],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
-        depth: u32,
-    ) -> Part {
+        depth: i32,
+    ) -> Option<Part> {
         let goal = Goal {
             tolerance: self.tolerance,
             background: self.background(),
             contrast: self.contrast,
         };
-        let part = simd.vectorize(
+        simd.vectorize(
             #[inline(always)]
             || {
                 workspace.contents.see(&self.scene, cell, spheres, cache);
                 let negligible = 0.01 * goal.tolerance;
-                if depth < DEEPEST
-                    && workspace
-                        .contents
-                        .is_sharp(simd, &self.scene, cell, negligible)
-                {
-                    return Err(Hard);
+                let is_sharp = workspace
+                    .contents
+                    .is_sharp(simd, &self.scene, cell, negligible);
+                if is_sharp && depth < DEEPEST {
+                    return None;
                 }
                 let mut cell = *cell;
                 if workspace.contents.prefers_transposed(&self.scene, &cell) {
                     cell = cell.transposed();
                     workspace.contents.transpose();
                 }
-                workspace.integrate::<S, C>(simd, &self.scene, &cell, &goal)
+                workspace
+                    .integrate::<S, C>(simd, &self.scene, &cell, &goal)
+                    .ok()
             },
-        );
-        match part {
-            Ok(part) => part,
-            Err(Hard) if depth == DEEPEST || workspace.is_over_budget() => Part {
-                error: self.contrast,
-                ..Part::NOTHING
-            },
-            Err(Hard) => {
-                let mut sum = Part::NOTHING;
-                for y in [[-0.5, 0.0], [0.0, 0.5]] {
-                    for x in [[-0.5, 0.0], [0.0, 0.5]] {
-                        let quarter = cell.part(x, y);
-                        let part =
-                            self.part::<S, C>(simd, &quarter, spheres, cache, workspace, depth + 1);
-                        sum.add(&part, 0.25);
-                    }
-                }
-                sum
-            }
-        }
+        )
     }
 }
