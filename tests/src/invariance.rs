@@ -6,7 +6,7 @@ use marbles_core::{
     View, World,
 };
 
-use crate::studio::{looking_forward, picture, pixels};
+use crate::studio::{exact_picture, looking_forward, picture, pixels};
 
 /// A map of the world that keeps pictures: a factor on all lengths, and a sign for x.
 #[derive(Clone, Copy)]
@@ -109,6 +109,47 @@ fn scaling_by_a_power_of_two_changes_no_bit() {
             original == scaled,
             "scaling by 2^{exponent} changes the picture"
         );
+    }
+}
+
+/// To a tolerance, too: as far as numbers are moderate, and the doubles that edges are found with
+/// are scaled alike.
+#[test]
+fn scaling_changes_no_bit_of_what_meets_a_tolerance() {
+    let render = |change| exact_picture(&world(change, true), &view(change), 1e-4, true);
+    let original = render(UNCHANGED);
+    for exponent in [-30, -1, 1, 30] {
+        let change = Change {
+            length: libm::scalbn(1.0, exponent),
+            x_sign: 1.0,
+        };
+        assert!(
+            original == render(change),
+            "scaling by 2^{exponent} changes the picture"
+        );
+    }
+}
+
+/// Lines run from left to right, or down: the mirror image is computed in another way, and agrees
+/// within what both claim.
+#[test]
+fn mirror_images_agree_within_their_errors() {
+    let render = |change| exact_picture(&world(change, false), &view(change), 1e-4, true);
+    let original = render(UNCHANGED);
+    let mirrored = render(Change {
+        length: 1.0,
+        x_sign: -1.0,
+    });
+    for (col, row) in pixels(&original) {
+        let other_col = original.width() - 1 - col;
+        let claimed = original.error(col, row) + mirrored.error(other_col, row);
+        let (one, other) = (original.rgba(col, row), mirrored.rgba(other_col, row));
+        for (one, other) in one.into_iter().zip(other) {
+            assert!(
+                (one - other).abs() <= claimed + 1e-13,
+                "pixel ({col}, {row}): {one} and {other}, within {claimed:e}"
+            );
+        }
     }
 }
 

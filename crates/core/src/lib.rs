@@ -4,7 +4,7 @@
 //! A [`World`] is what is rendered, a [`View`] is from where; a [`Renderer`] turns both into an
 //! [`Image`] whose every pixel says its value, its error and its [`Status`].
 //!
-//! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Colour is
+//! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Color is
 //! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
 //! intensity 1.
 //!

@@ -25,7 +25,7 @@ pub struct Settings {
 pub enum Method {
     /// Over the midpoints of an N × N division of every pixel.
     Samples(NonZeroU32),
-    /// Along lines with exact spans, until every channel of every pixel is within this.
+    /// Between known edges, until every channel of every pixel is within this of the exact average.
     Tolerance(f64),
 }
 

@@ -43,7 +43,7 @@ pub enum Evidence {
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 #[non_exhaustive]
 pub struct Work {
-    /// Points at which light was computed.
+    /// Points at which light, or the normal of a rough surface, was computed.
     pub samples: u64,
     /// Lines that were cut where something happens on them.
     pub lines: u64,
@@ -67,9 +67,11 @@ pub enum Status {
     NoTolerance,
     /// The error is within the tolerance.
     Met,
-    /// Nothing but rounding keeps the error from the tolerance.
+    /// The tolerance is not met, and most of the error is that of rounding.
     AtRoundoff,
-    /// The work that a pixel may cost did not suffice.
+    /// The tolerance is not met: the work that a pixel may cost did not suffice, or numbers are so
+    /// extreme that edges are not found in doubles. Where edges were given up, samples tell value and
+    /// error: a guess, as they miss what lies between them.
     OutOfBudget,
 }
 

@@ -404,7 +404,7 @@ impl CasterCache {
         self.found.clear();
         scene
             .visibility
-            .casters(light, &points, around, &mut self.found);
+            .casters(scene.lights[light].index, &points, around, &mut self.found);
         let own = scene.world.spheres()[sphere];
         let toward = scene.lights[light].toward;
         let first = self.indices.len();

@@ -34,9 +34,6 @@ impl Signature {
 /// No sphere.
 pub(super) const NOTHING: u64 = 0;
 
-/// Lights that fit into what tells a view; more are integrated one group after the other.
-pub(super) const MOST_LIGHTS: usize = 32;
-
 /// The position of the active sphere of a view.
 pub(super) fn sphere_of(view: u64) -> Option<usize> {
     ((view & 0xffff_ffff) as usize).checked_sub(1)

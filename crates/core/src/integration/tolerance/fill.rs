@@ -7,12 +7,13 @@ use glam::DVec3;
 use super::Exact;
 use super::cell::Workspace;
 use super::contents::CasterCache;
-use super::cut::MOST_LIGHTS;
 use super::glimpse::Glimpse;
+use super::scene::MOST_LIGHTS;
 use super::smooth::{Filled, smooth};
 use super::surface::{Finish, Points};
 use crate::edges::Vectors;
 use crate::integration::{Evidence, Pixel, Status};
+use crate::rounding::UNIT_ROUNDOFF;
 use crate::{Radiance, Tile};
 
 /// The fall of a highlight over half a pixel, in powers of e, that a pixel's one rule still follows.
@@ -49,9 +50,7 @@ impl Exact<'_> {
             turn: f64x8::splat(simd, 0.0),
             pace: f64x8::splat(simd, 0.0),
         };
-        if scene.lights.len() > MOST_LIGHTS {
-            hard = which;
-        } else if ball.outside > 0.0 && !scene.is_enclosed {
+        if ball.outside > 0.0 && !scene.is_enclosed {
             let finish = Finish::new(scene, sphere, self.key(start, 0));
             simd.vectorize(
                 #[inline(always)]
@@ -64,11 +63,11 @@ impl Exact<'_> {
         }
         let easy = which & !hard;
         let any_lit = lit.iter().fold(0, |any, lit| any | lit) & easy;
-        let constant = C::from_color(material.albedo * world.ambient);
+        let constant = C::from_color(material.albedo * scene.ambient);
         let flat = Pixel {
             value: constant,
             alpha: 1.0,
-            error: 0.0,
+            error: (material.albedo * scene.ambient).max_element() * UNIT_ROUNDOFF,
             evidence: Evidence::Bound,
             status: Status::Met,
         };

@@ -23,10 +23,11 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
-use self::scene::InCamera;
+use self::scene::{InCamera, MOST_LIGHTS};
 use self::trust::trusted;
-use super::{Integrator, Pixel, Supersampling, Work};
+use super::{Evidence, Integrator, Pixel, Status, Supersampling, Work};
 use crate::edges::Cell;
+use crate::roughness::PixelKey;
 use crate::visibility::Seen;
 use crate::{Radiance, Tile, View, World};
 
@@ -40,7 +41,12 @@ pub(crate) struct Exact<'scene> {
     trusted: Vec<bool>,
     /// For pixels that cannot be integrated.
     fallback: Supersampling<'scene>,
+    /// What is left to the tolerance of each group of lights.
     tolerance: f64,
+    /// Which group of lights this is of.
+    group: usize,
+    /// The other groups.
+    others: Vec<Self>,
     alpha: bool,
     level: Level,
     /// About the largest difference of light that an edge may make.
@@ -58,7 +64,24 @@ impl<'scene> Exact<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let scene = InCamera::new(world, seen.visibility, view);
+        let groups = world.lights.len().div_ceil(MOST_LIGHTS).max(1);
+        let tolerance = tolerance / groups as f64;
+        let of_group = |group| Self::of_group(world, view, seen, tolerance, alpha, group);
+        Self {
+            others: (1..groups).map(of_group).collect(),
+            ..of_group(0)
+        }
+    }
+
+    fn of_group(
+        world: &'scene World,
+        view: &'scene View,
+        seen: &'scene Seen<'scene>,
+        tolerance: f64,
+        alpha: bool,
+        group: usize,
+    ) -> Self {
+        let scene = InCamera::new(world, seen.visibility, view, group);
         let lights = world
             .lights
             .iter()
@@ -74,6 +97,8 @@ impl<'scene> Exact<'scene> {
             seen,
             fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
             tolerance,
+            group,
+            others: Vec::new(),
             alpha,
             level: Level::new(),
             contrast,
@@ -100,10 +125,51 @@ impl<'scene> Exact<'scene> {
     }
 }
 
+impl<C: Radiance> Pixel<C> {
+    /// What is given up, until samples take its place.
+    const LOST: Self = Self {
+        value: C::ZERO,
+        alpha: 0.0,
+        error: f64::NAN,
+        evidence: Evidence::Estimate,
+        status: Status::OutOfBudget,
+    };
+
+    /// Adds what further lights contribute.
+    fn add(&mut self, more: &Self) {
+        self.value += more.value;
+        self.error += more.error;
+        self.evidence = self.evidence.min(more.evidence);
+        if self.status == Status::Met || more.status == Status::OutOfBudget {
+            self.status = more.status;
+        }
+    }
+}
+
 impl<C: Radiance> Integrator<C> for Exact<'_> {
     fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work {
         let candidates = self.seen.indices(tile);
-        dispatch!(self.level, simd => self.tile(simd, tile, &candidates, pixels))
+        let first = pixels.len();
+        let mut work = dispatch!(self.level, simd => self.tile(simd, tile, &candidates, pixels));
+        let mut of_group = Vec::new();
+        for other in &self.others {
+            of_group.clear();
+            work += dispatch!(self.level, simd => {
+                other.tile(simd, tile, &candidates, &mut of_group)
+            });
+            for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
+                pixel.add(more);
+            }
+        }
+        for ((col, row), pixel) in tile.pixels().zip(&mut pixels[first..]) {
+            if pixel.error.is_nan() {
+                let frame = self.view.frame;
+                *pixel = self
+                    .fallback
+                    .pixel_of_last_resort(PixelKey { col, row, frame });
+            }
+        }
+        work
     }
 }
 

@@ -6,10 +6,10 @@ use glam::DVec3;
 
 use super::contents::{Active, Contents, Reach};
 use super::cut::{
-    self, Cuts, MOST_CHANGES, MOST_LIGHTS, NOTHING, Signature, branch_of_conic, is_lit, sphere_of,
+    self, Cuts, MOST_CHANGES, NOTHING, Signature, branch_of_conic, is_lit, sphere_of,
 };
 use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
-use super::scene::InCamera;
+use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Finish, Points};
 use crate::edges::{Arcs, Cell};
 use crate::roughness::NoiseCells;
@@ -249,7 +249,7 @@ impl Surroundings<'_> {
         let active = &contents.active[position];
         let material = world.material(active.sphere);
         if interval.view >> 32 == 0 {
-            let constant = material.albedo * world.ambient;
+            let constant = material.albedo * scene.ambient;
             for channel in 0..C::CHANNELS {
                 sum[channel] += interval.width * constant[channel];
             }

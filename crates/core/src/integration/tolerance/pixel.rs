@@ -7,7 +7,6 @@ use fearless_simd::prelude::*;
 use super::Exact;
 use super::cell::{Goal, Workspace};
 use super::contents::CasterCache;
-use super::cut::MOST_LIGHTS;
 use super::piece::Part;
 use crate::edges::Cell;
 use crate::integration::{Evidence, Pixel, Status};
@@ -39,9 +38,6 @@ impl Exact<'_> {
         workspace: &mut Workspace,
     ) -> Pixel<C> {
         let key = self.key(here, 0);
-        if self.scene.lights.len() > MOST_LIGHTS {
-            return self.fallback.pixel_of_last_resort(key);
-        }
         workspace.contents.pixel = Some(key);
         workspace.begin_pixel();
         let cell = self.cell(here);
@@ -53,7 +49,7 @@ impl Exact<'_> {
         let is_lost = !(part.error.is_finite() && part.value.is_finite())
             || part.error > self.tolerance.max(LOST);
         if is_lost || part.rounding > self.tolerance.max(LOST) {
-            return self.fallback.pixel_of_last_resort(key);
+            return Pixel::LOST;
         }
         let error = part.error;
         Pixel {

@@ -4,7 +4,10 @@ use glam::{DMat3, DVec3};
 
 use crate::edges::{Ball, Caster};
 use crate::visibility::Visibility;
-use crate::{View, World};
+use crate::{Color, View, World};
+
+/// Lights that are integrated at a time: further ones in further groups.
+pub(super) const MOST_LIGHTS: usize = 8;
 
 /// What integration needs of world and view.
 #[derive(Clone, Debug)]
@@ -17,12 +20,18 @@ pub(super) struct InCamera<'scene> {
     /// Whether the eye is inside a sphere that casts shadows: so is all that it sees, and no light
     /// gets there.
     pub(super) is_enclosed: bool,
+    /// Those of one group.
     pub(super) lights: Vec<Light>,
+    /// What spheres send without a light; nothing but for the first group.
+    pub(super) ambient: Color,
 }
 
 /// A light in the camera's frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Light {
+    /// Its number in the world.
+    pub(super) index: usize,
+    pub(super) intensity: Color,
     /// Unit vector toward it.
     pub(super) toward: DVec3,
     /// Unit vectors across.
@@ -47,6 +56,7 @@ impl<'scene> InCamera<'scene> {
         world: &'scene World,
         visibility: &'scene Visibility<'scene>,
         view: &View,
+        group: usize,
     ) -> Self {
         let world_from_camera = view.camera.world_from_camera;
         let camera_from_world = world_from_camera.transpose();
@@ -56,10 +66,18 @@ impl<'scene> InCamera<'scene> {
             radius: sphere.radius(),
             outside: sphere.relative_to(viewpoint).outside(),
         });
-        let lights = world.lights.iter().map(|light| {
+        let of_group = world.lights.iter().enumerate();
+        let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
+        let lights = of_group.map(|(index, light)| {
             let toward = camera_from_world * light.toward();
             let (right, up) = toward.any_orthonormal_pair();
-            Light { toward, right, up }
+            Light {
+                index,
+                intensity: light.intensity(),
+                toward,
+                right,
+                up,
+            }
         });
         let balls: Vec<Ball> = balls.collect();
         Self {
@@ -70,6 +88,11 @@ impl<'scene> InCamera<'scene> {
             is_enclosed: world.shadows && balls.iter().any(|ball| ball.outside <= 0.0),
             balls,
             lights: lights.collect(),
+            ambient: if group == 0 {
+                world.ambient
+            } else {
+                Color::ZERO
+            },
         }
     }
 

@@ -3,11 +3,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::cut::MOST_LIGHTS;
 use super::samples::{
     FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, Sample, WEIGHTS,
 };
-use super::scene::InCamera;
+use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Facings, Finish, Points};
 use crate::edges::{Ball, Vectors};
 use crate::roughness::NoiseCells;

@@ -4,8 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 use glam::{DMat3, DVec3};
 
-use super::cut::MOST_LIGHTS;
-use super::scene::{InCamera, Light};
+use super::scene::{InCamera, Light, MOST_LIGHTS};
 use crate::edges::{Ball, Vectors};
 use crate::power::Power;
 use crate::roughness::{Bumps, NoiseCells, PixelKey, unit};
@@ -190,7 +189,7 @@ impl<'scene> Finish<'scene> {
         } else {
             OF_LINE * exponent
         };
-        let intensity = scene.world.lights[light].intensity();
+        let intensity = scene.lights[light].intensity;
         let diffuse = (self.material.albedo * intensity).max_element();
         let specular = self.specular.map_or(0.0, |(strength, _)| strength);
         self.diffuse.lanes(range.min(range * 0.0 + 1.0)) * (diffuse * share)
@@ -232,7 +231,7 @@ impl<'scene> Finish<'scene> {
         let material = self.material;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let constant = material.albedo * scene.world.ambient;
+        let constant = material.albedo * scene.ambient;
         let mut sum = [one * constant.x, one * constant.y, one * constant.z];
         let normal = self.normal(simd, scene, points, noise);
         // With v = −d / |d|: n·h = (n·l + n·v) / |l + v|, and |l + v|² = 2 + 2 l·v.
@@ -252,7 +251,7 @@ impl<'scene> Finish<'scene> {
             if lit[index] == 0 {
                 continue;
             }
-            let intensity = scene.world.lights[index].intensity();
+            let intensity = light.intensity;
             let facing = normal.dot_one(light.toward);
             let faces = facing.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
             // Rounding may make it a little more than 1.

@@ -7,7 +7,6 @@ use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::glimpse::Glimpse;
 use crate::integration::{Evidence, Pixel, Status, Work};
-use crate::roughness::PixelKey;
 use crate::{Color, Radiance, Tile};
 
 impl Exact<'_> {
@@ -20,13 +19,8 @@ impl Exact<'_> {
         pixels: &mut Vec<Pixel<C>>,
     ) -> Work {
         if candidates.iter().any(|&sphere| !self.trusted[sphere]) {
-            pixels.extend(tile.pixels().map(|(col, row)| {
-                self.fallback.pixel_of_last_resort(PixelKey {
-                    col,
-                    row,
-                    frame: self.view.frame,
-                })
-            }));
+            let count = tile.width as usize * tile.height as usize;
+            pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
             return Work::default();
         }
         let first = pixels.len();
@@ -115,7 +109,7 @@ impl Exact<'_> {
     }
 
     pub(super) fn background(&self) -> Color {
-        if self.alpha {
+        if self.alpha || self.group > 0 {
             Color::ZERO
         } else {
             self.scene.world.background
