@@ -148,7 +148,7 @@ fn casters_are_those_of_all_spheres_that_matter() {
             height: 8,
             frame: 1,
         };
-        let scene = InCamera::new(&world, &visibility, &view);
+        let scene = InCamera::new(&world, &visibility, &view, 0);
         for _ in 0..20 {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
@@ -216,7 +216,7 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
         height: 8,
         frame: 1,
     };
-    let scene = InCamera::new(&world, &visibility, &view);
+    let scene = InCamera::new(&world, &visibility, &view, 0);
     let tile = cell_at(&mut random, &scene.balls[0], 2.0);
     let mut cache = CasterCache::new(tile);
     for light in 0..scene.lights.len() {
