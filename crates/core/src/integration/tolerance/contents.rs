@@ -237,6 +237,7 @@ impl Contents {
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let in_camera = &scene.lights[light];
             let range = cache.casters(scene, active.sphere, light);
+            cache.tests += range.len() as u64;
             for &index in &cache.indices[range] {
                 let caster = in_camera.caster(&scene.balls[index]);
                 match shade(&patch, &caster, in_camera.toward) {
@@ -368,6 +369,8 @@ pub(super) struct CasterCache {
     known: Vec<(usize, usize, Range<usize>)>,
     pub(super) indices: Vec<usize>,
     found: Vec<usize>,
+    /// Casters that were asked whether they matter.
+    pub(super) tests: u64,
 }
 
 impl CasterCache {
@@ -378,6 +381,7 @@ impl CasterCache {
             known: Vec::new(),
             indices: Vec::new(),
             found: Vec::new(),
+            tests: 0,
         }
     }
 
@@ -405,6 +409,8 @@ impl CasterCache {
         scene
             .visibility
             .casters(scene.lights[light].index, &points, around, &mut self.found);
+        self.found.sort_unstable();
+        self.tests += self.found.len() as u64;
         let own = scene.world.spheres()[sphere];
         let toward = scene.lights[light].toward;
         let first = self.indices.len();

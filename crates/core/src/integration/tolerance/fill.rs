@@ -189,6 +189,7 @@ impl Exact<'_> {
             }
             if scene.world.shadows && reached != 0 {
                 let range = cache.casters(scene, glimpse.sphere, light);
+                cache.tests += range.len() as u64 * u64::from(reached.count_ones());
                 for &index in &cache.indices[range] {
                     let caster = in_camera.caster(&scene.balls[index]);
                     let c = caster.center;

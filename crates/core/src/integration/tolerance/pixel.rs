@@ -121,6 +121,7 @@ impl Exact<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
+                workspace.work.candidate_tests += spheres.len() as u64;
                 workspace.contents.see(&self.scene, cell, spheres, cache);
                 let negligible = 0.01 * goal.tolerance;
                 let is_sharp = workspace

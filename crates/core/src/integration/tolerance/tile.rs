@@ -95,6 +95,7 @@ impl Exact<'_> {
                 }
             }
         }
+        workspace.work.candidate_tests += cache.tests;
         workspace.work
     }
 
