@@ -277,19 +277,18 @@ impl Contents {
     ) -> bool {
         let lights = scene.lights.len();
         for (position, active) in self.active.iter().enumerate() {
-            let material = scene.world.material(active.sphere);
             let Some(pixel) = self.pixel else { continue };
-            let Some(highlight) = material.highlight.filter(|_| active.ball.outside > 0.0) else {
+            if active.ball.outside <= 0.0 {
                 continue;
-            };
+            }
             // The patch is no longer than this; bumps turn with it, as a rule, a few times as fast.
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
             let turn = 0.5 * length / active.ball.radius + cell.size[0];
-            if highlight.shininess * turn * turn < 2.0 * FOLLOWED {
+            let finish = Finish::new(scene, active.sphere, pixel);
+            if finish.sharpness() * turn * turn < 2.0 * FOLLOWED {
                 continue;
             }
-            let finish = Finish::new(scene, active.sphere, pixel);
             let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
             for light in 0..lights {
                 let reach = &self.reach[position * lights + light];

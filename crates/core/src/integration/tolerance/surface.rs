@@ -72,7 +72,6 @@ pub(super) struct Finish<'scene> {
     material: &'scene Material,
     diffuse: Power,
     specular: Option<(f64, Power)>,
-    shininess: f64,
     bumps: Relief,
 }
 
@@ -101,16 +100,14 @@ impl<'scene> Finish<'scene> {
             specular: material
                 .highlight
                 .map(|highlight| (highlight.strength, Power::new(highlight.shininess))),
-            shininess: material
-                .highlight
-                .map_or(0.0, |highlight| highlight.shininess),
             bumps,
         }
     }
 
-    /// Where a highlight may be too sharp for a rule, bit by bit: where normals and half vectors turn
-    /// by an angle δ toward each other, it falls to exp(−κ) of its height with κ = shininess · δ² / 2;
-    /// too sharp is more than `most`.
+    /// Where light may be too sharp for a rule, bit by bit: where normals and half vectors turn by an
+    /// angle δ toward each other, a highlight falls to exp(−κ) of its height with
+    /// κ = shininess · δ² / 2; too sharp is more than `most`. So it is with diffuse light, its
+    /// exponent, and normals that turn toward the light.
     ///
     /// Points at which it is nowhere higher than `negligible` do not count.
     #[inline(always)]
@@ -123,27 +120,72 @@ impl<'scene> Finish<'scene> {
         most: f64,
         negligible: f64,
     ) -> u64 {
-        let Some((strength, power)) = &self.specular else {
-            return 0;
-        };
         let one = f64x8::splat(simd, 1.0);
-        let is_turning = (turn * turn * self.shininess).simd_gt(2.0 * most);
+        let turn_sq = turn * turn;
+        let is_turning = (turn_sq * self.sharpness()).simd_gt(2.0 * most);
         if is_turning.to_bitmask() == 0 {
             return 0;
         }
-        let scale = -one / points.ray_sq.sqrt();
-        let to_eye = points.normal.dot(&points.ray) * scale;
-        let along = points.ray.dot_one(light.toward) * scale;
-        let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
-        let half = (points.normal.dot_one(light.toward) + to_eye) / length_sq.sqrt();
-        let half = half.min(one);
-        // cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ.
-        let sine = (one - half * half).max(one * 0.0).sqrt();
-        let highest = turn
-            .simd_ge(sine)
-            .select(one, (half + turn * sine).min(one));
-        let height = power.lanes(highest.max(one * 0.0)) * *strength;
-        (is_turning & height.simd_gt(negligible)).to_bitmask()
+        let facing = points.normal.dot_one(light.toward);
+        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let height = self.diffuse.lanes(highest_cosine(facing, turn)) * diffuse;
+        let is_turning = (turn_sq * self.material.exponent).simd_gt(2.0 * most);
+        let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
+        if let (Some((strength, power)), Some(highlight)) =
+            (&self.specular, self.material.highlight)
+        {
+            let scale = -one / points.ray_sq.sqrt();
+            let to_eye = points.normal.dot(&points.ray) * scale;
+            let along = points.ray.dot_one(light.toward) * scale;
+            let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
+            let half = (facing + to_eye) / length_sq.sqrt();
+            let height = power.lanes(highest_cosine(half, turn)) * *strength;
+            let is_turning = (turn_sq * highlight.shininess).simd_gt(2.0 * most);
+            found |= (is_turning & height.simd_gt(negligible)).to_bitmask();
+        }
+        found
+    }
+
+    /// The largest exponent.
+    pub(super) fn sharpness(&self) -> f64 {
+        let shininess = self
+            .material
+            .highlight
+            .map_or(0.0, |highlight| highlight.shininess);
+        self.material.exponent.max(shininess)
+    }
+
+    /// Whether rules want to know how points face the lights.
+    pub(super) fn is_told(&self) -> bool {
+        const BLUNT: f64 = 2.0;
+        self.is_rough() || self.sharpness() > BLUNT
+    }
+
+    /// The exponents of diffuse light and of the highlight.
+    pub(super) fn exponents(&self) -> [f64; 2] {
+        let shininess = self
+            .material
+            .highlight
+            .map_or(0.0, |highlight| highlight.shininess);
+        [self.material.exponent, shininess]
+    }
+
+    /// What a light's diffuse light and its highlight contribute in the brightest channel, where the
+    /// surface faces the light by `facing`, the highlight's power is `spot`, and shares of them
+    /// count.
+    #[inline(always)]
+    pub(super) fn lobes<S: Simd>(
+        &self,
+        light: &Light,
+        facing: f64x8<S>,
+        spot: f64x8<S>,
+        shares: [f64x8<S>; 2],
+    ) -> f64x8<S> {
+        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let strength = self.specular.map_or(0.0, |(strength, _)| strength);
+        let specular = strength * light.intensity.max_element();
+        let facing = facing.max(facing * 0.0);
+        self.diffuse.lanes(facing) * diffuse * shares[0] + spot * specular * shares[1]
     }
 
     /// Whether the surface may avert itself from a light that its sphere faces.
@@ -344,11 +386,29 @@ impl<S: Simd> Facings<S> {
         self.highest[light] - self.lowest[light]
     }
 
+    /// How far the surface faces a light, at most.
+    #[inline(always)]
+    pub(super) fn highest(&self, light: usize) -> f64x8<S> {
+        self.highest[light]
+    }
+
     /// How high a light's highlight is.
     #[inline(always)]
     pub(super) fn spot(&self, light: usize) -> f64x8<S> {
         self.spots[light]
     }
+}
+
+/// The largest cosine of an angle that is `turn` less at most than one with this cosine:
+/// cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ. Not negative.
+#[inline(always)]
+fn highest_cosine<S: Simd>(cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
+    let zero = cosine * 0.0;
+    let one = zero + 1.0;
+    let cosine = cosine.min(one);
+    let sine = (one - cosine * cosine).max(zero).sqrt();
+    let nearer = (cosine + turn * sine).min(one).max(zero);
+    turn.simd_ge(sine).select(one, nearer)
 }
 
 /// The vectors in another frame.
