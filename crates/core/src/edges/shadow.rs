@@ -116,6 +116,7 @@ impl<S: Simd> Arcs<S> {
                 let nothing = f64x8::splat(simd, f64::NAN);
                 let mut places = [[nothing; MOST_ROOTS]; 2];
                 let (bernstein, summands) = self.shadow(simd, caster);
+                let bernstein = without_grazed_ends(bernstein, summands * ROUNDINGS);
                 let valid = self.low.simd_lt(self.high).to_bitmask();
                 let mut is_inside = [0; 5];
                 let (mut any, mut all) = (0, valid);
@@ -244,6 +245,32 @@ fn drop_grazed(bernstein: &[f64; 5], rounding: f64, roots: &mut Vec<f64>) {
             index += 1;
         }
     }
+}
+
+/// The coefficients, with the signs of their neighbors where at the ends they are as good as zero: a
+/// cylinder may touch a sphere there.
+#[inline(always)]
+fn without_grazed_ends<S: Simd>(
+    [first, second, third, fourth, fifth]: [f64x8<S>; 5],
+    rounding: f64x8<S>,
+) -> [f64x8<S>; 5] {
+    let second = signed_like(second, third, rounding);
+    let fourth = signed_like(fourth, third, rounding);
+    [
+        signed_like(first, second, rounding),
+        second,
+        third,
+        fourth,
+        signed_like(fifth, fourth, rounding),
+    ]
+}
+
+/// The value, with the sign of its neighbor where it is as good as zero.
+#[inline(always)]
+fn signed_like<S: Simd>(value: f64x8<S>, like: f64x8<S>, rounding: f64x8<S>) -> f64x8<S> {
+    let is_zero = value.abs().simd_le(rounding);
+    let signed = like.simd_lt(0.0).select(-rounding, rounding);
+    is_zero.select(signed, value)
 }
 
 /// The root on 0 to 1 of the lanes in `which`, which have one change of sign between their first
