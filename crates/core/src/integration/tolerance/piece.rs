@@ -11,7 +11,7 @@ use super::cut::{
 use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Finish, Points};
-use crate::edges::{Arcs, Cell};
+use crate::edges::{Arcs, Cell, Vectors};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance, World};
 
@@ -270,8 +270,10 @@ impl Surroundings<'_> {
             };
         }
         if finish.is_rough() {
+            let is_eased =
+                !finish.has_whole_exponent() || root_at(interval.before) || root_at(interval.after);
             self.add_rough::<S, C>(
-                simd, interval, active, &finish, &lit, y, sum, error, noise, samples,
+                simd, interval, active, &finish, &lit, is_eased, y, sum, error, noise, samples,
             );
             return;
         }
@@ -291,7 +293,8 @@ impl Surroundings<'_> {
     }
 
     /// Adds the light of an interval on a rough surface, which has terminators inside its bumps: they
-    /// are found between points, line by line.
+    /// are found between points, line by line. At eased ends of stretches, light may go with a root of
+    /// the distance.
     #[expect(
         clippy::too_many_arguments,
         reason = "all of it is at hand where it is called"
@@ -304,6 +307,7 @@ impl Surroundings<'_> {
         active: &Active,
         finish: &Finish<'_>,
         lit: &[u64; MOST_LIGHTS],
+        is_eased: bool,
         y: f64x8<S>,
         sum: &mut [f64x8<S>; 3],
         error: &mut f64x8<S>,
@@ -318,30 +322,36 @@ impl Surroundings<'_> {
                 let Search { looks, steps } = Search::of(self.tolerance);
                 let points = looks * interval.division;
                 *samples += 8 * u64::from(points + 1);
-                let step = interval.width * (1.0 / f64::from(points));
-                let mut last = [f64x8::splat(simd, 0.0); MOST_LIGHTS];
+                let mut last = [[f64x8::splat(simd, 0.0); MOST_LIGHTS]; 2];
                 let mut last_x = interval.start;
+                let kinds = if finish.has_blunt_spot() { 2 } else { 1 };
                 for index in 0..=points {
-                    let x = interval.start + step * f64::from(index);
+                    let s = f64::from(index) / f64::from(points);
+                    let share = if is_eased { s * s * (3.0 - 2.0 * s) } else { s };
+                    let x = interval.start + interval.width * share;
                     let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
                     let normal = finish.normal(simd, self.scene, &at, noise);
                     for (light, in_camera) in self.scene.lights.iter().enumerate() {
                         if lit[light] == 0 {
                             continue;
                         }
-                        let facing = normal.dot_one(in_camera.toward);
-                        if index > 0 {
-                            let turned = facing.simd_gt(0.0) ^ last[light].simd_gt(0.0);
+                        for (kind, last) in last.iter_mut().enumerate().take(kinds) {
+                            let turn = Turn {
+                                toward: in_camera.toward,
+                                of_spot: kind == 1,
+                            };
+                            let value = turn.value(&normal, &at);
+                            let turned = value.simd_gt(0.0) ^ last[light].simd_gt(0.0);
                             let turned = turned.to_bitmask();
-                            if turned != 0 {
+                            if index > 0 && turned != 0 {
                                 let root = self.turn(
                                     simd,
                                     active,
                                     finish,
-                                    in_camera.toward,
+                                    &turn,
                                     y,
                                     [last_x, x],
-                                    [last[light], facing],
+                                    [last[light], value],
                                     steps,
                                     noise,
                                 );
@@ -352,12 +362,11 @@ impl Surroundings<'_> {
                                     }
                                 }
                             }
+                            last[light] = value;
                         }
-                        last[light] = facing;
                     }
                     last_x = x;
                 }
-                let is_eased = !finish.has_whole_exponent();
                 let rule = Rule::of(Roots {
                     at_start: is_eased,
                     at_end: is_eased,
@@ -381,8 +390,7 @@ impl Surroundings<'_> {
         )
     }
 
-    /// Where between two places the surface turns away from a light or toward it: by the rule of
-    /// false position, with one value halved when the other end stays (Illinois).
+    /// Where between two places light begins or ends on a rough surface: by the rule of false position, with one value halved when the other end stays (Illinois).
     #[expect(
         clippy::too_many_arguments,
         reason = "all of it is at hand where it is called"
@@ -393,7 +401,7 @@ impl Surroundings<'_> {
         simd: S,
         active: &Active,
         finish: &Finish<'_>,
-        toward: DVec3,
+        turn: &Turn,
         y: f64x8<S>,
         [mut low, mut high]: [f64x8<S>; 2],
         [mut at_low, mut at_high]: [f64x8<S>; 2],
@@ -408,11 +416,11 @@ impl Surroundings<'_> {
                     let share = at_low / (at_low - at_high);
                     x = low + (high - low) * share;
                     let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
-                    let facing = finish.normal(simd, self.scene, &at, noise).dot_one(toward);
-                    let is_low = !(facing.simd_gt(0.0) ^ at_low.simd_gt(0.0));
+                    let value = turn.value(&finish.normal(simd, self.scene, &at, noise), &at);
+                    let is_low = !(value.simd_gt(0.0) ^ at_low.simd_gt(0.0));
                     low = is_low.select(x, low);
-                    at_high = is_low.select(at_high * 0.5, facing);
-                    at_low = is_low.select(facing, at_low * 0.5);
+                    at_high = is_low.select(at_high * 0.5, value);
+                    at_low = is_low.select(value, at_low * 0.5);
                     high = is_low.select(high, x);
                 }
                 x
@@ -542,6 +550,27 @@ fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, is_rough: bool) -> (f64, f64) {
         return (fine, difference);
     }
     (fine, error_estimate(difference, spread))
+}
+
+/// Where light on a rough surface begins or ends: its diffuse light or its highlight.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    /// Unit vector toward the light.
+    toward: DVec3,
+    of_spot: bool,
+}
+
+impl Turn {
+    /// What vanishes there: n·l, or n·(l + v).
+    #[inline(always)]
+    fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
+        let facing = normal.dot_one(self.toward);
+        if self.of_spot {
+            facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
+        } else {
+            facing
+        }
+    }
 }
 
 /// How terminators of bumps are looked for.

@@ -353,6 +353,14 @@ impl<S: Simd> Filled<'_, S> {
                 .finish
                 .cost_of_turning(scene, light, range, facings.spot(light));
             missed += undecided.select(most, zero);
+            if self.finish.has_blunt_spot() {
+                /// As with the facing of lights.
+                const OF_RANGE: f64 = 1.9;
+                let (undecided, range) = facings.undecided_spot(light, OF_RANGE * from_samples);
+                let undecided = undecided & mask64x8::from_bitmask(simd, *lit);
+                let most = self.finish.cost_of_spot(scene, light, range * 1.5);
+                missed += undecided.select(most, zero);
+            }
         }
         missed
     }

@@ -212,9 +212,6 @@ impl<'scene> Finish<'scene> {
 
     /// What it may cost a rule of three points a side that in a pixel the surface turns from a light,
     /// when its facing of the light changes by `range` there and a highlight is as high as `spot`.
-    ///
-    /// The rule integrates max(0, x − a) with an error of 0.02 at most, a power below 1 with less than
-    /// 0.1, and of the pixel may take twice as much to be facing as does.
     #[inline(always)]
     pub(super) fn cost_of_turning<S: Simd>(
         &self,
@@ -223,19 +220,29 @@ impl<'scene> Finish<'scene> {
         range: f64x8<S>,
         spot: f64x8<S>,
     ) -> f64x8<S> {
-        const OF_LINE: f64 = 0.02;
-        const OF_ROOT: f64 = 0.1;
         let exponent = self.material.exponent;
-        let share = if exponent < 1.0 {
-            OF_ROOT
-        } else {
-            OF_LINE * exponent
-        };
         let intensity = scene.lights[light].intensity;
         let diffuse = (self.material.albedo * intensity).max_element();
         let specular = self.specular.map_or(0.0, |(strength, _)| strength);
-        self.diffuse.lanes(range.min(range * 0.0 + 1.0)) * (diffuse * share)
+        self.diffuse.lanes(range.min(range * 0.0 + 1.0)) * (diffuse * cost_of_kink(exponent))
             + spot * (specular * intensity.max_element())
+    }
+
+    /// What it may cost that in a pixel a highlight ends, when its half vector is faced by `range` more
+    /// here than there.
+    #[inline(always)]
+    pub(super) fn cost_of_spot<S: Simd>(
+        &self,
+        scene: &InCamera<'_>,
+        light: usize,
+        range: f64x8<S>,
+    ) -> f64x8<S> {
+        let Some((strength, power)) = &self.specular else {
+            return range * 0.0;
+        };
+        let intensity = scene.lights[light].intensity.max_element();
+        let share = cost_of_kink(self.exponents()[1]);
+        power.lanes(range.min(range * 0.0 + 1.0)) * (strength * intensity * share)
     }
 
     /// The normals that light is computed with.
@@ -253,9 +260,17 @@ impl<'scene> Finish<'scene> {
         }
     }
 
-    /// Whether powers of what faces a light are smooth where it begins to be averted.
+    /// Whether powers of what faces a light, and of a blunt highlight, are smooth where they begin.
     pub(super) fn has_whole_exponent(&self) -> bool {
-        self.material.exponent.fract() == 0.0
+        let [exponent, shininess] = self.exponents();
+        exponent.fract() == 0.0 && (!self.has_blunt_spot() || shininess.fract() == 0.0)
+    }
+
+    /// Whether a highlight's end is seen, as it is where bumps turn from eye and light together.
+    pub(super) fn has_blunt_spot(&self) -> bool {
+        /// Powers that are as smooth as need be where they begin.
+        const SMOOTH: f64 = 6.0;
+        self.is_rough() && self.specular.is_some() && self.exponents()[1] < SMOOTH
     }
 
     /// The light that points send to the eye, in the channels that `C` counts; `lit` tells for each
@@ -310,6 +325,8 @@ impl<'scene> Finish<'scene> {
                 let spot = power.lanes(half.max(zero).min(one));
                 if let Some(facings) = &mut facings {
                     facings.spots[index] = facings.spots[index].max(spot);
+                    facings.spot_lowest[index] = facings.spot_lowest[index].min(half);
+                    facings.spot_highest[index] = facings.spot_highest[index].max(half);
                 }
                 let spot = faces.select(spot, zero);
                 for channel in 0..C::CHANNELS {
@@ -360,6 +377,9 @@ pub(super) struct Facings<S: Simd> {
     highest: [f64x8<S>; MOST_LIGHTS],
     /// Powers of what highlights depend on, on either side of terminators.
     spots: [f64x8<S>; MOST_LIGHTS],
+    /// How far half vectors are faced.
+    spot_lowest: [f64x8<S>; MOST_LIGHTS],
+    spot_highest: [f64x8<S>; MOST_LIGHTS],
 }
 
 impl<S: Simd> Facings<S> {
@@ -370,6 +390,8 @@ impl<S: Simd> Facings<S> {
             lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
             highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
             spots: [f64x8::splat(simd, 0.0); MOST_LIGHTS],
+            spot_lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
+            spot_highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
         }
     }
 
@@ -378,6 +400,15 @@ impl<S: Simd> Facings<S> {
     #[inline(always)]
     pub(super) fn undecided(&self, light: usize, reach: f64x8<S>) -> mask64x8<S> {
         self.lowest[light].simd_lt(reach) & self.highest[light].simd_gt(-reach)
+    }
+
+    /// Where half vectors may be faced here and averted there, and how far the points differ.
+    #[inline(always)]
+    pub(super) fn undecided_spot(&self, light: usize, share: f64) -> (mask64x8<S>, f64x8<S>) {
+        let (low, high) = (self.spot_lowest[light], self.spot_highest[light]);
+        let range = high - low;
+        let reach = range * share;
+        (low.simd_lt(reach) & high.simd_gt(-reach), range)
     }
 
     /// By how much the points differ in how they face a light.
@@ -396,6 +427,17 @@ impl<S: Simd> Facings<S> {
     #[inline(always)]
     pub(super) fn spot(&self, light: usize) -> f64x8<S> {
         self.spots[light]
+    }
+}
+
+/// The largest error of a rule with three points for max(0, x − a) to a power.
+fn cost_of_kink(power: f64) -> f64 {
+    const OF_LINE: f64 = 0.02;
+    const OF_ROOT: f64 = 0.1;
+    if power < 1.0 {
+        OF_ROOT
+    } else {
+        OF_LINE * power
     }
 }
 
