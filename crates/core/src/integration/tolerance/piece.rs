@@ -106,6 +106,7 @@ impl Surroundings<'_> {
         let mut sum = [zero; 3];
         let mut covered = zero;
         let mut along = zero;
+        let mut likeness = Likeness::Smooth;
         let mut start = f64x8::splat(simd, -0.5);
         for (index, stops) in stops.iter().enumerate().take(signature.changes + 1) {
             let end: f64x8<S> = (*stops).simd_into(simd);
@@ -127,15 +128,13 @@ impl Surroundings<'_> {
                     after: (index < signature.changes).then(|| signature.branches[index]),
                     division: piece.division,
                 };
-                self.add::<S, C>(simd, &interval, y, &mut sum, &mut along, noise, samples);
+                let of_interval =
+                    self.add::<S, C>(simd, &interval, y, &mut sum, &mut along, noise, samples);
+                likeness = likeness.min(of_interval);
             }
             start = end;
         }
-        let is_rough = signature.views[..=signature.changes].iter().any(|&view| {
-            let lit = view >> 32 != 0;
-            lit && sphere_of(view).is_some_and(|position| !contents.active[position].is_smooth)
-        });
-        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, is_rough))
+        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, likeness))
     }
 
     /// Where the lines of a piece change, and where they end: as the signature says, which all of
@@ -204,16 +203,16 @@ impl Surroundings<'_> {
         sum: &[f64x8<S>; 3],
         covered: f64x8<S>,
         along: f64x8<S>,
-        is_rough: bool,
+        likeness: Likeness,
     ) -> Part {
         let mut part = Part::NOTHING;
         let mut error: f64 = 0.0;
         for (channel, sum) in sum.iter().enumerate().take(C::CHANNELS) {
-            let (value, estimate) = across(rule, sum, is_rough);
+            let (value, estimate) = across(rule, sum, likeness);
             part.value[channel] = value;
             error = error.max(estimate);
         }
-        let (value, estimate) = across(rule, &covered, false);
+        let (value, estimate) = across(rule, &covered, Likeness::Smooth);
         part.covered = value;
         error = error.max(estimate);
         for index in 0..NODES {
@@ -238,13 +237,13 @@ impl Surroundings<'_> {
         error: &mut f64x8<S>,
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
-    ) {
+    ) -> Likeness {
         let &Self {
             scene, contents, ..
         } = self;
         let world: &World = scene.world;
         let Some(position) = sphere_of(interval.view) else {
-            return;
+            return Likeness::Smooth;
         };
         let active = &contents.active[position];
         let material = world.material(active.sphere);
@@ -253,13 +252,15 @@ impl Surroundings<'_> {
             for channel in 0..C::CHANNELS {
                 sum[channel] += interval.width * constant[channel];
             }
-            return;
+            return Likeness::Smooth;
         }
         let exponent = material.exponent;
         let root_at = |branch: Option<u16>| {
             branch.is_some_and(|branch| cut::has_root_at(contents, branch, position, exponent))
         };
-        let Some(pixel) = contents.pixel else { return };
+        let Some(pixel) = contents.pixel else {
+            return Likeness::Smooth;
+        };
         let finish = Finish::new(scene, active.sphere, pixel);
         let mut lit = [0; MOST_LIGHTS];
         for (light, lit) in lit.iter_mut().enumerate() {
@@ -272,10 +273,9 @@ impl Surroundings<'_> {
         if finish.is_rough() {
             let is_eased =
                 !finish.has_whole_exponent() || root_at(interval.before) || root_at(interval.after);
-            self.add_rough::<S, C>(
+            return self.add_rough::<S, C>(
                 simd, interval, active, &finish, &lit, is_eased, y, sum, error, noise, samples,
             );
-            return;
         }
         let step = 1.0 / f64::from(interval.division);
         let width = interval.width * step;
@@ -290,6 +290,7 @@ impl Surroundings<'_> {
                 simd, active, &finish, &lit, rule, start, width, y, sum, error, noise,
             );
         }
+        Likeness::Smooth
     }
 
     /// Adds the light of an interval on a rough surface, which has terminators inside its bumps: they
@@ -313,13 +314,13 @@ impl Surroundings<'_> {
         error: &mut f64x8<S>,
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
-    ) {
+    ) -> Likeness {
         simd.vectorize(
             #[inline(always)]
             || {
                 let end = interval.start + interval.width;
                 let mut turns = Turns::default();
-                let Search { looks, steps } = Search::of(self.tolerance);
+                let Search { looks, steps } = Search::of(self.tolerance, finish.jumps());
                 let points = looks * interval.division;
                 *samples += 8 * u64::from(points + 1);
                 let mut last = [[f64x8::splat(simd, 0.0); MOST_LIGHTS]; 2];
@@ -385,6 +386,16 @@ impl Surroundings<'_> {
                         );
                     }
                     start = stop;
+                }
+                if turns.counts[..NODES]
+                    .iter()
+                    .all(|&count| count == turns.counts[0])
+                {
+                    Likeness::Rough
+                } else if finish.jumps() {
+                    Likeness::Jumpy
+                } else {
+                    Likeness::Uneven
                 }
             },
         )
@@ -532,10 +543,21 @@ impl Surroundings<'_> {
     }
 }
 
-/// The integral over lines with these integrals, and an estimate of its error: for rough surfaces,
-/// whose terminators come and go between lines, the difference of the rules as it is.
+/// How lines of a piece go over into each other, the worst first.
+#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
+enum Likeness {
+    /// On some of them light jumps in other bumps than on others.
+    Jumpy,
+    /// Some of them have other terminators of bumps than others.
+    Uneven,
+    /// The noise has no third derivative where its cells meet.
+    Rough,
+    Smooth,
+}
+
+/// The integral over lines with these integrals, and an estimate of its error.
 #[inline(always)]
-fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, is_rough: bool) -> (f64, f64) {
+fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, likeness: Likeness) -> (f64, f64) {
     let (mut fine, mut coarse) = (0.0, 0.0);
     for index in 0..NODES {
         fine += rule.fine[index] * of[index];
@@ -546,10 +568,14 @@ fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, is_rough: bool) -> (f64, f64) {
         spread += rule.fine[index] * (of[index] - fine).abs();
     }
     let difference = (fine - coarse).abs();
-    if is_rough {
-        return (fine, difference);
-    }
-    (fine, error_estimate(difference, spread))
+    // A jump between two lines may cost half of their weight.
+    let error = match likeness {
+        Likeness::Smooth => error_estimate(difference, spread),
+        Likeness::Rough => difference,
+        Likeness::Uneven => difference.max(0.02 * spread),
+        Likeness::Jumpy => difference.max(0.2 * spread),
+    };
+    (fine, error)
 }
 
 /// Where light on a rough surface begins or ends: its diffuse light or its highlight.
@@ -583,13 +609,15 @@ struct Search {
 }
 
 impl Search {
-    fn of(tolerance: f64) -> Self {
+    /// For a surface whose light jumps, or does not, at terminators.
+    fn of(tolerance: f64, jumps: bool) -> Self {
         /// Small enough for a search in earnest.
         const FINE: f64 = 9e-5;
-        if tolerance > FINE {
-            Self { looks: 4, steps: 4 }
-        } else {
-            Self { looks: 8, steps: 7 }
+        let (looks, steps) = if tolerance > FINE { (4, 4) } else { (8, 7) };
+        let factor = if jumps { 2 } else { 1 };
+        Self {
+            looks: factor * looks,
+            steps,
         }
     }
 }

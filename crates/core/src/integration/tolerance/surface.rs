@@ -266,6 +266,11 @@ impl<'scene> Finish<'scene> {
         exponent.fract() == 0.0 && (!self.has_blunt_spot() || shininess.fract() == 0.0)
     }
 
+    /// Whether light jumps, or nearly, at terminators of bumps: highlights end there.
+    pub(super) fn jumps(&self) -> bool {
+        self.specular.is_some() || self.material.exponent < 1.0
+    }
+
     /// Whether a highlight's end is seen, as it is where bumps turn from eye and light together.
     pub(super) fn has_blunt_spot(&self) -> bool {
         /// Powers that are as smooth as need be where they begin.
