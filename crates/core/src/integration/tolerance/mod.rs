@@ -18,6 +18,7 @@ mod smooth;
 mod surface;
 mod tile;
 mod trust;
+mod turns;
 
 use std::num::NonZeroU32;
 

@@ -2,7 +2,6 @@
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::DVec3;
 
 use super::contents::{Active, Contents, Reach};
 use super::cut::{
@@ -11,7 +10,8 @@ use super::cut::{
 use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Finish, Points};
-use crate::edges::{Arcs, Cell, Vectors};
+use super::turns::{Look, Search, Seeker, Turn, Turns};
+use crate::edges::{Arcs, Cell};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance, World};
 
@@ -92,11 +92,7 @@ impl Surroundings<'_> {
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
     ) -> Result<Part, Unlike> {
-        let &Self {
-            contents,
-            background,
-            ..
-        } = self;
+        let background = self.background;
         let rule = Rule::of(piece.roots);
         let nodes: f64x8<S> = rule.nodes.simd_into(simd);
         let y = nodes * (piece.end - piece.start) + piece.start;
@@ -320,11 +316,14 @@ impl Surroundings<'_> {
             || {
                 let end = interval.start + interval.width;
                 let mut turns = Turns::default();
-                let Search { looks, steps } = Search::of(self.tolerance, finish.jumps());
-                let points = looks * interval.division;
+                let Search { parts, steps } = Search::of(self.tolerance, finish.jumps());
+                let points = parts * interval.division;
                 *samples += 8 * u64::from(points + 1);
-                let mut last = [[f64x8::splat(simd, 0.0); MOST_LIGHTS]; 2];
-                let mut last_x = interval.start;
+                let nothing = Look {
+                    x: interval.start,
+                    value: f64x8::splat(simd, f64::NAN),
+                };
+                let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
                 let kinds = if finish.has_blunt_spot() { 2 } else { 1 };
                 for index in 0..=points {
                     let s = f64::from(index) / f64::from(points);
@@ -336,37 +335,32 @@ impl Surroundings<'_> {
                         if lit[light] == 0 {
                             continue;
                         }
-                        for (kind, last) in last.iter_mut().enumerate().take(kinds) {
+                        for (kind, looks) in looks.iter_mut().enumerate().take(kinds) {
                             let turn = Turn {
                                 toward: in_camera.toward,
                                 of_spot: kind == 1,
                             };
+                            let seeker = Seeker {
+                                surroundings: self,
+                                active,
+                                finish,
+                                turn,
+                                y,
+                                steps,
+                            };
                             let value = turn.value(&normal, &at);
-                            let turned = value.simd_gt(0.0) ^ last[light].simd_gt(0.0);
-                            let turned = turned.to_bitmask();
-                            if index > 0 && turned != 0 {
-                                let root = self.turn(
-                                    simd,
-                                    active,
-                                    finish,
-                                    &turn,
-                                    y,
-                                    [last_x, x],
-                                    [last[light], value],
-                                    steps,
-                                    noise,
+                            let here = Look { x, value };
+                            let [before, last] = looks[light];
+                            *samples += seeker.note(simd, &last, &here, &mut turns, noise);
+                            if index >= 2 {
+                                let is_end = [index == 2, index == points];
+                                *samples += seeker.note_dip(
+                                    simd, &before, &last, &here, is_end, &mut turns, noise,
                                 );
-                                *samples += 8 * u64::from(steps);
-                                for lane in 0..8 {
-                                    if turned >> lane & 1 == 1 {
-                                        turns.note(lane, root[lane]);
-                                    }
-                                }
                             }
-                            last[light] = value;
+                            looks[light] = [last, here];
                         }
                     }
-                    last_x = x;
                 }
                 let rule = Rule::of(Roots {
                     at_start: is_eased,
@@ -397,44 +391,6 @@ impl Surroundings<'_> {
                 } else {
                     Likeness::Uneven
                 }
-            },
-        )
-    }
-
-    /// Where between two places light begins or ends on a rough surface: by the rule of false position, with one value halved when the other end stays (Illinois).
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "all of it is at hand where it is called"
-    )]
-    #[inline(never)]
-    fn turn<S: Simd>(
-        &self,
-        simd: S,
-        active: &Active,
-        finish: &Finish<'_>,
-        turn: &Turn,
-        y: f64x8<S>,
-        [mut low, mut high]: [f64x8<S>; 2],
-        [mut at_low, mut at_high]: [f64x8<S>; 2],
-        steps: u32,
-        noise: &mut Option<Box<NoiseCells>>,
-    ) -> f64x8<S> {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let mut x = low;
-                for _ in 0..steps {
-                    let share = at_low / (at_low - at_high);
-                    x = low + (high - low) * share;
-                    let at = Points::new(simd, &active.ball, cut::ray(simd, self.cell, x, y));
-                    let value = turn.value(&finish.normal(simd, self.scene, &at, noise), &at);
-                    let is_low = !(value.simd_gt(0.0) ^ at_low.simd_gt(0.0));
-                    low = is_low.select(x, low);
-                    at_high = is_low.select(at_high * 0.5, value);
-                    at_low = is_low.select(value, at_low * 0.5);
-                    high = is_low.select(high, x);
-                }
-                x
             },
         )
     }
@@ -576,101 +532,6 @@ fn across<S: Simd>(rule: &Rule, of: &f64x8<S>, likeness: Likeness) -> (f64, f64)
         Likeness::Jumpy => difference.max(0.2 * spread),
     };
     (fine, error)
-}
-
-/// Where light on a rough surface begins or ends: its diffuse light or its highlight.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    /// Unit vector toward the light.
-    toward: DVec3,
-    of_spot: bool,
-}
-
-impl Turn {
-    /// What vanishes there: n·l, or n·(l + v).
-    #[inline(always)]
-    fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
-        let facing = normal.dot_one(self.toward);
-        if self.of_spot {
-            facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
-        } else {
-            facing
-        }
-    }
-}
-
-/// How terminators of bumps are looked for.
-#[derive(Clone, Copy, Debug)]
-struct Search {
-    /// Parts of an interval at whose ends a rough surface is looked at.
-    looks: u32,
-    /// Steps to a terminator.
-    steps: u32,
-}
-
-impl Search {
-    /// For a surface whose light jumps, or does not, at terminators.
-    fn of(tolerance: f64, jumps: bool) -> Self {
-        /// Small enough for a search in earnest.
-        const FINE: f64 = 9e-5;
-        let (looks, steps) = if tolerance > FINE { (4, 4) } else { (8, 7) };
-        let factor = if jumps { 2 } else { 1 };
-        Self {
-            looks: factor * looks,
-            steps,
-        }
-    }
-}
-
-/// Places on eight lines, at most so many each, in order.
-#[derive(Clone, Copy, Debug)]
-struct Turns {
-    places: [[f64; 8]; MOST_TURNS],
-    counts: [usize; 8],
-}
-
-/// Terminators in an interval that are told apart; more make the rules worse, which they notice.
-const MOST_TURNS: usize = 16;
-
-impl Default for Turns {
-    fn default() -> Self {
-        Self {
-            places: [[f64::INFINITY; 8]; MOST_TURNS],
-            counts: [0; 8],
-        }
-    }
-}
-
-impl Turns {
-    /// Adds a place on a line.
-    fn note(&mut self, lane: usize, place: f64) {
-        if self.counts[lane] == MOST_TURNS {
-            return;
-        }
-        let mut at = self.counts[lane];
-        while at > 0 && self.places[at - 1][lane] > place {
-            self.places[at][lane] = self.places[at - 1][lane];
-            at -= 1;
-        }
-        self.places[at][lane] = place;
-        self.counts[lane] += 1;
-    }
-
-    /// The largest number of places on a line.
-    fn most(&self) -> usize {
-        self.counts.iter().copied().max().unwrap_or(0)
-    }
-
-    /// The places with this number, or the ends of the lines.
-    fn stops(&self, index: usize, ends: &[f64; 8]) -> [f64; 8] {
-        let mut stops = *ends;
-        if index < MOST_TURNS {
-            for (stop, place) in stops.iter_mut().zip(&self.places[index]) {
-                *stop = stop.min(*place);
-            }
-        }
-        stops
-    }
 }
 
 /// A part of eight lines on which one sphere is seen.

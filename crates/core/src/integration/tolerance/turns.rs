@@ -1,0 +1,258 @@
+//! Terminators of bumps along lines: where light begins or ends on a rough surface.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::contents::Active;
+use super::cut;
+use super::piece::Surroundings;
+use super::surface::{Finish, Points};
+use crate::edges::Vectors;
+use crate::roughness::NoiseCells;
+
+/// Where light on a rough surface begins or ends: its diffuse light or its highlight.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// Unit vector toward the light.
+    pub(super) toward: DVec3,
+    pub(super) of_spot: bool,
+}
+
+impl Turn {
+    /// What vanishes there: n·l, or n·(l + v).
+    #[inline(always)]
+    pub(super) fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
+        let facing = normal.dot_one(self.toward);
+        if self.of_spot {
+            facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
+        } else {
+            facing
+        }
+    }
+}
+
+/// How terminators of bumps are looked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Search {
+    /// Parts of an interval at whose ends a rough surface is looked at.
+    pub(super) parts: u32,
+    /// Steps to a terminator.
+    pub(super) steps: u32,
+}
+
+impl Search {
+    /// For a surface whose light jumps, or does not, at terminators.
+    pub(super) fn of(tolerance: f64, jumps: bool) -> Self {
+        /// Small enough for a search in earnest.
+        const FINE: f64 = 9e-5;
+        let (parts, steps) = if tolerance > FINE { (4, 4) } else { (8, 7) };
+        let factor = if jumps { 2 } else { 1 };
+        Self {
+            parts: factor * parts,
+            steps,
+        }
+    }
+}
+
+/// What is found at a place of each line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look<S: Simd> {
+    pub(super) x: f64x8<S>,
+    /// Of [`Turn::value`].
+    pub(super) value: f64x8<S>,
+}
+
+/// Seeks turns of one kind on eight lines of a sphere.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Seeker<'a, S: Simd> {
+    pub(super) surroundings: &'a Surroundings<'a>,
+    pub(super) active: &'a Active,
+    pub(super) finish: &'a Finish<'a>,
+    pub(super) turn: Turn,
+    pub(super) y: f64x8<S>,
+    /// To a turn.
+    pub(super) steps: u32,
+}
+
+impl<S: Simd> Seeker<'_, S> {
+    /// Notes turns where the value changes its sign between two looks; the samples that it took.
+    #[inline(always)]
+    pub(super) fn note(
+        &self,
+        simd: S,
+        low: &Look<S>,
+        high: &Look<S>,
+        turns: &mut Turns,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> u64 {
+        let turned = (low.value * high.value).simd_lt(0.0).to_bitmask();
+        self.note_in(simd, turned, low, high, turns, noise)
+    }
+
+    /// Notes the two turns where the value dips below zero between looks, or rises above it; the
+    /// samples that it took. `is_end` tells whether the first and the last of the looks are those of
+    /// the whole interval.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(always)]
+    pub(super) fn note_dip(
+        &self,
+        simd: S,
+        before: &Look<S>,
+        here: &Look<S>,
+        after: &Look<S>,
+        is_end: [bool; 2],
+        turns: &mut Turns,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> u64 {
+        /// Dips come nearer to zero than the looks by this.
+        const NEARER: f64 = 0.5;
+        let sign = here.value.simd_lt(0.0);
+        let (first, middle) = (before.value.abs(), here.value.abs());
+        let last = after.value.abs();
+        let (left, right) = (here.x - before.x, after.x - here.x);
+        let (falls, rises) = ((middle - first) / left, (last - middle) / right);
+        let curvature = (rises - falls) / (left + right);
+        let slope = (falls * right + rises * left) / (left + right);
+        let x = here.x - slope * 0.5 / curvature;
+        let lowest = middle - slope * slope * 0.25 / curvature;
+        let from = if is_end[0] {
+            before.x
+        } else {
+            here.x - left * 0.5
+        };
+        let to = if is_end[1] {
+            after.x
+        } else {
+            here.x + right * 0.5
+        };
+        let is_same = !(sign ^ before.value.simd_lt(0.0)) & !(sign ^ after.value.simd_lt(0.0));
+        let may_dip = is_same
+            & curvature.simd_gt(0.0)
+            & x.simd_gt(from)
+            & x.simd_lt(to)
+            & lowest.simd_lt(first.min(middle).min(last) * NEARER);
+        let may_dip = may_dip.to_bitmask();
+        if may_dip == 0 {
+            return 0;
+        }
+        let value = self.value(simd, x, noise);
+        let dips = (value * here.value).simd_lt(0.0).to_bitmask() & may_dip;
+        let bottom = Look { x, value };
+        8 + self.note_in(simd, dips, before, &bottom, turns, noise)
+            + self.note_in(simd, dips, &bottom, after, turns, noise)
+    }
+
+    #[inline(always)]
+    fn note_in(
+        &self,
+        simd: S,
+        which: u64,
+        low: &Look<S>,
+        high: &Look<S>,
+        turns: &mut Turns,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> u64 {
+        if which == 0 {
+            return 0;
+        }
+        let root = self.root(simd, *low, *high, noise);
+        for lane in 0..8 {
+            if which >> lane & 1 == 1 {
+                turns.note(lane, root[lane]);
+            }
+        }
+        8 * u64::from(self.steps)
+    }
+
+    #[inline(always)]
+    fn value(&self, simd: S, x: f64x8<S>, noise: &mut Option<Box<NoiseCells>>) -> f64x8<S> {
+        let Surroundings { scene, cell, .. } = *self.surroundings;
+        let at = Points::new(simd, &self.active.ball, cut::ray(simd, cell, x, self.y));
+        let normal = self.finish.normal(simd, scene, &at, noise);
+        self.turn.value(&normal, &at)
+    }
+
+    /// Where between two places light begins or ends: by the rule of false position, with one value
+    /// halved when the other end stays (Illinois).
+    #[inline(never)]
+    fn root(
+        &self,
+        simd: S,
+        mut low: Look<S>,
+        mut high: Look<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> f64x8<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut x = low.x;
+                for _ in 0..self.steps {
+                    let share = low.value / (low.value - high.value);
+                    x = low.x + (high.x - low.x) * share;
+                    let value = self.value(simd, x, noise);
+                    let is_low = !(value.simd_gt(0.0) ^ low.value.simd_gt(0.0));
+                    low.x = is_low.select(x, low.x);
+                    high.x = is_low.select(high.x, x);
+                    high.value = is_low.select(high.value * 0.5, value);
+                    low.value = is_low.select(value, low.value * 0.5);
+                }
+                x
+            },
+        )
+    }
+}
+
+/// Places on eight lines, at most so many each, in order.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turns {
+    places: [[f64; 8]; MOST_TURNS],
+    pub(super) counts: [usize; 8],
+}
+
+/// Terminators in an interval that are told apart; more make the rules worse, which they notice.
+const MOST_TURNS: usize = 16;
+
+impl Default for Turns {
+    fn default() -> Self {
+        Self {
+            places: [[f64::INFINITY; 8]; MOST_TURNS],
+            counts: [0; 8],
+        }
+    }
+}
+
+impl Turns {
+    /// Adds a place on a line.
+    fn note(&mut self, lane: usize, place: f64) {
+        if self.counts[lane] == MOST_TURNS {
+            return;
+        }
+        let mut at = self.counts[lane];
+        while at > 0 && self.places[at - 1][lane] > place {
+            self.places[at][lane] = self.places[at - 1][lane];
+            at -= 1;
+        }
+        self.places[at][lane] = place;
+        self.counts[lane] += 1;
+    }
+
+    /// The largest number of places on a line.
+    pub(super) fn most(&self) -> usize {
+        self.counts.iter().copied().max().unwrap_or(0)
+    }
+
+    /// The places with this number, or the ends of the lines.
+    pub(super) fn stops(&self, index: usize, ends: &[f64; 8]) -> [f64; 8] {
+        let mut stops = *ends;
+        if index < MOST_TURNS {
+            for (stop, place) in stops.iter_mut().zip(&self.places[index]) {
+                *stop = stop.min(*place);
+            }
+        }
+        stops
+    }
+}
