@@ -10,7 +10,7 @@ use super::cut::{
 use super::rule::{CAUTION, NODES, Roots, Rule, error_estimate};
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Finish, Points};
-use super::turns::{Look, Search, Seeker, Turn, Turns};
+use super::turns::{Look, Nearest, Search, Seeker, Turn, Turns};
 use crate::edges::{Arcs, Cell};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance, World};
@@ -102,7 +102,7 @@ impl Surroundings<'_> {
         let mut sum = [zero; 3];
         let mut covered = zero;
         let mut along = zero;
-        let mut likeness = Likeness::Smooth;
+        let mut across_lines = Across::SMOOTH;
         let mut start = f64x8::splat(simd, -0.5);
         for (index, stops) in stops.iter().enumerate().take(signature.changes + 1) {
             let end: f64x8<S> = (*stops).simd_into(simd);
@@ -126,11 +126,12 @@ impl Surroundings<'_> {
                 };
                 let of_interval =
                     self.add::<S, C>(simd, &interval, y, &mut sum, &mut along, noise, samples);
-                likeness = likeness.min(of_interval);
+                across_lines.likeness = across_lines.likeness.min(of_interval.likeness);
+                across_lines.least_error += of_interval.least_error;
             }
             start = end;
         }
-        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, likeness))
+        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, across_lines))
     }
 
     /// Where the lines of a piece change, and where they end: as the signature says, which all of
@@ -199,15 +200,16 @@ impl Surroundings<'_> {
         sum: &[f64x8<S>; 3],
         covered: f64x8<S>,
         along: f64x8<S>,
-        likeness: Likeness,
+        across_lines: Across,
     ) -> Part {
         let mut part = Part::NOTHING;
         let mut error: f64 = 0.0;
         for (channel, sum) in sum.iter().enumerate().take(C::CHANNELS) {
-            let (value, estimate) = across(rule, sum, likeness);
+            let (value, estimate) = across(rule, sum, across_lines.likeness);
             part.value[channel] = value;
             error = error.max(estimate);
         }
+        error = error.max(across_lines.least_error);
         let (value, estimate) = across(rule, &covered, Likeness::Smooth);
         part.covered = value;
         error = error.max(estimate);
@@ -233,13 +235,13 @@ impl Surroundings<'_> {
         error: &mut f64x8<S>,
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
-    ) -> Likeness {
+    ) -> Across {
         let &Self {
             scene, contents, ..
         } = self;
         let world: &World = scene.world;
         let Some(position) = sphere_of(interval.view) else {
-            return Likeness::Smooth;
+            return Across::SMOOTH;
         };
         let active = &contents.active[position];
         let material = world.material(active.sphere);
@@ -248,14 +250,14 @@ impl Surroundings<'_> {
             for channel in 0..C::CHANNELS {
                 sum[channel] += interval.width * constant[channel];
             }
-            return Likeness::Smooth;
+            return Across::SMOOTH;
         }
         let exponent = material.exponent;
         let root_at = |branch: Option<u16>| {
             branch.is_some_and(|branch| cut::has_root_at(contents, branch, position, exponent))
         };
         let Some(pixel) = contents.pixel else {
-            return Likeness::Smooth;
+            return Across::SMOOTH;
         };
         let finish = Finish::new(scene, active.sphere, pixel);
         let mut lit = [0; MOST_LIGHTS];
@@ -286,7 +288,7 @@ impl Surroundings<'_> {
                 simd, active, &finish, &lit, rule, start, width, y, sum, error, noise,
             );
         }
-        Likeness::Smooth
+        Across::SMOOTH
     }
 
     /// Adds the light of an interval on a rough surface, which has terminators inside its bumps: they
@@ -310,7 +312,7 @@ impl Surroundings<'_> {
         error: &mut f64x8<S>,
         noise: &mut Option<Box<NoiseCells>>,
         samples: &mut u64,
-    ) -> Likeness {
+    ) -> Across {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -324,6 +326,7 @@ impl Surroundings<'_> {
                     value: f64x8::splat(simd, f64::NAN),
                 };
                 let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
+                let mut nearest = [Nearest::default(); MOST_LIGHTS];
                 let kinds = if finish.has_blunt_spot() { 2 } else { 1 };
                 for index in 0..=points {
                     let s = f64::from(index) / f64::from(points);
@@ -350,6 +353,9 @@ impl Surroundings<'_> {
                             };
                             let value = turn.value(&normal, &at);
                             let here = Look { x, value };
+                            if kind == 0 {
+                                nearest[light].note(&value.into());
+                            }
                             let [before, last] = looks[light];
                             *samples += seeker.note(simd, &last, &here, &mut turns, noise);
                             if index >= 2 {
@@ -381,15 +387,24 @@ impl Surroundings<'_> {
                     }
                     start = stop;
                 }
-                if turns.counts[..NODES]
+                let is_even = turns.counts[..NODES]
                     .iter()
-                    .all(|&count| count == turns.counts[0])
-                {
-                    Likeness::Rough
-                } else if finish.jumps() {
-                    Likeness::Jumpy
-                } else {
-                    Likeness::Uneven
+                    .all(|&count| count == turns.counts[0]);
+                let likeness = match (is_even, finish.jumps()) {
+                    (true, _) => Likeness::Rough,
+                    (false, false) => Likeness::Uneven,
+                    (false, true) => Likeness::Jumpy,
+                };
+                let mut least_error: f64 = 0.0;
+                for (nearest, in_camera) in nearest.iter().zip(&self.scene.lights) {
+                    if let Some(range) = nearest.range_of_turn() {
+                        let light = finish.cost_of_any_turn(simd, in_camera, range);
+                        least_error += light * interval.width[0].max(interval.width[NODES - 1]);
+                    }
+                }
+                Across {
+                    likeness,
+                    least_error,
                 }
             },
         )
@@ -497,6 +512,21 @@ impl Surroundings<'_> {
             },
         )
     }
+}
+
+/// What is known of lines of a piece beside each other.
+#[derive(Clone, Copy, Debug)]
+struct Across {
+    likeness: Likeness,
+    /// What may be missed beside and between them.
+    least_error: f64,
+}
+
+impl Across {
+    const SMOOTH: Self = Self {
+        likeness: Likeness::Smooth,
+        least_error: 0.0,
+    };
 }
 
 /// How lines of a piece go over into each other, the worst first.

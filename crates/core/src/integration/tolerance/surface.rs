@@ -228,6 +228,19 @@ impl<'scene> Finish<'scene> {
             + spot * (specular * intensity.max_element())
     }
 
+    /// What light may be missed where lines that come near a terminator of bumps do not show it: as
+    /// much as a rule is off by where their facing of the light, which differs by `range`, turns.
+    #[inline(always)]
+    pub(super) fn cost_of_any_turn<S: Simd>(&self, simd: S, light: &Light, range: f64) -> f64 {
+        /// Of a piece, what is beyond its outermost lines.
+        const BEYOND: f64 = 0.04;
+        let range = f64x8::splat(simd, range.min(1.0));
+        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let specular = self.specular.map_or(0.0, |(strength, _)| strength);
+        (self.diffuse.lanes(range) * (diffuse * cost_of_kink(self.material.exponent)))[0]
+            + specular * light.intensity.max_element() * BEYOND
+    }
+
     /// What it may cost that in a pixel a highlight ends, when its half vector is faced by `range` more
     /// here than there.
     #[inline(always)]

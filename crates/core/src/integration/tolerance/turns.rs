@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::contents::Active;
 use super::cut;
 use super::piece::Surroundings;
+use super::rule::NODES;
 use super::surface::{Finish, Points};
 use crate::edges::Vectors;
 use crate::roughness::NoiseCells;
@@ -61,6 +62,66 @@ pub(super) struct Look<S: Simd> {
     pub(super) x: f64x8<S>,
     /// Of [`Turn::value`].
     pub(super) value: f64x8<S>,
+}
+
+/// How near lines that have no turn come to one, by their looks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearest {
+    /// The value of the look nearest to zero on each line.
+    values: [f64; 8],
+    /// Whether others have the other sign, line by line.
+    turned: u64,
+}
+
+impl Default for Nearest {
+    fn default() -> Self {
+        Self {
+            values: [f64::INFINITY; 8],
+            turned: 0,
+        }
+    }
+}
+
+impl Nearest {
+    /// Takes in a look at each line.
+    pub(super) fn note(&mut self, values: &[f64; 8]) {
+        for (lane, (nearest, &value)) in self.values.iter_mut().zip(values).enumerate() {
+            if nearest.is_finite() && (*nearest < 0.0) != (value < 0.0) {
+                self.turned |= 1 << lane;
+            }
+            if value.abs() < nearest.abs() {
+                *nearest = value;
+            }
+        }
+    }
+
+    /// By how much the values differ, if none of a rule's lines turns, and one beyond or between them
+    /// may.
+    pub(super) fn range_of_turn(&self) -> Option<f64> {
+        /// Of the distance of the two outermost lines, what may be between them and the end, and
+        /// more.
+        const BEYOND: f64 = 0.5;
+        let values = &self.values[..NODES];
+        let is_even = values
+            .iter()
+            .all(|value| (*value < 0.0) == (values[0] < 0.0));
+        if self.turned & 0x7f != 0 || !is_even || !values[0].is_finite() {
+            return None;
+        }
+        let near = |at: usize| values[at].abs();
+        let beyond = |at: usize, next: usize| near(at) + (near(at) - near(next)) * BEYOND;
+        let is_near_end = beyond(0, 1).min(beyond(NODES - 1, NODES - 2)) < 0.0;
+        let is_near_between = (1..NODES - 1).any(|at| {
+            let sides = [near(at - 1), near(at + 1)];
+            near(at) <= sides[0].min(sides[1]) && 3.0 * near(at) < sides[0].max(sides[1])
+        });
+        let lowest = values
+            .iter()
+            .map(|value| value.abs())
+            .fold(f64::INFINITY, f64::min);
+        let highest = values.iter().map(|value| value.abs()).fold(0.0, f64::max);
+        (is_near_end || is_near_between).then_some(highest - lowest)
+    }
 }
 
 /// Seeks turns of one kind on eight lines of a sphere.
