@@ -48,10 +48,13 @@ impl Search {
         /// Small enough for a search in earnest.
         const FINE: f64 = 9e-5;
         let (parts, steps) = if tolerance > FINE { (4, 4) } else { (8, 7) };
-        let factor = if jumps { 2 } else { 1 };
-        Self {
-            parts: factor * parts,
-            steps,
+        if jumps {
+            Self {
+                parts: 2 * parts,
+                steps: steps + 3,
+            }
+        } else {
+            Self { parts, steps }
         }
     }
 }
@@ -237,8 +240,8 @@ impl<S: Simd> Seeker<'_, S> {
         self.turn.value(&normal, &at)
     }
 
-    /// Where between two places light begins or ends: by the rule of false position, with one value
-    /// halved when the other end stays (Illinois).
+    /// Where between two places light begins or ends: by the rule of false position, with the value
+    /// of an end halved that stays once more (Illinois).
     #[inline(never)]
     fn root(
         &self,
@@ -251,15 +254,23 @@ impl<S: Simd> Seeker<'_, S> {
             #[inline(always)]
             || {
                 let mut x = low.x;
+                let one = f64x8::splat(simd, 1.0);
+                let (mut high_factor, mut low_factor) = (one, one);
+                let never = one.simd_lt(0.0);
+                let (mut was_low, mut was_high) = (never, never);
                 for _ in 0..self.steps {
-                    let share = low.value / (low.value - high.value);
+                    let (at_low, at_high) = (low.value * low_factor, high.value * high_factor);
+                    let share = at_low / (at_low - at_high);
                     x = low.x + (high.x - low.x) * share;
                     let value = self.value(simd, x, noise);
                     let is_low = !(value.simd_gt(0.0) ^ low.value.simd_gt(0.0));
                     low.x = is_low.select(x, low.x);
+                    low.value = is_low.select(value, low.value);
                     high.x = is_low.select(high.x, x);
-                    high.value = is_low.select(high.value * 0.5, value);
-                    low.value = is_low.select(value, low.value * 0.5);
+                    high.value = is_low.select(high.value, value);
+                    high_factor = (is_low & was_low).select(high_factor * 0.5, one);
+                    low_factor = (!is_low & was_high).select(low_factor * 0.5, one);
+                    (was_low, was_high) = (is_low, !is_low);
                 }
                 x
             },
