@@ -143,6 +143,11 @@ impl Workspace {
         self.sample_budget = self.work.samples + MOST_SAMPLES;
     }
 
+    /// Counts what it costs to see a cell: about as much as a few lines.
+    pub(super) fn spend_on_cell(&mut self) {
+        self.effort += 4 * self.contents.extent();
+    }
+
     /// Whether the pixel has cost as much as a pixel may.
     pub(super) fn is_over_budget(&self) -> bool {
         self.effort > MOST_EFFORT || self.work.samples > self.sample_budget

@@ -16,6 +16,9 @@ use crate::{Radiance, Tile};
 /// What rounding, or parts of a pixel that were given up, may cost before samples know more.
 const LOST: f64 = 0.01;
 
+/// The tolerances that a pixel is tried with, in its own: further ones where it costs too much.
+const LOOSER: [f64; 3] = [1.0, 10.0, 100.0];
+
 /// How deep pixels are quartered.
 const DEEPEST: i32 = 12;
 
@@ -39,12 +42,26 @@ impl Exact<'_> {
     ) -> Pixel<C> {
         let key = self.key(here, 0);
         workspace.contents.pixel = Some(key);
-        workspace.begin_pixel();
         let cell = self.cell(here);
-        let part = simd.vectorize(
-            #[inline(always)]
-            || self.parts::<S, C>(simd, cell, spheres, cache, workspace),
-        );
+        let mut part = Part {
+            error: f64::INFINITY,
+            ..Part::NOTHING
+        };
+        // What is given up is better known to a tolerance that can be met.
+        for looser in LOOSER {
+            workspace.begin_pixel();
+            let tolerance = looser * self.tolerance;
+            let found = simd.vectorize(
+                #[inline(always)]
+                || self.parts::<S, C>(simd, cell, spheres, cache, workspace, tolerance),
+            );
+            if found.error < part.error || found.error.is_nan() {
+                part = found;
+            }
+            if !workspace.is_over_budget() {
+                break;
+            }
+        }
         // Samples at least see exactly.
         let is_lost = !(part.error.is_finite() && part.value.is_finite())
             || part.error > self.tolerance.max(LOST);
@@ -76,6 +93,7 @@ impl Exact<'_> {
         spheres: &[usize],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
+        tolerance: f64,
     ) -> Part {
         let mut sum = Part::NOTHING;
         let mut left = VecDeque::from([(cell, 0)]);
@@ -84,7 +102,7 @@ impl Exact<'_> {
             let part = if workspace.is_over_budget() {
                 None
             } else {
-                self.part::<S, C>(simd, &cell, spheres, cache, workspace, depth)
+                self.part::<S, C>(simd, &cell, spheres, cache, workspace, tolerance, depth)
             };
             match part {
                 Some(part) => sum.add(&part, share),
@@ -104,6 +122,10 @@ impl Exact<'_> {
     }
 
     /// The average over a cell, unless that is hard.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
     fn part<S: Simd, C: Radiance>(
         &self,
         simd: S,
@@ -111,10 +133,11 @@ impl Exact<'_> {
         spheres: &[usize],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
+        tolerance: f64,
         depth: i32,
     ) -> Option<Part> {
         let goal = Goal {
-            tolerance: self.tolerance,
+            tolerance,
             background: self.background(),
             contrast: self.contrast,
         };
@@ -123,6 +146,7 @@ impl Exact<'_> {
             || {
                 workspace.work.candidate_tests += spheres.len() as u64;
                 workspace.contents.see(&self.scene, cell, spheres, cache);
+                workspace.spend_on_cell();
                 let negligible = 0.01 * goal.tolerance;
                 let is_sharp = workspace
                     .contents
