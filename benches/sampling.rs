@@ -24,7 +24,7 @@ fn main() {
                     cases.push(Case {
                         name: format!("{samples} x {samples}, {shadows} shadows"),
                         millions: f64::from(SIDE * SIDE * samples * samples) * 1e-6,
-                        run: Box::new(move || by_samples(renderer, view, samples)),
+                        run: Box::new(move |spent| by_samples(renderer, view, samples, spent)),
                     });
                 }
             }
@@ -45,7 +45,7 @@ fn main() {
             millions: f64::from(SIDE * SIDE * samples * samples) * 1e-6,
             run: Box::new({
                 let (renderer, view) = (&renderer, &view);
-                move || by_samples(renderer, view, samples)
+                move |spent| by_samples(renderer, view, samples, spent)
             }),
         });
         let images = table("empty", "rays", 1, &cases);

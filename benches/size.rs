@@ -10,8 +10,8 @@ fn case<'scene>(renderer: &'scene Renderer<'_>, view: View) -> Case<'scene, f64>
     Case {
         name: format!("{} x {}", view.width, view.height),
         millions: f64::from(view.width) * f64::from(view.height) * 1e-6,
-        run: Box::new(move || {
-            let image = to_tolerance(renderer, &view, TOLERANCE);
+        run: Box::new(move |_| {
+            let image = to_tolerance(renderer, &view, TOLERANCE, None);
             assert_eq!(image.summary().over_tolerance, 0);
             mean(&image)
         }),

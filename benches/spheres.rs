@@ -19,7 +19,7 @@ fn main() {
             cases.push(Case {
                 name: format!("{count} spheres"),
                 millions: f64::from(count) * 1e-6,
-                run: Box::new(move || Renderer::new(world)),
+                run: Box::new(move |_| Renderer::new(world)),
             });
         }
         let renderers = table("to prepare", "spheres", 3, &cases);
@@ -29,7 +29,7 @@ fn main() {
             cases.push(Case {
                 name: format!("{count} spheres"),
                 millions: f64::from(SIDE * SIDE) * 1e-6,
-                run: Box::new(move || to_tolerance(renderer, view, TOLERANCE)),
+                run: Box::new(move |spent| to_tolerance(renderer, view, TOLERANCE, spent)),
             });
         }
         let images = table("to render", "pixels", 15, &cases);

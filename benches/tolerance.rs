@@ -23,7 +23,7 @@ fn main() {
                 millions: f64::from(SIDE * SIDE) * 1e-6,
                 run: Box::new({
                     let (renderer, view) = (&renderer, &view);
-                    move || to_tolerance(renderer, view, tolerance)
+                    move |spent| to_tolerance(renderer, view, tolerance, spent)
                 }),
             };
             let images = table(name, "pixels", 8, &TOLERANCES.map(case));
@@ -40,7 +40,7 @@ fn main() {
         let empty = Case {
             name: "1e-6".to_owned(),
             millions: f64::from(SIDE * SIDE) * 1e-6,
-            run: Box::new(|| to_tolerance(&renderer, &view, 1e-6)),
+            run: Box::new(|spent| to_tolerance(&renderer, &view, 1e-6, spent)),
         };
         let images = table("empty", "pixels", 1, &[empty]);
         assert_eq!(images[0].work(), Work::default());

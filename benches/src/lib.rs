@@ -20,8 +20,8 @@ pub struct Case<'scene, T> {
     pub name: String,
     /// How many of the table's units it makes, in millions.
     pub millions: f64,
-    /// What is timed.
-    pub run: Box<dyn Fn() -> T + Send + Sync + 'scene>,
+    /// What is timed; it gets what it made before, whose memory it may use again.
+    pub run: Box<dyn Fn(Option<T>) -> T + Send + Sync + 'scene>,
 }
 
 /// Runs all benchmarks of a file on one thread, if `cargo bench` is what started it: other commands
@@ -43,14 +43,14 @@ pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) ->
     const MOST_ROUNDS: usize = 25;
     let start = Instant::now();
     let mut times = vec![Vec::new(); cases.len()];
-    let mut results = Vec::new();
+    let mut results: Vec<Option<T>> = cases.iter().map(|_| None).collect();
     while times[0].is_empty()
         || times[0].len() < MOST_ROUNDS && start.elapsed() < Duration::from_secs(seconds)
     {
-        results.clear();
-        for (case, times) in cases.iter().zip(&mut times) {
+        for ((case, times), result) in cases.iter().zip(&mut times).zip(&mut results) {
+            let spent = result.take();
             let start = Instant::now();
-            results.push((case.run)());
+            *result = Some((case.run)(spent));
             times.push(start.elapsed().as_secs_f64());
         }
     }
@@ -64,7 +64,7 @@ pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) ->
             case.name
         );
     }
-    results
+    results.into_iter().flatten().collect()
 }
 
 /// A scene of the repository, by its path there without the ending.
@@ -115,26 +115,36 @@ pub fn cloud(count: u32) -> World {
     world
 }
 
-/// The picture to a tolerance.
-pub fn to_tolerance(renderer: &Renderer<'_>, view: &View, tolerance: f64) -> Image {
-    render(renderer, view, Method::Tolerance(tolerance))
+/// The picture to a tolerance, in the memory of another one.
+pub fn to_tolerance(
+    renderer: &Renderer<'_>,
+    view: &View,
+    tolerance: f64,
+    spent: Option<Image>,
+) -> Image {
+    render(renderer, view, Method::Tolerance(tolerance), spent)
 }
 
-/// The picture by N × N samples a pixel.
+/// The picture by N × N samples a pixel, in the memory of another one.
 ///
 /// # Panics
 /// For no samples.
-pub fn by_samples(renderer: &Renderer<'_>, view: &View, samples: u32) -> Image {
+pub fn by_samples(
+    renderer: &Renderer<'_>,
+    view: &View,
+    samples: u32,
+    spent: Option<Image>,
+) -> Image {
     let samples = NonZeroU32::new(samples).expect("at least one sample");
-    render(renderer, view, Method::Samples(samples))
+    render(renderer, view, Method::Samples(samples), spent)
 }
 
-fn render(renderer: &Renderer<'_>, view: &View, method: Method) -> Image {
+fn render(renderer: &Renderer<'_>, view: &View, method: Method, spent: Option<Image>) -> Image {
     let settings = Settings {
         method,
         alpha: false,
     };
-    let image = renderer.render(view, &settings, &|_| ControlFlow::Continue(()));
+    let image = renderer.render_over(spent, view, &settings, &|_| ControlFlow::Continue(()));
     image.expect("nobody stops it")
 }
 

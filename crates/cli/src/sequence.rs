@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::panic;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -108,9 +108,12 @@ impl Sequence<'_> {
         let write_failed = AtomicBool::new(false);
         let waiting = pictures.saturating_sub(2) as usize;
         let (sender, receiver) = sync_channel(waiting);
+        // Pictures that are written give their memory back to the renderer.
+        let (giver, spent) = channel();
         let (left_out, written) = thread::scope(|scope| {
-            let writer = scope.spawn(|| self.write_all(receiver, &write_failed, progress));
-            let left_out = threads.install(|| self.render_all(sender, &write_failed, progress));
+            let writer = scope.spawn(|| self.write_all(receiver, &giver, &write_failed, progress));
+            let to_files = || self.render_all(sender, spent, &write_failed, progress);
+            let left_out = threads.install(to_files);
             let written = writer.join();
             (
                 left_out,
@@ -130,6 +133,7 @@ impl Sequence<'_> {
     fn render_all(
         &self,
         writer: SyncSender<Rendered>,
+        spent: Receiver<Image>,
         write_failed: &AtomicBool,
         progress: &Progress,
     ) -> bool {
@@ -151,7 +155,8 @@ impl Sequence<'_> {
             };
             progress.begin(index as u64, u64::from(view.width) * u64::from(view.height));
             let started = Instant::now();
-            let image = renderer.render(&view, &self.settings, &|pixels| {
+            let spent = spent.try_recv().ok();
+            let image = renderer.render_over(spent, &view, &self.settings, &|pixels| {
                 progress.advance(pixels);
                 if stop() {
                     ControlFlow::Break(())
@@ -182,6 +187,7 @@ impl Sequence<'_> {
     fn write_all(
         &self,
         pictures: Receiver<Rendered>,
+        spent: &Sender<Image>,
         write_failed: &AtomicBool,
         progress: &Progress,
     ) -> Tally {
@@ -189,7 +195,9 @@ impl Sequence<'_> {
         for picture in pictures {
             let frame = picture.facts.frame;
             match self.write(picture, progress) {
-                Ok((summary, time)) => {
+                Ok((image, summary, time)) => {
+                    // Nobody takes it after the last frame.
+                    let _ = spent.send(image);
                     tally.add(summary, time);
                     progress.written(frame, tally.written);
                 }
@@ -203,12 +211,12 @@ impl Sequence<'_> {
         tally
     }
 
-    /// Writes a picture and says so. What it achieved, and in which time.
+    /// Writes a picture and says so. The picture, what it achieved, and in which time.
     fn write(
         &self,
         rendered: Rendered,
         progress: &Progress,
-    ) -> Result<(Summary, Duration), Failure> {
+    ) -> Result<(Image, Summary, Duration), Failure> {
         let Rendered {
             image,
             facts,
@@ -226,7 +234,7 @@ impl Sequence<'_> {
             let message = messages::over_tolerance(&shown, &image, summary.over_tolerance);
             progress.warn(&message);
         }
-        Ok((summary, time))
+        Ok((image, summary, time))
     }
 
     fn resized(&self, view: View) -> View {

@@ -41,6 +41,8 @@ pub struct Image {
     errors: Plane<f64>,
     evidence: Plane<Evidence>,
     statuses: Plane<Status>,
+    /// Whether values and errors are 0 where nothing was written.
+    is_blank: bool,
     work: Work,
 }
 
@@ -67,26 +69,44 @@ pub struct Summary {
 }
 
 impl Image {
-    /// A black picture.
+    /// A picture to be written, in the memory of another one where that suffices.
     pub(crate) fn new(
-        width: u32,
-        height: u32,
+        (width, height): (u32, u32),
         channels: Channels,
         alpha: bool,
         prospect: Prospect,
+        spent: Option<Self>,
     ) -> Self {
         let Prospect { error, ending } = prospect;
         let pixels = width as usize * height as usize;
-        let stride = channels.count() + usize::from(alpha);
+        let numbers = pixels * (channels.count() + usize::from(alpha));
+        let (evidence, status) = (ending.map(|ending| ending.0), ending.map(|ending| ending.1));
+        let spent = spent.filter(|spent| spent.values.capacity() >= numbers);
+        let is_blank = spent.is_none();
+        let (values, errors, known, statuses) = match spent {
+            Some(mut spent) => {
+                spent.values.resize(numbers, 0.0);
+                let known = (spent.evidence, spent.statuses);
+                (
+                    spent.values,
+                    Some(spent.errors),
+                    Some(known.0),
+                    Some(known.1),
+                )
+            }
+            // Memory that the system clears, page by page where it is written.
+            None => (vec![0.0; numbers], None, None, None),
+        };
         Self {
             width,
             height,
             channels,
             alpha,
-            values: vec![0.0; pixels * stride],
-            errors: Plane::new(pixels, error, 0.0),
-            evidence: Plane::new(pixels, ending.map(|ending| ending.0), Evidence::Bound),
-            statuses: Plane::new(pixels, ending.map(|ending| ending.1), Status::NoTolerance),
+            values,
+            errors: Plane::new(pixels, error, 0.0, errors),
+            evidence: Plane::new(pixels, evidence, Evidence::Bound, known),
+            statuses: Plane::new(pixels, status, Status::NoTolerance, statuses),
+            is_blank,
             work: Work::default(),
         }
     }
@@ -176,6 +196,7 @@ impl Image {
         let (width, height) = (self.width, self.height);
         let stride = self.channels.count() + usize::from(self.alpha);
         let pixels = width as usize * rows as usize;
+        let is_blank = self.is_blank;
         let bands = self.height.div_ceil(rows) as usize;
         self.values
             .par_chunks_mut(pixels * stride)
@@ -198,6 +219,7 @@ impl Image {
                     errors,
                     evidence,
                     statuses,
+                    is_blank,
                 }
             })
     }
@@ -230,6 +252,7 @@ pub(crate) struct Band<'image> {
     errors: PlaneBand<'image, f64>,
     evidence: PlaneBand<'image, Evidence>,
     statuses: PlaneBand<'image, Status>,
+    is_blank: bool,
 }
 
 impl Band<'_> {
@@ -258,7 +281,7 @@ impl Band<'_> {
             let light = light.row(row);
             let values = &mut self.values[index * stride..][..width * stride];
             match (stride, &light.channels) {
-                (1, [grey, ..]) => values.copy_from_slice(&grey[..width]),
+                (1, [grey, ..]) => copy(values, grey),
                 (2, [grey, ..]) => interleave(values, [grey, &light.alpha]),
                 (3, [red, green, blue]) => interleave(values, [red, green, blue]),
                 (_, [red, green, blue]) => interleave(values, [red, green, blue, &light.alpha]),
@@ -268,19 +291,23 @@ impl Band<'_> {
     }
 
     /// Writes light that is the same in all pixels of a tile inside the band, and in which nothing
-    /// covers them; a new picture has none, nor any error.
+    /// covers them.
     pub(crate) fn write_even_light(&mut self, tile: Tile, color: Color, error: f64) {
         let (width, stride) = (tile.width as usize, self.stride);
         for row in tile.row..tile.row + tile.height {
             let index = self.index(tile.col, row);
+            let values = &mut self.values[index * stride..][..width * stride];
             if color != Color::ZERO {
                 // The background is left out of a picture with alpha: there are channels only.
-                let values = &mut self.values[index * stride..][..width * stride];
                 for pixel in values.chunks_exact_mut(stride) {
                     pixel.copy_from_slice(&color.as_ref()[..stride]);
                 }
+            } else if !self.is_blank {
+                for values in values.chunks_mut(Tile::SIDE as usize) {
+                    copy(values, &[0.0; Tile::SIDE as usize]);
+                }
             }
-            if error != 0.0 {
+            if error != 0.0 || !self.is_blank {
                 self.errors.fill(index, width, error);
             }
         }
@@ -289,6 +316,25 @@ impl Band<'_> {
     fn index(&self, col: u32, row: u32) -> usize {
         (row - self.area.row) as usize * self.area.width as usize + col as usize
     }
+}
+
+/// Writes a number of every pixel of a row. Most rows are whole: a copy of a known length is a few
+/// instructions, and not worth a call.
+#[inline(always)]
+fn copy(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
+    if values.len() == part.len() {
+        for (value, number) in values.iter_mut().zip(part) {
+            *value = *number;
+        }
+    } else {
+        copy_some(values, part);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn copy_some(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
+    values.copy_from_slice(&part[..values.len()]);
 }
 
 /// Writes some numbers of every pixel, pixel by pixel.

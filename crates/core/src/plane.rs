@@ -12,11 +12,16 @@ pub(crate) enum Plane<T> {
 }
 
 impl<T: Copy + Send + Sync> Plane<T> {
-    /// The same number everywhere if it is known, else `initial` until one is written.
-    pub(crate) fn new(pixels: usize, same: Option<T>, initial: T) -> Self {
-        match same {
-            Some(value) => Self::Same(value),
-            None => Self::Each(vec![initial; pixels]),
+    /// The same number everywhere if it is known, else `initial` until one is written; or anything,
+    /// in the memory of another plane where that suffices.
+    pub(crate) fn new(pixels: usize, same: Option<T>, initial: T, spent: Option<Self>) -> Self {
+        match (same, spent) {
+            (Some(value), _) => Self::Same(value),
+            (None, Some(Self::Each(mut values))) if values.capacity() >= pixels => {
+                values.resize(pixels, initial);
+                Self::Each(values)
+            }
+            (None, _) => Self::Each(vec![initial; pixels]),
         }
     }
 

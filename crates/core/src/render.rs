@@ -9,7 +9,7 @@ use thiserror::Error;
 use crate::image::Prospect;
 use crate::integration::{Exact, Integrator, Supersampling};
 use crate::visibility::{Seen, Visibility};
-use crate::{Channels, Color, Image, Radiance, Tile, TileLight, View, Work, World};
+use crate::{Channels, Color, Image, Radiance, Tile, View, Work, World};
 
 /// How a picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +64,21 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
+        self.render_over(None, view, settings, progress)
+    }
+
+    /// Renders as [`Self::render`] does, in the memory of a picture that nobody needs any more:
+    /// memory that was just written is several times as quick as what the system hands out.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` broke.
+    pub fn render_over(
+        &self,
+        spent: Option<Image>,
+        view: &View,
+        settings: &Settings,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Image, Cancelled> {
         let seen = Seen::new(&self.visibility, view, Tile::SIDE);
         let world = self.world;
         let is_grey = if settings.alpha {
@@ -83,21 +98,21 @@ impl<'world> Renderer<'world> {
                 ending: None,
             },
         };
-        let (width, height) = (view.width, view.height);
-        let mut image = Image::new(width, height, channels, settings.alpha, prospect);
+        let size = (view.width, view.height);
+        let mut image = Image::new(size, channels, settings.alpha, prospect, spent);
         match settings.method {
             Method::Samples(samples) => {
                 let integrator = Supersampling::new(world, view, &seen, samples, settings.alpha);
                 match channels {
-                    Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
-                    Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+                    Channels::Grey => fill::<f64, _>(&mut image, &integrator, progress),
+                    Channels::Rgb => fill::<Color, _>(&mut image, &integrator, progress),
                 }
             }
             Method::Tolerance(tolerance) => {
                 let integrator = Exact::new(world, view, &seen, tolerance, settings.alpha);
                 match channels {
-                    Channels::Grey => fill::<f64>(&mut image, &integrator, progress),
-                    Channels::Rgb => fill::<Color>(&mut image, &integrator, progress),
+                    Channels::Grey => fill::<f64, _>(&mut image, &integrator, progress),
+                    Channels::Rgb => fill::<Color, _>(&mut image, &integrator, progress),
                 }
             }
         }?;
@@ -105,9 +120,9 @@ impl<'world> Renderer<'world> {
     }
 }
 
-fn fill<C: Radiance>(
+fn fill<C: Radiance, I: Integrator<C>>(
     image: &mut Image,
-    integrator: &impl Integrator<C>,
+    integrator: &I,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
 ) -> Result<(), Cancelled> {
     let bands = image.bands_mut(Tile::SIDE).map(|mut band| {
@@ -115,7 +130,7 @@ fn fill<C: Radiance>(
         let Tile {
             row, width, height, ..
         } = band.area;
-        let mut light = TileLight::new();
+        let mut room = I::Room::default();
         for col in (0..width).step_by(Tile::SIDE as usize) {
             let tile = Tile {
                 col,
@@ -123,7 +138,7 @@ fn fill<C: Radiance>(
                 width: Tile::SIDE.min(width - col),
                 height,
             };
-            work += integrator.paint(tile, &mut band, &mut light);
+            work += integrator.paint(tile, &mut room, &mut band);
             let pixels = u64::from(tile.width) * u64::from(tile.height);
             if progress(pixels).is_break() {
                 return Err(Cancelled);
@@ -202,6 +217,36 @@ mod tests {
             Renderer::new(&world).render(&view, &settings, &|_| ControlFlow::Break(())),
             Err(Cancelled)
         );
+    }
+
+    #[test]
+    fn nothing_of_a_spent_picture_shows() {
+        let (mut world, view, settings) = ball();
+        world.background = Color::new(0.5, 0.25, 0.125);
+        let go = |_| ControlFlow::Continue(());
+        let tolerance = Settings {
+            method: Method::Tolerance(1e-3),
+            alpha: true,
+        };
+        let small = View {
+            width: 12,
+            height: 9,
+            ..view
+        };
+        let grey = World::new();
+        let orders = [(&world, settings), (&grey, settings), (&world, tolerance)];
+        let mut spent = None;
+        for (first, second) in [(0, 1), (1, 2), (2, 0), (0, 2), (2, 1), (1, 0)] {
+            for view in [view, small] {
+                for (world, settings) in [orders[first], orders[second]] {
+                    let renderer = Renderer::new(world);
+                    let fresh = renderer.render(&view, &settings, &go).unwrap();
+                    let image = renderer.render_over(spent, &view, &settings, &go).unwrap();
+                    assert_eq!(image, fresh);
+                    spent = Some(image);
+                }
+            }
+        }
     }
 
     #[test]

@@ -46,9 +46,9 @@ pub(crate) struct RowLight {
     pub(crate) errors: [f64; SIDE],
 }
 
-impl TileLight {
-    /// No light.
-    pub(crate) fn new() -> Self {
+/// No light.
+impl Default for TileLight {
+    fn default() -> Self {
         let dark = RowLight {
             channels: [[0.0; SIDE]; 3],
             alpha: [0.0; SIDE],
@@ -56,7 +56,9 @@ impl TileLight {
         };
         Self { rows: [dark; SIDE] }
     }
+}
 
+impl TileLight {
     /// Makes all pixels alike, and nothing cover them.
     pub(crate) fn fill(&mut self, color: Color, error: f64) {
         let row = RowLight {

@@ -116,7 +116,7 @@ impl Plan<'_> {
     /// The picture at a tolerance, given up after so many seconds.
     fn reference_at(&self, tolerance: f64, seconds: Option<f64>) -> Result<Reference, Cancelled> {
         let name = format!("reference, tolerance {tolerance:e}");
-        let (image, time) = self.render(Method::Tolerance(tolerance), &name, seconds)?;
+        let (image, time) = self.render(Method::Tolerance(tolerance), &name, seconds, None)?;
         let known = pixels(&image).filter(|&pixel| is_known(&image, pixel));
         let known = known.count() as u64;
         Ok(Reference {
@@ -141,6 +141,7 @@ impl Plan<'_> {
         settings.extend(self.samples(reference, for_samples)?);
 
         let round = seconds_of_a_round(&settings);
+        let mut last = None;
         for run in 2..=self.runs {
             let spent = started.elapsed().as_secs_f64();
             if spent + round > self.seconds {
@@ -148,7 +149,8 @@ impl Plan<'_> {
             }
             for setting in &mut settings {
                 let name = format!("run {run} of {}, {}", self.runs, name(setting.method));
-                let (_, time) = self.render(setting.method, &name, None)?;
+                let (image, time) = self.render(setting.method, &name, None, last.take())?;
+                last = Some(image);
                 setting.times.push(time);
             }
             self.progress.run_done(run, self.runs);
@@ -177,7 +179,7 @@ impl Plan<'_> {
     /// A setting, run once. All runs make the same picture, so that one is looked at.
     fn first_run(&self, method: Method, reference: &Reference) -> Result<Setting, Cancelled> {
         let name = format!("run 1 of {}, {}", self.runs, name(method));
-        let (image, time) = self.render(method, &name, None)?;
+        let (image, time) = self.render(method, &name, None, None)?;
         self.progress.picture_done(&name, time);
         let tolerance = match method {
             Method::Tolerance(tolerance) => Some(tolerance),
@@ -192,12 +194,14 @@ impl Plan<'_> {
         })
     }
 
-    /// A picture and its time; given up where that exceeds `seconds`, or on the user's word.
+    /// A picture, in the memory of another one, and its time; given up where that exceeds
+    /// `seconds`, or on the user's word.
     fn render(
         &self,
         method: Method,
         name: &str,
         seconds: Option<f64>,
+        spent: Option<Image>,
     ) -> Result<(Image, Duration), Cancelled> {
         let pixels = u64::from(self.view.width) * u64::from(self.view.height);
         self.progress.begin(name, pixels);
@@ -206,15 +210,17 @@ impl Plan<'_> {
             alpha: false,
         };
         let started = Instant::now();
-        let image = self.renderer.render(self.view, &settings, &|pixels| {
-            self.progress.advance(pixels);
-            let is_late = seconds.is_some_and(|most| started.elapsed().as_secs_f64() > most);
-            if is_late || interrupt::requested() {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })?;
+        let image = self
+            .renderer
+            .render_over(spent, self.view, &settings, &|pixels| {
+                self.progress.advance(pixels);
+                let is_late = seconds.is_some_and(|most| started.elapsed().as_secs_f64() > most);
+                if is_late || interrupt::requested() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            })?;
         Ok((image, started.elapsed()))
     }
 }

@@ -12,7 +12,7 @@ pub(crate) use tolerance::Exact;
 use std::ops::AddAssign;
 
 use crate::image::Band;
-use crate::{Radiance, Tile, TileLight};
+use crate::{Radiance, Tile};
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,16 +88,16 @@ impl Status {
 
 /// A way to average light over pixels.
 pub(crate) trait Integrator<C: Radiance>: Sync {
+    /// Memory to work in, used again for tile after tile.
+    type Room: Default;
+
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; what they cost.
-    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work;
+    fn integrate(&self, tile: Tile, room: &mut Self::Room, pixels: &mut Vec<Pixel<C>>) -> Work;
 
     /// Writes the tile's pixels into the band of a picture that contains it; what they cost.
-    ///
-    /// `light` is room for those that compute pixels side by side, to be used again and again.
-    fn paint(&self, tile: Tile, band: &mut Band<'_>, light: &mut TileLight) -> Work {
-        let _ = light;
+    fn paint(&self, tile: Tile, room: &mut Self::Room, band: &mut Band<'_>) -> Work {
         let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
-        let work = self.integrate(tile, &mut pixels);
+        let work = self.integrate(tile, room, &mut pixels);
         band.write(tile, &pixels);
         work
     }

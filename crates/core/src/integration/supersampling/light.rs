@@ -10,7 +10,7 @@ use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
 use crate::power::Power;
 use crate::roughness::PixelKey;
-use crate::{Color, DirectionalLight, Material, World};
+use crate::{Color, DirectionalLight, Highlight, Material, World};
 
 /// Light of eight rays, in one channel or in three.
 pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
@@ -23,6 +23,38 @@ pub(super) struct Shading<'scene> {
     pub(super) frame: i64,
     /// Whether no surface is rough.
     is_smooth: bool,
+    /// What the materials say, in the world's order.
+    finishes: Vec<Finish>,
+}
+
+/// A material, prepared.
+#[derive(Clone, Copy, Debug)]
+struct Finish {
+    albedo: Color,
+    diffuse: Power,
+    /// Its falloff and strength.
+    highlight: Option<(Power, f64)>,
+}
+
+impl Finish {
+    fn new(material: &Material) -> Self {
+        let prepare = |highlight: &Highlight| (Power::new(highlight.shininess), highlight.strength);
+        Self {
+            albedo: material.albedo,
+            diffuse: Power::new(material.exponent),
+            highlight: material.highlight.as_ref().map(prepare),
+        }
+    }
+}
+
+/// The same color in all lanes. A loop: closures are not compiled for the processor's level.
+#[inline(always)]
+pub(super) fn splat<S: Simd, const CHANNELS: usize>(simd: S, color: Color) -> Light<S, CHANNELS> {
+    let mut light = [f64x8::splat(simd, 0.0); CHANNELS];
+    for channel in 0..CHANNELS {
+        light[channel] = f64x8::splat(simd, color[channel]);
+    }
+    light
 }
 
 impl<'scene> Shading<'scene> {
@@ -35,6 +67,7 @@ impl<'scene> Shading<'scene> {
             world,
             frame,
             is_smooth,
+            finishes: world.materials().iter().map(Finish::new).collect(),
         }
     }
 
@@ -52,13 +85,10 @@ impl<'scene> Shading<'scene> {
         let normal = if self.is_smooth {
             sight.normal
         } else {
-            self.roughened(sight, place, groups)
-        };
-        let splat = |color: Color| -> Light<S, CHANNELS> {
-            std::array::from_fn(|channel| f64x8::splat(simd, color[channel]))
+            self.roughened(*sight, place, groups)
         };
         let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
-        let mut diffuse = splat(world.ambient);
+        let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
         let mut mirrored = [zero; CHANNELS];
         for (index, light) in world.lights.iter().enumerate() {
             let toward = Vectors::splat(simd, light.toward());
@@ -74,32 +104,29 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let intensity = light.intensity();
-            let spread = looks.powers(simd, facing, |material| material.exponent);
-            let spread = lit.select(spread, zero);
-            for (channel, sum) in diffuse.iter_mut().enumerate() {
-                *sum += spread * intensity[channel];
+            let intensity: Light<S, CHANNELS> = splat(simd, light.intensity());
+            let spread = lit.select(looks.spread(simd, facing), zero);
+            for channel in 0..CHANNELS {
+                diffuse[channel] += spread * intensity[channel];
             }
             if looks.has_highlight {
                 let spot = looks.spots(simd, lit, light, normal, sight);
-                for (channel, sum) in mirrored.iter_mut().enumerate() {
-                    *sum += spot * intensity[channel];
+                for channel in 0..CHANNELS {
+                    mirrored[channel] += spot * intensity[channel];
                 }
             }
         }
-        let albedo: Light<S, CHANNELS> = looks.select(simd, |material| splat(material.albedo));
-        std::array::from_fn(|channel| albedo[channel] * diffuse[channel] + mirrored[channel])
+        let albedo: Light<S, CHANNELS> = looks.albedo(simd);
+        for channel in 0..CHANNELS {
+            diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
+        }
+        diffuse
     }
 
     /// The normals with the bumps of rough surfaces.
     #[cold]
     #[inline(never)]
-    fn roughened<S: Simd>(
-        &self,
-        sight: &Sight<S>,
-        place: Place,
-        groups: &Groups<'_>,
-    ) -> Vectors<S> {
+    fn roughened<S: Simd>(&self, sight: Sight<S>, place: Place, groups: &Groups<'_>) -> Vectors<S> {
         let mut normal = sight.normal;
         for Group { near, lanes } in groups.as_slice() {
             let index = near.ball.index as usize;
@@ -131,36 +158,36 @@ pub(super) struct Looks<'scene> {
 /// A material, and the rays that see it as bits.
 #[derive(Clone, Copy)]
 struct Look<'scene> {
-    material: &'scene Material,
+    finish: &'scene Finish,
     number: u32,
     lanes: u64,
 }
 
 impl<'scene> Looks<'scene> {
     /// One look: that of the world's only material, or any.
-    pub(super) fn new(world: &'scene World, near: &Near) -> Self {
-        let material = world.material(near.ball.index as usize);
+    pub(super) fn new(shading: &'scene Shading<'_>, near: &Near) -> Self {
+        let finish = &shading.finishes[near.material as usize];
         let look = Look {
-            material,
+            finish,
             number: near.material,
             lanes: 0,
         };
         Self {
             list: [look; LANES],
             count: 1,
-            has_highlight: material.highlight.is_some(),
+            has_highlight: finish.highlight.is_some(),
         }
     }
 
     /// Takes in what is seen.
     #[inline(always)]
-    pub(super) fn see(&mut self, world: &'scene World, groups: &Groups<'_>) {
-        if world.materials().len() > 1 {
-            self.see_any(world, groups);
+    pub(super) fn see(&mut self, shading: &'scene Shading<'_>, groups: &Groups<'_>) {
+        if shading.finishes.len() > 1 {
+            self.see_any(shading, groups);
         }
     }
 
-    fn see_any(&mut self, world: &'scene World, groups: &Groups<'_>) {
+    fn see_any(&mut self, shading: &'scene Shading<'_>, groups: &Groups<'_>) {
         self.count = 0;
         self.has_highlight = false;
         for group in groups.as_slice() {
@@ -170,47 +197,40 @@ impl<'scene> Looks<'scene> {
                 look.lanes |= group.lanes;
                 continue;
             }
-            let material = &world.materials()[number as usize];
+            let finish = &shading.finishes[number as usize];
             self.list[self.count] = Look {
-                material,
+                finish,
                 number,
                 lanes: group.lanes,
             };
             self.count += 1;
-            self.has_highlight |= material.highlight.is_some();
+            self.has_highlight |= finish.highlight.is_some();
         }
     }
 
-    /// What each ray's material says.
+    /// What the first material says, or what the others say where they are seen.
     #[inline(always)]
-    fn select<S: Simd, const COUNT: usize>(
-        &self,
-        simd: S,
-        value: impl Fn(&Material) -> [f64x8<S>; COUNT],
-    ) -> [f64x8<S>; COUNT] {
-        let mut selected = value(self.list[0].material);
+    fn albedo<S: Simd, const CHANNELS: usize>(&self, simd: S) -> Light<S, CHANNELS> {
+        let mut albedo: Light<S, CHANNELS> = splat(simd, self.list[0].finish.albedo);
         for look in &self.list[1..self.count] {
             let mask = mask64x8::from_bitmask(simd, look.lanes);
-            for (selected, value) in selected.iter_mut().zip(value(look.material)) {
-                *selected = mask.select(value, *selected);
+            let other: Light<S, CHANNELS> = splat(simd, look.finish.albedo);
+            for channel in 0..CHANNELS {
+                albedo[channel] = mask.select(other[channel], albedo[channel]);
             }
         }
-        selected
+        albedo
     }
 
-    /// Bases to powers that the materials choose.
+    /// The powers of n·l.
     #[inline(always)]
-    fn powers<S: Simd>(
-        &self,
-        simd: S,
-        base: f64x8<S>,
-        exponent: impl Fn(&Material) -> f64,
-    ) -> f64x8<S> {
-        let [powers] = self.select(
-            simd,
-            |material| [Power::new(exponent(material)).lanes(base)],
-        );
-        powers
+    fn spread<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
+        let mut spread = self.list[0].finish.diffuse.lanes(facing);
+        for look in &self.list[1..self.count] {
+            let mask = mask64x8::from_bitmask(simd, look.lanes);
+            spread = mask.select(look.finish.diffuse.lanes(facing), spread);
+        }
+        spread
     }
 
     /// The highlights of a light of intensity 1, where `lit` holds; else 0.
@@ -232,14 +252,22 @@ impl<'scene> Looks<'scene> {
         let inverse = half_sq.simd_gt(zero).select(one / half_sq.sqrt(), zero);
         let facing = normal.dot(half) * inverse;
         let facing = facing.simd_gt(zero).select(facing, zero);
-        let [spots] = self.select(simd, |material| {
-            [match &material.highlight {
-                Some(highlight) => {
-                    Power::new(highlight.shininess).lanes(facing) * highlight.strength
-                }
-                None => zero,
-            }]
-        });
+        let mut spots = self.list[0].finish.spot(simd, facing);
+        for look in &self.list[1..self.count] {
+            let mask = mask64x8::from_bitmask(simd, look.lanes);
+            spots = mask.select(look.finish.spot(simd, facing), spots);
+        }
         lit.select(spots, zero)
+    }
+}
+
+impl Finish {
+    /// The highlight where the half vector has this cosine.
+    #[inline(always)]
+    fn spot<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
+        match &self.highlight {
+            Some((falloff, strength)) => falloff.lanes(facing) * *strength,
+            None => f64x8::splat(simd, 0.0),
+        }
     }
 }

@@ -17,12 +17,14 @@ use std::num::NonZeroU32;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
+use glam::DVec3;
 
-use self::light::{Light, Looks, Shading};
+use self::lanes::Vectors;
+use self::light::{Light, Looks, Shading, splat};
 use self::near::Nearby;
 use self::rays::{Place, Rays};
 use self::shadow::Shadows;
-use self::trace::{Groups, Tracer};
+use self::trace::{Groups, RayRow, Tracer};
 use super::{Evidence, Integrator, Pixel, Status, Work};
 use crate::image::{Band, Prospect};
 use crate::roughness::PixelKey;
@@ -90,7 +92,7 @@ impl<'scene> Supersampling<'scene> {
             height,
         };
         let mut pixels = Vec::with_capacity(1);
-        Integrator::<C>::integrate(self, tile, &mut pixels);
+        Integrator::<C>::integrate(self, tile, &mut Room::default(), &mut pixels);
         Pixel {
             status: Status::OutOfBudget,
             ..pixels[0]
@@ -108,22 +110,18 @@ impl<'scene> Supersampling<'scene> {
 
     /// Averages the light of a tile; how many balls were asked whether eight rays meet them, or
     /// none, and no light, where all rays meet nothing.
-    fn sample<C: Radiance>(&self, tile: Tile, light: &mut TileLight) -> Option<u64> {
+    fn sample<C: Radiance>(&self, tile: Tile, room: &mut Room) -> Option<u64> {
         if C::ZERO.channels().len() == 1 {
-            self.sample_channels::<1>(tile, light)
+            self.sample_channels::<1>(tile, room)
         } else {
-            self.sample_channels::<3>(tile, light)
+            self.sample_channels::<3>(tile, room)
         }
     }
 
-    fn sample_channels<const CHANNELS: usize>(
-        &self,
-        tile: Tile,
-        light: &mut TileLight,
-    ) -> Option<u64> {
+    fn sample_channels<const CHANNELS: usize>(&self, tile: Tile, room: &mut Room) -> Option<u64> {
         // Most pictures have empty tiles.
         self.seen.balls(tile).next()?;
-        dispatch!(self.level, simd => self.sample_lanes::<_, CHANNELS>(simd, tile, light))
+        dispatch!(self.level, simd => self.sample_lanes::<_, CHANNELS>(simd, tile, room))
     }
 
     /// What a tile cost, from the tests of eight rays.
@@ -152,64 +150,83 @@ impl<'scene> Supersampling<'scene> {
         &self,
         simd: S,
         tile: Tile,
-        light: &mut TileLight,
+        Room { nearby, light }: &mut Room,
     ) -> Option<u64> {
         let world = self.shading.world;
-        let mut nearby = Nearby::default();
-        let cone = self.rays.cone(tile);
+        let bundle = self.rays.bundle(tile);
         let cells = self.rays.cells_on_unit();
-        nearby.gather(simd, (world, cells), cone.as_ref(), self.seen.balls(tile));
+        nearby.gather(simd, (world, cells), &bundle, self.seen.balls(tile));
         let first = nearby.balls.first()?;
         let mut tracer = Tracer {
             seen: self.seen,
             rays: &self.rays,
-            nearby: &nearby,
+            nearby,
             tile,
             tests: 0,
             candidates: Vec::new(),
         };
         let mut groups = Groups::new(first);
-        let mut looks = Looks::new(world, first);
+        let mut looks = Looks::new(&self.shading, first);
         let mut shadows = world.shadows.then(|| {
             let length = libm::scalbn(1.0, self.seen.length_exponent());
             Shadows::new(self.seen.visibility, self.view.camera.position, length)
         });
         let background = self.background();
-        let background: Light<S, CHANNELS> =
-            std::array::from_fn(|channel| f64x8::splat(simd, background[channel]));
-        for row in 0..tile.height {
-            let side = self.samples.get();
-            let mut sums = Sums::<S, CHANNELS>::new(simd);
-            for cell_row in 0..side {
-                for cell_col in 0..side {
-                    let place = Place {
-                        col: tile.col,
-                        row: tile.row + row,
-                        cell_col,
-                        cell_row,
-                    };
-                    let sight = tracer.look(simd, place, &mut groups);
+        let background: Light<S, CHANNELS> = splat(simd, background);
+        let side = self.samples.get();
+        let height = tile.height as usize;
+        let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
+        let mut rows = [dark; Tile::SIDE as usize];
+        let mut sums = [Sums::<S, CHANNELS>::new(simd); Tile::SIDE as usize];
+        for cell_row in 0..side {
+            for cell_col in 0..side {
+                let mut place = Place {
+                    col: tile.col,
+                    row: tile.row,
+                    cell_col,
+                    cell_row,
+                };
+                let across = self.rays.across(simd, place, tile.width);
+                for row in &mut rows[..height] {
+                    *row = RayRow::new(simd, self.rays.directions(across, place));
+                    place.row += 1;
+                }
+                tracer.search(simd, &mut rows[..height]);
+                place.row = tile.row;
+                for (row, sums) in rows[..height].iter().zip(&mut sums) {
+                    let sight = tracer.look(simd, place, row, &mut groups);
                     let mut sample = background;
                     if sight.covered != 0 {
-                        looks.see(world, &groups);
+                        looks.see(&self.shading, &groups);
                         let seen = (&sight, &groups, &looks);
                         let light: Light<S, CHANNELS> =
                             self.shading.light(simd, seen, place, &mut shadows);
                         let covered = mask64x8::from_bitmask(simd, sight.covered);
-                        for (sample, light) in sample.iter_mut().zip(light) {
-                            *sample = covered.select(light, *sample);
+                        for channel in 0..CHANNELS {
+                            sample[channel] = covered.select(light[channel], sample[channel]);
                         }
                     }
                     sums.add(simd, sample, sight.covered);
+                    place.row += 1;
                 }
             }
+        }
+        for (row, sums) in (0..tile.height).zip(sums) {
             sums.store(simd, side, self.alpha, light.row_mut(row));
         }
         Some(tracer.tests)
     }
 }
 
+/// Memory to work in.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    nearby: Nearby,
+    light: TileLight,
+}
+
 /// What is known of eight pixels after some samples.
+#[derive(Clone, Copy)]
 struct Sums<S: Simd, const CHANNELS: usize> {
     sum: Light<S, CHANNELS>,
     low: Light<S, CHANNELS>,
@@ -220,18 +237,18 @@ struct Sums<S: Simd, const CHANNELS: usize> {
 impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
     #[inline(always)]
     fn new(simd: S) -> Self {
-        let all = |value: f64| [f64x8::splat(simd, value); CHANNELS];
         Self {
-            sum: all(0.0),
-            low: all(f64::INFINITY),
-            high: all(f64::NEG_INFINITY),
+            sum: [f64x8::splat(simd, 0.0); CHANNELS],
+            low: [f64x8::splat(simd, f64::INFINITY); CHANNELS],
+            high: [f64x8::splat(simd, f64::NEG_INFINITY); CHANNELS],
             covered: f64x8::splat(simd, 0.0),
         }
     }
 
     #[inline(always)]
     fn add(&mut self, simd: S, light: Light<S, CHANNELS>, covered: u64) {
-        for (channel, light) in light.into_iter().enumerate() {
+        for channel in 0..CHANNELS {
+            let light = light[channel];
             let (low, high) = (self.low[channel], self.high[channel]);
             self.sum[channel] += light;
             self.low[channel] = light.simd_lt(low).select(light, low);
@@ -285,21 +302,23 @@ fn pixel<C: Radiance>(light: &TileLight, col: u32, row: u32) -> Pixel<C> {
 }
 
 impl<C: Radiance> Integrator<C> for Supersampling<'_> {
-    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work {
-        let mut light = TileLight::new();
-        let tests = self.sample::<C>(tile, &mut light);
+    type Room = Room;
+
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
+        let tests = self.sample::<C>(tile, room);
+        let light = &mut room.light;
         if tests.is_none() {
             light.fill(self.background(), self.error_of_equal_samples());
         }
         let tile_pixels = tile.pixels();
-        pixels.extend(tile_pixels.map(|(col, row)| pixel(&light, col - tile.col, row - tile.row)));
+        pixels.extend(tile_pixels.map(|(col, row)| pixel(light, col - tile.col, row - tile.row)));
         self.work(tile, tests.unwrap_or(0))
     }
 
-    fn paint(&self, tile: Tile, band: &mut Band<'_>, light: &mut TileLight) -> Work {
-        let tests = self.sample::<C>(tile, light);
+    fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
+        let tests = self.sample::<C>(tile, room);
         if tests.is_some() {
-            band.write_light(tile, light);
+            band.write_light(tile, &room.light);
         } else {
             band.write_even_light(tile, self.background(), self.error_of_equal_samples());
         }

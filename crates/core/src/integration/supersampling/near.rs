@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
 use super::lanes::{LANES, Vectors, lanes_of};
-use super::rays::Cone;
+use super::rays::{Bundle, Cone};
 use crate::World;
 use crate::sphere::Ball;
 
@@ -14,6 +14,8 @@ use crate::sphere::Ball;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     pub(super) ball: Ball,
+    /// No ray of the tile meets the ball at a B ± √Q below this.
+    pub(super) begin: f64,
     pub(super) radius_sq: f64,
     pub(super) inverse_radius: f64,
     /// Where Q is at least this times A, distance and normal are computed side by side.
@@ -31,10 +33,16 @@ const RIM: f64 = 1.0 / 4096.0;
 impl Near {
     /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1.
     #[inline(always)]
-    fn new(world: &World, ball: &Ball, cells: f64) -> Self {
+    fn new(world: &World, ball: &Ball, bundle: &Bundle, cells: f64) -> Self {
         let radius_sq = ball.radius * ball.radius;
+        let length = if ball.nearest > 0.0 {
+            bundle.shortest
+        } else {
+            bundle.longest
+        };
         Self {
             ball: *ball,
+            begin: length * ball.nearest,
             radius_sq,
             inverse_radius: 1.0 / ball.radius,
             rim: if ball.is_odd() {
@@ -53,7 +61,7 @@ impl Near {
 #[derive(Debug, Default)]
 pub(super) struct Nearby {
     pub(super) balls: Vec<Near>,
-    /// The largest `blur` among them.
+    /// The largest error of a B ± √Q.
     pub(super) blur: f64,
 }
 
@@ -67,31 +75,35 @@ impl Nearby {
         &mut self,
         simd: S,
         (world, cells): (&World, f64),
-        cone: Option<&Cone>,
+        bundle: &Bundle,
         mut balls: impl Iterator<Item = &'a Ball>,
     ) {
         self.balls.clear();
         // No ray of the tile sees anything that is farther away.
         let mut farthest = f64::INFINITY;
+        let mut blur = 0.0_f64;
         while let Some(first) = balls.next() {
             if first.nearest > farthest {
                 break;
             }
             let mut group = [first; LANES];
             let mut count = 1;
-            for (slot, ball) in group[1..].iter_mut().zip(&mut balls) {
-                *slot = ball;
+            while count < LANES {
+                let Some(ball) = balls.next() else { break };
+                group[count] = ball;
                 count += 1;
             }
             let mut kept = (1 << count) - 1;
-            if let Some(cone) = cone {
+            if let Some(cone) = &bundle.cone {
                 let (missed, far) = classify(simd, cone, &group);
                 kept &= !missed;
                 farthest = farthest.min(far);
             }
             for lane in lanes_of(kept) {
-                if group[lane].nearest <= farthest {
-                    self.balls.push(Near::new(world, group[lane], cells));
+                let ball = group[lane];
+                if ball.nearest <= farthest {
+                    self.balls.push(Near::new(world, ball, bundle, cells));
+                    blur = blur.max(ball.blur);
                 }
             }
         }
@@ -102,10 +114,7 @@ impl Nearby {
         {
             self.balls.pop();
         }
-        self.blur = self
-            .balls
-            .iter()
-            .fold(0.0, |blur, near| near.ball.blur.max(blur));
+        self.blur = blur * bundle.longest;
     }
 }
 
@@ -119,14 +128,21 @@ impl Nearby {
 /// so last, at x' − √(r² − y'²).
 #[inline(always)]
 fn classify<S: Simd>(simd: S, cone: &Cone, group: &[&Ball; LANES]) -> (u64, f64) {
-    let lanes = |part: fn(&Ball) -> f64| f64x8::simd_from(simd, group.map(part));
+    let mut parts = [[0.0; LANES]; 5];
+    for (lane, ball) in group.iter().enumerate() {
+        parts[0][lane] = ball.to_center.x;
+        parts[1][lane] = ball.to_center.y;
+        parts[2][lane] = ball.to_center.z;
+        parts[3][lane] = ball.radius;
+        parts[4][lane] = ball.outside;
+    }
     let center = Vectors {
-        x: lanes(|ball| ball.to_center.x),
-        y: lanes(|ball| ball.to_center.y),
-        z: lanes(|ball| ball.to_center.z),
+        x: f64x8::simd_from(simd, parts[0]),
+        y: f64x8::simd_from(simd, parts[1]),
+        z: f64x8::simd_from(simd, parts[2]),
     };
-    let radius = lanes(|ball| ball.radius);
-    let outside = lanes(|ball| ball.outside);
+    let radius = f64x8::simd_from(simd, parts[3]);
+    let outside = f64x8::simd_from(simd, parts[4]);
     let axis = Vectors::splat(simd, cone.axis);
     let cross = center.cross(axis);
     let (x, y) = (center.dot(axis), cross.dot(cross).sqrt());

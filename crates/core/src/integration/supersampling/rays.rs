@@ -57,32 +57,38 @@ impl<'scene> Rays<'scene> {
         self.distance / (2.0 * self.half_cell)
     }
 
-    /// The directions of a sample in eight pixels, divided by that power; pixels after the first
+    /// Where a sample of eight pixels lies on the retina, to the right; pixels after the first
     /// `width` repeat the last of them.
     #[inline(always)]
-    pub(super) fn directions<S: Simd>(&self, simd: S, place: Place, width: u32) -> Vectors<S> {
+    pub(super) fn across<S: Simd>(&self, simd: S, place: Place, width: u32) -> f64x8<S> {
         let steps: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         let steps = f64x8::simd_from(simd, steps);
         let last = f64x8::splat(simd, f64::from(width - 1));
         let steps = steps.simd_lt(last).select(steps, last);
-        // Twice the distance from the middle in cells: whole numbers, far below 2⁵³.
-        let twice = |pixel: u32, cell: u32, pixels: u32| {
-            let index = i64::from(pixel) * i64::from(self.side) + i64::from(cell);
-            (2 * index + 1 - i64::from(self.side) * i64::from(pixels)) as f64
-        };
-        let first = twice(place.col, place.cell_col, self.view.width);
+        let first = self.twice(place.col, place.cell_col, self.view.width);
         let across = steps * (2.0 * f64::from(self.side)) + first;
-        let upward = twice(place.row, place.cell_row, self.view.height);
-        let u = across * self.half_cell + self.view.lens.shift.x;
-        let v = -self.half_cell * upward + self.view.lens.shift.y;
+        across * self.half_cell + self.view.lens.shift.x
+    }
 
+    /// Twice the distance of a cell from the middle, in cells: whole numbers, far below 2⁵³.
+    #[inline(always)]
+    fn twice(&self, pixel: u32, cell: u32, pixels: u32) -> f64 {
+        let index = i64::from(pixel) * i64::from(self.side) + i64::from(cell);
+        (2 * index + 1 - i64::from(self.side) * i64::from(pixels)) as f64
+    }
+
+    /// The directions of a sample in eight pixels that lie so far to the right, divided by that
+    /// power.
+    #[inline(always)]
+    pub(super) fn directions<S: Simd>(&self, u: f64x8<S>, place: Place) -> Vectors<S> {
+        let upward = self.twice(place.row, place.cell_row, self.view.height);
+        let v = -self.half_cell * upward + self.view.lens.shift.y;
         let axes = &self.view.camera.world_from_camera;
         let (up, forward) = (axes.y_axis * v, axes.z_axis * self.distance);
-        let component = |x: f64, y: f64, z: f64| (u * x + y + z) * self.scale;
         Vectors {
-            x: component(axes.x_axis.x, up.x, forward.x),
-            y: component(axes.x_axis.y, up.y, forward.y),
-            z: component(axes.x_axis.z, up.z, forward.z),
+            x: (u * axes.x_axis.x + up.x + forward.x) * self.scale,
+            y: (u * axes.x_axis.y + up.y + forward.y) * self.scale,
+            z: (u * axes.x_axis.z + up.z + forward.z) * self.scale,
         }
     }
 
@@ -98,12 +104,10 @@ impl<'scene> Rays<'scene> {
         self.view.ray(center)
     }
 
-    /// A circular cone around all rays of a tile; none where it would be wider than is worth
-    /// having.
-    pub(super) fn cone(&self, tile: Tile) -> Option<Cone> {
+    /// What is true of all rays of a tile.
+    pub(super) fn bundle(&self, tile: Tile) -> Bundle {
         /// Above all rounding errors, which are of some units in the last place.
         const WIDER: f64 = 1.0 + 1e-9;
-        const WIDEST_SINE: f64 = 0.7;
         let pixel = self.view.pixel_size();
         let middle = |first: u32, count: u32, pixels: u32| {
             f64::from(first) + 0.5 * (f64::from(count) - f64::from(pixels))
@@ -115,6 +119,19 @@ impl<'scene> Rays<'scene> {
         ) * self.scale;
         let half = DVec2::new(f64::from(tile.width), f64::from(tile.height)) * (0.5 * pixel);
         let half = half * self.scale;
+        let (center_length, reach) = (center.length(), half.length());
+        let (shortest, longest) = (center_length - reach, center_length + reach);
+        Bundle {
+            cone: self.cone(center, half),
+            shortest: shortest.max(center.z) * (1.0 / WIDER),
+            longest: longest * WIDER,
+        }
+    }
+
+    /// A circular cone around the rays through a rectangle on the retina, given in camera axes.
+    fn cone(&self, center: DVec3, half: DVec2) -> Option<Cone> {
+        const WIDER: f64 = 1.0 + 1e-9;
+        const WIDEST_SINE: f64 = 0.7;
         // The corner with the largest angle a: sin a = |center × corner| / (|center| |corner|).
         let center_sq = center.length_squared();
         let sine_sq = |x: f64, y: f64| {
@@ -132,6 +149,17 @@ impl<'scene> Rays<'scene> {
             cosine: (1.0 - sine_sq).sqrt(),
         })
     }
+}
+
+/// What is true of all rays of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bundle {
+    /// Around them; none where it would be wider than is worth having.
+    pub(super) cone: Option<Cone>,
+    /// No direction is shorter.
+    pub(super) shortest: f64,
+    /// No direction is longer.
+    pub(super) longest: f64,
 }
 
 /// A circular cone with its tip in the viewpoint.

@@ -49,7 +49,11 @@ fn pixels<C: Radiance>(samples: u32, alpha: bool) -> Vec<Pixel<C>> {
         height: 1,
     };
     let mut pixels = Vec::new();
-    Supersampling::new(&world, &view, &seen, samples, alpha).integrate(tile, &mut pixels);
+    Supersampling::new(&world, &view, &seen, samples, alpha).integrate(
+        tile,
+        &mut Room::default(),
+        &mut pixels,
+    );
     pixels
 }
 

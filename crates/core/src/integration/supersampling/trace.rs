@@ -10,6 +10,9 @@ use super::rays::{Place, Rays};
 use crate::Tile;
 use crate::visibility::{Candidate, Seen};
 
+/// All lanes of a bit mask.
+const ALL_LANES: u64 = (1 << LANES) - 1;
+
 /// The rays of a tile and all that they may meet.
 pub(super) struct Tracer<'tile> {
     pub(super) seen: &'tile Seen<'tile>,
@@ -49,7 +52,9 @@ impl<'tile> Groups<'tile> {
     }
 }
 
-/// What eight rays see; lanes that see nothing hold any numbers.
+/// What eight rays see; lanes that see nothing hold any numbers. What is cold gets copies: this stays
+/// in the processor's registers.
+#[derive(Clone, Copy)]
 pub(super) struct Sight<S: Simd> {
     pub(super) direction: Vectors<S>,
     pub(super) length_sq: f64x8<S>,
@@ -63,8 +68,11 @@ pub(super) struct Sight<S: Simd> {
     pub(super) normal: Vectors<S>,
 }
 
-/// The nearest ball of eight rays so far.
-struct Nearest<S: Simd> {
+/// A row of rays, and the nearest ball of each so far.
+#[derive(Clone, Copy)]
+pub(super) struct RayRow<S: Simd> {
+    direction: Vectors<S>,
+    length_sq: f64x8<S>,
     /// A t, the distance in multiples of the direction over the direction's square.
     key: f64x8<S>,
     /// The ball's place among those of the tile; −1 for none.
@@ -73,9 +81,84 @@ struct Nearest<S: Simd> {
     doubtful: f64x8<S>,
 }
 
+impl<S: Simd> RayRow<S> {
+    /// Rays that have met nothing.
+    #[inline(always)]
+    pub(super) fn new(simd: S, direction: Vectors<S>) -> Self {
+        let never = f64x8::splat(simd, f64::INFINITY);
+        Self {
+            direction,
+            length_sq: direction.dot(direction),
+            key: never,
+            place: f64x8::splat(simd, -1.0),
+            doubtful: never,
+        }
+    }
+}
+
 impl<'tile> Tracer<'tile> {
-    /// Finds what a row of rays sees. Whatever the bounds of rounding errors leave open is asked
-    /// of exact arithmetic.
+    /// Finds what all rows of rays see, as far as bounds of rounding errors decide it.
+    ///
+    /// The nearest certain hits, and from where on they are not certain. Two distances are compared
+    /// by their B ± √Q, whose errors [`Ball`](crate::sphere::Ball) bounds by |d| times its `blur`.
+    /// What lies closer together counts as doubtful from there on.
+    ///
+    /// Ball by ball and row by row: the rows do not wait for each other.
+    #[inline(always)]
+    pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>]) {
+        let zero = f64x8::splat(simd, 0.0);
+        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
+        for (place, near) in self.nearby.balls.iter().enumerate() {
+            let ball = &near.ball;
+            let place = f64x8::splat(simd, place as f64);
+            let begin = f64x8::splat(simd, near.begin);
+            let center = Vectors::splat(simd, ball.to_center);
+            let inside = near.root_sign > 0.0;
+            let mut tests = 0;
+            for row in &mut *rows {
+                // Whatever lies within the error of the nearest was met before, or is doubtful.
+                if begin.simd_gt(row.key + blur).all_true() {
+                    continue;
+                }
+                tests += 1;
+                let along = row.direction.dot(center);
+                let discriminant = along * along - row.length_sq * ball.outside;
+                let doubt = row.length_sq * ball.doubt;
+                let missed = discriminant.simd_lt(-doubt).to_bitmask();
+                if missed == ALL_LANES {
+                    continue;
+                }
+                let decided = discriminant.simd_gt(doubt);
+                let root = decided.select(discriminant, zero).sqrt();
+                let (met, key) = if inside {
+                    (decided, along + root)
+                } else {
+                    (decided & along.simd_gt(zero), along - root)
+                };
+                let open = !(missed | decided.to_bitmask()) & ALL_LANES;
+                if open != 0 {
+                    let sooner = mask64x8::from_bitmask(simd, open) & begin.simd_lt(row.doubtful);
+                    row.doubtful = sooner.select(begin, row.doubtful);
+                }
+                let close = met & (key - row.key).abs().simd_le(blur);
+                let closer = met & key.simd_lt(row.key);
+                row.key = closer.select(key, row.key);
+                row.place = closer.select(place, row.place);
+                if close.any_true() {
+                    let sooner = close & row.key.simd_lt(row.doubtful);
+                    row.doubtful = sooner.select(row.key, row.doubtful);
+                }
+            }
+            // The next ones begin no sooner.
+            if tests == 0 {
+                break;
+            }
+            self.tests += tests;
+        }
+    }
+
+    /// What a row of rays sees after the search. Whatever that left open is asked of exact
+    /// arithmetic.
     ///
     /// # Accuracy
     /// What is seen is exact. Where the ray meets the ball and the normal there are functions of
@@ -85,87 +168,22 @@ impl<'tile> Tracer<'tile> {
         &mut self,
         simd: S,
         place: Place,
+        row: &RayRow<S>,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
         /// Far from where squares lose digits to underflow.
         const SHORTEST_SQ: f64 = 1e-60;
-        let direction = self.rays.directions(simd, place, self.tile.width);
-        let length_sq = direction.dot(direction);
-        let nearest = self.search(simd, direction, length_sq);
-        let mut places: [f64; LANES] = nearest.place.into();
-        let trusted = length_sq.simd_gt(f64x8::splat(simd, SHORTEST_SQ));
-        let open = nearest.doubtful.simd_lt(nearest.key) | !trusted;
+        let mut places = row.place;
+        let trusted = row.length_sq.simd_gt(f64x8::splat(simd, SHORTEST_SQ));
+        // Both distances may be off by half of this, the one of what may be nearer too.
+        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
+        let open = row.doubtful.simd_lt(row.key + blur) | !trusted;
         if open.any_true() {
-            self.settle(place, open.to_bitmask(), &mut places);
+            let mut settled: [f64; LANES] = places.into();
+            self.settle(place, open.to_bitmask(), &mut settled);
+            places = f64x8::simd_from(simd, settled);
         }
-        self.meet(simd, place, (direction, length_sq), &places, groups)
-    }
-
-    /// The nearest certain hits, and from where on they are not certain.
-    ///
-    /// Two distances are compared by their B ± √Q, whose errors [`Ball`](crate::sphere::Ball)
-    /// bounds by |d| times `blur`. What lies closer together counts as doubtful from there on. The
-    /// result's `key` includes twice that error: whatever may begin before it has to be settled.
-    #[inline(always)]
-    fn search<S: Simd>(
-        &mut self,
-        simd: S,
-        direction: Vectors<S>,
-        length_sq: f64x8<S>,
-    ) -> Nearest<S> {
-        let zero = f64x8::splat(simd, 0.0);
-        let never = f64x8::splat(simd, f64::INFINITY);
-        let length = length_sq.sqrt();
-        let blur = length * (2.0 * self.nearby.blur);
-        let mut nearest = Nearest {
-            key: never,
-            place: f64x8::splat(simd, -1.0),
-            doubtful: never,
-        };
-        let mut all_met = false;
-        for (place, near) in self.nearby.balls.iter().enumerate() {
-            let ball = &near.ball;
-            // Whatever lies within the error of the nearest was met before, or is doubtful.
-            if all_met
-                && (length * ball.nearest)
-                    .simd_gt(nearest.key + blur)
-                    .all_true()
-            {
-                break;
-            }
-            self.tests += 1;
-            let center = Vectors::splat(simd, ball.to_center);
-            let along = direction.dot(center);
-            let discriminant = along * along - length_sq * ball.outside;
-            let doubt = length_sq * ball.doubt;
-            let maybe = !discriminant.simd_lt(-doubt);
-            if !maybe.any_true() {
-                continue;
-            }
-            let decided = discriminant.simd_gt(doubt);
-            let inside = near.root_sign > 0.0;
-            let met = if inside {
-                decided
-            } else {
-                decided & along.simd_gt(zero)
-            };
-            let root = decided.select(discriminant, zero).sqrt();
-            let key = if inside { along + root } else { along - root };
-
-            let open = maybe & !decided;
-            let begin = length * ball.nearest;
-            let sooner = open & begin.simd_lt(nearest.doubtful);
-            nearest.doubtful = sooner.select(begin, nearest.doubtful);
-            let close = met & (key - nearest.key).abs().simd_le(blur);
-            let closer = met & key.simd_lt(nearest.key);
-            nearest.key = closer.select(key, nearest.key);
-            nearest.place = closer.select(f64x8::splat(simd, place as f64), nearest.place);
-            let sooner = close & nearest.key.simd_lt(nearest.doubtful);
-            nearest.doubtful = sooner.select(nearest.key, nearest.doubtful);
-            all_met = all_met || nearest.key.simd_lt(never).all_true();
-        }
-        nearest.key += blur;
-        nearest
+        self.meet(simd, place, (row.direction, row.length_sq), places, groups)
     }
 
     /// Settles exactly what some rays see.
@@ -209,13 +227,11 @@ impl<'tile> Tracer<'tile> {
         simd: S,
         place: Place,
         (direction, length_sq): (Vectors<S>, f64x8<S>),
-        places: &[f64; LANES],
+        places: f64x8<S>,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
         let nearby = self.nearby;
-        let all_places = f64x8::simd_from(simd, *places);
-        let covered_mask = all_places.simd_ge(f64x8::splat(simd, 0.0));
-        let covered = covered_mask.to_bitmask();
+        let covered = places.simd_ge(f64x8::splat(simd, 0.0)).to_bitmask();
         let mut sight = Sight {
             direction,
             length_sq,
@@ -233,7 +249,7 @@ impl<'tile> Tracer<'tile> {
         while left != 0 {
             let number = places[left.trailing_zeros() as usize];
             let near = &nearby.balls[number as usize];
-            let mask = all_places.simd_eq(f64x8::splat(simd, number));
+            let mask = places.simd_eq(f64x8::splat(simd, number));
             let lanes = mask.to_bitmask();
             if count > 0 {
                 selected = selected.or(!mask, Selected::splat(simd, near));
@@ -262,7 +278,7 @@ impl<'tile> Tracer<'tile> {
         // Only the ambient light reaches inner sides, wherever they are met.
         let alone = covered & !sound.to_bitmask() & !sight.inner;
         if alone != 0 {
-            self.meet_alone(place, alone, groups, &mut sight);
+            return self.meet_alone(place, alone, groups, sight);
         }
         sight
     }
@@ -275,8 +291,8 @@ impl<'tile> Tracer<'tile> {
         place: Place,
         alone: u64,
         groups: &Groups<'_>,
-        sight: &mut Sight<S>,
-    ) {
+        mut sight: Sight<S>,
+    ) -> Sight<S> {
         let exponent = self.rays.exponent() - self.seen.length_exponent();
         for lane in lanes_of(alone) {
             let sees = |group: &Group<'_>| group.lanes >> lane & 1 == 1;
@@ -298,6 +314,7 @@ impl<'tile> Tracer<'tile> {
                 sight.inner |= 1 << lane;
             }
         }
+        sight
     }
 }
 

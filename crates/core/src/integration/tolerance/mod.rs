@@ -148,7 +148,9 @@ impl<C: Radiance> Pixel<C> {
 }
 
 impl<C: Radiance> Integrator<C> for Exact<'_> {
-    fn integrate(&self, tile: Tile, pixels: &mut Vec<Pixel<C>>) -> Work {
+    type Room = ();
+
+    fn integrate(&self, tile: Tile, (): &mut (), pixels: &mut Vec<Pixel<C>>) -> Work {
         let candidates = self.seen.indices(tile);
         let first = pixels.len();
         let mut work = dispatch!(self.level, simd => self.tile(simd, tile, &candidates, pixels));

@@ -86,7 +86,7 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
                 height: side.min(view.height - row),
             };
             let mut pixels = Vec::new();
-            integrator.integrate(tile, &mut pixels);
+            integrator.integrate(tile, &mut (), &mut pixels);
             for ((col, row), pixel) in tile.pixels().zip(pixels) {
                 found[(row * view.width + col) as usize] = Some(pixel);
             }

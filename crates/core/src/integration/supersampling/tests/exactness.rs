@@ -79,9 +79,10 @@ fn pixels(world: &World, view: &View, samples: u32, level: Level, side: u32) -> 
         ..Supersampling::new(world, view, &seen, samples, false)
     };
     let mut found = vec![None; (view.width * view.height) as usize];
+    let mut room = Room::default();
     for tile in tiles(view, side) {
         let mut pixels = Vec::new();
-        integrator.integrate(tile, &mut pixels);
+        integrator.integrate(tile, &mut room, &mut pixels);
         for ((col, row), pixel) in tile.pixels().zip(pixels) {
             found[(row * view.width + col) as usize] = Some(pixel);
         }
