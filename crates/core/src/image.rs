@@ -147,6 +147,17 @@ impl Image {
         }
     }
 
+    /// The numbers of a row's pixels from left to right: of each its channels, then its alpha where
+    /// there is one.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn row(&self, row: u32) -> &[f64] {
+        let first = self.index(0, row);
+        let stride = self.channels.count() + usize::from(self.alpha);
+        &self.values[first * stride..][..self.width as usize * stride]
+    }
+
     /// How far a pixel's numbers may be from the exact area average; infinite where nothing is
     /// known.
     pub fn error(&self, col: u32, row: u32) -> f64 {
@@ -176,11 +187,14 @@ impl Image {
     pub fn summary(&self) -> Summary {
         let is_over = |status: &Status| status.is_over_tolerance();
         let pixels = u64::from(self.width) * u64::from(self.height);
-        let evidence = self.evidence.distinct().iter().copied().min();
         Summary {
             pixels,
-            largest_error: self.errors.distinct().iter().copied().fold(0.0, f64::max),
-            evidence: evidence.unwrap_or(Evidence::Bound),
+            largest_error: largest(self.errors.distinct()),
+            evidence: if self.evidence.distinct().contains(&Evidence::Estimate) {
+                Evidence::Estimate
+            } else {
+                Evidence::Bound
+            },
             over_tolerance: match &self.statuses {
                 Plane::Same(status) if is_over(status) => pixels,
                 Plane::Same(_) => 0,
@@ -316,6 +330,13 @@ impl Band<'_> {
     fn index(&self, col: u32, row: u32) -> usize {
         (row - self.area.row) as usize * self.area.width as usize + col as usize
     }
+}
+
+/// The largest of some numbers that are not negative; they are ordered as their bits are, of which
+/// processors compare many at a time.
+fn largest(numbers: &[f64]) -> f64 {
+    let bits = numbers.iter().map(|number| number.abs().to_bits());
+    f64::from_bits(bits.max().unwrap_or(0))
 }
 
 /// Writes a number of every pixel of a row. Most rows are whole: a copy of a known length is a few

@@ -55,30 +55,47 @@ impl PngOptions {
         let depth = if self.deep { 2 } else { 1 };
         let pixels = image.width() as usize * image.height() as usize;
         let mut samples = memory::reserve(pixels * color_type.samples() * depth)?;
-        let mut push = |code_8: fn(f64) -> u8, code_16: fn(f64) -> u16, value: f64| {
-            if self.deep {
-                samples.extend(code_16(value).to_be_bytes());
-            } else {
-                samples.push(code_8(value));
-            }
-        };
         let colors = match color_type {
             ColorType::Grayscale | ColorType::GrayscaleAlpha => 1,
             _ => 3,
         };
+        let stored = match image.channels() {
+            Channels::Grey => 1,
+            Channels::Rgb => 3,
+        };
+        let is_plain = !self.deep && !image.has_alpha() && colors == stored;
         for row in 0..image.height() {
+            if is_plain {
+                srgb::encode_all_8(image.row(row), &mut samples);
+                continue;
+            }
             for col in 0..image.width() {
                 let rgba = image.rgba(col, row);
                 let alpha = rgba[3];
                 for &value in &rgba[..colors] {
-                    push(srgb::encode_8, srgb::encode_16, straight(value, alpha));
+                    let value = straight(value, alpha);
+                    self.push(&mut samples, srgb::encode_8, srgb::encode_16, value);
                 }
                 if image.has_alpha() {
-                    push(linear_8, linear_16, alpha);
+                    self.push(&mut samples, linear_8, linear_16, alpha);
                 }
             }
         }
         Ok(samples)
+    }
+
+    fn push(
+        self,
+        samples: &mut Vec<u8>,
+        code_8: fn(f64) -> u8,
+        code_16: fn(f64) -> u16,
+        value: f64,
+    ) {
+        if self.deep {
+            samples.extend(code_16(value).to_be_bytes());
+        } else {
+            samples.push(code_8(value));
+        }
     }
 }
 

@@ -17,8 +17,18 @@ const CELL_SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - INDEX_BITS;
 /// codes may go either way; `every_threshold_is_exact_to_a_few_units` settles that in whole
 /// numbers.
 pub(crate) fn encode_8(linear: f64) -> u8 {
+    encoder_8().encode(linear)
+}
+
+/// As [`encode_8`], for many numbers: the codes are put behind those in `codes`.
+pub(crate) fn encode_all_8(linear: &[f64], codes: &mut Vec<u8>) {
+    let encoder = encoder_8();
+    codes.extend(linear.iter().map(|&linear| encoder.encode(linear)));
+}
+
+fn encoder_8() -> &'static Encoder {
     static ENCODER: LazyLock<Encoder> = LazyLock::new(Encoder::new);
-    ENCODER.encode(linear)
+    &ENCODER
 }
 
 /// The 16 bit code nearest to the sRGB value of linear light.
@@ -63,8 +73,10 @@ fn threshold(code: u8) -> f64 {
 struct Encoder {
     /// The least linear light of every code; code 0 needs none, and nothing reaches code 256.
     thresholds: [f64; 257],
+    /// Where the cell of `thresholds[1]` begins.
+    least: f64,
     /// The code of the least light in every cell of equal exponent and leading mantissa bits,
-    /// from the cell of `thresholds[1]` up to 1.
+    /// from the cell of `thresholds[1]` to that of 1.
     codes: Vec<u8>,
 }
 
@@ -76,25 +88,25 @@ impl Encoder {
             thresholds[usize::from(code)] = threshold(code);
         }
         let first_cell = cell(thresholds[1]);
-        let codes = (first_cell..cell(1.0))
+        let codes = (first_cell..=cell(1.0))
             .map(|cell| {
                 let least = f64::from_bits(cell << CELL_SHIFT);
                 (thresholds.partition_point(|&threshold| threshold <= least) - 1) as u8
             })
             .collect();
-        Self { thresholds, codes }
+        Self {
+            thresholds,
+            least: f64::from_bits(first_cell << CELL_SHIFT),
+            codes,
+        }
     }
 
+    #[inline]
     fn encode(&self, linear: f64) -> u8 {
-        if linear >= 1.0 {
-            u8::MAX
-        } else if linear >= self.thresholds[1] {
-            let code = self.codes[(cell(linear) - cell(self.thresholds[1])) as usize];
-            code + u8::from(linear >= self.thresholds[usize::from(code) + 1])
-        } else {
-            // NaN comes here too.
-            0
-        }
+        // Which takes NaN to the least.
+        let linear = linear.max(self.least).min(1.0);
+        let code = self.codes[(cell(linear) - cell(self.least)) as usize];
+        code + u8::from(linear >= self.thresholds[usize::from(code) + 1])
     }
 }
 

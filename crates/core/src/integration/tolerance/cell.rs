@@ -167,7 +167,7 @@ impl Workspace {
         // An event that is located to within a width w costs w^1.5 where a pair of edges begins, less
         // elsewhere.
         let precision = Precision {
-            width: libm::pow(0.02 * goal.tolerance, 2.0 / 3.0).clamp(1e-9, 1e-2),
+            width: libm::cbrt(0.02 * goal.tolerance).powi(2).clamp(1e-9, 1e-2),
             gap: (care.gap * goal.tolerance / goal.contrast).max(1e-12),
         };
         self.cuts.has_dropped();

@@ -72,7 +72,7 @@ impl Patch {
         let spread = discriminant.spread();
         let (lowest, highest) = (discriminant.one - spread, discriminant.one + spread);
         let half = 0.5 * (along.x.abs() + along.y.abs());
-        let half_diagonal = 0.5 * cell.size[0].hypot(cell.size[1]);
+        let half_diagonal = 0.5 * DVec2::from_array(cell.size).length();
         let shortest = (cell.middle.length() - half_diagonal).max(1.0);
         let nearest = k / (along.one + half + highest.max(0.0).sqrt());
         let mut farthest = k.sqrt() / shortest;
