@@ -15,6 +15,7 @@ mod angle;
 mod camera;
 mod color;
 mod edges;
+mod hierarchy;
 mod image;
 mod integration;
 mod lanes;

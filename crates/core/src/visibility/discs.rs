@@ -19,6 +19,9 @@ pub(crate) struct Disc {
 /// Discs of all spheres that may darken one, or none where they are too many to be remembered.
 pub(super) type Remembered = Option<Box<[Disc]>>;
 
+/// In worlds with more spheres nothing is remembered: most of them are a pixel or less.
+pub(super) const MOST_REMEMBERING: usize = 1 << 17;
+
 /// More discs than this are looked up for every patch of a surface.
 const MOST_REMEMBERED: usize = 64;
 
@@ -39,12 +42,14 @@ impl Visibility<'_> {
             self.discs_near(light, sphere, &[own.center()], own.radius(), &mut discs);
             (discs.len() <= MOST_REMEMBERED).then(|| discs.into_boxed_slice())
         };
-        self.discs[light][sphere].get_or_init(remember).as_deref()
+        let remembered = self.discs[light].get(sphere)?;
+        remembered.get_or_init(remember).as_deref()
     }
 
     /// Whether [`Visibility::discs`] were asked for before.
     pub(crate) fn knows_discs(&self, light: usize, sphere: usize) -> bool {
-        self.discs[light][sphere].get().is_some()
+        let remembered = self.discs[light].get(sphere);
+        remembered.is_some_and(|remembered| remembered.get().is_some())
     }
 
     /// Appends what may keep the light with this index from points of a sphere that lie within
@@ -68,7 +73,9 @@ impl Visibility<'_> {
             (low, high) = (low.min(place), high.max(place));
         }
         let mut indices = Vec::new();
-        casters.within(points, around + error, &mut indices);
+        // From the lowest point that may be lit.
+        let bottom = casters.height(own.center()) - own.radius() - error;
+        casters.within(points, around + error, bottom, &mut indices);
         discs.extend(indices.into_iter().filter_map(|index| {
             let caster = &self.spheres[index];
             if index == sphere || caster == own {
@@ -77,9 +84,7 @@ impl Visibility<'_> {
             let radius = caster.radius() + slack(caster.center(), caster.radius()) + error;
             let center = casters.project(caster.center());
             let is_beyond = center.distance(center.clamp(low, high)) > (radius + around) * WIDER;
-            // From the lowest point that may be lit to the highest of the caster.
-            let [bottom, top] = [own, caster].map(|sphere| casters.height(sphere.center()));
-            let is_below = top + radius < bottom - own.radius() - error;
+            let is_below = casters.height(caster.center()) + radius < bottom;
             (!is_beyond && !is_below).then_some(Disc {
                 center,
                 radius: radius * WIDER,

@@ -14,13 +14,14 @@ pub(crate) use discs::Disc;
 pub(crate) use seen::{Candidate, Seen};
 
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::DVec3;
 
 use self::casters::Casters;
-use self::discs::Remembered;
-use crate::{Ray, Sphere, World};
+use self::discs::{MOST_REMEMBERING, Remembered};
+use crate::hierarchy::Hierarchy;
+use crate::{DirectionalLight, Ray, Sphere, World};
 
 /// Lengths whose squares are far from over- and underflow.
 const MODERATE: Range<f64> = 1e-35..1e35;
@@ -30,8 +31,9 @@ const MODERATE: Range<f64> = 1e-35..1e35;
 pub(crate) struct Visibility<'world> {
     spheres: &'world [Sphere],
     /// For every light what may keep it from a point; nothing in a world without shadows.
-    casters: Vec<Casters>,
-    /// For every light and sphere what may keep it from that, once it was asked for.
+    casters: Vec<Casters<'world>>,
+    /// For every light and sphere what may keep it from that, once it was asked for; nothing in a
+    /// world of very many.
     discs: Vec<Box<[OnceLock<Remembered>]>>,
     /// Whether squares of all lengths are far from over- and underflow.
     is_moderate: bool,
@@ -46,11 +48,18 @@ impl<'world> Visibility<'world> {
         } else {
             &[]
         };
-        let casters = lights
-            .iter()
-            .map(|light| Casters::new(spheres, light.toward()))
-            .collect();
-        let unasked = || spheres.iter().map(|_| OnceLock::new()).collect();
+        let hierarchy = (!lights.is_empty()).then(|| Arc::new(Hierarchy::new(spheres)));
+        let of_light = |light: &DirectionalLight| {
+            let hierarchy = hierarchy.clone()?;
+            Some(Casters::new(spheres, hierarchy, light.toward()))
+        };
+        let casters = lights.iter().filter_map(of_light).collect();
+        let remembering = if spheres.len() <= MOST_REMEMBERING {
+            spheres.len()
+        } else {
+            0
+        };
+        let unasked = || (0..remembering).map(|_| OnceLock::new()).collect();
         let is_moderate = spheres.iter().all(|sphere| {
             let largest = sphere.center().abs().max_element();
             MODERATE.contains(&sphere.radius()) && largest < MODERATE.end
@@ -93,8 +102,8 @@ impl<'world> Visibility<'world> {
         })
     }
 
-    /// Appends the spheres that may keep the light with this index from points that lie within
-    /// `around` of the box of `points`, seen along the light.
+    /// Appends the spheres that may keep the light with this index from points of space that lie
+    /// within `around` of `points` or between them.
     pub(crate) fn casters(
         &self,
         light: usize,
@@ -102,7 +111,10 @@ impl<'world> Visibility<'world> {
         around: f64,
         casters: &mut Vec<usize>,
     ) {
-        self.casters[light].within(points, around, casters);
+        let of_light = &self.casters[light];
+        let heights = points.iter().map(|&point| of_light.height(point));
+        let lowest = heights.fold(f64::INFINITY, f64::min) - around;
+        of_light.within(points, around, lowest, casters);
     }
 }
 

@@ -1,0 +1,174 @@
+//! A hierarchy of boxes around spheres.
+//!
+//! Its boxes are in single precision and rounded outward: they leave out what cannot matter, and
+//! decide nothing.
+
+mod boxes;
+mod order;
+
+pub(crate) use boxes::{Boxes, WIDTH};
+
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
+
+use self::order::NOBODY;
+use crate::Sphere;
+
+/// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
+/// their number alone.
+///
+/// It takes 4 bytes a sphere for the order and 3.5 for the boxes.
+#[derive(Clone, Debug)]
+pub(crate) struct Hierarchy {
+    /// The indices of the spheres, group by group.
+    order: Vec<u32>,
+    /// The boxes of the groups of spheres, then those of groups of groups; the last level has one
+    /// element, unless there is no sphere.
+    levels: Vec<Vec<Boxes>>,
+}
+
+/// A node: eight boxes of a level.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) level: u32,
+    pub(crate) index: u32,
+}
+
+/// What a box of a node holds.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Child<'tree> {
+    Node(Node),
+    /// Indices of spheres; [`Hierarchy::is_sphere`] tells the places that hold one.
+    Spheres(&'tree [u32]),
+}
+
+impl Hierarchy {
+    /// The hierarchy of some spheres, on the threads of the current rayon pool.
+    pub(crate) fn new(spheres: &[Sphere]) -> Self {
+        const NODES_A_TASK: usize = 256;
+        let order = order::order(spheres);
+        let mut levels = Vec::new();
+        let leaves: Vec<Boxes> = order
+            .par_chunks(WIDTH * WIDTH)
+            .with_min_len(NODES_A_TASK)
+            .map(|groups| {
+                let mut boxes = Boxes::EMPTY;
+                for (place, group) in groups.chunks(WIDTH).enumerate() {
+                    for &index in group.iter().filter(|&&index| is_sphere(index)) {
+                        boxes.add_sphere(place, &spheres[index as usize]);
+                    }
+                }
+                boxes
+            })
+            .collect();
+        levels.push(leaves);
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+            let above = last
+                .par_chunks(WIDTH)
+                .with_min_len(NODES_A_TASK)
+                .map(|children| {
+                    let mut boxes = Boxes::EMPTY;
+                    for (place, child) in children.iter().enumerate() {
+                        boxes.add_all(place, child);
+                    }
+                    boxes
+                })
+                .collect();
+            levels.push(above);
+        }
+        Self { order, levels }
+    }
+
+    /// The node above all others, unless there is no sphere.
+    pub(crate) fn root(&self) -> Option<Node> {
+        let level = self.levels.len() - 1;
+        let is_there = !self.levels[level].is_empty();
+        is_there.then_some(Node {
+            level: level as u32,
+            index: 0,
+        })
+    }
+
+    /// The boxes of a node.
+    pub(crate) fn boxes(&self, node: Node) -> &Boxes {
+        &self.levels[node.level as usize][node.index as usize]
+    }
+
+    /// What one of the boxes of a node holds.
+    pub(crate) fn child(&self, node: Node, place: usize) -> Child<'_> {
+        let index = node.index as usize * WIDTH + place;
+        if node.level == 0 {
+            Child::Spheres(&self.order[index * WIDTH..][..WIDTH])
+        } else {
+            Child::Node(Node {
+                level: node.level - 1,
+                index: index as u32,
+            })
+        }
+    }
+
+    /// Calls `found` with the indices of all spheres whose boxes, and those around them, `may`
+    /// matter; it says so of eight boxes as bits. Each sphere once, and others too.
+    pub(crate) fn query(&self, mut may: impl FnMut(&Boxes) -> u8, mut found: impl FnMut(u32)) {
+        self.find(&mut may, &mut |index| {
+            found(index);
+            false
+        });
+    }
+
+    /// Whether something `holds` for any sphere that [`Hierarchy::query`] would find; no further
+    /// one is asked then.
+    pub(crate) fn any(
+        &self,
+        mut may: impl FnMut(&Boxes) -> u8,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        self.find(&mut may, &mut holds)
+    }
+
+    fn find(
+        &self,
+        may: &mut impl FnMut(&Boxes) -> u8,
+        holds: &mut impl FnMut(u32) -> bool,
+    ) -> bool {
+        // Seven siblings wait on each of the levels: there are at most eleven.
+        let mut waiting = [Node { level: 0, index: 0 }; 96];
+        let mut count = 0;
+        if let Some(root) = self.root() {
+            waiting[0] = root;
+            count = 1;
+        }
+        while count > 0 {
+            count -= 1;
+            let node = waiting[count];
+            let boxes = self.boxes(node);
+            let mut left = may(boxes) & boxes.filled();
+            while left != 0 {
+                let place = left.trailing_zeros() as usize;
+                left &= left - 1;
+                match self.child(node, place) {
+                    Child::Node(node) => {
+                        waiting[count] = node;
+                        count += 1;
+                    }
+                    Child::Spheres(indices) => {
+                        for &index in indices {
+                            if is_sphere(index) && holds(index) {
+                                return true;
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        false
+    }
+}
+
+/// Whether a place in a group holds a sphere.
+pub(crate) fn is_sphere(index: u32) -> bool {
+    index != NOBODY
+}
+
+#[cfg(test)]
+mod tests;
