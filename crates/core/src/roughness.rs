@@ -100,7 +100,7 @@ impl Bumps {
             let is_here = nearest[0].simd_eq(x[lane])
                 & nearest[1].simd_eq(y[lane])
                 & nearest[2].simd_eq(z[lane]);
-            let cell = cells.cell(self.key, [x[lane] as i64, y[lane] as i64, z[lane] as i64]);
+            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
             let drawn = cell.blend(offset);
             draw = [
                 is_here.select(drawn[0], draw[0]),
