@@ -7,6 +7,7 @@ mod breaks;
 mod cell;
 mod contents;
 mod cut;
+mod facings;
 mod fill;
 mod glimpse;
 mod piece;

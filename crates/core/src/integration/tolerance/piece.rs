@@ -318,7 +318,11 @@ impl Surroundings<'_> {
             || {
                 let end = interval.start + interval.width;
                 let mut turns = Turns::default();
-                let Search { parts, steps } = Search::of(self.tolerance, finish.jumps());
+                let middle = cut::ray(simd, self.cell, y * 0.0, y * 0.0);
+                let negligible = 0.01 * self.tolerance;
+                let jumps = finish.jumps(simd, self.scene, &middle, self.cell.size, negligible);
+                let jumps = jumps.to_bitmask() != 0;
+                let Search { parts, steps } = Search::of(self.tolerance, jumps);
                 let points = parts * interval.division;
                 *samples += 8 * u64::from(points + 1);
                 let nothing = Look {
@@ -390,7 +394,7 @@ impl Surroundings<'_> {
                 let is_even = turns.counts[..NODES]
                     .iter()
                     .all(|&count| count == turns.counts[0]);
-                let likeness = match (is_even, finish.jumps()) {
+                let likeness = match (is_even, jumps) {
                     (true, _) => Likeness::Rough,
                     (false, false) => Likeness::Uneven,
                     (false, true) => Likeness::Jumpy,
@@ -398,7 +402,7 @@ impl Surroundings<'_> {
                 let mut least_error: f64 = 0.0;
                 for (nearest, in_camera) in nearest.iter().zip(&self.scene.lights) {
                     if let Some(range) = nearest.range_of_turn() {
-                        let light = finish.cost_of_any_turn(simd, in_camera, range);
+                        let light = finish.cost_of_any_turn(simd, in_camera, range, jumps);
                         least_error += light * interval.width[0].max(interval.width[NODES - 1]);
                     }
                 }

@@ -32,6 +32,9 @@ pub(super) const GRID: [[usize; 3]; 3] = [[1, 5, 2], [6, 0, 7], [3, 8, 4]];
 pub(super) const FROM_STAR: f64 = 0.6;
 pub(super) const FROM_GRID: f64 = 0.4;
 
+/// How far a corner is from the middle, in distances of the star's other samples.
+pub(super) const TO_CORNER: f64 = 1.290_994_448_735_805_6;
+
 pub(super) const POINTS: [Sample; SAMPLES] = {
     const OUTER: f64 = 0.387_298_334_620_741_7;
     const GAUSS: [f64; 3] = [-OUTER, 0.0, OUTER];

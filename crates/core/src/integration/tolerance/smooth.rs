@@ -3,11 +3,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
+use super::facings::{Extremes, Facings};
 use super::samples::{
     FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, Sample, WEIGHTS,
 };
 use super::scene::{InCamera, MOST_LIGHTS};
-use super::surface::{Facings, Finish, Points};
+use super::surface::{Finish, Points};
 use crate::edges::{Ball, Vectors};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance};
@@ -67,14 +68,19 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
         settled: mask64x8::splat(simd, false),
     };
     let mut grid = star;
+    let mut hopeless = star.settled;
     let mut samples = POINTS.len();
     for (index, sample) in POINTS.iter().enumerate() {
         if index == STAR_SAMPLES {
             star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
+            if filled.finish.is_rough() {
+                let known = filled.missed(simd, scene, &facings, 0.0);
+                hopeless = known.simd_gt(filled.tolerance);
+            }
         } else if index == GAUSS_SAMPLES {
             grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
         }
-        let settled = star.settled | grid.settled;
+        let settled = star.settled | grid.settled | hopeless;
         if filled.which & !settled.to_bitmask() == 0 {
             samples = index;
             break;
@@ -120,6 +126,7 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     if is_rough {
         error += filled.missed(simd, scene, &facings, FROM_GRID);
     }
+    error = hopeless.select(zero + f64::INFINITY, error);
     error = grid.settled.select(grid.error, error);
     error = star.settled.select(star.error, error);
     for lane in 0..8 {
@@ -282,13 +289,6 @@ impl<S: Simd> Filled<'_, S> {
             if is_star {
                 settled &= self.is_small();
             }
-            if !self.finish.has_whole_exponent() {
-                for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
-                    let reach = self.changes(light, facings, 2.0) * (1.0 / HURRIED);
-                    let lit = mask64x8::from_bitmask(simd, *lit);
-                    settled &= !(facings.undecided(light, reach) & lit);
-                }
-            }
         }
         settled &= error.simd_le(self.tolerance);
         Calm { error, settled }
@@ -321,20 +321,46 @@ impl<S: Simd> Filled<'_, S> {
         (self.turn * self.finish.grain()).simd_lt(SMALL)
     }
 
-    /// How much a rough surface's facing of a light changes within some half diagonals, at most: as
-    /// much as its normals may turn; an estimate by its change from sample to sample where a pixel is
-    /// small beside its bumps.
+    /// How a rough surface faces a light all over the pixels, how far that is in doubt when no point is
+    /// farther from samples than `from_samples`, and what it changes by at most.
+    ///
+    /// By how fast its normals may turn; an estimate by the samples where a pixel is small beside its
+    /// bumps.
     #[inline(always)]
-    fn changes(&self, light: usize, facings: &Facings<S>, distance: f64) -> f64x8<S> {
-        /// Samples are about one and a half half diagonals apart; and caution.
-        const OF_RANGE: f64 = 1.9;
-        let bound = self.turn * (self.finish.slope_bound() * distance);
-        let estimate = facings.range(light) * (OF_RANGE * distance).min(1.5);
-        self.is_small().select(bound.min(estimate), bound)
+    fn faces(
+        &self,
+        light: usize,
+        facings: &Facings<S>,
+        from_samples: f64,
+    ) -> (Extremes<S>, f64x8<S>, f64x8<S>) {
+        /// How far corners are off, and points at the sides, of what samples and corners differ by,
+        /// and of what they bend by beyond what parabolas tell.
+        const OF_RANGE: f64 = 0.4;
+        const OF_BEND: f64 = 1.5;
+        /// Of how far normals may turn, for each cell of the noise.
+        const OF_TURN: f64 = 0.1;
+        const CAUTION: f64 = 1.2;
+        let slope = self.turn * self.finish.slope_bound();
+        let (samples, corners) = (facings.of_samples(light), facings.to_corners(light));
+        let cells = self.turn * self.finish.grain();
+        let doubt = corners.range() * OF_RANGE + corners.bend * OF_BEND + slope * cells * OF_TURN;
+        let range = corners.range() * CAUTION;
+        let is_small = self.is_small();
+        let extremes = Extremes {
+            lowest: is_small.select(corners.lowest, samples.lowest),
+            highest: is_small.select(corners.highest, samples.highest),
+            bend: corners.bend,
+        };
+        let bound = slope * from_samples;
+        (
+            extremes,
+            is_small.select(doubt * from_samples, bound).min(bound),
+            is_small.select(range, slope * 2.0).min(slope * 2.0),
+        )
     }
 
     /// What samples, from which no point is farther than `from_samples`, may miss where a rough
-    /// surface faces a light here and averts itself from it there.
+    /// surface faces a light here and averts itself from it there; from 0 what is missed for sure.
     #[inline(always)]
     fn missed(
         &self,
@@ -345,13 +371,16 @@ impl<S: Simd> Filled<'_, S> {
     ) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
         let mut missed = zero;
+        let sides = [self.size; 2];
+        let negligible = 0.01 * self.tolerance;
+        let jumps = self
+            .finish
+            .jumps(simd, scene, &self.middle, sides, negligible);
         for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
-            let reach = self.changes(light, facings, from_samples);
-            let range = self.changes(light, facings, 2.0);
-            let undecided = facings.undecided(light, reach) & mask64x8::from_bitmask(simd, *lit);
-            let most = self
-                .finish
-                .cost_of_turning(scene, light, range, facings.spot(light));
+            let (extremes, doubt, range) = self.faces(light, facings, from_samples);
+            let undecided = extremes.undecided(doubt) & mask64x8::from_bitmask(simd, *lit);
+            let spot = jumps.select(facings.spot(light), zero);
+            let most = self.finish.cost_of_turning(scene, light, range, spot);
             missed += undecided.select(most, zero);
             if self.finish.has_blunt_spot() {
                 /// As with the facing of lights.
