@@ -10,6 +10,7 @@ mod cut;
 mod facings;
 mod fill;
 mod glimpse;
+mod parts;
 mod piece;
 mod pixel;
 mod rule;

@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::facings::{Extremes, Facings};
+use super::parts::SIZE_OF_PARTS;
 use super::samples::{
     FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, Sample, WEIGHTS,
 };
@@ -18,6 +19,8 @@ use crate::{Color, Radiance};
 pub(super) struct Smooth {
     pub(super) values: [Color; 8],
     pub(super) errors: [f64; 8],
+    /// Which of the pixels are better divided, bit by bit.
+    pub(super) divisible: u64,
     /// How many samples each of the pixels took.
     pub(super) samples: usize,
 }
@@ -27,9 +30,9 @@ pub(super) struct Smooth {
 pub(super) struct Filled<'a, S: Simd> {
     pub(super) ball: &'a Ball,
     pub(super) finish: &'a Finish<'a>,
-    /// The rays through the middles, and the pixels' side on the retina at distance 1.
+    /// The rays through the middles, and the pixels' sides on the retina at distance 1.
     pub(super) middle: Vectors<S>,
-    pub(super) size: f64,
+    pub(super) size: [f64; 2],
     /// Which of the pixels each light reaches, bit by bit.
     pub(super) lit: &'a [u64; MOST_LIGHTS],
     /// How far normals turn from the middles to the corners, at most.
@@ -63,19 +66,22 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     let mut lights = [[zero; 3]; GAUSS_SAMPLES];
     // Along both diagonals: Kronrod's rule less Gauss's.
     let mut apart = [[zero; 3]; 2];
+    let never = mask64x8::splat(simd, false);
     let mut star = Calm {
         error: zero,
-        settled: mask64x8::splat(simd, false),
+        is_known: never,
+        settled: never,
     };
     let mut grid = star;
-    let mut hopeless = star.settled;
+    // Where a terminator of bumps costs too much, whatever further samples tell.
+    let mut hopeless = never;
     let mut samples = POINTS.len();
     for (index, sample) in POINTS.iter().enumerate() {
         if index == STAR_SAMPLES {
             star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
             if filled.finish.is_rough() {
-                let known = filled.missed(simd, scene, &facings, 0.0);
-                hopeless = known.simd_gt(filled.tolerance);
+                let missed = filled.missed(simd, scene, &facings, FROM_GRID);
+                hopeless = !star.settled & missed.simd_gt(filled.tolerance);
             }
         } else if index == GAUSS_SAMPLES {
             grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
@@ -97,6 +103,7 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     let mut result = Smooth {
         values: [Color::ZERO; 8],
         errors: [0.0; 8],
+        divisible: 0,
         samples,
     };
     let is_rough = filled.finish.is_rough();
@@ -132,11 +139,21 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     for lane in 0..8 {
         result.errors[lane] = error[lane];
     }
+    if is_rough {
+        result.divisible = filled.gains_by_parts(&star).to_bitmask();
+    }
     result
 }
 
 /// The error of an exponential function over the cube of its bend.
 const NATURAL: f64 = 1.5e-4;
+
+/// Half diagonals over cells of the noise, where five samples of a pixel are enough to know bumps by;
+/// by more samples, or parts, larger ones are.
+const SMALL: f64 = 0.25;
+
+/// The pace at which light is no more calm.
+const HURRIED: f64 = 0.25;
 
 /// The relative error that rounding makes.
 const ROUNDING: f64 = 1e-15;
@@ -166,7 +183,7 @@ fn bend_of_star<S: Simd>(lights: &[[f64x8<S>; 3]; GAUSS_SAMPLES], channel: usize
 
 /// How many samples have been taken.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-enum Stage {
+pub(super) enum Stage {
     Star,
     Grid,
 }
@@ -198,8 +215,10 @@ fn share_of_bell<S: Simd>(turn: f64x8<S>, exponent: f64, stage: Stage) -> f64x8<
 
 /// What is known of the error without Kronrod's samples.
 #[derive(Clone, Copy, Debug)]
-struct Calm<S: Simd> {
-    error: f64x8<S>,
+pub(super) struct Calm<S: Simd> {
+    pub(super) error: f64x8<S>,
+    /// Where that can be said.
+    pub(super) is_known: mask64x8<S>,
     /// Where that is enough.
     settled: mask64x8<S>,
 }
@@ -207,7 +226,7 @@ struct Calm<S: Simd> {
 impl<S: Simd> Filled<'_, S> {
     /// The light at a sample of each pixel.
     #[inline(always)]
-    fn light<C: Radiance>(
+    pub(super) fn light<C: Radiance>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -216,8 +235,8 @@ impl<S: Simd> Filled<'_, S> {
         noise: &mut Option<Box<NoiseCells>>,
     ) -> [f64x8<S>; 3] {
         let mut ray = self.middle;
-        ray.x += sample.u * self.size;
-        ray.y += sample.v * self.size;
+        ray.x += sample.u * self.size[0];
+        ray.y += sample.v * self.size[1];
         let points = Points::new(simd, self.ball, ray);
         let facings = self.finish.is_told().then_some(facings);
         self.finish
@@ -230,7 +249,7 @@ impl<S: Simd> Filled<'_, S> {
     /// how much there is, so that a weak highlight on a bright surface counts. The star's rule is
     /// off by 1/720 of the mixed fourth derivative.
     #[inline(always)]
-    fn calm<C: Radiance>(
+    pub(super) fn calm<C: Radiance>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -238,8 +257,6 @@ impl<S: Simd> Filled<'_, S> {
         stage: Stage,
         facings: &Facings<S>,
     ) -> Calm<S> {
-        /// The pace at which light is no more calm.
-        const HURRIED: f64 = 0.25;
         /// What the fourth and the sixth derivative of a root contribute at a pace of 1.
         const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
         /// The errors of exponential functions over the square of their bend and what they change
@@ -282,16 +299,20 @@ impl<S: Simd> Filled<'_, S> {
         if self.finish.is_told() {
             error = error.max(self.of_lobes(scene, stage, facings));
         }
-        let mut settled = self.pace.simd_lt(HURRIED);
+        let mut is_known = self.pace.simd_lt(HURRIED);
         if is_rough {
             let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
             error += self.missed(simd, scene, facings, from_samples);
             if is_star {
-                settled &= self.is_small();
+                is_known &= self.is_within(SMALL);
             }
         }
-        settled &= error.simd_le(self.tolerance);
-        Calm { error, settled }
+        let settled = is_known & error.simd_le(self.tolerance);
+        Calm {
+            error,
+            is_known,
+            settled,
+        }
     }
 
     /// What rules do to bells exp(−κ) where normals turn through them, however the bend of light
@@ -313,12 +334,20 @@ impl<S: Simd> Filled<'_, S> {
         sum
     }
 
-    /// Which pixels are small beside the bumps of the surface.
+    /// Which pixels' half diagonals are less than some cells of the noise.
     #[inline(always)]
-    fn is_small(&self) -> mask64x8<S> {
-        /// Half diagonals over cells of the noise.
-        const SMALL: f64 = 0.25;
-        (self.turn * self.finish.grain()).simd_lt(SMALL)
+    fn is_within(&self, cells: f64) -> mask64x8<S> {
+        (self.turn * self.finish.grain()).simd_lt(cells)
+    }
+
+    /// Which pixels' parts are small beside the bumps, and promise an error that is small enough.
+    #[inline(always)]
+    fn gains_by_parts(&self, star: &Calm<S>) -> mask64x8<S> {
+        /// Errors of parts over the whole pixel's, at best.
+        const GAIN: f64 = 0.1;
+        self.is_within(SMALL / SIZE_OF_PARTS)
+            & self.pace.simd_lt(HURRIED / SIZE_OF_PARTS)
+            & (star.error * GAIN).simd_le(self.tolerance)
     }
 
     /// How a rough surface faces a light all over the pixels, how far that is in doubt when no point is
@@ -345,7 +374,7 @@ impl<S: Simd> Filled<'_, S> {
         let cells = self.turn * self.finish.grain();
         let doubt = corners.range() * OF_RANGE + corners.bend * OF_BEND + slope * cells * OF_TURN;
         let range = corners.range() * CAUTION;
-        let is_small = self.is_small();
+        let is_small = self.is_within(SMALL / SIZE_OF_PARTS);
         let extremes = Extremes {
             lowest: is_small.select(corners.lowest, samples.lowest),
             highest: is_small.select(corners.highest, samples.highest),
@@ -371,11 +400,10 @@ impl<S: Simd> Filled<'_, S> {
     ) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
         let mut missed = zero;
-        let sides = [self.size; 2];
         let negligible = 0.01 * self.tolerance;
         let jumps = self
             .finish
-            .jumps(simd, scene, &self.middle, sides, negligible);
+            .jumps(simd, scene, &self.middle, self.size, negligible);
         for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
             let (extremes, doubt, range) = self.faces(light, facings, from_samples);
             let undecided = extremes.undecided(doubt) & mask64x8::from_bitmask(simd, *lit);
