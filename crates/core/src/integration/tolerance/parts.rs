@@ -79,10 +79,11 @@ pub(super) fn in_parts<S: Simd, C: Radiance>(
             let mut facings = Facings::new(simd);
             let mut lights = [[zero; 3]; GAUSS_SAMPLES];
             let mut sum = [zero; 3];
-            for (index, sample) in POINTS[..STAR_SAMPLES].iter().enumerate() {
-                lights[index] = parts.light::<C>(simd, scene, sample, &mut facings, noise);
+            let of_star = parts.light::<C, STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
+            lights[..STAR_SAMPLES].copy_from_slice(&of_star);
+            for (light, sample) in of_star.iter().zip(&POINTS) {
                 for channel in 0..C::CHANNELS {
-                    sum[channel] += lights[index][channel] * sample.star;
+                    sum[channel] += light[channel] * sample.star;
                 }
             }
             let calm = parts.calm::<C>(simd, scene, &lights, Stage::Star, &facings);

@@ -444,10 +444,15 @@ impl Surroundings<'_> {
                 let mut coarse = [zero; 3];
                 let mut lowest = one * f64::INFINITY;
                 let mut highest = one * f64::NEG_INFINITY;
+                let mut points = [Points::nowhere(simd); NODES];
                 for node in 0..NODES {
                     let x = start + width * rule.nodes[node];
-                    let points = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
-                    let light = finish.radiance::<S, C>(simd, scene, &points, lit, noise, None);
+                    points[node] = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
+                }
+                let normals = finish.normals(simd, scene, &points, noise);
+                for node in 0..NODES {
+                    let (points, normal) = (&points[node], &normals[node]);
+                    let light = finish.radiance::<S, C>(simd, scene, points, normal, lit, None);
                     for channel in 0..C::CHANNELS {
                         fine[channel] += light[channel] * rule.fine[node];
                         coarse[channel] += light[channel] * rule.coarse[node];

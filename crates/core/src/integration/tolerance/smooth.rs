@@ -6,7 +6,7 @@ use fearless_simd::{f64x8, mask64x8};
 use super::facings::{Extremes, Facings};
 use super::parts::SIZE_OF_PARTS;
 use super::samples::{
-    FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, Sample, WEIGHTS,
+    FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, SAMPLES, STAR_SAMPLES, Sample, WEIGHTS,
 };
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::surface::{Finish, Points};
@@ -67,37 +67,39 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     // Along both diagonals: Kronrod's rule less Gauss's.
     let mut apart = [[zero; 3]; 2];
     let never = mask64x8::splat(simd, false);
-    let mut star = Calm {
+    let mut grid = Calm {
         error: zero,
         is_known: never,
         settled: never,
     };
-    let mut grid = star;
     // Where a terminator of bumps costs too much, whatever further samples tell.
     let mut hopeless = never;
-    let mut samples = POINTS.len();
-    for (index, sample) in POINTS.iter().enumerate() {
-        if index == STAR_SAMPLES {
-            star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
-            if filled.finish.is_rough() {
-                let missed = filled.missed(simd, scene, &facings, FROM_GRID);
-                hopeless = !star.settled & missed.simd_gt(filled.tolerance);
+    let star_lights = filled.light::<C, STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
+    lights[..STAR_SAMPLES].copy_from_slice(&star_lights);
+    let star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
+    if filled.finish.is_rough() {
+        let missed = filled.missed(simd, scene, &facings, FROM_GRID);
+        hopeless = !star.settled & missed.simd_gt(filled.tolerance);
+    }
+    let mut samples = STAR_SAMPLES;
+    let settled = star.settled | hopeless;
+    if filled.which & !settled.to_bitmask() != 0 {
+        let rest = filled.light::<C, GRID_REST>(simd, scene, samples, &mut facings, noise);
+        lights[STAR_SAMPLES..].copy_from_slice(&rest);
+        grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
+        samples = GAUSS_SAMPLES;
+        let settled = settled | grid.settled;
+        if filled.which & !settled.to_bitmask() != 0 {
+            for (light, sample) in lights.iter().zip(&POINTS) {
+                add_apart::<S, C>(&mut apart, light, sample);
             }
-        } else if index == GAUSS_SAMPLES {
-            grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
-        }
-        let settled = star.settled | grid.settled | hopeless;
-        if filled.which & !settled.to_bitmask() == 0 {
-            samples = index;
-            break;
-        }
-        let light = filled.light::<C>(simd, scene, sample, &mut facings, noise);
-        if let Some(lights) = lights.get_mut(index) {
-            *lights = light;
-        }
-        for channel in 0..C::CHANNELS {
-            apart[0][channel] += light[channel] * sample.apart[0];
-            apart[1][channel] += light[channel] * sample.apart[1];
+            while samples < SAMPLES {
+                let more = filled.light::<C, ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
+                for (light, sample) in more.iter().zip(&POINTS[samples..]) {
+                    add_apart::<S, C>(&mut apart, light, sample);
+                }
+                samples += ON_DIAGONAL;
+            }
         }
     }
     let mut result = Smooth {
@@ -143,6 +145,23 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
         result.divisible = filled.gains_by_parts(&star).to_bitmask();
     }
     result
+}
+
+/// Gauss's samples beside the star, and Kronrod's on each diagonal.
+const GRID_REST: usize = GAUSS_SAMPLES - STAR_SAMPLES;
+const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
+
+/// Adds what a sample contributes to what Kronrod's rule finds more along both diagonals.
+#[inline(always)]
+fn add_apart<S: Simd, C: Radiance>(
+    apart: &mut [[f64x8<S>; 3]; 2],
+    light: &[f64x8<S>; 3],
+    sample: &Sample,
+) {
+    for channel in 0..C::CHANNELS {
+        apart[0][channel] += light[channel] * sample.apart[0];
+        apart[1][channel] += light[channel] * sample.apart[1];
+    }
 }
 
 /// The error of an exponential function over the cube of its bend.
@@ -224,23 +243,34 @@ pub(super) struct Calm<S: Simd> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The light at a sample of each pixel.
+    /// The light at some samples of each pixel, from the one with the number `first`.
     #[inline(always)]
-    pub(super) fn light<C: Radiance>(
+    pub(super) fn light<C: Radiance, const COUNT: usize>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
-        sample: &Sample,
+        first: usize,
         facings: &mut Facings<S>,
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> [f64x8<S>; 3] {
-        let mut ray = self.middle;
-        ray.x += sample.u * self.size[0];
-        ray.y += sample.v * self.size[1];
-        let points = Points::new(simd, self.ball, ray);
-        let facings = self.finish.is_told().then_some(facings);
-        self.finish
-            .radiance::<S, C>(simd, scene, &points, self.lit, noise, facings)
+    ) -> [[f64x8<S>; 3]; COUNT] {
+        let zero = f64x8::splat(simd, 0.0);
+        let mut points = [Points::nowhere(simd); COUNT];
+        for (points, sample) in points.iter_mut().zip(&POINTS[first..]) {
+            let mut ray = self.middle;
+            ray.x += sample.u * self.size[0];
+            ray.y += sample.v * self.size[1];
+            *points = Points::new(simd, self.ball, ray);
+        }
+        let normals = self.finish.normals(simd, scene, &points, noise);
+        let mut lights = [[zero; 3]; COUNT];
+        for index in 0..COUNT {
+            let facings = self.finish.is_told().then_some(&mut *facings);
+            let (points, normal) = (&points[index], &normals[index]);
+            lights[index] = self
+                .finish
+                .radiance::<S, C>(simd, scene, points, normal, self.lit, facings);
+        }
+        lights
     }
 
     /// An estimate of the error by how much light bends, where it is calm.

@@ -23,6 +23,23 @@ pub(super) struct Points<S: Simd> {
 }
 
 impl<S: Simd> Points<S> {
+    /// None that anything is known of.
+    #[inline(always)]
+    pub(super) fn nowhere(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let nothing = Vectors {
+            x: zero,
+            y: zero,
+            z: zero,
+        };
+        Self {
+            ray: nothing,
+            ray_sq: zero,
+            t: zero,
+            normal: nothing,
+        }
+    }
+
     /// The points in the directions `ray`; a ray that misses counts as grazing.
     #[inline(always)]
     pub(super) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
@@ -310,10 +327,28 @@ impl<'scene> Finish<'scene> {
         points: &Points<S>,
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Vectors<S> {
-        match &self.bumps {
-            Relief::Smooth => points.normal,
-            relief => relief.turned(simd, scene, &points.normal, noise),
+        let [normal] = self.normals(simd, scene, &[*points], noise);
+        normal
+    }
+
+    /// The normals that light is computed with, of several points in each lane: side by side they wait
+    /// less for each other's roots and quotients.
+    #[inline(always)]
+    pub(super) fn normals<S: Simd, const COUNT: usize>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        points: &[Points<S>; COUNT],
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> [Vectors<S>; COUNT] {
+        let mut normals = [points[0].normal; COUNT];
+        for (normal, points) in normals.iter_mut().zip(points) {
+            *normal = points.normal;
         }
+        if !matches!(self.bumps, Relief::Smooth) {
+            self.bumps.turn(simd, scene, &mut normals, noise);
+        }
+        normals
     }
 
     /// Whether powers of what faces a light, and of a blunt highlight, are smooth where they begin.
@@ -329,16 +364,16 @@ impl<'scene> Finish<'scene> {
         self.is_rough() && self.specular.is_some() && self.exponents()[1] < SMOOTH
     }
 
-    /// The light that points send to the eye, in the channels that `C` counts; `lit` tells for each
-    /// light, bit by bit, which of the points it reaches.
+    /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels
+    /// that `C` counts; `lit` tells for each light, bit by bit, which of the points it reaches.
     #[inline(always)]
     pub(super) fn radiance<S: Simd, C: Radiance>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
         points: &Points<S>,
+        normal: &Vectors<S>,
         lit: &[u64; MOST_LIGHTS],
-        noise: &mut Option<Box<NoiseCells>>,
         mut facings: Option<&mut Facings<S>>,
     ) -> [f64x8<S>; 3] {
         let material = self.material;
@@ -346,7 +381,6 @@ impl<'scene> Finish<'scene> {
         let one = f64x8::splat(simd, 1.0);
         let constant = material.albedo * scene.ambient;
         let mut sum = [one * constant.x, one * constant.y, one * constant.z];
-        let normal = self.normal(simd, scene, points, noise);
         // With v = −d / |d|: n·h = (n·l + n·v) / |l + v|, and |l + v|² = 2 + 2 l·v.
         let (mut scale, mut to_eye) = (zero, zero);
         if self.specular.is_some() {
@@ -393,32 +427,44 @@ impl<'scene> Finish<'scene> {
 }
 
 impl Relief {
-    /// The normals of a rough surface.
+    /// Turns normals of a rough surface.
     #[inline(never)]
-    fn turned<S: Simd>(
+    fn turn<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
-        normal: &Vectors<S>,
+        normals: &mut [Vectors<S>],
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> Vectors<S> {
+    ) {
         simd.vectorize(
             #[inline(always)]
             || {
-                let rough = turned(normal, &scene.world_from_camera);
-                let [x, y, z] = match self {
-                    Self::Smooth => [rough.x, rough.y, rough.z],
+                let to_world = &scene.world_from_camera;
+                let from_world = &to_world.transpose();
+                match self {
+                    Self::Smooth => {}
                     Self::Bumpy(bumps) => {
                         let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
-                        bumps.perturb_lanes([rough.x, rough.y, rough.z], noise)
+                        for normal in &mut *normals {
+                            let Vectors { x, y, z } = turned(normal, to_world);
+                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
+                            *normal = Vectors { x, y, z };
+                        }
                     }
-                    Self::Factors(factors) => unit([
-                        rough.x * factors.x,
-                        rough.y * factors.y,
-                        rough.z * factors.z,
-                    ]),
-                };
-                turned(&Vectors { x, y, z }, &scene.world_from_camera.transpose())
+                    Self::Factors(factors) => {
+                        for normal in &mut *normals {
+                            let mut rough = turned(normal, to_world);
+                            rough.x *= factors.x;
+                            rough.y *= factors.y;
+                            rough.z *= factors.z;
+                            *normal = rough;
+                        }
+                    }
+                }
+                for normal in normals {
+                    let [x, y, z] = unit([normal.x, normal.y, normal.z]);
+                    *normal = turned(&Vectors { x, y, z }, from_world);
+                }
             },
         )
     }
