@@ -90,14 +90,11 @@ impl<S: Simd> Facings<S> {
 
     /// How the samples, and the corners by the parabolas through those on the diagonals, face a light.
     #[inline(always)]
-    pub(super) fn to_corners(&self, light: usize) -> Extremes<S> {
+    pub(super) fn with_corners(&self, light: usize) -> Extremes<S> {
         let mut extremes = self.of_samples(light);
         let star = &self.star[light];
         let middle = star[GRID[1][1]];
-        for [one, other] in [
-            [GRID[0][0], GRID[2][2]],
-            [GRID[0][2], GRID[2][0]],
-        ] {
+        for [one, other] in [[GRID[0][0], GRID[2][2]], [GRID[0][2], GRID[2][0]]] {
             let bend = (star[one] - middle) + (star[other] - middle);
             let slope = (star[one] - star[other]) * (0.5 * TO_CORNER);
             let center = bend * (0.5 * TO_CORNER * TO_CORNER) + middle;
@@ -128,5 +125,40 @@ impl<S: Simd> Facings<S> {
     #[inline(always)]
     pub(super) fn spot(&self, light: usize) -> f64x8<S> {
         self.spots[light]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use fearless_simd::{Level, dispatch};
+
+    use super::super::samples::POINTS;
+    use super::*;
+
+    /// Parabolas along both diagonals are followed to the corners.
+    #[test]
+    fn corners_are_faced_as_parabolas_tell() {
+        let facing = |u: f64, v: f64| 0.1 + 0.7 * u - 0.4 * v + 0.9 * u * u + 0.3 * u * v;
+        let [lowest, highest] = dispatch!(Level::new(), simd => {
+            let mut facings = Facings::new(simd);
+            for sample in &POINTS[..STAR_SAMPLES] {
+                facings.note(0, f64x8::splat(simd, facing(sample.u, sample.v)));
+                facings.taken += 1;
+            }
+            let extremes = facings.with_corners(0);
+            [extremes.lowest[3], extremes.highest[5]]
+        });
+        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)];
+        let corners = corners.map(|(u, v)| facing(u, v));
+        let above = corners.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let below = corners.into_iter().fold(facing(0.0, 0.0), f64::min);
+        assert!(
+            (highest - above).abs() < 1e-15,
+            "{highest} instead of {above}"
+        );
+        assert!(
+            (lowest - below).abs() < 1e-15,
+            "{lowest} instead of {below}"
+        );
     }
 }

@@ -44,16 +44,16 @@ pub(super) fn in_parts<S: Simd, C: Radiance>(
             let normal = Points::new(simd, filled.ball, middle).normal;
             // The surface recedes the way that its normal leans.
             let is_wide = normal.x[0].abs() > normal.y[0].abs();
-            let mut places = [[0.0; 8]; 2];
-            for part in 0..8 {
-                let (halves, quarters) = (part % 2, part / 2);
-                let half = 0.5 * halves as f64 - 0.25;
-                let quarter = 0.25 * quarters as f64 - 0.375;
-                let [u, v] = if is_wide { [quarter, half] } else { [half, quarter] };
-                places[0][part] = u;
-                places[1][part] = v;
-            }
-            let [u, v]: [f64x8<S>; 2] = [places[0].simd_into(simd), places[1].simd_into(simd)];
+            // Halves along one axis, quarters along the other.
+            let half: f64x8<S> =
+                [-0.25, 0.25, -0.25, 0.25, -0.25, 0.25, -0.25, 0.25].simd_into(simd);
+            let quarter: f64x8<S> =
+                [-0.375, -0.375, -0.125, -0.125, 0.125, 0.125, 0.375, 0.375].simd_into(simd);
+            let [u, v] = if is_wide {
+                [quarter, half]
+            } else {
+                [half, quarter]
+            };
             middle.x += u * filled.size[0];
             middle.y += v * filled.size[1];
             let [width, height] = filled.size;

@@ -445,9 +445,9 @@ impl Surroundings<'_> {
                 let mut lowest = one * f64::INFINITY;
                 let mut highest = one * f64::NEG_INFINITY;
                 let mut points = [Points::nowhere(simd); NODES];
-                for node in 0..NODES {
-                    let x = start + width * rule.nodes[node];
-                    points[node] = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
+                for (points, &node) in points.iter_mut().zip(&rule.nodes) {
+                    let x = start + width * node;
+                    *points = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
                 }
                 let normals = finish.normals(simd, scene, &points, noise);
                 for node in 0..NODES {

@@ -125,6 +125,16 @@ mod tests {
     }
 
     #[test]
+    fn corners_are_beyond_the_star() {
+        for number in [GRID[0][0], GRID[0][2], GRID[2][0], GRID[2][2]] {
+            let Sample { u, v, .. } = POINTS[number];
+            assert!((u.abs() * TO_CORNER - 0.5).abs() < 1e-15);
+            assert!((v.abs() * TO_CORNER - 0.5).abs() < 1e-15);
+            assert!(number < STAR_SAMPLES);
+        }
+    }
+
+    #[test]
     fn the_grid_lies_in_rows() {
         for (row, numbers) in GRID.iter().enumerate() {
             for (col, &number) in numbers.iter().enumerate() {

@@ -94,7 +94,8 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
                 add_apart::<S, C>(&mut apart, light, sample);
             }
             while samples < SAMPLES {
-                let more = filled.light::<C, ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
+                let more =
+                    filled.light::<C, ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
                 for (light, sample) in more.iter().zip(&POINTS[samples..]) {
                     add_apart::<S, C>(&mut apart, light, sample);
                 }
@@ -400,7 +401,7 @@ impl<S: Simd> Filled<'_, S> {
         const OF_TURN: f64 = 0.1;
         const CAUTION: f64 = 1.2;
         let slope = self.turn * self.finish.slope_bound();
-        let (samples, corners) = (facings.of_samples(light), facings.to_corners(light));
+        let (samples, corners) = (facings.of_samples(light), facings.with_corners(light));
         let cells = self.turn * self.finish.grain();
         let doubt = corners.range() * OF_RANGE + corners.bend * OF_BEND + slope * cells * OF_TURN;
         let range = corners.range() * CAUTION;
