@@ -420,7 +420,7 @@ impl<S: Simd> Filled<'_, S> {
     }
 
     /// What samples, from which no point is farther than `from_samples`, may miss where a rough
-    /// surface faces a light here and averts itself from it there; from 0 what is missed for sure.
+    /// surface faces a light here and averts itself from it there.
     #[inline(always)]
     fn missed(
         &self,
