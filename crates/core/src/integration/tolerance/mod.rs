@@ -7,8 +7,10 @@ mod breaks;
 mod cell;
 mod contents;
 mod cut;
+mod facings;
 mod fill;
 mod glimpse;
+mod parts;
 mod piece;
 mod pixel;
 mod rule;
@@ -21,9 +23,11 @@ mod trust;
 mod turns;
 
 use std::num::NonZeroU32;
+use std::sync::Mutex;
 
 use fearless_simd::{Level, dispatch};
 
+use self::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
 use self::trust::trusted;
 use super::{Evidence, Integrator, Pixel, Status, Supersampling, Work};
@@ -33,7 +37,7 @@ use crate::visibility::Seen;
 use crate::{Radiance, Tile, View, World};
 
 /// Averages to a tolerance.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Exact<'scene> {
     scene: InCamera<'scene>,
     view: &'scene View,
@@ -52,6 +56,9 @@ pub(crate) struct Exact<'scene> {
     level: Level,
     /// About the largest difference of light that an edge may make.
     contrast: f64,
+    /// What tiles that are done worked with: the next ones take it over, and what it remembers of
+    /// the noise.
+    spare: Mutex<Vec<Workspace>>,
 }
 
 /// Samples on a side of a pixel that cannot be integrated.
@@ -103,6 +110,7 @@ impl<'scene> Exact<'scene> {
             alpha,
             level: Level::new(),
             contrast,
+            spare: Mutex::default(),
         }
     }
 

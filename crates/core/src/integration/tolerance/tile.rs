@@ -1,9 +1,10 @@
 //! The pixels of a tile: which of them see one sphere and no edge, and which need lines.
 
+use std::sync::PoisonError;
+
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::glimpse::Glimpse;
 use crate::integration::{Evidence, Pixel, Status, Work};
@@ -29,7 +30,8 @@ impl Exact<'_> {
         if candidates.is_empty() {
             return Work::default();
         }
-        let mut workspace = Workspace::default();
+        let spare = || self.spare.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut workspace = spare().pop().unwrap_or_default();
         let mut cache = CasterCache::new(self.cell(tile));
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<usize> = Vec::new();
@@ -95,8 +97,10 @@ impl Exact<'_> {
                 }
             }
         }
-        workspace.work.candidate_tests += cache.tests;
-        workspace.work
+        let mut work = std::mem::take(&mut workspace.work);
+        work.candidate_tests += cache.tests;
+        spare().push(workspace);
+        work
     }
 
     fn empty<C: Radiance>(&self) -> Pixel<C> {
