@@ -1,10 +1,9 @@
 //! The pixels of a tile: which of them see one sphere and no edge, and which need lines.
 
-use std::sync::PoisonError;
-
 use fearless_simd::prelude::*;
 
 use super::Exact;
+use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::glimpse::Glimpse;
 use crate::integration::{Evidence, Pixel, Status, Work};
@@ -17,6 +16,7 @@ impl Exact<'_> {
         simd: S,
         tile: Tile,
         candidates: &[usize],
+        workspace: &mut Workspace,
         pixels: &mut Vec<Pixel<C>>,
     ) -> Work {
         if candidates.iter().any(|&sphere| !self.trusted[sphere]) {
@@ -30,8 +30,6 @@ impl Exact<'_> {
         if candidates.is_empty() {
             return Work::default();
         }
-        let spare = || self.spare.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut workspace = spare().pop().unwrap_or_default();
         let mut cache = CasterCache::new(self.cell(tile));
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<usize> = Vec::new();
@@ -74,7 +72,7 @@ impl Exact<'_> {
                             })
                         };
                         if spheres.len() != 1 || !covers(spheres[0]) {
-                            *pixel = self.pixel(simd, here, &spheres, &mut cache, &mut workspace);
+                            *pixel = self.pixel(simd, here, &spheres, &mut cache, workspace);
                             continue;
                         }
                     }
@@ -85,25 +83,17 @@ impl Exact<'_> {
                 }
                 for (sphere, which) in singles {
                     self.fill(
-                        simd,
-                        start,
-                        sphere,
-                        which,
-                        &glimpses,
-                        &mut cache,
-                        &mut workspace,
-                        pixels,
+                        simd, start, sphere, which, &glimpses, &mut cache, workspace, pixels,
                     );
                 }
             }
         }
         let mut work = std::mem::take(&mut workspace.work);
         work.candidate_tests += cache.tests;
-        spare().push(workspace);
         work
     }
 
-    fn empty<C: Radiance>(&self) -> Pixel<C> {
+    pub(super) fn empty<C: Radiance>(&self) -> Pixel<C> {
         Pixel {
             value: C::from_color(self.background()),
             alpha: 0.0,
