@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
-use rayon::iter::ParallelIterator;
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use thiserror::Error;
 
 use crate::image::Prospect;
@@ -125,7 +125,10 @@ fn fill<C: Radiance, I: Integrator<C>>(
     integrator: &I,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
 ) -> Result<(), Cancelled> {
-    let bands = image.bands_mut(Tile::SIDE).map(|mut band| {
+    // One by one: bands differ in what they cost, and threads that wait for the last take longer than
+    // all handing over.
+    let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
+    let bands = bands.map(|mut band| {
         let mut work = Work::default();
         let Tile {
             row, width, height, ..
