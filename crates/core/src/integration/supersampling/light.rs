@@ -87,8 +87,33 @@ impl<'scene> Shading<'scene> {
                 }
             }
         }
-        let albedo: Light<S, CHANNELS> = looks.select(simd, |material| splat(material.albedo));
+        let mut albedo: Light<S, CHANNELS> = looks.select(simd, |material| splat(material.albedo));
+        if world.has_own_albedos() {
+            self.own_albedos(simd, groups, &mut albedo);
+        }
         std::array::from_fn(|channel| albedo[channel] * diffuse[channel] + mirrored[channel])
+    }
+
+    /// Takes the albedos from the spheres that have their own.
+    #[inline(never)]
+    fn own_albedos<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        groups: &Groups<'_>,
+        albedo: &mut Light<S, CHANNELS>,
+    ) {
+        for Group { near, lanes } in groups.as_slice() {
+            let own = self.world.albedo(near.ball.index as usize);
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let mask = mask64x8::from_bitmask(simd, *lanes);
+                    for (channel, albedo) in albedo.iter_mut().enumerate() {
+                        *albedo = mask.select(f64x8::splat(simd, own[channel]), *albedo);
+                    }
+                },
+            );
+        }
     }
 
     /// The normals with the bumps of rough surfaces.
