@@ -23,6 +23,7 @@ mod report;
 mod rig;
 mod scene;
 mod suggest;
+mod table;
 mod token;
 mod turntable;
 
