@@ -1,12 +1,13 @@
 //! The chemical elements: their symbols, colors and radii.
 
 use glam::DVec3;
+use serde::Deserialize;
 
 use crate::color::from_srgb;
 use crate::suggest::closest;
 
 /// Which radii elements have.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 pub(crate) enum Radii {
     /// How near molecules come to each other.
     #[default]

@@ -50,7 +50,7 @@ impl LineFault {
     pub(crate) fn new(line: &[u8], span: Range<usize>, expected: &str) -> Self {
         let found = String::from_utf8_lossy(&line[span.clone()]);
         let found = match &*found {
-            "" if span.end == line.len() => String::from("the end of the line"),
+            "" if line[span.end..].trim_ascii().is_empty() => String::from("the end of the line"),
             "" => String::from("nothing"),
             found => show(found),
         };

@@ -29,9 +29,16 @@ pub(crate) struct Lines {
 impl Lines {
     /// The lines of a file; a byte order mark at its start is skipped.
     pub(crate) fn new(file: File) -> Result<Self, TableError> {
+        // A byte more than the file has, so that its end is found.
+        let whole = file.metadata()?.len().saturating_add(1);
+        let size = match usize::try_from(whole) {
+            // What is no ordinary file says that it is empty.
+            Ok(size) if size > 1 => size.min(BLOCK),
+            _ => BLOCK,
+        };
         let mut lines = Self {
             file,
-            buffer: vec![0; BLOCK],
+            buffer: vec![0; size],
             start: 0,
             end: 0,
             is_at_end: false,

@@ -22,8 +22,10 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-pub(crate) use colormap::Colormap;
-pub(crate) use element::Radii;
+use serde::Deserialize;
+
+pub(crate) use colormap::{Colormap, index as color_index};
+pub(crate) use element::{Radii, colors as element_colors};
 pub(crate) use fault::{TableFault, TablePlace};
 pub(crate) use rows::{Paint, Rows};
 
@@ -43,7 +45,7 @@ pub(crate) struct Request {
 }
 
 /// What gives spheres their colors.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 pub(crate) enum Coloring {
     /// The material.
     Material,

@@ -8,7 +8,7 @@ use super::columns::{Plan, RadiusSource, Slot};
 use super::fault::LineFault;
 use super::lines::{Lines, without_return};
 use super::rows::{Numbers, Rows};
-use super::{Coloring, TableError, TableFault, element};
+use super::{Coloring, TableError, element};
 use crate::fault::show;
 
 /// How lines are divided.
