@@ -139,8 +139,7 @@ fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)>
     }
     if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
-        let camera =
-            format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
+        let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
         rows.push(("  seen by", camera));
     }
     rows
