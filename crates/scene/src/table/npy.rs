@@ -155,11 +155,11 @@ fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, TableFault>
                 Literal::Text(kind),
                 Literal::List(shape),
             ] => {
-                let sizes = shape.iter().map(|size| match size {
+                let mut sizes = shape.iter().map(|size| match size {
                     Literal::Whole(size) => Some(*size),
                     _ => None,
                 });
-                let count = sizes.fold(Some(1_u64), |all, size| all?.checked_mul(size?));
+                let count = sizes.try_fold(1_u64, |all, size| all.checked_mul(size?));
                 const MOST_VALUES: u64 = 1000;
                 let Some(count) = count.filter(|count| *count <= MOST_VALUES) else {
                     return Err(fault(format!(
