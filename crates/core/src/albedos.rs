@@ -53,7 +53,14 @@ impl Albedos {
             Self::Each(albedos) => albedos
                 .iter()
                 .all(|[red, green, blue]| red == green && green == blue),
-            Self::Palette { colors, .. } => colors.iter().copied().all(is_grey),
+            Self::Palette { colors, indices } => {
+                let mut is_used = [false; 256];
+                for index in indices {
+                    is_used[usize::from(*index)] = true;
+                }
+                let used = colors.iter().zip(&is_used).filter(|(_, used)| **used);
+                used.into_iter().all(|(color, _)| is_grey(*color))
+            }
         }
     }
 }

@@ -28,6 +28,7 @@ struct Painted {
     /// The index of the first.
     first: usize,
     albedos: Albedos,
+    is_grey: bool,
 }
 
 /// One of a world's materials.
@@ -87,7 +88,11 @@ impl World {
         let count = spheres.len();
         if let Some(albedos) = albedos {
             assert_eq!(albedos.len(), count, "an albedo for every sphere");
-            self.painted.push(Painted { first, albedos });
+            self.painted.push(Painted {
+                first,
+                is_grey: albedos.are_grey(),
+                albedos,
+            });
         }
         if first < count {
             // The few go before the many: there is never a second copy of the many.
@@ -167,7 +172,7 @@ impl World {
             && used
                 .into_iter()
                 .all(|(material, _)| is_grey(material.albedo))
-            && self.painted.iter().all(|some| some.albedos.are_grey())
+            && self.painted.iter().all(|some| some.is_grey)
     }
 }
 
@@ -253,6 +258,12 @@ mod tests {
         let white = world.add_material(Material::MATTE_WHITE);
         let grey = Albedos::Each(vec![[0.25; 3]; 4]);
         world.add_spheres(spheres(4, 0.0), white, Some(grey));
+        // Colors that no sphere has do not count.
+        let palette = Albedos::Palette {
+            colors: vec![Color::X, Color::ONE],
+            indices: vec![1, 1],
+        };
+        world.add_spheres(spheres(2, 0.0), white, Some(palette));
         assert!(world.is_grey());
     }
 }

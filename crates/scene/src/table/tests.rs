@@ -748,6 +748,8 @@ fn any_byte_of_a_table_may_be_another_one() {
             "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), clouds: [(file: \"{name}\")])"
         );
         let check = |bytes: &[u8]| {
+            // A new file is written sooner than an old one is replaced.
+            let _ = fs::remove_file(&path);
             fs::write(&path, bytes).unwrap();
             if let Err(error) = Scene::parse(&text, &folder.0.join("scene.ron")) {
                 let fault = &error.faults()[0];
@@ -759,7 +761,7 @@ fn any_byte_of_a_table_may_be_another_one() {
         };
         for at in 0..good.len() {
             check(&good[..at]);
-            for other in [0, b'\n', b'9', b'-', b'"', b',', b':', 0xff] {
+            for other in [b'\n', b'9', b'-', b'"', 0xff] {
                 let mut bytes = good.clone();
                 bytes[at] = other;
                 check(&bytes);
