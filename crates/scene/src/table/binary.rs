@@ -3,6 +3,8 @@
 use std::fs::File;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
 
+use rayon::prelude::*;
+
 use super::columns::{Plan, Slot};
 use super::fault::TablePlace;
 use super::rows::{Numbers, Rows};
@@ -71,16 +73,10 @@ pub(crate) struct Layout {
 }
 
 /// About how much of the file is held at a time, and the longest row, in bytes.
-const BLOCK: u64 = 1 << 20;
+const BLOCK: u64 = 1 << 21;
 
-/// A value that is needed.
-struct Value {
-    slot: Slot,
-    kind: Kind,
-    column: usize,
-    /// Where its first is in a block, in bytes.
-    offset: usize,
-}
+/// Rows that are decoded as one piece of work.
+const PIECE: usize = 1 << 13;
 
 /// Reads a table.
 pub(crate) fn read(mut file: File, layout: &Layout, plan: &Plan) -> Result<Rows, TableError> {
@@ -131,7 +127,21 @@ pub(crate) fn read(mut file: File, layout: &Layout, plan: &Plan) -> Result<Rows,
                 _ => error.into(),
             });
         }
-        decode(&buffer, layout, stride, first, count, plan, &mut rows)?;
+        let block = Block {
+            layout,
+            plan,
+            stride,
+            bytes: &buffer,
+            first,
+            count: count as usize,
+            values: values(layout, plan, stride, count),
+        };
+        // What comes of it does not depend on who decodes which piece.
+        let starts = (0..block.count).into_par_iter().step_by(PIECE);
+        let pieces: Vec<_> = starts.map(|start| block.decode(start)).collect();
+        for piece in pieces {
+            rows.append(piece?, usize::MAX);
+        }
         first += count;
     }
     Ok(rows)
@@ -157,78 +167,101 @@ fn read_columns(
     Ok(())
 }
 
-/// Adds the rows of a block.
-fn decode(
-    block: &[u8],
-    layout: &Layout,
-    stride: u64,
-    first: u64,
-    count: u64,
-    plan: &Plan,
-    rows: &mut Rows,
-) -> Result<(), TableError> {
+/// A value of a row that is needed.
+#[derive(Clone, Copy, Debug)]
+struct Value {
+    slot: Slot,
+    kind: Kind,
+    column: usize,
+    /// Where its first is in a block, and how far on the next, in bytes.
+    offset: usize,
+    step: usize,
+}
+
+/// The values that are needed of the rows of a block, so many.
+fn values(layout: &Layout, plan: &Plan, stride: u64, count: u64) -> Vec<Value> {
     let mut values = Vec::new();
     let mut offset = 0;
     for (column, (slot, kind)) in plan.slots.iter().zip(&layout.kinds).enumerate() {
+        let (step, size) = if layout.is_by_column {
+            (kind.size(), kind.size() * count)
+        } else {
+            (stride, kind.size())
+        };
         if let Some(slot) = *slot {
             values.push(Value {
                 slot,
                 kind: *kind,
                 column,
                 offset: offset as usize,
+                step: step as usize,
             });
         }
-        offset += kind.size() * if layout.is_by_column { count } else { 1 };
+        offset += size;
     }
-    let mut numbers: Numbers = [0.0; Slot::COUNT];
-    for row in 0..count as usize {
-        for value in &values {
-            let step = if layout.is_by_column {
-                value.kind.size()
-            } else {
-                stride
-            };
-            let at = value.offset + row * step as usize;
-            let number = block.get(at..).and_then(|bytes| value.kind.decode(bytes));
-            let number = number.unwrap_or(f64::NAN);
-            if let Some(expected) = value.slot.refusal(number, plan.is_encoded) {
-                let row = first + row as u64;
-                let expected = plan.expected(value.column, expected);
-                return Err(fault(layout, row, value.column, stride, &expected, number).into());
-            }
-            numbers[value.slot as usize] = number;
-        }
-        let atom = numbers[Slot::Element as usize] as u8;
-        rows.push(plan, &numbers, atom).map_err(|expected| {
-            let row = first + row as u64;
-            fault(layout, row, 0, stride, expected, f64::NAN)
-        })?;
-    }
-    Ok(())
+    values
 }
 
-/// Something else was expected than this number.
-#[cold]
-fn fault(
-    layout: &Layout,
-    row: u64,
-    column: usize,
+/// Some rows, as they are stored.
+struct Block<'file> {
+    layout: &'file Layout,
+    plan: &'file Plan,
+    /// Bytes of a row.
     stride: u64,
-    expected: &str,
-    number: f64,
-) -> TableFault {
-    let before: u64 = layout.kinds[..column].iter().map(|kind| kind.size()).sum();
-    let byte = if layout.is_by_column {
-        layout.rows * before + row * layout.kinds[column].size()
-    } else {
-        row * stride + before
-    };
-    TableFault {
-        place: TablePlace::Row {
-            row: row + 1,
-            column: column + 1,
-            byte: layout.start + byte,
-        },
-        message: format!("expected {expected}, found {number}"),
+    bytes: &'file [u8],
+    /// The place of the first row in the table.
+    first: u64,
+    count: usize,
+    values: Vec<Value>,
+}
+
+impl Block<'_> {
+    /// The rows of the piece that begins with the row `start` of the block.
+    fn decode(&self, start: usize) -> Result<Rows, TableError> {
+        let end = self.count.min(start + PIECE);
+        let mut rows = Rows::new(self.plan);
+        rows.reserve((end - start) as u64)?;
+        let mut numbers: Numbers = [0.0; Slot::COUNT];
+        for row in start..end {
+            for value in &self.values {
+                let bytes = self.bytes.get(value.offset + row * value.step..);
+                let number = bytes.and_then(|bytes| value.kind.decode(bytes));
+                let number = number.unwrap_or(f64::NAN);
+                if let Some(expected) = value.slot.refusal(number, self.plan.is_encoded) {
+                    let expected = self.plan.expected(value.column, expected);
+                    return Err(self.fault(row, value.column, &expected, number).into());
+                }
+                numbers[value.slot as usize] = number;
+            }
+            let atom = numbers[Slot::Element as usize];
+            if let Err(expected) = rows.push(self.plan, &numbers, atom as u8) {
+                let mut values = self.values.iter();
+                let element = values.find(|value| value.slot == Slot::Element);
+                let column = element.map_or(0, |value| value.column);
+                return Err(self.fault(row, column, expected, atom).into());
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Something else was expected than this number.
+    #[cold]
+    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> TableFault {
+        let layout = self.layout;
+        let row = self.first + row as u64;
+        let before: u64 = layout.kinds[..column].iter().map(|kind| kind.size()).sum();
+        let byte = if layout.is_by_column {
+            layout.rows * before + row * layout.kinds[column].size()
+        } else {
+            row * self.stride + before
+        };
+        TableFault {
+            place: TablePlace::Row {
+                row: row + 1,
+                column: column + 1,
+                byte: layout.start + byte,
+            },
+            message: format!("expected {expected}, found {number}"),
+        }
     }
 }

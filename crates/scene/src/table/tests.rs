@@ -590,6 +590,21 @@ fn npy_of_records_is_read() {
     assert_eq!(albedos(&scene), [Color::new(1.0, 0.0, 1.0)]);
     let argon = self::scene("a.npy", npy(header, &row), "color: Element");
     assert_eq!(albedos(&argon), [from_srgb(0x80d1e3)]);
+    let header = header.replace("'radius'", "'charge'");
+    let argon = self::scene("a.npy", npy(&header, &row), "");
+    assert_eq!(spheres(&argon), [[1.0, 2.0, 3.0, 1.88]]);
+    let at = row.len() - 4;
+    for (number, expected) in [
+        (118, "an element whose radius is known"),
+        (119, "the number of an element, from 1 to 118 for `element`"),
+    ] {
+        row[at] = number;
+        let bytes = npy(&header, &row);
+        let byte = bytes.len() - 4;
+        let expected =
+            format!("a.npy: row 1, column 9, byte {byte}: expected {expected}, found {number}");
+        assert_eq!(refusal("a.npy", bytes, ""), expected);
+    }
 }
 
 #[test]
