@@ -64,11 +64,12 @@ impl Exact<'_> {
         }
         let easy = which & !hard;
         let any_lit = lit.iter().fold(0, |any, lit| any | lit) & easy;
-        let constant = C::from_color(material.albedo * scene.ambient);
+        let ambient = world.albedo(sphere) * scene.ambient;
+        let constant = C::from_color(ambient);
         let flat = Pixel {
             value: constant,
             alpha: 1.0,
-            error: (material.albedo * scene.ambient).max_element() * UNIT_ROUNDOFF,
+            error: ambient.max_element() * UNIT_ROUNDOFF,
             evidence: Evidence::Bound,
             status: Status::Met,
         };

@@ -246,7 +246,7 @@ impl Surroundings<'_> {
         let active = &contents.active[position];
         let material = world.material(active.sphere);
         if interval.view >> 32 == 0 {
-            let constant = material.albedo * scene.ambient;
+            let constant = world.albedo(active.sphere) * scene.ambient;
             for channel in 0..C::CHANNELS {
                 sum[channel] += interval.width * constant[channel];
             }

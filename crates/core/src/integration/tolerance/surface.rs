@@ -9,7 +9,7 @@ use super::scene::{InCamera, Light, MOST_LIGHTS};
 use crate::edges::{Ball, Vectors};
 use crate::power::Power;
 use crate::roughness::{Bumps, NoiseCells, PixelKey, unit};
-use crate::{Material, Radiance};
+use crate::{Color, Material, Radiance};
 
 /// Points of a sphere that the eye sees from outside.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +88,7 @@ impl<S: Simd> Points<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Finish<'scene> {
     material: &'scene Material,
+    albedo: Color,
     diffuse: Power,
     specular: Option<(f64, Power)>,
     bumps: Relief,
@@ -114,6 +115,7 @@ impl<'scene> Finish<'scene> {
         };
         Self {
             material,
+            albedo: scene.world.albedo(sphere),
             diffuse: Power::new(material.exponent),
             specular: material
                 .highlight
@@ -145,7 +147,7 @@ impl<'scene> Finish<'scene> {
             return 0;
         }
         let facing = points.normal.dot_one(light.toward);
-        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let diffuse = (self.albedo * light.intensity).max_element();
         let height = self.diffuse.lanes(highest_cosine(facing, turn)) * diffuse;
         let is_turning = (turn_sq * self.material.exponent).simd_gt(2.0 * most);
         let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
@@ -199,7 +201,7 @@ impl<'scene> Finish<'scene> {
         spot: f64x8<S>,
         shares: [f64x8<S>; 2],
     ) -> f64x8<S> {
-        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let diffuse = (self.albedo * light.intensity).max_element();
         let strength = self.specular.map_or(0.0, |(strength, _)| strength);
         let specular = strength * light.intensity.max_element();
         let facing = facing.max(facing * 0.0);
@@ -241,7 +243,7 @@ impl<'scene> Finish<'scene> {
     ) -> f64x8<S> {
         let exponent = self.material.exponent;
         let intensity = scene.lights[light].intensity;
-        let diffuse = (self.material.albedo * intensity).max_element();
+        let diffuse = (self.albedo * intensity).max_element();
         let specular = self.specular.map_or(0.0, |(strength, _)| strength);
         self.diffuse.lanes(range.min(range * 0.0 + 1.0)) * (diffuse * cost_of_kink(exponent))
             + spot * (specular * intensity.max_element())
@@ -292,7 +294,7 @@ impl<'scene> Finish<'scene> {
         /// Of a piece, what is beyond its outermost lines.
         const BEYOND: f64 = 0.04;
         let range = f64x8::splat(simd, range.min(1.0));
-        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let diffuse = (self.albedo * light.intensity).max_element();
         let specular = match self.specular {
             Some((strength, _)) if jumps => strength,
             _ => 0.0,
@@ -376,10 +378,9 @@ impl<'scene> Finish<'scene> {
         lit: &[u64; MOST_LIGHTS],
         mut facings: Option<&mut Facings<S>>,
     ) -> [f64x8<S>; 3] {
-        let material = self.material;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let constant = material.albedo * scene.ambient;
+        let constant = self.albedo * scene.ambient;
         let mut sum = [one * constant.x, one * constant.y, one * constant.z];
         // With v = −d / |d|: n·h = (n·l + n·v) / |l + v|, and |l + v|² = 2 + 2 l·v.
         let (mut scale, mut to_eye) = (zero, zero);
@@ -404,7 +405,7 @@ impl<'scene> Finish<'scene> {
             // Rounding may make it a little more than 1.
             let diffuse = self.diffuse.lanes(facing.max(zero).min(one));
             let diffuse = faces.select(diffuse, zero);
-            let color = material.albedo * intensity;
+            let color = self.albedo * intensity;
             for channel in 0..C::CHANNELS {
                 sum[channel] += diffuse * color[channel];
             }
