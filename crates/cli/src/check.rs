@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
-use marbles_scene::{FrameError, Scene};
+use marbles_scene::{CloudDescription, FrameError, Scene};
 
 use crate::args::CheckArguments;
 use crate::console::Console;
@@ -102,6 +102,9 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
         rows.push(("  from", vector(low)));
         rows.push(("  to", vector(high)));
     }
+    for cloud in scene.clouds() {
+        rows.extend(self::cloud(scene, cloud));
+    }
     let materials = scene.description().materials;
     rows.push(("materials", materials.to_string()));
     rows.push(("lights", world.lights.len().to_string()));
@@ -121,6 +124,24 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
         "red, green, blue"
     };
     rows.push(("color", channels.to_owned()));
+    rows
+}
+
+/// A table, and a camera that has all of it in the picture.
+fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
+    const ELEVATION: f64 = 15.0;
+    let all = &scene.world().spheres()[cloud.spheres.clone()];
+    let file = cloud.file.display();
+    let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
+    if let Some((low, high)) = bounds(all) {
+        rows.push(("  from", vector(low)));
+        rows.push(("  to", vector(high)));
+    }
+    if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {
+        let (target, radius) = (vector(target), short(radius));
+        let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
+        rows.push(("  seen by", camera));
+    }
     rows
 }
 

@@ -25,7 +25,9 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
     let encoding = encoding(arguments, format)?;
 
-    let scene = Scene::load(&arguments.scene).map_err(|error| Failure::Scene(Box::new(error)))?;
+    let threads = threads::start(arguments.threads)?;
+    let scene = threads.install(|| Scene::load(&arguments.scene));
+    let scene = scene.map_err(|error| Failure::Scene(Box::new(error)))?;
     let frames = frames(arguments, &scene);
     let pattern = pattern.unwrap_or_else(|| {
         let numbered = arguments.frames.is_some() || scene.frames().is_some();
@@ -39,7 +41,6 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         )));
     }
 
-    let threads = threads::start(arguments.threads)?;
     interrupt::listen();
     if let Some(first) = frames.iter().next() {
         output::prepare(&pattern.path(first))?;

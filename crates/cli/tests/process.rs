@@ -206,6 +206,50 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
 }
 
 #[test]
+fn tables_are_found_beside_the_scene_and_told() {
+    const CLOUD: &str = "(
+    image: (width: 60, height: 60),
+    lens: Fov(40),
+    camera: Frame(elevation: 20),
+    lights: [Directional(toward: (-1, 1, -1))],
+    clouds: [(file: \"tables/salt.csv\", radius: 0.5, value: \"x\", position: (1, 0, 0))],
+)
+";
+    let folder = Folder::new();
+    fs::create_dir_all(folder.path("in/tables")).unwrap();
+    fs::write(folder.path("in/cloud.ron"), CLOUD).unwrap();
+    let table = folder.path("in/tables/salt.csv");
+    fs::write(&table, "x,y,z\n-1,-2,-3\n1,2,3\n").unwrap();
+    let output = folder.run("check in/cloud.ron");
+    assert_eq!(code(&output), 0);
+    let lines = text(&output.stdout);
+    let told = "cloud       tables/salt.csv: 2, radius 0.5
+  from      (-0.5, -2.5, -3.5)
+  to        (2.5, 2.5, 3.5)
+  seen by   Orbit(target: (1, 0, 0), radius: 12.53";
+    assert!(lines.contains(told), "{lines}");
+    assert!(lines.contains("camera      Frame: x 1, y 4."), "{lines}");
+
+    for threads in [1, 2] {
+        let output = folder.run(&format!(
+            "render in/cloud.ron -o {threads}.png --threads {threads}"
+        ));
+        assert_eq!(code(&output), 0);
+    }
+    let [one, two] = ["1.png", "2.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert_eq!(one, two);
+
+    fs::write(&table, "x,y,z\n-1,-2,-3\n1,2\n").unwrap();
+    let output = folder.run("render in/cloud.ron");
+    assert_eq!(code(&output), 2);
+    let errors = text(&output.stderr);
+    let start = "in/tables/salt.csv:3:4: expected a number for `z`, found the end of the line\n";
+    assert!(errors.contains(start), "{errors}");
+    let end = "the table is named at in/cloud.ron:6:21\n";
+    assert!(errors.ends_with(end), "{errors}");
+}
+
+#[test]
 fn a_line_is_printed_for_each_file() {
     let folder = Folder::new();
     let output = folder.run("render ball.ron -o out/%02d.png --frames 8-9 --size 30x20");

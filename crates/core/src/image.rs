@@ -286,6 +286,23 @@ impl Band<'_> {
         }
     }
 
+    /// Writes the same pixel all over a tile inside the band.
+    pub(crate) fn write_same<C: Radiance>(&mut self, tile: Tile, pixel: &Pixel<C>) {
+        let (width, stride) = (tile.width as usize, self.stride);
+        for row in tile.row..tile.row + tile.height {
+            let index = self.index(tile.col, row);
+            let channels = pixel.value.channels();
+            let values = &mut self.values[index * stride..][..width * stride];
+            for values in values.chunks_exact_mut(stride) {
+                values[..channels.len()].copy_from_slice(channels);
+                values[channels.len()..].fill(pixel.alpha);
+            }
+            self.errors.fill(index, width, pixel.error);
+            self.evidence.fill(index, width, pixel.evidence);
+            self.statuses.fill(index, width, pixel.status);
+        }
+    }
+
     /// Writes the light of a tile inside the band; all pixels end alike.
     pub(crate) fn write_light(&mut self, tile: Tile, light: &TileLight) {
         let width = tile.width as usize;

@@ -11,6 +11,7 @@
 //! This crate knows no file, no clock and no terminal. Transcendental functions come from `libm` or
 //! are written out, so that a picture is the same, bit for bit, on every machine.
 
+mod albedos;
 mod angle;
 mod camera;
 mod color;
@@ -34,6 +35,7 @@ mod view;
 mod visibility;
 mod world;
 
+pub use albedos::Albedos;
 pub use angle::Angle;
 pub use camera::{Camera, Lens};
 pub use color::{Color, Radiance};

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
-use rayon::iter::ParallelIterator;
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use thiserror::Error;
 
 use crate::image::Prospect;
@@ -125,7 +125,10 @@ fn fill<C: Radiance, I: Integrator<C>>(
     integrator: &I,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
 ) -> Result<(), Cancelled> {
-    let bands = image.bands_mut(Tile::SIDE).map(|mut band| {
+    // One by one: bands differ in what they cost, and threads that wait for the last take longer than
+    // all handing over.
+    let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
+    let bands = bands.map(|mut band| {
         let mut work = Work::default();
         let Tile {
             row, width, height, ..
@@ -266,6 +269,49 @@ mod tests {
         for row in 0..view.height {
             for col in 0..view.width {
                 assert_eq!(grey.rgba(col, row), colored.rgba(col, row));
+            }
+        }
+    }
+
+    #[test]
+    fn albedos_of_their_own_look_as_those_of_materials() {
+        let (_, view, mut settings) = ball();
+        let (mut painted, mut plain) = (World::new(), World::new());
+        let shiny = |albedo| Material {
+            albedo,
+            highlight: Some(crate::Highlight {
+                strength: 0.5,
+                shininess: 20.0,
+            }),
+            ..Material::MATTE_WHITE
+        };
+        let white = painted.add_material(shiny(Color::ONE));
+        let (mut spheres, mut albedos) = (Vec::new(), Vec::new());
+        for index in 0..7_u8 {
+            let place = f64::from(index) - 3.0;
+            let center = DVec3::new(0.4 * place, 0.2 * place, 5.0);
+            let albedo = [0.125 * f32::from(index), 0.5, 1.0];
+            let sphere = Sphere::new(center, 0.3).unwrap();
+            spheres.push(sphere);
+            albedos.push(albedo);
+            let material = plain.add_material(shiny(DVec3::from_array(albedo.map(f64::from))));
+            plain.add_sphere(sphere, material);
+        }
+        painted.add_spheres(spheres, white, Some(crate::Albedos::Each(albedos)));
+        for world in [&mut painted, &mut plain] {
+            world.ambient = Color::new(0.1, 0.2, 0.3);
+            let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+            world.lights.extend(light);
+        }
+        let go = |_| ControlFlow::Continue(());
+        for method in [settings.method, Method::Tolerance(1e-3)] {
+            settings.method = method;
+            let [one, other] = [&painted, &plain]
+                .map(|world| Renderer::new(world).render(&view, &settings, &go).unwrap());
+            for row in 0..view.height {
+                for col in 0..view.width {
+                    assert_eq!(one.rgba(col, row), other.rgba(col, row), "{method:?}");
+                }
             }
         }
     }

@@ -77,16 +77,17 @@ impl Bumps {
         let normal = normal.to_array();
         let (nearest, offset) = self.place(normal);
         let draw = Cell::new(self.key, nearest.map(|part| part as i64)).blend(offset);
-        DVec3::from_array(self.bend(normal, draw))
+        DVec3::from_array(unit(self.scale(normal, draw)))
     }
 
-    /// [`Self::perturb`] for the normals of eight lanes, with the same bits.
+    /// The normals of eight lanes with their components multiplied; [`unit`] makes them those of
+    /// [`Self::perturb`], with the same bits.
     ///
     /// All lanes of one cell are done at once, and the values of cells are kept in `cells`: fast
     /// where neighbors lie in the same cell, as fast as one by one where each has its own. Lanes
     /// that nobody needs should repeat others; NaN costs the time of a cell, too.
     #[inline(always)]
-    pub(crate) fn perturb_lanes<S: Simd>(
+    pub(crate) fn scale_lanes<S: Simd>(
         &self,
         normal: [f64x8<S>; 3],
         cells: &mut NoiseCells,
@@ -100,7 +101,7 @@ impl Bumps {
             let is_here = nearest[0].simd_eq(x[lane])
                 & nearest[1].simd_eq(y[lane])
                 & nearest[2].simd_eq(z[lane]);
-            let cell = cells.cell(self.key, [x[lane] as i64, y[lane] as i64, z[lane] as i64]);
+            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
             let drawn = cell.blend(offset);
             draw = [
                 is_here.select(drawn[0], draw[0]),
@@ -110,7 +111,7 @@ impl Bumps {
             // NaN is not even where it is: without its own bit the loop would not end.
             pending &= !(is_here.to_bitmask() | 1 << lane);
         }
-        self.bend(normal, draw)
+        self.scale(normal, draw)
     }
 
     /// How many cells of the noise the radius spans.
@@ -156,14 +157,14 @@ impl Bumps {
         (nearest, offset)
     }
 
-    /// The normal with its components multiplied by 1 + amplitude · draw, unit.
+    /// The normal with its components multiplied by 1 + amplitude · draw.
     #[inline(always)]
-    fn bend<L: Lanes>(&self, normal: [L; 3], draw: [L; 3]) -> [L; 3] {
-        unit([
+    fn scale<L: Lanes>(&self, normal: [L; 3], draw: [L; 3]) -> [L; 3] {
+        [
             normal[0] * (draw[0] * self.amplitude + 1.0),
             normal[1] * (draw[1] * self.amplitude + 1.0),
             normal[2] * (draw[2] * self.amplitude + 1.0),
-        ])
+        ]
     }
 }
 

@@ -41,7 +41,7 @@ pub(crate) fn shade<C: Radiance>(
 
 /// Radiance of a sphere's inner side, which only the ambient light reaches.
 pub(crate) fn shade_inner_side<C: Radiance>(world: &World, sphere: usize) -> C {
-    C::from_color(world.material(sphere).albedo) * C::from_color(world.ambient)
+    C::from_color(world.albedo(sphere)) * C::from_color(world.ambient)
 }
 
 /// A point of a sphere's outer side, and who looks at it.
@@ -88,7 +88,7 @@ pub(crate) fn shade_lit<C: Radiance>(
             mirrored += intensity * (*strength * spot);
         }
     }
-    C::from_color(material.albedo) * diffuse + mirrored
+    C::from_color(world.albedo(point.sphere)) * diffuse + mirrored
 }
 
 /// Unit vector half-way between a unit vector and a vector of any length; zero where they are

@@ -7,23 +7,39 @@ use marbles_core::{
     DirectionalLight, Grain, Highlight, Lens, Material, MaterialId, Roughness, Sphere, World,
 };
 
+use crate::cloud::Cloud;
 use crate::fault::{Fault, report, show};
 use crate::file::{self, File};
 use crate::placed::Placed;
 use crate::suggest::{closest, list};
 
-/// The world of the file; `None` where a fault was reported.
-pub(crate) fn world(file: &File) -> Option<World> {
+/// The world of the file without its clouds, and these; `None` where a fault was reported.
+pub(crate) fn world(file: &File) -> Option<(World, Vec<Cloud>)> {
     let mut world = World::new();
     let names = materials(file, &mut world);
     let lights: Vec<_> = file.lights.iter().map(light).collect();
-    let spheres = spheres(file, names, &mut world);
+    let mut names = Names {
+        ids: names,
+        unknown: UnknownNames::new(file),
+        white: None,
+    };
+    let spheres = spheres(file, &mut names, &mut world);
+    let clouds: Vec<_> = file
+        .clouds
+        .iter()
+        .map(|cloud| {
+            let cloud = cloud.value.as_ref()?;
+            let material = names.material(cloud.material.as_ref(), &mut world);
+            Cloud::new(cloud, material?)
+        })
+        .collect();
     world.lights = lights.into_iter().collect::<Option<_>>()?;
     world.ambient = file.ambient.get()?.0;
     world.background = file.background.get()?.0;
     world.shadows = file.shadows.get()?.0;
     spheres?;
-    Some(world)
+    let clouds = clouds.into_iter().collect::<Option<_>>()?;
+    Some((world, clouds))
 }
 
 /// The lens; `None` where a fault was reported.
@@ -139,24 +155,14 @@ fn light(light: &Placed<file::Light>) -> Option<DirectionalLight> {
     radiance.and(light)
 }
 
-fn spheres(file: &File, names: HashMap<&str, Option<MaterialId>>, world: &mut World) -> Option<()> {
-    let mut unknown_names = UnknownNames::new(file);
-    let mut white = None;
+fn spheres(file: &File, names: &mut Names<'_>, world: &mut World) -> Option<()> {
     let mut all = Some(());
     for sphere in &file.spheres {
         let Some(sphere) = &sphere.value else {
             all = None;
             continue;
         };
-        let material = match &sphere.material {
-            None => Some(*white.get_or_insert_with(|| world.add_material(Material::MATTE_WHITE))),
-            Some(name) => name.value.as_ref().and_then(|file::MaterialName(text)| {
-                match names.get(text.as_str()) {
-                    Some(id) => *id,
-                    None => unknown_names.report(name.place.clone(), text),
-                }
-            }),
-        };
+        let material = names.material(sphere.material.as_ref(), world);
         let solid = match (sphere.center.get(), sphere.radius.get()) {
             (Some(center), Some(radius)) => Sphere::new(center.0, radius.0).ok(),
             _ => None,
@@ -167,6 +173,34 @@ fn spheres(file: &File, names: HashMap<&str, Option<MaterialId>>, world: &mut Wo
         }
     }
     all
+}
+
+/// The materials by name.
+struct Names<'f> {
+    /// `None` for materials that are refused.
+    ids: HashMap<&'f str, Option<MaterialId>>,
+    unknown: UnknownNames<'f>,
+    /// The material of what has none.
+    white: Option<MaterialId>,
+}
+
+impl Names<'_> {
+    /// The material of this name; `None` where a fault was reported.
+    fn material(
+        &mut self,
+        name: Option<&Placed<file::MaterialName>>,
+        world: &mut World,
+    ) -> Option<MaterialId> {
+        let Some(name) = name else {
+            let white = || world.add_material(Material::MATTE_WHITE);
+            return Some(*self.white.get_or_insert_with(white));
+        };
+        let file::MaterialName(text) = name.value.as_ref()?;
+        match self.ids.get(text.as_str()) {
+            Some(id) => *id,
+            None => self.unknown.report(name.place.clone(), text),
+        }
+    }
 }
 
 /// Reports names of materials that do not exist, and what does.
@@ -215,7 +249,7 @@ impl<'f> UnknownNames<'f> {
     }
 }
 
-/// The name of a material as a message shows it.
-fn quoted(name: &str) -> String {
+/// A name in quotation marks, as a message shows it.
+pub(crate) fn quoted(name: &str) -> String {
     show(&format!("\"{name}\""))
 }

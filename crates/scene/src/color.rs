@@ -60,16 +60,20 @@ fn from_hexadecimal(text: &str) -> Option<DVec3> {
     if digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return None;
     }
-    let number = u32::from_str_radix(digits, 16).ok()?;
-    let [_, red, green, blue] = number.to_be_bytes();
-    Some(DVec3::new(linear(red), linear(green), linear(blue)))
+    u32::from_str_radix(digits, 16).ok().map(from_srgb)
+}
+
+/// The linear color of the sRGB color 0xrrggbb.
+pub(crate) fn from_srgb(color: u32) -> DVec3 {
+    let [_, red, green, blue] = color.to_be_bytes();
+    DVec3::new(linear(red), linear(green), linear(blue))
 }
 
 /// The linear value of an sRGB value of 8 bits; 0 and 1 are exact.
 ///
 /// # Source
 /// IEC 61966-2-1, the definition of sRGB.
-fn linear(value: u8) -> f64 {
+pub(crate) fn linear(value: u8) -> f64 {
     let encoded = f64::from(value) / 255.0;
     if encoded <= 0.04045 {
         encoded / 12.92

@@ -64,6 +64,14 @@ impl Curve {
         curve
     }
 
+    /// Whether the value is the same at all times.
+    pub(crate) fn is_constant(&self) -> bool {
+        let values = self.keys.windows(2);
+        values
+            .into_iter()
+            .all(|pair| pair[0].value == pair[1].value)
+    }
+
     /// The value at a time in frames, finite whatever the keys.
     pub(crate) fn at(&self, time: f64) -> f64 {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {

@@ -10,10 +10,11 @@ use crate::color::Color;
 use crate::fault::{Names, Slice, note_failure};
 use crate::placed::{Placed, Read, present, read_file, read_simple, read_structure, read_tuple};
 use crate::quantity::{
-    Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Frame, FrameCount, FramesPerSecond,
-    GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Seed, Shininess, Strength, Turns,
-    Zoom,
+    Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Fill, Frame, FrameCount,
+    FramesPerSecond, GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
+    Shininess, Strength, Turns, Zoom,
 };
+use crate::table::{Coloring, Colormap, Radii};
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
 #[derive(Debug, Deserialize)]
@@ -36,6 +37,8 @@ pub(crate) struct File {
     pub(crate) materials: Materials,
     #[serde(default)]
     pub(crate) spheres: Vec<Placed<Sphere>>,
+    #[serde(default)]
+    pub(crate) clouds: Vec<Placed<Cloud>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) animation: Option<Placed<Animation>>,
 }
@@ -90,6 +93,16 @@ pub(crate) enum Camera {
         elevation: Placed<Degrees>,
         #[serde(default)]
         roll: Placed<Degrees>,
+    },
+    Frame {
+        #[serde(default)]
+        azimuth: Placed<Degrees>,
+        #[serde(default)]
+        elevation: Placed<Degrees>,
+        #[serde(default)]
+        roll: Placed<Degrees>,
+        #[serde(default)]
+        fill: Placed<Fill>,
     },
 }
 
@@ -157,6 +170,37 @@ pub(crate) struct Sphere {
     pub(crate) radius: Placed<Radius>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) material: Option<Placed<MaterialName>>,
+}
+
+/// Spheres of a table; matte white without a material, and where the table puts them.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Cloud {
+    pub(crate) file: Placed<FileName>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) material: Option<Placed<MaterialName>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius: Option<Placed<Radius>>,
+    #[serde(default)]
+    pub(crate) radii: Placed<Radii>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) color: Option<Placed<Coloring>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) value: Option<Placed<ColumnName>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) colormap: Option<Placed<Colormap>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) range: Option<Placed<ValueRange>>,
+    #[serde(default = "no")]
+    pub(crate) center: Placed<Flag>,
+    #[serde(default = "no")]
+    pub(crate) right_handed: Placed<Flag>,
+    #[serde(default)]
+    pub(crate) scale: Placed<Scale>,
+    #[serde(default)]
+    pub(crate) rotate_degrees: Placed<Point>,
+    #[serde(default)]
+    pub(crate) position: Placed<Point>,
 }
 
 /// An animation of 24 frames per second by default; keyframes last from the first key to the last,
@@ -244,6 +288,21 @@ pub(crate) struct Flag(pub(crate) bool);
 #[derive(Clone, Debug)]
 pub(crate) struct MaterialName(pub(crate) String);
 
+/// The name of a file, relative to the scene file.
+#[derive(Clone, Debug)]
+pub(crate) struct FileName(pub(crate) String);
+
+/// The name of a column of a table.
+#[derive(Clone, Debug)]
+pub(crate) struct ColumnName(pub(crate) String);
+
+/// The numbers that have the first and the last color of a colormap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ValueRange {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
 /// Materials in the file's order, a name given twice included.
 #[derive(Debug, Default)]
 pub(crate) struct Materials(pub(crate) Vec<(Placed<MaterialName>, Placed<Material>)>);
@@ -268,13 +327,17 @@ macro_rules! structures {
 structures! {
     Image: "image", "an image `(width: …, height: …)`";
     Lens: "lens", "a lens: `Retina(width: …, distance: …)` or `Fov(…)`";
-    Camera: "camera", "a camera: `Free(…)`, `LookAt(…)` or `Orbit(…)`";
+    Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)` or `Frame(…)`";
     Light: "light", "a light `Directional(toward: …)`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
     Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
     Grain: "grain", "a grain: `Surface(…)` or `Pixel`";
     Sphere: "sphere", "a sphere `(center: …, radius: …)`";
+    Cloud: "cloud", "a cloud `(file: …)`";
+    Radii: "kind of radii", "a kind of radii: `VanDerWaals` or `Covalent`";
+    Coloring: "coloring", "a coloring: `Material`, `Table`, `Element` or `Value`";
+    Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
     Key: "key", "a key `(frame: …)`";
     Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
@@ -324,6 +387,28 @@ impl<'t> Read<'t> for MaterialName {
     }
 }
 
+impl<'t> Read<'t> for FileName {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        read_simple(slice, "the name of a file in quotation marks").map(Self)
+    }
+}
+
+impl<'t> Read<'t> for ColumnName {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        read_simple(slice, "the name of a column in quotation marks").map(Self)
+    }
+}
+
+impl<'t> Read<'t> for ValueRange {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let [Coordinate(low), Coordinate(high)] = read_tuple(slice, "two numbers `(low, high)`")?;
+        if low >= high {
+            return slice.refuse("a low number that is less than the high one");
+        }
+        Some(Self { low, high })
+    }
+}
+
 impl<'de> Deserialize<'de> for Materials {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Pairs;
@@ -354,6 +439,10 @@ fn black() -> Placed<Color> {
 
 fn white() -> Placed<Color> {
     Color::WHITE.into()
+}
+
+fn no() -> Placed<Flag> {
+    Flag(false).into()
 }
 
 fn cast_shadows() -> Placed<Flag> {

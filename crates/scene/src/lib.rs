@@ -5,16 +5,21 @@
 //! in a [`SceneError`] at which line and column, what was expected there and what was found; all
 //! the faults that can be told at once are told.
 //!
+//! [`Scene::load`] reads the tables that the file names, too: `table` knows their formats, `cloud`
+//! places what is in them.
+//!
 //! `file` is the format as structures, `assemble` and `motion` give them their meaning, and
 //! `placed` with `fault` is how every value knows its place in the text.
 
 mod assemble;
+mod cloud;
 mod color;
 mod curve;
 mod error;
 mod explain;
 mod fault;
 mod file;
+mod framing;
 mod motion;
 mod placed;
 mod quantity;
@@ -23,8 +28,9 @@ mod report;
 mod rig;
 mod scene;
 mod suggest;
+mod table;
 mod token;
 mod turntable;
 
 pub use error::{FrameError, FrameFault, SceneError, SceneFault};
-pub use scene::{Description, Scene};
+pub use scene::{CloudDescription, Description, Scene};

@@ -3,10 +3,12 @@
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
+use marbles_core::Sphere;
 
 use crate::curve::{Curve, CurveKey};
 use crate::fault::{Fault, report};
 use crate::file::{self, Camera, File, Key};
+use crate::framing::{Frame, Framing, Turning, axes_of_orbit};
 use crate::placed::Placed;
 use crate::rig::{PointCurve, Rig};
 use crate::suggest::{closest, either};
@@ -27,6 +29,34 @@ pub(crate) struct Motion {
 pub(crate) struct Timing {
     pub(crate) frames: RangeInclusive<i32>,
     pub(crate) frames_per_second: f64,
+}
+
+impl Motion {
+    /// Places a camera that frames; `false` where there is nothing to be framed.
+    pub(crate) fn frame(&mut self, spheres: &[Sphere], frame: &Frame) -> bool {
+        let Rig::Frame {
+            framing,
+            azimuth,
+            elevation,
+            roll,
+        } = &mut self.rig
+        else {
+            return true;
+        };
+        let turns = [&*azimuth, elevation, roll];
+        let turning = match self.turntable {
+            Some(_) => Turning::Around,
+            None if turns.iter().all(|curve| curve.is_constant()) => Turning::Still,
+            None => Turning::Freely,
+        };
+        let [azimuth, elevation, roll] = turns.map(|curve| curve.at(0.0));
+        let axes = axes_of_orbit(azimuth, elevation, roll);
+        let found = Framing::new(spheres, frame, turning, axes);
+        if let Some(found) = found {
+            *framing = found;
+        }
+        found.is_some()
+    }
 }
 
 /// The motion of the file with this text; `None` where a fault was reported.
@@ -132,6 +162,18 @@ fn rig(camera: &Camera, keys: &[&Key]) -> Option<Rig> {
             elevation: scalar!(elevation),
             roll: scalar!(roll),
         },
+        Camera::Frame {
+            azimuth,
+            elevation,
+            roll,
+            ..
+        } => Rig::Frame {
+            // Until the spheres are known.
+            framing: Framing::default(),
+            azimuth: scalar!(azimuth),
+            elevation: scalar!(elevation),
+            roll: scalar!(roll),
+        },
     })
 }
 
@@ -180,12 +222,12 @@ fn check_gaze(camera: &Camera) {
 
 /// Refuses a turntable without an orbit.
 fn check_orbit(camera: &Camera, animation: &Placed<file::Animation>, text: &str) {
-    if !matches!(camera, Camera::Orbit { .. }) {
+    if !matches!(camera, Camera::Orbit { .. } | Camera::Frame { .. }) {
         let start = animation.place.start;
         report(Fault::new(
             start..token::token_end(text, start),
             format!(
-                "expected an `Orbit` camera for a `Turntable`, found a `{}` camera",
+                "expected an `Orbit` or `Frame` camera for a `Turntable`, found a `{}` camera",
                 kind(camera)
             ),
         ));
@@ -261,6 +303,7 @@ fn channels(camera: &Camera) -> &'static [&'static str] {
         Camera::Free { .. } => &["position", "pan", "tilt", "roll", "zoom"],
         Camera::LookAt { .. } => &["position", "target", "roll", "zoom"],
         Camera::Orbit { .. } => &["target", "radius", "azimuth", "elevation", "roll", "zoom"],
+        Camera::Frame { .. } => &["azimuth", "elevation", "roll", "zoom"],
     }
 }
 
@@ -270,5 +313,6 @@ pub(crate) fn kind(camera: &Camera) -> &'static str {
         Camera::Free { .. } => "Free",
         Camera::LookAt { .. } => "LookAt",
         Camera::Orbit { .. } => "Orbit",
+        Camera::Frame { .. } => "Frame",
     }
 }

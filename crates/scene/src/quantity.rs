@@ -66,6 +66,10 @@ quantities! {
     FieldOfView: "an angle greater than 0 and less than 180 degrees", |x| x > 0.0 && x < 180.0;
     /// The factor on the retina's distance.
     Zoom: "a zoom greater than 0", |x| x > 0.0, default 1.0;
+    /// How much of the picture is filled by what is framed.
+    Fill: "a fill greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0, default 0.9;
+    /// The factor on the lengths of a table.
+    Scale: "a scale greater than 0", |x| x > 0.0, default 1.0;
     /// A channel of a color.
     ColorChannel: "a color channel of at least 0", |x| x >= 0.0;
     /// The contrast exponent; Lambert's law by default.

@@ -7,6 +7,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::error::SceneFault;
 use crate::fault::{Fault, show};
+use crate::table::{TableFault, TablePlace};
 use crate::token::{self, Unclosed};
 
 /// How many faults are told.
@@ -45,9 +46,9 @@ impl Located {
             .faults
             .iter()
             .map(|(fault, place)| {
-                let position = Some((fault.line, fault.column));
-                let header = header(path, position, &fault.message, style);
-                match snippet(text, place.clone(), fault.line, style) {
+                let position = Position::Line(fault.line as u64, fault.column);
+                let header = header(path, &position, &fault.message, style);
+                match snippet(text, place.clone(), fault.line as u64, style) {
                     Some(snippet) => format!("{header}\n{snippet}"),
                     None => header,
                 }
@@ -66,16 +67,39 @@ impl Located {
     }
 }
 
+/// A place in a file, as a message says it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Position {
+    /// Line and column.
+    Line(u64, usize),
+    /// In a binary table.
+    Row { row: u64, column: usize, byte: u64 },
+    /// The file as a whole.
+    None,
+}
+
+/// The complete message about a fault in a line of the table at `path`.
+pub(crate) fn in_line(path: &Path, fault: &TableFault, style: Style) -> String {
+    let TablePlace::Text { line, text, span } = &fault.place else {
+        return header(path, &Position::None, &fault.message, style);
+    };
+    let column = text[..span.start].chars().count() + 1;
+    let header = header(path, &Position::Line(*line, column), &fault.message, style);
+    match snippet(text, span.clone(), *line, style) {
+        Some(snippet) => format!("{header}\n{snippet}"),
+        None => header,
+    }
+}
+
 /// The line that starts a message.
-pub(crate) fn header(
-    path: &Path,
-    position: Option<(usize, usize)>,
-    message: &str,
-    style: Style,
-) -> String {
+pub(crate) fn header(path: &Path, position: &Position, message: &str, style: Style) -> String {
+    let path = path.display();
     let place = match position {
-        Some((line, column)) => format!("{}:{line}:{column}:", path.display()),
-        None => format!("{}:", path.display()),
+        Position::Line(line, column) => format!("{path}:{line}:{column}:"),
+        Position::Row { row, column, byte } => {
+            format!("{path}: row {row}, column {column}, byte {byte}:")
+        }
+        Position::None => format!("{path}:"),
     };
     match style {
         Style::Plain => format!("{place} {message}"),
@@ -136,7 +160,7 @@ fn with_found(text: &str, fault: Fault) -> (std::ops::Range<usize>, String) {
 }
 
 /// Line and column of a byte, both from 1, the column in characters.
-fn position(text: &str, at: usize) -> (usize, usize) {
+pub(crate) fn position(text: &str, at: usize) -> (usize, usize) {
     let before = &text[..at];
     let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let newlines = before.bytes().filter(|&byte| byte == b'\n').count();
@@ -144,7 +168,7 @@ fn position(text: &str, at: usize) -> (usize, usize) {
 }
 
 /// The line of the text with the place underlined; `None` where there is nothing to see.
-fn snippet(text: &str, place: std::ops::Range<usize>, line: usize, style: Style) -> Option<String> {
+fn snippet(text: &str, place: std::ops::Range<usize>, line: u64, style: Style) -> Option<String> {
     const BEFORE: usize = 50;
     const AFTER: usize = 70;
     const WIDER_THAN_THE_WINDOW: usize = 1000;
@@ -182,7 +206,7 @@ fn snippet(text: &str, place: std::ops::Range<usize>, line: usize, style: Style)
     }
     .term_width(WIDER_THAN_THE_WINDOW);
     let snippet = Snippet::source(source)
-        .line_start(line)
+        .line_start(usize::try_from(line).unwrap_or(usize::MAX))
         .annotation(AnnotationKind::Primary.span(shown_start..shown_end));
     Some(renderer.render(&[Group::with_level(Level::ERROR).element(snippet)]))
 }

@@ -5,6 +5,7 @@ use marbles_core::{Angle, Camera};
 
 use crate::curve::Curve;
 use crate::error::FrameFault;
+use crate::framing::Framing;
 
 /// A camera whose every number is a curve.
 #[derive(Clone, Debug)]
@@ -23,6 +24,12 @@ pub(crate) enum Rig {
     Orbit {
         target: PointCurve,
         radius: Curve,
+        azimuth: Curve,
+        elevation: Curve,
+        roll: Curve,
+    },
+    Frame {
+        framing: Framing,
         azimuth: Curve,
         elevation: Curve,
         roll: Curve,
@@ -75,6 +82,24 @@ impl Rig {
                 angle(elevation),
                 angle(roll),
             ),
+            Self::Frame {
+                framing,
+                azimuth,
+                elevation,
+                roll,
+            } => {
+                let mut camera = Camera::orbit(
+                    framing.target,
+                    framing.distance,
+                    Angle::from_degrees(azimuth.at(time) + turned_degrees),
+                    angle(elevation),
+                    angle(roll),
+                );
+                let aside = framing.distance * framing.aside;
+                let axes = camera.world_from_camera;
+                camera.position -= axes.x_axis * aside.x + axes.y_axis * aside.y;
+                camera
+            }
         };
         if camera.position.is_finite() {
             Ok(camera)

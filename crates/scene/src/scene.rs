@@ -2,15 +2,18 @@
 
 use std::fs::File as OpenFile;
 use std::io::{self, ErrorKind, Read as _};
-use std::ops::RangeInclusive;
-use std::path::Path;
+use std::ops::{Range, RangeInclusive};
+use std::path::{Path, PathBuf};
 
+use glam::{DVec2, DVec3};
 use marbles_core::{Lens, View, World};
 
 use crate::assemble;
+use crate::cloud::{Cloud, CloudError};
 use crate::error::{FrameError, SceneError};
 use crate::fault::{self, Fault, Slice};
 use crate::file::{self, File};
+use crate::framing::{self, Frame, Framing, Turning};
 use crate::motion::{self, Motion};
 use crate::placed::Read;
 use crate::token;
@@ -28,6 +31,16 @@ pub struct Scene {
     width: u32,
     height: u32,
     description: Description,
+    clouds: Vec<CloudDescription>,
+}
+
+/// The spheres of a table.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct CloudDescription {
+    /// The table as the scene file names it.
+    pub file: PathBuf,
+    /// Which spheres of the world are in it.
+    pub spheres: Range<usize>,
 }
 
 /// A scene in words and numbers, for people.
@@ -44,11 +57,13 @@ pub struct Description {
 }
 
 impl Scene {
-    /// Reads and checks the scene file at `path`.
+    /// Reads and checks the scene file at `path`, and the tables that it names.
+    ///
+    /// Tables are read on the threads of the current rayon pool.
     ///
     /// # Errors
-    /// Refuses what is not a readable file of at most 1 GiB, and everything that the format does
-    /// not allow.
+    /// Refuses what is not a readable file of at most 1 GiB, and everything that the format and
+    /// those of the tables do not allow.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         if path.is_dir() {
             return Err(SceneError::unreadable(
@@ -81,7 +96,7 @@ impl Scene {
         }
     }
 
-    /// Checks a scene file's text; `path` is named in messages.
+    /// Checks a scene file's text; `path` is named in messages, and its folder is where tables are.
     ///
     /// A byte order mark at the start is skipped.
     ///
@@ -95,7 +110,7 @@ impl Scene {
             Self::assemble(&file, text)
         });
         match scene {
-            Some(scene) if faults.is_empty() => Ok(scene),
+            Some(draft) if faults.is_empty() => draft.finish(text, path),
             _ => Err(SceneError::refused(path, text, faults)),
         }
     }
@@ -144,21 +159,56 @@ impl Scene {
         &self.description
     }
 
+    /// The tables of the scene, in the order of the file.
+    pub fn clouds(&self) -> &[CloudDescription] {
+        &self.clouds
+    }
+
+    /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens
+    /// that has some of the world's spheres in its picture from any azimuth.
+    ///
+    /// `None` for no spheres, and where the lens is shifted, so that no target is in the middle.
+    pub fn orbit_around(&self, spheres: Range<usize>, elevation: f64) -> Option<(DVec3, f64)> {
+        const FILL: f64 = 0.9;
+        if self.lens.shift != DVec2::ZERO {
+            return None;
+        }
+        let frame = self.frame(FILL);
+        let axes = framing::axes_of_orbit(0.0, elevation, 0.0);
+        let spheres = self.world.spheres().get(spheres)?;
+        let framing = Framing::new(spheres, &frame, Turning::Around, axes)?;
+        Some((framing.target, framing.distance))
+    }
+
+    fn frame(&self, fill: f64) -> Frame {
+        Frame {
+            lens: self.lens,
+            aspect: f64::from(self.height) / f64::from(self.width),
+            fill,
+        }
+    }
+
     /// The scene of a file; `None` where a fault was reported.
-    fn assemble(file: &File, text: &str) -> Option<Self> {
+    fn assemble(file: &File, text: &str) -> Option<Draft> {
         // Each part is made before any is missed, so that the faults of all are told.
         let world = assemble::world(file);
         let motion = motion::motion(file, text);
         let image = file.image.value.as_ref()?;
-        Some(Self {
-            world: world?,
+        let (world, clouds) = world?;
+        let camera = file.camera.value.as_ref()?;
+        let fill = match camera {
+            file::Camera::Frame { fill, .. } => Some(fill.get()?.0),
+            _ => None,
+        };
+        let scene = Self {
+            world,
             motion: motion?,
             lens: assemble::lens(&file.lens)?,
             width: image.width.get()?.0,
             height: image.height.get()?.0,
             description: Description {
                 materials: file.materials.0.len(),
-                camera: motion::kind(file.camera.value.as_ref()?),
+                camera: motion::kind(camera),
                 animation: match &file.animation {
                     Some(animation) => Some(match animation.value.as_ref()? {
                         file::Animation::Keyframes { .. } => "Keyframes",
@@ -168,7 +218,60 @@ impl Scene {
                 },
                 lens: assemble::lens_as_written(&file.lens)?,
             },
+            clouds: Vec::new(),
+        };
+        Some(Draft {
+            scene,
+            clouds,
+            fill,
+            camera: file.camera.place.clone(),
         })
+    }
+}
+
+/// A scene whose tables are not yet read.
+struct Draft {
+    scene: Scene,
+    clouds: Vec<Cloud>,
+    /// How much of the picture a camera fills that frames.
+    fill: Option<f64>,
+    /// Where the camera is in the text.
+    camera: Range<usize>,
+}
+
+impl Draft {
+    /// Reads the tables, and places the camera where that depends on the spheres.
+    fn finish(self, text: &str, path: &Path) -> Result<Scene, SceneError> {
+        let mut scene = self.scene;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        for cloud in &self.clouds {
+            match cloud.add_to(&mut scene.world, folder) {
+                Ok(spheres) => scene.clouds.push(CloudDescription {
+                    file: PathBuf::from(&cloud.name),
+                    spheres,
+                }),
+                Err(CloudError::Scene(fault)) => {
+                    return Err(SceneError::refused(path, text, vec![fault]));
+                }
+                Err(CloudError::Table(table, fault)) => {
+                    return Err(SceneError::in_table(
+                        &table,
+                        &fault,
+                        (path, text, &cloud.place),
+                    ));
+                }
+            }
+        }
+        if let Some(fill) = self.fill {
+            let frame = scene.frame(fill);
+            if !scene.motion.frame(scene.world.spheres(), &frame) {
+                let place = self.camera.start..token::token_end(text, self.camera.start);
+                let message = String::from("expected spheres for a `Frame` camera, found none");
+                let fault = Fault::new(place, message);
+                return Err(SceneError::refused(path, text, vec![fault]));
+            }
+        }
+        Ok(scene)
     }
 }
 

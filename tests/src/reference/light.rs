@@ -81,8 +81,9 @@ impl Patch<'_> {
         let candidate = &self.candidates[index];
         let world = self.stage.world;
         let material = world.material(candidate.sphere);
+        let albedo = world.albedo(candidate.sphere);
         if candidate.ball.has_eye_inside() {
-            return (signature, (material.albedo * world.ambient).extend(1.0));
+            return (signature, (albedo * world.ambient).extend(1.0));
         }
         let spot = self.spot(candidate, direction, t);
         signature.cell = spot.cell;
@@ -108,10 +109,7 @@ impl Patch<'_> {
                 }
             }
         }
-        (
-            signature,
-            (material.albedo * scattered + mirrored).extend(1.0),
-        )
+        (signature, (albedo * scattered + mirrored).extend(1.0))
     }
 
     fn is_shadowed(&self, candidate: &Candidate, light: usize, point: DVec3) -> bool {

@@ -116,11 +116,37 @@ impl<'scene> Shading<'scene> {
                 }
             }
         }
-        let albedo: Light<S, CHANNELS> = looks.albedo(simd);
+        let mut albedo: Light<S, CHANNELS> = looks.albedo(simd);
+        if world.has_own_albedos() {
+            albedo = self.own_albedos(simd, groups, albedo);
+        }
         for channel in 0..CHANNELS {
             diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
         }
         diffuse
+    }
+
+    /// Takes the albedos from the spheres that have their own.
+    #[inline(never)]
+    fn own_albedos<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        groups: &Groups<'_>,
+        mut albedo: Light<S, CHANNELS>,
+    ) -> Light<S, CHANNELS> {
+        for Group { near, lanes } in groups.as_slice() {
+            let own = self.world.albedo(near.ball.index as usize);
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let mask = mask64x8::from_bitmask(simd, *lanes);
+                    for (channel, albedo) in albedo.iter_mut().enumerate() {
+                        *albedo = mask.select(f64x8::splat(simd, own[channel]), *albedo);
+                    }
+                },
+            );
+        }
+        albedo
     }
 
     /// The normals with the bumps of rough surfaces.

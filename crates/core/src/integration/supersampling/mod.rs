@@ -177,7 +177,15 @@ impl<'scene> Supersampling<'scene> {
         let height = tile.height as usize;
         let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
         let mut rows = [dark; Tile::SIDE as usize];
-        let mut sums = [Sums::<S, CHANNELS>::new(simd); Tile::SIDE as usize];
+        let nothing = Sample {
+            light: background,
+            covered: 0,
+        };
+        let mut samples = [nothing; Tile::SIDE as usize];
+        let mut sums = None;
+        if side > 1 {
+            sums = Some([Sums::<S, CHANNELS>::new(simd); Tile::SIDE as usize]);
+        }
         for cell_row in 0..side {
             for cell_col in 0..side {
                 let mut place = Place {
@@ -193,9 +201,9 @@ impl<'scene> Supersampling<'scene> {
                 }
                 tracer.search(simd, &mut rows[..height]);
                 place.row = tile.row;
-                for (row, sums) in rows[..height].iter().zip(&mut sums) {
+                for (row, sample) in rows[..height].iter().zip(&mut samples) {
                     let sight = tracer.look(simd, place, row, &mut groups);
-                    let mut sample = background;
+                    *sample = nothing;
                     if sight.covered != 0 {
                         looks.see(&self.shading, &groups);
                         let seen = (&sight, &groups, &looks);
@@ -203,16 +211,26 @@ impl<'scene> Supersampling<'scene> {
                             self.shading.light(simd, seen, place, &mut shadows);
                         let covered = mask64x8::from_bitmask(simd, sight.covered);
                         for channel in 0..CHANNELS {
-                            sample[channel] = covered.select(light[channel], sample[channel]);
+                            sample.light[channel] =
+                                covered.select(light[channel], background[channel]);
                         }
+                        sample.covered = sight.covered;
                     }
-                    sums.add(simd, sample, sight.covered);
                     place.row += 1;
+                }
+                if let Some(sums) = &mut sums {
+                    for (sums, sample) in sums.iter_mut().zip(&samples) {
+                        sums.add(simd, sample.light, sample.covered);
+                    }
                 }
             }
         }
-        for (row, sums) in (0..tile.height).zip(sums) {
-            sums.store(simd, side, self.alpha, light.row_mut(row));
+        for row in 0..height {
+            let pixels = light.row_mut(row as u32);
+            match &sums {
+                Some(sums) => sums[row].store(simd, side, self.alpha, pixels),
+                None => samples[row].store(simd, pixels),
+            }
         }
         Some(tracer.tests)
     }
@@ -223,6 +241,28 @@ impl<'scene> Supersampling<'scene> {
 pub(crate) struct Room {
     nearby: Nearby,
     light: TileLight,
+}
+
+/// A sample of each of eight pixels.
+#[derive(Clone, Copy)]
+struct Sample<S: Simd, const CHANNELS: usize> {
+    light: Light<S, CHANNELS>,
+    /// The pixels in which anything is seen, as bits.
+    covered: u64,
+}
+
+impl<S: Simd, const CHANNELS: usize> Sample<S, CHANNELS> {
+    /// Stores the only sample that is taken.
+    #[inline(always)]
+    fn store(&self, simd: S, pixels: &mut RowLight) {
+        for channel in 0..CHANNELS {
+            self.light[channel].store_slice(&mut pixels.channels[channel]);
+        }
+        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        let covered = mask64x8::from_bitmask(simd, self.covered);
+        covered.select(one, zero).store_slice(&mut pixels.alpha);
+        f64x8::splat(simd, f64::INFINITY).store_slice(&mut pixels.errors);
+    }
 }
 
 /// What is known of eight pixels after some samples.
@@ -279,12 +319,7 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
             mean.store_slice(&mut pixels.channels[channel]);
         }
         (self.covered / count).store_slice(&mut pixels.alpha);
-        let error = if side == 1 {
-            f64x8::splat(simd, f64::INFINITY)
-        } else {
-            spread / (2.0 * f64::from(side))
-        };
-        error.store_slice(&mut pixels.errors);
+        (spread / (2.0 * f64::from(side))).store_slice(&mut pixels.errors);
     }
 }
 

@@ -131,18 +131,25 @@ impl<'scene> Rays<'scene> {
     /// A circular cone around the rays through a rectangle on the retina, given in camera axes.
     fn cone(&self, center: DVec3, half: DVec2) -> Option<Cone> {
         const WIDER: f64 = 1.0 + 1e-9;
+        const ROUNDING: f64 = 1e-12;
         const WIDEST_SINE: f64 = 0.7;
-        // The corner with the largest angle a: sin a = |center × corner| / (|center| |corner|).
-        let center_sq = center.length_squared();
-        let sine_sq = |x: f64, y: f64| {
-            let corner = center + DVec3::new(x, y, 0.0);
-            let cross = center.cross(DVec3::new(x, y, 0.0));
-            cross.length_squared() / (center_sq * corner.length_squared())
-        };
-        let (one, other) = (sine_sq(half.x, half.y), sine_sq(half.x, -half.y));
-        let (third, fourth) = (sine_sq(-half.x, half.y), sine_sq(-half.x, -half.y));
-        let sine_sq = one.max(other).max(third.max(fourth)) * WIDER;
-        let is_sane = sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > 1e-60;
+        // The corner p with the largest angle a: with c the center and h = p − c,
+        // sin² a = (c² h² − (c·h)²) / (c² p²), which rounding makes wrong by a few u h² / p².
+        let (center_sq, half_sq) = (center.length_squared(), half.length_squared());
+        let (mut sine_sq, mut is_ahead) = (0.0_f64, true);
+        for along in [
+            center.x * half.x + center.y * half.y,
+            center.x * half.x - center.y * half.y,
+        ] {
+            // Both corners of a diagonal: the nearer one is seen at the larger angle.
+            let along = along.abs();
+            // Of more than a right angle the sine tells nothing.
+            is_ahead &= along < center_sq;
+            let corner_sq = center_sq + half_sq - 2.0 * along;
+            sine_sq = sine_sq.max((center_sq * half_sq - along * along) / (center_sq * corner_sq));
+        }
+        let sine_sq = sine_sq * WIDER + ROUNDING * half_sq / center_sq;
+        let is_sane = is_ahead && sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > 1e-60;
         is_sane.then(|| Cone {
             axis: self.view.camera.world_from_camera * (center * (1.0 / center_sq.sqrt())),
             sine: sine_sq.sqrt(),

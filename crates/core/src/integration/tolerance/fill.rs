@@ -8,6 +8,7 @@ use super::Exact;
 use super::cell::Workspace;
 use super::contents::CasterCache;
 use super::glimpse::Glimpse;
+use super::parts::{SAMPLES_OF_PARTS, in_parts};
 use super::scene::MOST_LIGHTS;
 use super::smooth::{Filled, smooth};
 use super::surface::{Finish, Points};
@@ -63,11 +64,12 @@ impl Exact<'_> {
         }
         let easy = which & !hard;
         let any_lit = lit.iter().fold(0, |any, lit| any | lit) & easy;
-        let constant = C::from_color(material.albedo * scene.ambient);
+        let ambient = world.albedo(sphere) * scene.ambient;
+        let constant = C::from_color(ambient);
         let flat = Pixel {
             value: constant,
             alpha: 1.0,
-            error: (material.albedo * scene.ambient).max_element() * UNIT_ROUNDOFF,
+            error: ambient.max_element() * UNIT_ROUNDOFF,
             evidence: Evidence::Bound,
             status: Status::Met,
         };
@@ -96,30 +98,36 @@ impl Exact<'_> {
                     *lit &= group;
                 }
                 let noise = &mut workspace.noise;
+                let (middle, size) = self.rays(simd, start);
+                let filled = Filled {
+                    ball,
+                    finish: &finish,
+                    middle,
+                    size: [size; 2],
+                    lit: &group_lit,
+                    turn: manner.turn,
+                    pace: manner.pace,
+                    which: group,
+                    tolerance: self.tolerance,
+                };
                 let light = simd.vectorize(
                     #[inline(always)]
-                    || {
-                        let (middle, size) = self.rays(simd, start);
-                        let filled = Filled {
-                            ball,
-                            finish: &finish,
-                            middle,
-                            size,
-                            lit: &group_lit,
-                            turn: manner.turn,
-                            pace: manner.pace,
-                            which: group,
-                            tolerance: self.tolerance,
-                        };
-                        smooth::<S, C>(simd, scene, &filled, noise)
-                    },
+                    || smooth::<S, C>(simd, scene, &filled, noise),
                 );
-                workspace.work.samples += light.samples as u64 * u64::from(group.count_ones());
+                let work = &mut workspace.work;
+                work.samples += light.samples as u64 * u64::from(group.count_ones());
                 for lane in lanes(group) {
-                    let error = light.errors[lane];
-                    if error <= self.tolerance {
+                    let (mut value, mut error) = (light.values[lane], light.errors[lane]);
+                    let is_met = |error: f64| error <= self.tolerance;
+                    if !is_met(error) && light.divisible >> lane & 1 == 1 {
+                        work.samples += SAMPLES_OF_PARTS;
+                        if let Some(found) = in_parts::<S, C>(simd, scene, &filled, lane, noise) {
+                            (value, error) = found;
+                        }
+                    }
+                    if is_met(error) {
                         pixels[lane] = Pixel {
-                            value: C::from_color(light.values[lane]),
+                            value: C::from_color(value),
                             alpha: 1.0,
                             error,
                             evidence: Evidence::Estimate,

@@ -7,8 +7,10 @@ mod breaks;
 mod cell;
 mod contents;
 mod cut;
+mod facings;
 mod fill;
 mod glimpse;
+mod parts;
 mod piece;
 mod pixel;
 mod rule;
@@ -24,10 +26,12 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
+use self::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
 use self::trust::trusted;
 use super::{Evidence, Integrator, Pixel, Status, Supersampling, Work};
 use crate::edges::Cell;
+use crate::image::Band;
 use crate::roughness::PixelKey;
 use crate::visibility::Seen;
 use crate::{Radiance, Tile, View, World};
@@ -126,6 +130,14 @@ impl<'scene> Exact<'scene> {
     }
 }
 
+/// Memory to work in, and what is remembered of the noise.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    own: Workspace,
+    /// For further lights.
+    others: Vec<Workspace>,
+}
+
 impl<C: Radiance> Pixel<C> {
     /// What is given up, until samples take its place.
     const LOST: Self = Self {
@@ -148,17 +160,20 @@ impl<C: Radiance> Pixel<C> {
 }
 
 impl<C: Radiance> Integrator<C> for Exact<'_> {
-    type Room = ();
+    type Room = Room;
 
-    fn integrate(&self, tile: Tile, (): &mut (), pixels: &mut Vec<Pixel<C>>) -> Work {
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
         let candidates = self.seen.indices(tile);
         let first = pixels.len();
-        let mut work = dispatch!(self.level, simd => self.tile(simd, tile, &candidates, pixels));
+        let Room { own, others } = room;
+        let mut work =
+            dispatch!(self.level, simd => self.tile(simd, tile, &candidates, own, pixels));
+        others.resize_with(self.others.len(), Workspace::default);
         let mut of_group = Vec::new();
-        for other in &self.others {
+        for (other, workspace) in self.others.iter().zip(others) {
             of_group.clear();
             work += dispatch!(self.level, simd => {
-                other.tile(simd, tile, &candidates, &mut of_group)
+                other.tile(simd, tile, &candidates, workspace, &mut of_group)
             });
             for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
                 pixel.add(more);
@@ -173,6 +188,22 @@ impl<C: Radiance> Integrator<C> for Exact<'_> {
             }
         }
         work
+    }
+
+    fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
+        if self.seen.balls(tile).next().is_some() {
+            let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
+            let work = self.integrate(tile, room, &mut pixels);
+            band.write::<C>(tile, &pixels);
+            return work;
+        }
+        // Most pictures have empty tiles.
+        let mut pixel: Pixel<C> = self.empty();
+        for other in &self.others {
+            pixel.add(&other.empty());
+        }
+        band.write_same(tile, &pixel);
+        Work::default()
     }
 }
 

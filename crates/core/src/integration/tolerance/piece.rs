@@ -246,7 +246,7 @@ impl Surroundings<'_> {
         let active = &contents.active[position];
         let material = world.material(active.sphere);
         if interval.view >> 32 == 0 {
-            let constant = material.albedo * scene.ambient;
+            let constant = world.albedo(active.sphere) * scene.ambient;
             for channel in 0..C::CHANNELS {
                 sum[channel] += interval.width * constant[channel];
             }
@@ -318,7 +318,11 @@ impl Surroundings<'_> {
             || {
                 let end = interval.start + interval.width;
                 let mut turns = Turns::default();
-                let Search { parts, steps } = Search::of(self.tolerance, finish.jumps());
+                let middle = cut::ray(simd, self.cell, y * 0.0, y * 0.0);
+                let negligible = 0.01 * self.tolerance;
+                let jumps = finish.jumps(simd, self.scene, &middle, self.cell.size, negligible);
+                let jumps = jumps.to_bitmask() != 0;
+                let Search { parts, steps } = Search::of(self.tolerance, jumps);
                 let points = parts * interval.division;
                 *samples += 8 * u64::from(points + 1);
                 let nothing = Look {
@@ -390,7 +394,7 @@ impl Surroundings<'_> {
                 let is_even = turns.counts[..NODES]
                     .iter()
                     .all(|&count| count == turns.counts[0]);
-                let likeness = match (is_even, finish.jumps()) {
+                let likeness = match (is_even, jumps) {
                     (true, _) => Likeness::Rough,
                     (false, false) => Likeness::Uneven,
                     (false, true) => Likeness::Jumpy,
@@ -398,7 +402,7 @@ impl Surroundings<'_> {
                 let mut least_error: f64 = 0.0;
                 for (nearest, in_camera) in nearest.iter().zip(&self.scene.lights) {
                     if let Some(range) = nearest.range_of_turn() {
-                        let light = finish.cost_of_any_turn(simd, in_camera, range);
+                        let light = finish.cost_of_any_turn(simd, in_camera, range, jumps);
                         least_error += light * interval.width[0].max(interval.width[NODES - 1]);
                     }
                 }
@@ -440,10 +444,15 @@ impl Surroundings<'_> {
                 let mut coarse = [zero; 3];
                 let mut lowest = one * f64::INFINITY;
                 let mut highest = one * f64::NEG_INFINITY;
+                let mut points = [Points::nowhere(simd); NODES];
+                for (points, &node) in points.iter_mut().zip(&rule.nodes) {
+                    let x = start + width * node;
+                    *points = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
+                }
+                let normals = finish.normals(simd, scene, &points, noise);
                 for node in 0..NODES {
-                    let x = start + width * rule.nodes[node];
-                    let points = Points::new(simd, &active.ball, cut::ray(simd, cell, x, y));
-                    let light = finish.radiance::<S, C>(simd, scene, &points, lit, noise, None);
+                    let (points, normal) = (&points[node], &normals[node]);
+                    let light = finish.radiance::<S, C>(simd, scene, points, normal, lit, None);
                     for channel in 0..C::CHANNELS {
                         fine[channel] += light[channel] * rule.fine[node];
                         coarse[channel] += light[channel] * rule.coarse[node];

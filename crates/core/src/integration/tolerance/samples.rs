@@ -32,6 +32,9 @@ pub(super) const GRID: [[usize; 3]; 3] = [[1, 5, 2], [6, 0, 7], [3, 8, 4]];
 pub(super) const FROM_STAR: f64 = 0.6;
 pub(super) const FROM_GRID: f64 = 0.4;
 
+/// How far a corner is from the middle, in distances of the star's other samples.
+pub(super) const TO_CORNER: f64 = 1.290_994_448_735_805_6;
+
 pub(super) const POINTS: [Sample; SAMPLES] = {
     const OUTER: f64 = 0.387_298_334_620_741_7;
     const GAUSS: [f64; 3] = [-OUTER, 0.0, OUTER];
@@ -119,6 +122,16 @@ mod tests {
         let mixed = sum(&|at| at.gauss * at.u.powi(4) * at.v.powi(4));
         assert!((mixed - (0.5_f64.powi(4) / 5.0).powi(2)).abs() < 1e-16);
         assert!(sum(&|at| at.star * at.u * at.v).abs() < 1e-16);
+    }
+
+    #[test]
+    fn corners_are_beyond_the_star() {
+        for number in [GRID[0][0], GRID[0][2], GRID[2][0], GRID[2][2]] {
+            let Sample { u, v, .. } = POINTS[number];
+            assert!((u.abs() * TO_CORNER - 0.5).abs() < 1e-15);
+            assert!((v.abs() * TO_CORNER - 0.5).abs() < 1e-15);
+            assert!(number < STAR_SAMPLES);
+        }
     }
 
     #[test]

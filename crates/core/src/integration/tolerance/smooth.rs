@@ -3,11 +3,13 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
+use super::facings::{Extremes, Facings};
+use super::parts::SIZE_OF_PARTS;
 use super::samples::{
-    FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, Sample, WEIGHTS,
+    FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, SAMPLES, STAR_SAMPLES, Sample, WEIGHTS,
 };
 use super::scene::{InCamera, MOST_LIGHTS};
-use super::surface::{Facings, Finish, Points};
+use super::surface::{Finish, Points};
 use crate::edges::{Ball, Vectors};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance};
@@ -17,6 +19,8 @@ use crate::{Color, Radiance};
 pub(super) struct Smooth {
     pub(super) values: [Color; 8],
     pub(super) errors: [f64; 8],
+    /// Which of the pixels are better divided, bit by bit.
+    pub(super) divisible: u64,
     /// How many samples each of the pixels took.
     pub(super) samples: usize,
 }
@@ -26,9 +30,9 @@ pub(super) struct Smooth {
 pub(super) struct Filled<'a, S: Simd> {
     pub(super) ball: &'a Ball,
     pub(super) finish: &'a Finish<'a>,
-    /// The rays through the middles, and the pixels' side on the retina at distance 1.
+    /// The rays through the middles, and the pixels' sides on the retina at distance 1.
     pub(super) middle: Vectors<S>,
-    pub(super) size: f64,
+    pub(super) size: [f64; 2],
     /// Which of the pixels each light reaches, bit by bit.
     pub(super) lit: &'a [u64; MOST_LIGHTS],
     /// How far normals turn from the middles to the corners, at most.
@@ -62,35 +66,47 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     let mut lights = [[zero; 3]; GAUSS_SAMPLES];
     // Along both diagonals: Kronrod's rule less Gauss's.
     let mut apart = [[zero; 3]; 2];
-    let mut star = Calm {
+    let never = mask64x8::splat(simd, false);
+    let mut grid = Calm {
         error: zero,
-        settled: mask64x8::splat(simd, false),
+        is_known: never,
+        settled: never,
     };
-    let mut grid = star;
-    let mut samples = POINTS.len();
-    for (index, sample) in POINTS.iter().enumerate() {
-        if index == STAR_SAMPLES {
-            star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
-        } else if index == GAUSS_SAMPLES {
-            grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
-        }
-        let settled = star.settled | grid.settled;
-        if filled.which & !settled.to_bitmask() == 0 {
-            samples = index;
-            break;
-        }
-        let light = filled.light::<C>(simd, scene, sample, &mut facings, noise);
-        if let Some(lights) = lights.get_mut(index) {
-            *lights = light;
-        }
-        for channel in 0..C::CHANNELS {
-            apart[0][channel] += light[channel] * sample.apart[0];
-            apart[1][channel] += light[channel] * sample.apart[1];
+    // Where a terminator of bumps costs too much, whatever further samples tell.
+    let mut hopeless = never;
+    let star_lights = filled.light::<C, STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
+    lights[..STAR_SAMPLES].copy_from_slice(&star_lights);
+    let star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
+    if filled.finish.is_rough() {
+        let missed = filled.missed(simd, scene, &facings, FROM_GRID);
+        hopeless = !star.settled & missed.simd_gt(filled.tolerance);
+    }
+    let mut samples = STAR_SAMPLES;
+    let settled = star.settled | hopeless;
+    if filled.which & !settled.to_bitmask() != 0 {
+        let rest = filled.light::<C, GRID_REST>(simd, scene, samples, &mut facings, noise);
+        lights[STAR_SAMPLES..].copy_from_slice(&rest);
+        grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
+        samples = GAUSS_SAMPLES;
+        let settled = settled | grid.settled;
+        if filled.which & !settled.to_bitmask() != 0 {
+            for (light, sample) in lights.iter().zip(&POINTS) {
+                add_apart::<S, C>(&mut apart, light, sample);
+            }
+            while samples < SAMPLES {
+                let more =
+                    filled.light::<C, ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
+                for (light, sample) in more.iter().zip(&POINTS[samples..]) {
+                    add_apart::<S, C>(&mut apart, light, sample);
+                }
+                samples += ON_DIAGONAL;
+            }
         }
     }
     let mut result = Smooth {
         values: [Color::ZERO; 8],
         errors: [0.0; 8],
+        divisible: 0,
         samples,
     };
     let is_rough = filled.finish.is_rough();
@@ -120,16 +136,44 @@ pub(super) fn smooth<S: Simd, C: Radiance>(
     if is_rough {
         error += filled.missed(simd, scene, &facings, FROM_GRID);
     }
+    error = hopeless.select(zero + f64::INFINITY, error);
     error = grid.settled.select(grid.error, error);
     error = star.settled.select(star.error, error);
     for lane in 0..8 {
         result.errors[lane] = error[lane];
     }
+    if is_rough {
+        result.divisible = filled.gains_by_parts(&star).to_bitmask();
+    }
     result
+}
+
+/// Gauss's samples beside the star, and Kronrod's on each diagonal.
+const GRID_REST: usize = GAUSS_SAMPLES - STAR_SAMPLES;
+const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
+
+/// Adds what a sample contributes to what Kronrod's rule finds more along both diagonals.
+#[inline(always)]
+fn add_apart<S: Simd, C: Radiance>(
+    apart: &mut [[f64x8<S>; 3]; 2],
+    light: &[f64x8<S>; 3],
+    sample: &Sample,
+) {
+    for channel in 0..C::CHANNELS {
+        apart[0][channel] += light[channel] * sample.apart[0];
+        apart[1][channel] += light[channel] * sample.apart[1];
+    }
 }
 
 /// The error of an exponential function over the cube of its bend.
 const NATURAL: f64 = 1.5e-4;
+
+/// Half diagonals over cells of the noise, where five samples of a pixel are enough to know bumps by;
+/// by more samples, or parts, larger ones are.
+const SMALL: f64 = 0.25;
+
+/// The pace at which light is no more calm.
+const HURRIED: f64 = 0.25;
 
 /// The relative error that rounding makes.
 const ROUNDING: f64 = 1e-15;
@@ -159,7 +203,7 @@ fn bend_of_star<S: Simd>(lights: &[[f64x8<S>; 3]; GAUSS_SAMPLES], channel: usize
 
 /// How many samples have been taken.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-enum Stage {
+pub(super) enum Stage {
     Star,
     Grid,
 }
@@ -191,30 +235,43 @@ fn share_of_bell<S: Simd>(turn: f64x8<S>, exponent: f64, stage: Stage) -> f64x8<
 
 /// What is known of the error without Kronrod's samples.
 #[derive(Clone, Copy, Debug)]
-struct Calm<S: Simd> {
-    error: f64x8<S>,
+pub(super) struct Calm<S: Simd> {
+    pub(super) error: f64x8<S>,
+    /// Where that can be said.
+    pub(super) is_known: mask64x8<S>,
     /// Where that is enough.
     settled: mask64x8<S>,
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The light at a sample of each pixel.
+    /// The light at some samples of each pixel, from the one with the number `first`.
     #[inline(always)]
-    fn light<C: Radiance>(
+    pub(super) fn light<C: Radiance, const COUNT: usize>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
-        sample: &Sample,
+        first: usize,
         facings: &mut Facings<S>,
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> [f64x8<S>; 3] {
-        let mut ray = self.middle;
-        ray.x += sample.u * self.size;
-        ray.y += sample.v * self.size;
-        let points = Points::new(simd, self.ball, ray);
-        let facings = self.finish.is_told().then_some(facings);
-        self.finish
-            .radiance::<S, C>(simd, scene, &points, self.lit, noise, facings)
+    ) -> [[f64x8<S>; 3]; COUNT] {
+        let zero = f64x8::splat(simd, 0.0);
+        let mut points = [Points::nowhere(simd); COUNT];
+        for (points, sample) in points.iter_mut().zip(&POINTS[first..]) {
+            let mut ray = self.middle;
+            ray.x += sample.u * self.size[0];
+            ray.y += sample.v * self.size[1];
+            *points = Points::new(simd, self.ball, ray);
+        }
+        let normals = self.finish.normals(simd, scene, &points, noise);
+        let mut lights = [[zero; 3]; COUNT];
+        for index in 0..COUNT {
+            let facings = self.finish.is_told().then_some(&mut *facings);
+            let (points, normal) = (&points[index], &normals[index]);
+            lights[index] = self
+                .finish
+                .radiance::<S, C>(simd, scene, points, normal, self.lit, facings);
+        }
+        lights
     }
 
     /// An estimate of the error by how much light bends, where it is calm.
@@ -223,7 +280,7 @@ impl<S: Simd> Filled<'_, S> {
     /// how much there is, so that a weak highlight on a bright surface counts. The star's rule is
     /// off by 1/720 of the mixed fourth derivative.
     #[inline(always)]
-    fn calm<C: Radiance>(
+    pub(super) fn calm<C: Radiance>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -231,8 +288,6 @@ impl<S: Simd> Filled<'_, S> {
         stage: Stage,
         facings: &Facings<S>,
     ) -> Calm<S> {
-        /// The pace at which light is no more calm.
-        const HURRIED: f64 = 0.25;
         /// What the fourth and the sixth derivative of a root contribute at a pace of 1.
         const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
         /// The errors of exponential functions over the square of their bend and what they change
@@ -275,23 +330,20 @@ impl<S: Simd> Filled<'_, S> {
         if self.finish.is_told() {
             error = error.max(self.of_lobes(scene, stage, facings));
         }
-        let mut settled = self.pace.simd_lt(HURRIED);
+        let mut is_known = self.pace.simd_lt(HURRIED);
         if is_rough {
             let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
             error += self.missed(simd, scene, facings, from_samples);
             if is_star {
-                settled &= self.is_small();
-            }
-            if !self.finish.has_whole_exponent() {
-                for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
-                    let reach = self.changes(light, facings, 2.0) * (1.0 / HURRIED);
-                    let lit = mask64x8::from_bitmask(simd, *lit);
-                    settled &= !(facings.undecided(light, reach) & lit);
-                }
+                is_known &= self.is_within(SMALL);
             }
         }
-        settled &= error.simd_le(self.tolerance);
-        Calm { error, settled }
+        let settled = is_known & error.simd_le(self.tolerance);
+        Calm {
+            error,
+            is_known,
+            settled,
+        }
     }
 
     /// What rules do to bells exp(−κ) where normals turn through them, however the bend of light
@@ -313,24 +365,58 @@ impl<S: Simd> Filled<'_, S> {
         sum
     }
 
-    /// Which pixels are small beside the bumps of the surface.
+    /// Which pixels' half diagonals are less than some cells of the noise.
     #[inline(always)]
-    fn is_small(&self) -> mask64x8<S> {
-        /// Half diagonals over cells of the noise.
-        const SMALL: f64 = 0.25;
-        (self.turn * self.finish.grain()).simd_lt(SMALL)
+    fn is_within(&self, cells: f64) -> mask64x8<S> {
+        (self.turn * self.finish.grain()).simd_lt(cells)
     }
 
-    /// How much a rough surface's facing of a light changes within some half diagonals, at most: as
-    /// much as its normals may turn; an estimate by its change from sample to sample where a pixel is
-    /// small beside its bumps.
+    /// Which pixels' parts are small beside the bumps, and promise an error that is small enough.
     #[inline(always)]
-    fn changes(&self, light: usize, facings: &Facings<S>, distance: f64) -> f64x8<S> {
-        /// Samples are about one and a half half diagonals apart; and caution.
-        const OF_RANGE: f64 = 1.9;
-        let bound = self.turn * (self.finish.slope_bound() * distance);
-        let estimate = facings.range(light) * (OF_RANGE * distance).min(1.5);
-        self.is_small().select(bound.min(estimate), bound)
+    fn gains_by_parts(&self, star: &Calm<S>) -> mask64x8<S> {
+        /// Errors of parts over the whole pixel's, at best.
+        const GAIN: f64 = 0.1;
+        self.is_within(SMALL / SIZE_OF_PARTS)
+            & self.pace.simd_lt(HURRIED / SIZE_OF_PARTS)
+            & (star.error * GAIN).simd_le(self.tolerance)
+    }
+
+    /// How a rough surface faces a light all over the pixels, how far that is in doubt when no point is
+    /// farther from samples than `from_samples`, and what it changes by at most.
+    ///
+    /// By how fast its normals may turn; an estimate by the samples where a pixel is small beside its
+    /// bumps.
+    #[inline(always)]
+    fn faces(
+        &self,
+        light: usize,
+        facings: &Facings<S>,
+        from_samples: f64,
+    ) -> (Extremes<S>, f64x8<S>, f64x8<S>) {
+        /// How far corners are off, and points at the sides, of what samples and corners differ by,
+        /// and of what they bend by beyond what parabolas tell.
+        const OF_RANGE: f64 = 0.4;
+        const OF_BEND: f64 = 1.5;
+        /// Of how far normals may turn, for each cell of the noise.
+        const OF_TURN: f64 = 0.1;
+        const CAUTION: f64 = 1.2;
+        let slope = self.turn * self.finish.slope_bound();
+        let (samples, corners) = (facings.of_samples(light), facings.with_corners(light));
+        let cells = self.turn * self.finish.grain();
+        let doubt = corners.range() * OF_RANGE + corners.bend * OF_BEND + slope * cells * OF_TURN;
+        let range = corners.range() * CAUTION;
+        let is_small = self.is_within(SMALL / SIZE_OF_PARTS);
+        let extremes = Extremes {
+            lowest: is_small.select(corners.lowest, samples.lowest),
+            highest: is_small.select(corners.highest, samples.highest),
+            bend: corners.bend,
+        };
+        let bound = slope * from_samples;
+        (
+            extremes,
+            is_small.select(doubt * from_samples, bound).min(bound),
+            is_small.select(range, slope * 2.0).min(slope * 2.0),
+        )
     }
 
     /// What samples, from which no point is farther than `from_samples`, may miss where a rough
@@ -345,13 +431,15 @@ impl<S: Simd> Filled<'_, S> {
     ) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
         let mut missed = zero;
+        let negligible = 0.01 * self.tolerance;
+        let jumps = self
+            .finish
+            .jumps(simd, scene, &self.middle, self.size, negligible);
         for (light, lit) in self.lit.iter().enumerate().take(scene.lights.len()) {
-            let reach = self.changes(light, facings, from_samples);
-            let range = self.changes(light, facings, 2.0);
-            let undecided = facings.undecided(light, reach) & mask64x8::from_bitmask(simd, *lit);
-            let most = self
-                .finish
-                .cost_of_turning(scene, light, range, facings.spot(light));
+            let (extremes, doubt, range) = self.faces(light, facings, from_samples);
+            let undecided = extremes.undecided(doubt) & mask64x8::from_bitmask(simd, *lit);
+            let spot = jumps.select(facings.spot(light), zero);
+            let most = self.finish.cost_of_turning(scene, light, range, spot);
             missed += undecided.select(most, zero);
             if self.finish.has_blunt_spot() {
                 /// As with the facing of lights.

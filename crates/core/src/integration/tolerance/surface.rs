@@ -4,11 +4,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 use glam::{DMat3, DVec3};
 
+use super::facings::Facings;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
 use crate::edges::{Ball, Vectors};
 use crate::power::Power;
 use crate::roughness::{Bumps, NoiseCells, PixelKey, unit};
-use crate::{Material, Radiance};
+use crate::{Color, Material, Radiance};
 
 /// Points of a sphere that the eye sees from outside.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +23,23 @@ pub(super) struct Points<S: Simd> {
 }
 
 impl<S: Simd> Points<S> {
+    /// None that anything is known of.
+    #[inline(always)]
+    pub(super) fn nowhere(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let nothing = Vectors {
+            x: zero,
+            y: zero,
+            z: zero,
+        };
+        Self {
+            ray: nothing,
+            ray_sq: zero,
+            t: zero,
+            normal: nothing,
+        }
+    }
+
     /// The points in the directions `ray`; a ray that misses counts as grazing.
     #[inline(always)]
     pub(super) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
@@ -70,6 +88,7 @@ impl<S: Simd> Points<S> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Finish<'scene> {
     material: &'scene Material,
+    albedo: Color,
     diffuse: Power,
     specular: Option<(f64, Power)>,
     bumps: Relief,
@@ -96,6 +115,7 @@ impl<'scene> Finish<'scene> {
         };
         Self {
             material,
+            albedo: scene.world.albedo(sphere),
             diffuse: Power::new(material.exponent),
             specular: material
                 .highlight
@@ -127,7 +147,7 @@ impl<'scene> Finish<'scene> {
             return 0;
         }
         let facing = points.normal.dot_one(light.toward);
-        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let diffuse = (self.albedo * light.intensity).max_element();
         let height = self.diffuse.lanes(highest_cosine(facing, turn)) * diffuse;
         let is_turning = (turn_sq * self.material.exponent).simd_gt(2.0 * most);
         let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
@@ -181,7 +201,7 @@ impl<'scene> Finish<'scene> {
         spot: f64x8<S>,
         shares: [f64x8<S>; 2],
     ) -> f64x8<S> {
-        let diffuse = (self.material.albedo * light.intensity).max_element();
+        let diffuse = (self.albedo * light.intensity).max_element();
         let strength = self.specular.map_or(0.0, |(strength, _)| strength);
         let specular = strength * light.intensity.max_element();
         let facing = facing.max(facing * 0.0);
@@ -211,7 +231,8 @@ impl<'scene> Finish<'scene> {
     }
 
     /// What it may cost a rule of three points a side that in a pixel the surface turns from a light,
-    /// when its facing of the light changes by `range` there and a highlight is as high as `spot`.
+    /// when its facing of the light changes by `range` there and a highlight that ends there is as
+    /// high as `spot`.
     #[inline(always)]
     pub(super) fn cost_of_turning<S: Simd>(
         &self,
@@ -222,21 +243,62 @@ impl<'scene> Finish<'scene> {
     ) -> f64x8<S> {
         let exponent = self.material.exponent;
         let intensity = scene.lights[light].intensity;
-        let diffuse = (self.material.albedo * intensity).max_element();
+        let diffuse = (self.albedo * intensity).max_element();
         let specular = self.specular.map_or(0.0, |(strength, _)| strength);
         self.diffuse.lanes(range.min(range * 0.0 + 1.0)) * (diffuse * cost_of_kink(exponent))
             + spot * (specular * intensity.max_element())
     }
 
+    /// Where light jumps, or nearly, by more than `negligible` at terminators of bumps, in cells of
+    /// this size with these rays through their middles: a highlight may end there.
+    ///
+    /// Where n·l = 0, n·h is at most the length of what of h is across l: with θ between l and v, to
+    /// which h is halfway, sin(θ/2).
+    #[inline(always)]
+    pub(super) fn jumps<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        middle: &Vectors<S>,
+        size: [f64; 2],
+        negligible: f64,
+    ) -> mask64x8<S> {
+        let mut jumps = mask64x8::splat(simd, self.material.exponent < 1.0);
+        let Some((strength, power)) = &self.specular else {
+            return jumps;
+        };
+        let one = f64x8::splat(simd, 1.0);
+        // Rays have a length of at least 1: so far may one turn from the middle's.
+        let turn = 0.5 * (size[0] + size[1]);
+        let scale = -one / middle.length_squared().sqrt();
+        for light in &scene.lights {
+            let along = middle.dot_one(light.toward) * scale;
+            let sine_sq = (along * -0.5 + (0.5 + 0.5 * turn)).max(one * 0.0).min(one);
+            let height = power.lanes(sine_sq.sqrt());
+            let most = strength * light.intensity.max_element();
+            jumps |= (height * most).simd_gt(negligible);
+        }
+        jumps
+    }
+
     /// What light may be missed where lines that come near a terminator of bumps do not show it: as
     /// much as a rule is off by where their facing of the light, which differs by `range`, turns.
     #[inline(always)]
-    pub(super) fn cost_of_any_turn<S: Simd>(&self, simd: S, light: &Light, range: f64) -> f64 {
+    pub(super) fn cost_of_any_turn<S: Simd>(
+        &self,
+        simd: S,
+        light: &Light,
+        range: f64,
+        jumps: bool,
+    ) -> f64 {
         /// Of a piece, what is beyond its outermost lines.
         const BEYOND: f64 = 0.04;
         let range = f64x8::splat(simd, range.min(1.0));
-        let diffuse = (self.material.albedo * light.intensity).max_element();
-        let specular = self.specular.map_or(0.0, |(strength, _)| strength);
+        let diffuse = (self.albedo * light.intensity).max_element();
+        let specular = match self.specular {
+            Some((strength, _)) if jumps => strength,
+            _ => 0.0,
+        };
         (self.diffuse.lanes(range) * (diffuse * cost_of_kink(self.material.exponent)))[0]
             + specular * light.intensity.max_element() * BEYOND
     }
@@ -267,21 +329,34 @@ impl<'scene> Finish<'scene> {
         points: &Points<S>,
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Vectors<S> {
-        match &self.bumps {
-            Relief::Smooth => points.normal,
-            relief => relief.turned(simd, scene, &points.normal, noise),
+        let [normal] = self.normals(simd, scene, &[*points], noise);
+        normal
+    }
+
+    /// The normals that light is computed with, of several points in each lane: side by side they wait
+    /// less for each other's roots and quotients.
+    #[inline(always)]
+    pub(super) fn normals<S: Simd, const COUNT: usize>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        points: &[Points<S>; COUNT],
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> [Vectors<S>; COUNT] {
+        let mut normals = [points[0].normal; COUNT];
+        for (normal, points) in normals.iter_mut().zip(points) {
+            *normal = points.normal;
         }
+        if !matches!(self.bumps, Relief::Smooth) {
+            self.bumps.turn(simd, scene, &mut normals, noise);
+        }
+        normals
     }
 
     /// Whether powers of what faces a light, and of a blunt highlight, are smooth where they begin.
     pub(super) fn has_whole_exponent(&self) -> bool {
         let [exponent, shininess] = self.exponents();
         exponent.fract() == 0.0 && (!self.has_blunt_spot() || shininess.fract() == 0.0)
-    }
-
-    /// Whether light jumps, or nearly, at terminators of bumps: highlights end there.
-    pub(super) fn jumps(&self) -> bool {
-        self.specular.is_some() || self.material.exponent < 1.0
     }
 
     /// Whether a highlight's end is seen, as it is where bumps turn from eye and light together.
@@ -291,24 +366,22 @@ impl<'scene> Finish<'scene> {
         self.is_rough() && self.specular.is_some() && self.exponents()[1] < SMOOTH
     }
 
-    /// The light that points send to the eye, in the channels that `C` counts; `lit` tells for each
-    /// light, bit by bit, which of the points it reaches.
+    /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels
+    /// that `C` counts; `lit` tells for each light, bit by bit, which of the points it reaches.
     #[inline(always)]
     pub(super) fn radiance<S: Simd, C: Radiance>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
         points: &Points<S>,
+        normal: &Vectors<S>,
         lit: &[u64; MOST_LIGHTS],
-        noise: &mut Option<Box<NoiseCells>>,
         mut facings: Option<&mut Facings<S>>,
     ) -> [f64x8<S>; 3] {
-        let material = self.material;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let constant = material.albedo * scene.ambient;
+        let constant = self.albedo * scene.ambient;
         let mut sum = [one * constant.x, one * constant.y, one * constant.z];
-        let normal = self.normal(simd, scene, points, noise);
         // With v = −d / |d|: n·h = (n·l + n·v) / |l + v|, and |l + v|² = 2 + 2 l·v.
         let (mut scale, mut to_eye) = (zero, zero);
         if self.specular.is_some() {
@@ -318,9 +391,9 @@ impl<'scene> Finish<'scene> {
         if let Some(facings) = &mut facings {
             for (index, light) in scene.lights.iter().enumerate() {
                 let facing = normal.dot_one(light.toward);
-                facings.lowest[index] = facings.lowest[index].min(facing);
-                facings.highest[index] = facings.highest[index].max(facing);
+                facings.note(index, facing);
             }
+            facings.taken += 1;
         }
         for (index, light) in scene.lights.iter().enumerate() {
             if lit[index] == 0 {
@@ -332,7 +405,7 @@ impl<'scene> Finish<'scene> {
             // Rounding may make it a little more than 1.
             let diffuse = self.diffuse.lanes(facing.max(zero).min(one));
             let diffuse = faces.select(diffuse, zero);
-            let color = material.albedo * intensity;
+            let color = self.albedo * intensity;
             for channel in 0..C::CHANNELS {
                 sum[channel] += diffuse * color[channel];
             }
@@ -342,9 +415,7 @@ impl<'scene> Finish<'scene> {
                 let half = (facing + to_eye) / length_sq.sqrt();
                 let spot = power.lanes(half.max(zero).min(one));
                 if let Some(facings) = &mut facings {
-                    facings.spots[index] = facings.spots[index].max(spot);
-                    facings.spot_lowest[index] = facings.spot_lowest[index].min(half);
-                    facings.spot_highest[index] = facings.spot_highest[index].max(half);
+                    facings.note_spot(index, spot, half);
                 }
                 let spot = faces.select(spot, zero);
                 for channel in 0..C::CHANNELS {
@@ -357,94 +428,46 @@ impl<'scene> Finish<'scene> {
 }
 
 impl Relief {
-    /// The normals of a rough surface.
+    /// Turns normals of a rough surface.
     #[inline(never)]
-    fn turned<S: Simd>(
+    fn turn<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
-        normal: &Vectors<S>,
+        normals: &mut [Vectors<S>],
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> Vectors<S> {
+    ) {
         simd.vectorize(
             #[inline(always)]
             || {
-                let rough = turned(normal, &scene.world_from_camera);
-                let [x, y, z] = match self {
-                    Self::Smooth => [rough.x, rough.y, rough.z],
+                let to_world = &scene.world_from_camera;
+                let from_world = &to_world.transpose();
+                match self {
+                    Self::Smooth => {}
                     Self::Bumpy(bumps) => {
                         let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
-                        bumps.perturb_lanes([rough.x, rough.y, rough.z], noise)
+                        for normal in &mut *normals {
+                            let Vectors { x, y, z } = turned(normal, to_world);
+                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
+                            *normal = Vectors { x, y, z };
+                        }
                     }
-                    Self::Factors(factors) => unit([
-                        rough.x * factors.x,
-                        rough.y * factors.y,
-                        rough.z * factors.z,
-                    ]),
-                };
-                turned(&Vectors { x, y, z }, &scene.world_from_camera.transpose())
+                    Self::Factors(factors) => {
+                        for normal in &mut *normals {
+                            let mut rough = turned(normal, to_world);
+                            rough.x *= factors.x;
+                            rough.y *= factors.y;
+                            rough.z *= factors.z;
+                            *normal = rough;
+                        }
+                    }
+                }
+                for normal in normals {
+                    let [x, y, z] = unit([normal.x, normal.y, normal.z]);
+                    *normal = turned(&Vectors { x, y, z }, from_world);
+                }
             },
         )
-    }
-}
-
-/// How a rough surface faces the lights.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Facings<S: Simd> {
-    lowest: [f64x8<S>; MOST_LIGHTS],
-    highest: [f64x8<S>; MOST_LIGHTS],
-    /// Powers of what highlights depend on, on either side of terminators.
-    spots: [f64x8<S>; MOST_LIGHTS],
-    /// How far half vectors are faced.
-    spot_lowest: [f64x8<S>; MOST_LIGHTS],
-    spot_highest: [f64x8<S>; MOST_LIGHTS],
-}
-
-impl<S: Simd> Facings<S> {
-    /// Of no points yet.
-    #[inline(always)]
-    pub(super) fn new(simd: S) -> Self {
-        Self {
-            lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
-            highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
-            spots: [f64x8::splat(simd, 0.0); MOST_LIGHTS],
-            spot_lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
-            spot_highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
-        }
-    }
-
-    /// Where the surface may face a light here and avert itself there, when between points its
-    /// facing changes by `reach` at most.
-    #[inline(always)]
-    pub(super) fn undecided(&self, light: usize, reach: f64x8<S>) -> mask64x8<S> {
-        self.lowest[light].simd_lt(reach) & self.highest[light].simd_gt(-reach)
-    }
-
-    /// Where half vectors may be faced here and averted there, and how far the points differ.
-    #[inline(always)]
-    pub(super) fn undecided_spot(&self, light: usize, share: f64) -> (mask64x8<S>, f64x8<S>) {
-        let (low, high) = (self.spot_lowest[light], self.spot_highest[light]);
-        let range = high - low;
-        let reach = range * share;
-        (low.simd_lt(reach) & high.simd_gt(-reach), range)
-    }
-
-    /// By how much the points differ in how they face a light.
-    #[inline(always)]
-    pub(super) fn range(&self, light: usize) -> f64x8<S> {
-        self.highest[light] - self.lowest[light]
-    }
-
-    /// How far the surface faces a light, at most.
-    #[inline(always)]
-    pub(super) fn highest(&self, light: usize) -> f64x8<S> {
-        self.highest[light]
-    }
-
-    /// How high a light's highlight is.
-    #[inline(always)]
-    pub(super) fn spot(&self, light: usize) -> f64x8<S> {
-        self.spots[light]
     }
 }
 

@@ -77,6 +77,7 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
         ..Exact::new(&world, &view, &seen, tolerance, true)
     };
     let mut found = vec![None; (view.width * view.height) as usize];
+    let mut room = Room::default();
     for row in (0..view.height).step_by(side as usize) {
         for col in (0..view.width).step_by(side as usize) {
             let tile = Tile {
@@ -86,7 +87,7 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
                 height: side.min(view.height - row),
             };
             let mut pixels = Vec::new();
-            integrator.integrate(tile, &mut (), &mut pixels);
+            integrator.integrate(tile, &mut room, &mut pixels);
             for ((col, row), pixel) in tile.pixels().zip(pixels) {
                 found[(row * view.width + col) as usize] = Some(pixel);
             }

@@ -16,6 +16,7 @@ impl Exact<'_> {
         simd: S,
         tile: Tile,
         candidates: &[usize],
+        workspace: &mut Workspace,
         pixels: &mut Vec<Pixel<C>>,
     ) -> Work {
         if candidates.iter().any(|&sphere| !self.trusted[sphere]) {
@@ -29,7 +30,6 @@ impl Exact<'_> {
         if candidates.is_empty() {
             return Work::default();
         }
-        let mut workspace = Workspace::default();
         let mut cache = CasterCache::new(self.cell(tile));
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<usize> = Vec::new();
@@ -72,7 +72,7 @@ impl Exact<'_> {
                             })
                         };
                         if spheres.len() != 1 || !covers(spheres[0]) {
-                            *pixel = self.pixel(simd, here, &spheres, &mut cache, &mut workspace);
+                            *pixel = self.pixel(simd, here, &spheres, &mut cache, workspace);
                             continue;
                         }
                     }
@@ -83,23 +83,17 @@ impl Exact<'_> {
                 }
                 for (sphere, which) in singles {
                     self.fill(
-                        simd,
-                        start,
-                        sphere,
-                        which,
-                        &glimpses,
-                        &mut cache,
-                        &mut workspace,
-                        pixels,
+                        simd, start, sphere, which, &glimpses, &mut cache, workspace, pixels,
                     );
                 }
             }
         }
-        workspace.work.candidate_tests += cache.tests;
-        workspace.work
+        let mut work = std::mem::take(&mut workspace.work);
+        work.candidate_tests += cache.tests;
+        work
     }
 
-    fn empty<C: Radiance>(&self) -> Pixel<C> {
+    pub(super) fn empty<C: Radiance>(&self) -> Pixel<C> {
         Pixel {
             value: C::from_color(self.background()),
             alpha: 0.0,

@@ -124,6 +124,19 @@ fn cloud(random: &mut Random, count: usize, radius: f64) -> Vec<(DVec3, f64)> {
         .collect()
 }
 
+/// Rays of one tile that are nearly opposite: the cone around them would be almost a line.
+#[test]
+fn lenses_that_see_half_of_the_world() {
+    let mut random = Random(17);
+    for step in 0..40 {
+        let balls = cloud(&mut random, 30, 0.3);
+        let mut view = view_from(DVec3::ZERO, (11, 1), [0.1, 1e-3][step % 2], 0.0);
+        let shift = DVec2::X * (random.number() - 0.5);
+        view.lens.shift = shift * [0.0, 1.0, 4.0][step % 3];
+        shows_the_nearest(&balls, &view);
+    }
+}
+
 #[test]
 fn random_clouds_from_outside_and_from_inside() {
     let mut random = Random(11);

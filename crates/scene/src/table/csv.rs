@@ -1,0 +1,46 @@
+//! CSV: a line with the names of the columns, then a line for each sphere.
+//!
+//! Fields are separated by commas, semicolons or tabs, whichever comes first in the first line, and
+//! may stand between quotation marks, but not go over lines.
+
+use std::fs::File;
+
+use super::columns::Plan;
+use super::fault::LineFault;
+use super::lines::Lines;
+use super::rows::Rows;
+use super::text::{self, Fields, Form};
+use super::{Request, TableError, TableFault};
+
+/// Reads a table.
+pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
+    let mut lines = Lines::new(file)?;
+    let header = lines.next()?.map(<[u8]>::to_vec).unwrap_or_default();
+    // As some programs write it.
+    let names = header.strip_prefix(b"#").unwrap_or(&header);
+    if names.trim_ascii().is_empty() {
+        let expected = "a line with the names of the columns";
+        return Err(match lines.number {
+            0 => TableFault::at_end(1, expected).into(),
+            _ => LineFault::new(&header, 0..header.len(), expected)
+                .at(1, &header)
+                .into(),
+        });
+    }
+    let is_separator = |byte: &u8| b",;\t".contains(byte);
+    let separator = names.iter().copied().find(is_separator).unwrap_or(b',');
+    let mut fields = Fields::new(names, Some(separator));
+    let mut columns = Vec::new();
+    while let Some(field) = fields.next() {
+        columns.push(String::from_utf8_lossy(&names[field]).into_owned());
+    }
+    let plan = Plan::new(columns, request, |_| false).map_err(|message| {
+        let span = 0..header.len();
+        LineFault { span, message }.at(1, &header)
+    })?;
+    let form = Form {
+        separator: Some(separator),
+        may_be_longer: false,
+    };
+    text::read(&mut lines, &plan, form, None)
+}

@@ -1,0 +1,100 @@
+//! What is wrong in a table, and where.
+
+use std::ops::Range;
+
+use crate::fault::show;
+
+/// Something that is wrong at a place of a table.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) struct TableFault {
+    pub(crate) place: TablePlace,
+    /// What was expected and what was found.
+    pub(crate) message: String,
+}
+
+/// A place in a table.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) enum TablePlace {
+    /// In a file of text.
+    Text {
+        /// The line, from 1.
+        line: u64,
+        /// That line.
+        text: String,
+        /// The place in it, in bytes.
+        span: Range<usize>,
+    },
+    /// In a row of a binary file.
+    Row {
+        /// The row, from 1.
+        row: u64,
+        /// The column, from 1.
+        column: usize,
+        /// The byte of the file at which the value starts, from 0.
+        byte: u64,
+    },
+    /// In the header of a binary file.
+    Header,
+}
+
+/// What is wrong in a line.
+#[derive(Clone, Debug)]
+pub(crate) struct LineFault {
+    /// The place in the line, in bytes.
+    pub(crate) span: Range<usize>,
+    pub(crate) message: String,
+}
+
+impl LineFault {
+    /// Something else was expected than this part of the line.
+    pub(crate) fn new(line: &[u8], span: Range<usize>, expected: &str) -> Self {
+        let found = String::from_utf8_lossy(&line[span.clone()]);
+        let found = match &*found {
+            "" if line[span.end..].trim_ascii().is_empty() => String::from("the end of the line"),
+            "" => String::from("nothing"),
+            found => show(found),
+        };
+        Self {
+            span,
+            message: format!("expected {expected}, found {found}"),
+        }
+    }
+
+    /// The fault in the line with this number.
+    pub(crate) fn at(self, number: u64, line: &[u8]) -> TableFault {
+        // Bytes that are no text become characters of other lengths.
+        let before = String::from_utf8_lossy(&line[..self.span.start]).into_owned();
+        let inside = String::from_utf8_lossy(&line[self.span.clone()]).into_owned();
+        let after = String::from_utf8_lossy(&line[self.span.end..]);
+        TableFault {
+            place: TablePlace::Text {
+                line: number,
+                span: before.len()..before.len() + inside.len(),
+                text: before + &inside + &after,
+            },
+            message: self.message,
+        }
+    }
+}
+
+impl TableFault {
+    /// A fault behind the last line of a text.
+    pub(crate) fn at_end(line: u64, expected: &str) -> Self {
+        Self {
+            place: TablePlace::Text {
+                line,
+                text: String::new(),
+                span: 0..0,
+            },
+            message: format!("expected {expected}, found the end of the file"),
+        }
+    }
+
+    /// A fault in the header of a binary file.
+    pub(crate) fn in_header(message: String) -> Self {
+        Self {
+            place: TablePlace::Header,
+            message,
+        }
+    }
+}

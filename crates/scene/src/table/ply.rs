@@ -1,0 +1,175 @@
+//! PLY, text or little-endian: the element `vertex`, which has to come first.
+//!
+//! Colors in bytes are sRGB, as programs show them; in floating point they are linear.
+//!
+//! # Source
+//! Greg Turk, "The PLY Polygon File Format", 1994.
+
+use std::fs::File;
+
+use super::binary::{self, Kind, Layout};
+use super::columns::Plan;
+use super::fault::LineFault;
+use super::lines::Lines;
+use super::rows::Rows;
+use super::text::{self, Form};
+use super::{Request, TableError, TableFault};
+use crate::suggest::either;
+
+/// What the header says.
+struct Header {
+    is_text: bool,
+    rows: u64,
+    names: Vec<String>,
+    kinds: Vec<Kind>,
+}
+
+/// Reads the vertices.
+pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
+    let mut lines = Lines::new(file)?;
+    let header = header(&mut lines)?;
+    let kinds = &header.kinds;
+    let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
+    let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
+        let span = 0..END.len();
+        LineFault { span, message }.at(lines.number, END.as_bytes())
+    })?;
+    if !header.is_text {
+        let layout = Layout {
+            start: lines.position,
+            rows: header.rows,
+            kinds: header.kinds,
+            is_by_column: false,
+            noun: "vertices",
+        };
+        return binary::read(lines.into_file(), &layout, &plan);
+    }
+    let form = Form {
+        separator: None,
+        may_be_longer: false,
+    };
+    let rows = text::read(&mut lines, &plan, form, Some(header.rows))?;
+    if (rows.len() as u64) < header.rows {
+        let (count, found) = (header.rows, rows.len());
+        let expected =
+            format!("{count} vertices, as the header says, and after {found} of them another");
+        return Err(TableFault::at_end(lines.number + 1, &expected).into());
+    }
+    Ok(rows)
+}
+
+/// The line that ends a header.
+const END: &str = "end_header";
+
+fn header(lines: &mut Lines) -> Result<Header, TableError> {
+    const MOST_COLUMNS: usize = 1000;
+    let mut header = Header {
+        is_text: true,
+        rows: 0,
+        names: Vec::new(),
+        kinds: Vec::new(),
+    };
+    let mut has_format = false;
+    let mut elements = 0;
+    loop {
+        let number = lines.number + 1;
+        let Some(line) = lines.next()? else {
+            let expected = if number == 1 { "`ply`" } else { "`end_header`" };
+            return Err(TableFault::at_end(number, expected).into());
+        };
+        let refuse = |part: usize, expected: &str| {
+            let span = word(line, part);
+            Err(LineFault::new(line, span, expected).at(number, line).into())
+        };
+        let text = String::from_utf8_lossy(line).into_owned();
+        let words: Vec<&str> = text.split_ascii_whitespace().collect();
+        if number == 1 {
+            if words != ["ply"] {
+                return refuse(0, "`ply`, with which PLY files start");
+            }
+            continue;
+        }
+        match words[..] {
+            ["comment" | "obj_info", ..] | [] => {}
+            ["format", "ascii", "1.0"] => has_format = true,
+            ["format", "binary_little_endian", "1.0"] => {
+                has_format = true;
+                header.is_text = false;
+            }
+            ["format", ..] => {
+                return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`");
+            }
+            ["element", name, count] => {
+                elements += 1;
+                if elements > 1 {
+                    continue;
+                }
+                if name != "vertex" {
+                    return refuse(1, "the element `vertex` before all others");
+                }
+                match count.parse() {
+                    Ok(rows) => header.rows = rows,
+                    Err(_) => return refuse(2, "the number of vertices"),
+                }
+            }
+            ["property", ..] if elements > 1 => {}
+            ["property", "list", ..] => {
+                return refuse(1, "a number as the property of a vertex");
+            }
+            ["property", kind, name] if elements == 1 => {
+                let Some(kind) = self::kind(kind) else {
+                    let expected = format!("a type ({})", either(KINDS.map(|known| known.0)));
+                    return refuse(1, &expected);
+                };
+                if header.names.len() == MOST_COLUMNS {
+                    return refuse(0, "at most 1000 properties");
+                }
+                header.kinds.push(kind);
+                header.names.push(name.to_owned());
+            }
+            [END] if !has_format => return refuse(0, "a line `format …` before"),
+            [END] if elements == 0 => return refuse(0, "a line `element vertex …` before"),
+            [END] => return Ok(header),
+            _ => {
+                let known = "`element …`, `property …`, `comment …` or `end_header`";
+                return refuse(0, known);
+            }
+        }
+    }
+}
+
+/// The place of a word in a line; its end if there are fewer.
+fn word(line: &[u8], number: usize) -> std::ops::Range<usize> {
+    let mut fields = text::Fields::new(line, None);
+    for _ in 0..number {
+        fields.next();
+    }
+    fields.next().unwrap_or(line.len()..line.len())
+}
+
+fn kind(name: &str) -> Option<Kind> {
+    let also = match name {
+        "int8" => "char",
+        "uint8" => "uchar",
+        "int16" => "short",
+        "uint16" => "ushort",
+        "int32" => "int",
+        "uint32" => "uint",
+        "float32" => "float",
+        "float64" => "double",
+        other => other,
+    };
+    let mut known = KINDS.iter();
+    known.find(|known| known.0 == also).map(|known| known.1)
+}
+
+const KINDS: [(&str, Kind); 8] = [
+    ("char", Kind::I8),
+    ("uchar", Kind::U8),
+    ("short", Kind::I16),
+    ("ushort", Kind::U16),
+    ("int", Kind::I32),
+    ("uint", Kind::U32),
+    ("float", Kind::F32),
+    ("double", Kind::F64),
+];

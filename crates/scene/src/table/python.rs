@@ -1,0 +1,152 @@
+//! Literals of Python, in which NPY files describe themselves.
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Literal {
+    Text(String),
+    Whole(u64),
+    Flag(bool),
+    /// A tuple or a list.
+    List(Vec<Literal>),
+    Dictionary(Vec<(Literal, Literal)>),
+}
+
+impl Literal {
+    /// The value of a key in a dictionary.
+    pub(crate) fn get(&self, key: &str) -> Option<&Self> {
+        let Self::Dictionary(pairs) = self else {
+            return None;
+        };
+        let is_key = |pair: &&(Self, Self)| matches!(&pair.0, Self::Text(text) if text == key);
+        pairs.iter().find(is_key).map(|pair| &pair.1)
+    }
+
+    /// Reads a text that is one value; `None` for anything else.
+    pub(crate) fn read(text: &str) -> Option<Self> {
+        let mut reader = Reader { rest: text };
+        let literal = reader.value(0)?;
+        reader.skip_space();
+        reader.rest.is_empty().then_some(literal)
+    }
+}
+
+struct Reader<'t> {
+    rest: &'t str,
+}
+
+impl Reader<'_> {
+    fn value(&mut self, depth: usize) -> Option<Literal> {
+        const DEEPEST: usize = 16;
+        if depth > DEEPEST {
+            return None;
+        }
+        self.skip_space();
+        if self.take('(') {
+            return self.items(')', depth).map(Literal::List);
+        }
+        if self.take('[') {
+            return self.items(']', depth).map(Literal::List);
+        }
+        if self.take('{') {
+            return self.pairs(depth);
+        }
+        for quote in ['\'', '"'] {
+            if self.take(quote) {
+                let (text, rest) = self.rest.split_once(quote)?;
+                self.rest = rest;
+                return (!text.contains('\\')).then(|| Literal::Text(text.to_owned()));
+            }
+        }
+        let is_word = |c: char| c.is_ascii_alphanumeric();
+        let end = self.rest.find(|c| !is_word(c)).unwrap_or(self.rest.len());
+        let (word, rest) = self.rest.split_at(end);
+        self.rest = rest;
+        match word {
+            "True" => Some(Literal::Flag(true)),
+            "False" => Some(Literal::Flag(false)),
+            // Python 2 wrote long numbers so.
+            _ => word.trim_end_matches('L').parse().ok().map(Literal::Whole),
+        }
+    }
+
+    fn items(&mut self, end: char, depth: usize) -> Option<Vec<Literal>> {
+        let mut items = Vec::new();
+        loop {
+            self.skip_space();
+            if self.take(end) {
+                return Some(items);
+            }
+            items.push(self.value(depth + 1)?);
+            self.skip_space();
+            if !self.take(',') {
+                return self.take(end).then_some(items);
+            }
+        }
+    }
+
+    fn pairs(&mut self, depth: usize) -> Option<Literal> {
+        let mut pairs = Vec::new();
+        loop {
+            self.skip_space();
+            if self.take('}') {
+                return Some(Literal::Dictionary(pairs));
+            }
+            let key = self.value(depth + 1)?;
+            self.skip_space();
+            if !self.take(':') {
+                return None;
+            }
+            pairs.push((key, self.value(depth + 1)?));
+            self.skip_space();
+            if !self.take(',') {
+                return self.take('}').then_some(Literal::Dictionary(pairs));
+            }
+        }
+    }
+
+    fn skip_space(&mut self) {
+        self.rest = self.rest.trim_ascii_start();
+    }
+
+    fn take(&mut self, expected: char) -> bool {
+        match self.rest.strip_prefix(expected) {
+            Some(rest) => {
+                self.rest = rest;
+                true
+            }
+            None => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_are_read() {
+        let header = "{'descr': [('x', '<f4'), (\"p\", '<f8', (3,))], 'fortran_order': False, 'shape': (3L, ), }  \n";
+        let literal = Literal::read(header).unwrap();
+        assert_eq!(literal.get("fortran_order"), Some(&Literal::Flag(false)));
+        assert_eq!(
+            literal.get("shape"),
+            Some(&Literal::List(vec![Literal::Whole(3)]))
+        );
+        let text = |text: &str| Literal::Text(text.to_owned());
+        let x = Literal::List(vec![text("x"), text("<f4")]);
+        let three = Literal::List(vec![Literal::Whole(3)]);
+        let p = Literal::List(vec![text("p"), text("<f8"), three]);
+        assert_eq!(literal.get("descr"), Some(&Literal::List(vec![x, p])));
+        assert_eq!(literal.get("other"), None);
+    }
+
+    #[test]
+    fn other_texts_are_none() {
+        let deep = "(".repeat(100_000);
+        for text in [
+            "", "{", "(1", "'a", "{1 2}", "1 2", "-1", "{'a': }", "a", &deep,
+        ] {
+            assert_eq!(Literal::read(text), None);
+        }
+    }
+}
