@@ -29,6 +29,20 @@ impl InCamera {
         }
     }
 
+    /// Around what the retina at distance 1 shows of the sphere: its lowest and highest corner; none
+    /// where it comes too near to the eye's plane.
+    pub(super) fn outline(&self) -> Option<(DVec2, DVec2)> {
+        let DVec3 { x, y, z } = self.center;
+        let product = (z - self.radius) * (z + self.radius);
+        let ends = |along: f64| {
+            let half = self.radius * (along * along + product).sqrt();
+            ((along * z - half) / product, (along * z + half) / product)
+        };
+        let (x, y) = (ends(x), ends(y));
+        let corners = (DVec2::new(x.0, y.0), DVec2::new(x.1, y.1));
+        (z > CLEAR * self.radius).then_some(corners)
+    }
+
     /// Whether all of the sphere may be behind the viewpoint, where no ray goes.
     pub(super) fn is_behind(&self) -> bool {
         self.center.z < -self.radius
@@ -46,6 +60,9 @@ struct Axis {
     /// and so far from the first.
     offset: f64,
 }
+
+/// A sphere this much nearer than its radius to the eye's plane has ends too far out.
+const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
 /// First and last tile.
 type Span = (u32, u32);
@@ -77,8 +94,6 @@ impl Axis {
         /// Far above the rounding errors of the quotient and of the place in tiles: those are
         /// below 10⁻¹² of the sums of absolute values that this is relative to.
         const MARGIN: f64 = 1e-10;
-        /// A sphere this much nearer than its radius to the eye's plane has ends too far out.
-        const CLEAR: f64 = 1.0 + 1.0 / 64.0;
         let (along, forward) = (center.x, center.y);
         if forward > CLEAR * radius {
             let product = (forward - radius) * (forward + radius);

@@ -6,6 +6,8 @@
 
 mod bins;
 mod casters;
+mod coverage;
+mod crowd;
 mod discs;
 mod frustum;
 mod seen;
@@ -26,10 +28,15 @@ use crate::{DirectionalLight, Ray, Sphere, World};
 /// Lengths whose squares are far from over- and underflow.
 const MODERATE: Range<f64> = 1e-35..1e35;
 
+/// So many spheres are searched from front to back: most of them are hidden, or not in the picture.
+const CROWD: usize = 1 << 15;
+
 /// Answers whether a sphere stands between a point and a light.
 #[derive(Clone, Debug)]
 pub(crate) struct Visibility<'world> {
     spheres: &'world [Sphere],
+    /// In a world of shadows, or of very many spheres.
+    hierarchy: Option<Arc<Hierarchy>>,
     /// For every light what may keep it from a point; nothing in a world without shadows.
     casters: Vec<Casters<'world>>,
     /// For every light and sphere what may keep it from that, once it was asked for; nothing in a
@@ -48,7 +55,8 @@ impl<'world> Visibility<'world> {
         } else {
             &[]
         };
-        let hierarchy = (!lights.is_empty()).then(|| Arc::new(Hierarchy::new(spheres)));
+        let is_asked = !lights.is_empty() || spheres.len() >= CROWD;
+        let hierarchy = is_asked.then(|| Arc::new(Hierarchy::new(spheres)));
         let of_light = |light: &DirectionalLight| {
             let hierarchy = hierarchy.clone()?;
             Some(Casters::new(spheres, hierarchy, light.toward()))
@@ -66,10 +74,17 @@ impl<'world> Visibility<'world> {
         });
         Self {
             spheres,
+            hierarchy,
             casters,
             discs: lights.iter().map(|_| unasked()).collect(),
             is_moderate,
         }
+    }
+
+    /// The hierarchy that finds what a view sees, where asking sphere by sphere takes too long.
+    fn crowd(&self) -> Option<&Hierarchy> {
+        let is_crowd = self.spheres.len() >= CROWD && self.is_moderate;
+        self.hierarchy.as_deref().filter(|_| is_crowd)
     }
 
     /// Whether squares of all lengths of the spheres are far from over- and underflow.

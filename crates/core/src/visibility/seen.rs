@@ -8,8 +8,10 @@ use rayon::slice::ParallelSliceMut;
 
 use super::Visibility;
 use super::bins::Bins;
+use super::crowd::{Crowd, rising_bits};
 use super::frustum::{Frustum, InCamera, TileRange};
 use crate::Tile;
+use crate::hierarchy::Hierarchy;
 use crate::sphere::{Ball, Relative};
 use crate::{Hit, Ray, Sphere, View};
 
@@ -24,10 +26,16 @@ pub(crate) struct Seen<'world> {
     tile_side: u32,
     /// Lengths of the balls are those of the world times 2 to the power of minus this.
     length_exponent: i32,
-    /// The spheres that may be seen at all, those that come nearest first.
-    balls: Vec<Ball>,
-    /// Which of the balls may be seen in which tile.
-    bins: Bins,
+    lists: Lists,
+}
+
+/// Which spheres may be seen in which tile.
+#[derive(Clone, Debug)]
+enum Lists {
+    /// All that may be seen at all, those that come nearest first, and which of them where.
+    Few { balls: Vec<Ball>, bins: Bins },
+    /// By blocks of tiles.
+    Many(Crowd),
 }
 
 /// A sphere that may be seen in a tile.
@@ -43,45 +51,33 @@ pub(crate) struct Candidate {
 impl<'world> Seen<'world> {
     /// Finds out what a view with tiles of this side may see where.
     pub(crate) fn new(visibility: &'world Visibility<'world>, view: &View, tile_side: u32) -> Self {
+        Self::with_hierarchy(visibility, view, tile_side, visibility.crowd())
+    }
+
+    /// Finds it out by a hierarchy of the spheres, or by asking one after the other.
+    pub(super) fn with_hierarchy(
+        visibility: &'world Visibility<'world>,
+        view: &View,
+        tile_side: u32,
+        hierarchy: Option<&Hierarchy>,
+    ) -> Self {
         let viewpoint = view.camera.position;
         let spheres = visibility.spheres;
         // The power of two and its inverse are doubles; whatever is lost makes odd balls.
         let length_exponent = libm::ilogb(largest_size(spheres, viewpoint)).clamp(-1000, 1000);
-        let scale = libm::scalbn(1.0, -length_exponent);
-
-        let frustum = Frustum::new(view, tile_side);
-        let visible = |(index, sphere): (usize, &Sphere)| {
-            let to_center = (sphere.center() - viewpoint) * scale;
-            let radius = sphere.radius() * scale;
-            let range = frustum.range(&InCamera::new(to_center, radius, view))?;
-            let nearest = rising_bits(Ball::nearest(to_center, radius));
-            let index = index as u32;
-            Some(Visible {
-                nearest,
-                index,
-                range,
-            })
+        let lists = match hierarchy {
+            Some(hierarchy) => {
+                let crowd = Crowd::new(spheres, hierarchy, view, length_exponent, tile_side);
+                Lists::Many(crowd)
+            }
+            None => Lists::few(spheres, view, length_exponent, tile_side),
         };
-        let spheres_here = spheres.par_iter().enumerate();
-        let mut order: Vec<Visible> = spheres_here
-            .with_min_len(FEWEST_TO_SHARE)
-            .filter_map(visible)
-            .collect();
-        let key = |visible: &Visible| (visible.nearest, visible.index);
-        if order.len() < FEWEST_TO_SHARE {
-            order.sort_unstable_by_key(key);
-        } else {
-            order.par_sort_unstable_by_key(key);
-        }
-        let indices = order.iter().map(|visible| visible.index);
-        let ranges = || order.iter().map(|visible| visible.range);
         Self {
             visibility,
             viewpoint,
             tile_side,
             length_exponent,
-            balls: Ball::all(spheres, indices, viewpoint, length_exponent),
-            bins: Bins::new(frustum.columns(), frustum.rows(), ranges),
+            lists,
         }
     }
 
@@ -93,8 +89,14 @@ impl<'world> Seen<'world> {
     /// The balls that may be seen in a tile, those that come nearest first.
     pub(crate) fn balls(&self, tile: Tile) -> impl Iterator<Item = &Ball> {
         let (column, row) = (tile.col / self.tile_side, tile.row / self.tile_side);
-        let places = self.bins.at(column, row);
-        places.map(|place| &self.balls[place as usize])
+        let (few, many) = match &self.lists {
+            Lists::Few { balls, bins } => {
+                let places = bins.at(column, row);
+                (Some(places.map(|place| &balls[place as usize])), None)
+            }
+            Lists::Many(crowd) => (None, Some(crowd.balls(tile))),
+        };
+        few.into_iter().flatten().chain(many.into_iter().flatten())
     }
 
     /// The spheres that may be seen in a tile, those that come nearest first.
@@ -185,6 +187,43 @@ impl<'world> Seen<'world> {
     }
 }
 
+impl Lists {
+    fn few(spheres: &[Sphere], view: &View, length_exponent: i32, tile_side: u32) -> Self {
+        let viewpoint = view.camera.position;
+        let scale = libm::scalbn(1.0, -length_exponent);
+        let frustum = Frustum::new(view, tile_side);
+        let visible = |(index, sphere): (usize, &Sphere)| {
+            let to_center = (sphere.center() - viewpoint) * scale;
+            let radius = sphere.radius() * scale;
+            let range = frustum.range(&InCamera::new(to_center, radius, view))?;
+            let nearest = rising_bits(Ball::nearest(to_center, radius));
+            let index = index as u32;
+            Some(Visible {
+                nearest,
+                index,
+                range,
+            })
+        };
+        let spheres_here = spheres.par_iter().enumerate();
+        let mut order: Vec<Visible> = spheres_here
+            .with_min_len(FEWEST_TO_SHARE)
+            .filter_map(visible)
+            .collect();
+        let key = |visible: &Visible| (visible.nearest, visible.index);
+        if order.len() < FEWEST_TO_SHARE {
+            order.sort_unstable_by_key(key);
+        } else {
+            order.par_sort_unstable_by_key(key);
+        }
+        let indices = order.iter().map(|visible| visible.index);
+        let ranges = || order.iter().map(|visible| visible.range);
+        Self::Few {
+            balls: Ball::all(spheres, indices, viewpoint, length_exponent),
+            bins: Bins::new(frustum.columns(), frustum.rows(), ranges),
+        }
+    }
+}
+
 /// Threads share the work on no fewer spheres than this.
 const FEWEST_TO_SHARE: usize = 4096;
 
@@ -207,11 +246,4 @@ fn largest_size(spheres: &[Sphere], viewpoint: DVec3) -> f64 {
         .map(size)
         .filter(|size| size.is_finite())
         .fold(0.0, f64::max)
-}
-
-/// Bits that rise with the number.
-fn rising_bits(value: f64) -> u64 {
-    const SIGN: u64 = 1 << 63;
-    let bits = value.to_bits();
-    if bits & SIGN == 0 { bits | SIGN } else { !bits }
 }

@@ -113,7 +113,11 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
     let visibility = Visibility::new(world);
     for _ in 0..6 {
         let view = view(random);
-        let seen = Seen::new(&visibility, &view, SIDE);
+        let few = Seen::new(&visibility, &view, SIDE);
+        // Whatever their number, but for sizes whose squares are no numbers.
+        let crowd = visibility.hierarchy.as_deref();
+        let crowd = crowd.filter(|_| visibility.is_moderate());
+        let crowd = Seen::with_hierarchy(&visibility, &view, SIDE, crowd);
         for (row, col) in (0..view.height)
             .step_by(8)
             .flat_map(|row| (0..view.width).step_by(8).map(move |col| (row, col)))
@@ -124,11 +128,13 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
                 width: SIDE.min(view.width - col),
                 height: SIDE.min(view.height - row),
             };
-            let candidates = seen.candidates(tile);
+            let candidates = few.candidates(tile);
+            let in_crowd = crowd.candidates(tile);
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                let found = seen.nearest(&candidates, ray.direction);
+                let found = few.nearest(&candidates, ray.direction);
                 let expected = nearest_of_all(spheres, &ray);
+                assert_eq!(found, crowd.nearest(&in_crowd, ray.direction));
                 // Distances agree to the last place; what is known from the viewpoint is rounded
                 // another way.
                 assert_eq!(
