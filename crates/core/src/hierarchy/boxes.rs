@@ -1,8 +1,6 @@
 //! Boxes in single precision, eight side by side.
 
-use glam::DVec3;
-
-use crate::Sphere;
+use super::order::Entry;
 
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
@@ -27,14 +25,17 @@ impl Boxes {
     };
 
     /// Makes a box hold a sphere as well.
-    pub(super) fn add_sphere(&mut self, place: usize, sphere: &Sphere) {
-        let (center, radius) = (sphere.center(), DVec3::splat(sphere.radius()));
-        let (low, high) = ((center - radius).to_array(), (center + radius).to_array());
+    pub(super) fn add(&mut self, place: usize, entry: &Entry) {
+        /// What rounding moved the center by is below half of this, relatively, and below the least
+        /// number that is not 0.
+        const ROUNDING: f64 = f32::EPSILON as f64;
+        const LEAST: f64 = f32::MIN_POSITIVE as f64;
+        let radius = f64::from(entry.radius);
         for axis in 0..3 {
-            // The sum was rounded, by less than the way to the next number.
-            let (low, high) = (low[axis].next_down(), high[axis].next_up());
-            self.low[axis][place] = self.low[axis][place].min(rounded_down(low));
-            self.high[axis][place] = self.high[axis][place].max(rounded_up(high));
+            let center = f64::from(entry.center[axis]);
+            let reach = radius + (center.abs() * ROUNDING + LEAST);
+            self.low[axis][place] = self.low[axis][place].min(rounded_down(center - reach));
+            self.high[axis][place] = self.high[axis][place].max(rounded_up(center + reach));
         }
     }
 
@@ -64,12 +65,13 @@ impl Boxes {
     }
 }
 
+/// A number that is not greater, for one that was rounded to a double.
 fn rounded_down(number: f64) -> f32 {
     let rounded = number as f32;
-    if f64::from(rounded) > number {
-        rounded.next_down()
-    } else {
+    if f64::from(rounded) < number {
         rounded
+    } else {
+        rounded.next_down()
     }
 }
 

@@ -8,7 +8,7 @@ mod order;
 
 pub(crate) use boxes::{Boxes, WIDTH};
 
-use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
 use self::order::NOBODY;
@@ -46,16 +46,16 @@ impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
         const NODES_A_TASK: usize = 256;
-        let order = order::order(spheres);
+        let entries = order::order(spheres);
         let mut levels = Vec::new();
-        let leaves: Vec<Boxes> = order
+        let leaves: Vec<Boxes> = entries
             .par_chunks(WIDTH * WIDTH)
             .with_min_len(NODES_A_TASK)
             .map(|groups| {
                 let mut boxes = Boxes::EMPTY;
                 for (place, group) in groups.chunks(WIDTH).enumerate() {
-                    for &index in group.iter().filter(|&&index| is_sphere(index)) {
-                        boxes.add_sphere(place, &spheres[index as usize]);
+                    for entry in group.iter().filter(|entry| is_sphere(entry.index)) {
+                        boxes.add(place, entry);
                     }
                 }
                 boxes
@@ -76,7 +76,10 @@ impl Hierarchy {
                 .collect();
             levels.push(above);
         }
-        Self { order, levels }
+        Self {
+            order: entries.par_iter().map(|entry| entry.index).collect(),
+            levels,
+        }
     }
 
     /// The node above all others, unless there is no sphere.
@@ -107,29 +110,21 @@ impl Hierarchy {
         }
     }
 
-    /// Calls `found` with the indices of all spheres whose boxes, and those around them, `may`
-    /// matter; it says so of eight boxes as bits. Each sphere once, and others too.
-    pub(crate) fn query(&self, mut may: impl FnMut(&Boxes) -> u8, mut found: impl FnMut(u32)) {
-        self.find(&mut may, &mut |index| {
+    /// Calls `found` with the indices of all spheres whose boxes, and those around them, may matter,
+    /// and of others too, each once: `look` says of the boxes of a node which ones do.
+    pub(crate) fn query(&self, mut look: impl FnMut(&Boxes) -> Look, mut found: impl FnMut(u32)) {
+        self.any(&mut look, |index| {
             found(index);
             false
         });
     }
 
     /// Whether something `holds` for any sphere that [`Hierarchy::query`] would find; no further
-    /// one is asked then.
+    /// one is asked then. Of siblings those are asked first that come first by their keys.
     pub(crate) fn any(
         &self,
-        mut may: impl FnMut(&Boxes) -> u8,
+        mut look: impl FnMut(&Boxes) -> Look,
         mut holds: impl FnMut(u32) -> bool,
-    ) -> bool {
-        self.find(&mut may, &mut holds)
-    }
-
-    fn find(
-        &self,
-        may: &mut impl FnMut(&Boxes) -> u8,
-        holds: &mut impl FnMut(u32) -> bool,
     ) -> bool {
         // Seven siblings wait on each of the levels: there are at most eleven.
         let mut waiting = [Node { level: 0, index: 0 }; 96];
@@ -142,27 +137,51 @@ impl Hierarchy {
             count -= 1;
             let node = waiting[count];
             let boxes = self.boxes(node);
-            let mut left = may(boxes) & boxes.filled();
+            let seen = look(boxes);
+            let mut left = seen.may & boxes.filled();
+            let mut places = [0; WIDTH];
+            let mut known = 0;
             while left != 0 {
                 let place = left.trailing_zeros() as usize;
                 left &= left - 1;
-                match self.child(node, place) {
-                    Child::Node(node) => {
-                        waiting[count] = node;
-                        count += 1;
-                    }
-                    Child::Spheres(indices) => {
-                        for &index in indices {
-                            if is_sphere(index) && holds(index) {
-                                return true;
-                            }
+                let mut at = known;
+                while at > 0 && seen.keys[places[at - 1]] > seen.keys[place] {
+                    places[at] = places[at - 1];
+                    at -= 1;
+                }
+                places[at] = place;
+                known += 1;
+            }
+            if node.level == 0 {
+                for &place in &places[..known] {
+                    let group = node.index as usize * WIDTH + place;
+                    for &index in &self.order[group * WIDTH..][..WIDTH] {
+                        if is_sphere(index) && holds(index) {
+                            return true;
                         }
                     }
+                }
+                continue;
+            }
+            // The last one in is the first one out.
+            for &place in places[..known].iter().rev() {
+                if let Child::Node(child) = self.child(node, place) {
+                    waiting[count] = child;
+                    count += 1;
                 }
             }
         }
         false
     }
+}
+
+/// What a search makes of the boxes of a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// The boxes that may matter, as bits.
+    pub(crate) may: u8,
+    /// In which order they are to be looked at, the least first.
+    pub(crate) keys: [f64; WIDTH],
 }
 
 /// Whether a place in a group holds a sphere.

@@ -1,61 +1,98 @@
 //! The order in which neighbors in space are neighbors in a list.
 
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
 use super::boxes::WIDTH;
 use crate::Sphere;
 
-/// A place in the order that holds no sphere.
+/// A place in the order, and the sphere there; without one its index is [`NOBODY`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// Rounded to the nearest that is finite.
+    pub(super) center: [f32; 3],
+    /// Rounded up.
+    pub(super) radius: f32,
+    pub(super) index: u32,
+}
+
+/// The index of no sphere.
 pub(super) const NOBODY: u32 = u32::MAX;
 
-/// A sphere to be put in order.
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    center: [f32; 3],
-    index: u32,
-}
+const EMPTY: Entry = Entry {
+    center: [0.0; 3],
+    radius: 0.0,
+    index: NOBODY,
+};
 
 /// Spheres whose radii differ by a factor of more than 2 to the power of this are kept apart: one
 /// floor among a million grains would make every box above it as large as itself.
 const OCTAVES: i32 = 3;
 
-/// The indices of all spheres so that every group of eight, and every group of eight such groups
-/// and so on, lies close together. Places that are left over are [`NOBODY`]'s.
-pub(super) fn order(spheres: &[Sphere]) -> Vec<u32> {
+/// Fewer are not worth another thread.
+const FEWEST_TO_SHARE: usize = 1 << 13;
+
+/// All spheres so that every group of eight, and every group of eight such groups and so on, lies
+/// close together. Some places are left over.
+pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = spheres
+        .par_iter()
+        .enumerate()
+        .with_min_len(FEWEST_TO_SHARE)
+        .map(|(index, sphere)| Entry::new(index as u32, sphere))
+        .collect();
+    let classes = classes(&entries);
+    if classes.len() <= 1 {
+        split(&mut entries);
+        entries.resize(entries.len().next_multiple_of(WIDTH), EMPTY);
+        return entries;
+    }
+    let mut order = Vec::with_capacity(entries.len() + WIDTH * classes.len());
+    for &(wanted, _) in &classes {
+        let first = order.len();
+        order.extend(entries.iter().filter(|entry| entry.class() == wanted));
+        split(&mut order[first..]);
+        order.resize(order.len().next_multiple_of(WIDTH), EMPTY);
+    }
+    order
+}
+
+impl Entry {
+    fn new(index: u32, sphere: &Sphere) -> Self {
+        let radius = sphere.radius() as f32;
+        let is_below = f64::from(radius) < sphere.radius();
+        Self {
+            // What is beyond single precision reaches to infinity as a box.
+            center: sphere
+                .center()
+                .to_array()
+                .map(|center| (center as f32).clamp(f32::MIN, f32::MAX)),
+            radius: if is_below { radius.next_up() } else { radius },
+            index,
+        }
+    }
+
+    fn class(&self) -> i32 {
+        libm::ilogbf(self.radius).div_euclid(OCTAVES)
+    }
+}
+
+/// The classes of sizes, the largest class first: its groups are those of powers of eight.
+fn classes(entries: &[Entry]) -> Vec<(i32, usize)> {
     let mut classes: Vec<(i32, usize)> = Vec::new();
-    for sphere in spheres {
-        let class = class(sphere);
+    for entry in entries {
+        let class = entry.class();
         match classes.iter_mut().find(|(known, _)| *known == class) {
             Some((_, count)) => *count += 1,
             None => classes.push((class, 1)),
         }
     }
-    // The largest class comes first: its groups are those of powers of eight.
     classes.sort_unstable_by_key(|&(class, count)| (std::cmp::Reverse(count), class));
-    let mut order = Vec::with_capacity(spheres.len() + WIDTH * classes.len());
-    let mut entries: Vec<Entry> = Vec::with_capacity(classes.first().map_or(0, |first| first.1));
-    for &(wanted, _) in &classes {
-        entries.clear();
-        let of_class = spheres.iter().enumerate();
-        let of_class = of_class.filter(|(_, sphere)| classes.len() == 1 || class(sphere) == wanted);
-        entries.extend(of_class.map(|(index, sphere)| Entry {
-            center: sphere.center().as_vec3().to_array(),
-            index: index as u32,
-        }));
-        split(&mut entries);
-        order.extend(entries.iter().map(|entry| entry.index));
-        order.resize(order.len().next_multiple_of(WIDTH), NOBODY);
-    }
-    order
-}
-
-fn class(sphere: &Sphere) -> i32 {
-    libm::ilogb(sphere.radius()).div_euclid(OCTAVES)
+    classes
 }
 
 /// Orders entries by halving them across their longest extent, again and again, at places where
 /// groups of powers of eight begin.
 fn split(entries: &mut [Entry]) {
-    /// Fewer are not worth another thread.
-    const FEWEST_TO_SHARE: usize = 1 << 13;
     let count = entries.len();
     if count <= WIDTH {
         // The order within a group is that of the file, whatever the splits made of it.

@@ -17,7 +17,10 @@ fn found(hierarchy: &Hierarchy, low: DVec3, high: DVec3) -> Vec<u32> {
             });
             may |= u8::from(!is_beyond) << place;
         }
-        may
+        Look {
+            may,
+            keys: [0.0; WIDTH],
+        }
     };
     hierarchy.query(may, |index| found.push(index));
     let count = found.len();

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::Sphere;
-use crate::hierarchy::{Boxes, Hierarchy, WIDTH};
+use crate::hierarchy::{Boxes, Hierarchy, Look, WIDTH};
 use crate::rounding::UNIT_ROUNDOFF;
 
 /// Which discs a point of the plane may lie in.
@@ -100,10 +100,11 @@ impl<'world> Casters<'world> {
         indices[first..].sort_unstable();
     }
 
-    /// Which boxes may reach into a shaft, as bits.
-    fn reaching(&self, boxes: &Boxes, shaft: &Shaft) -> u8 {
+    /// Which boxes may reach into a shaft; those first that begin lowest.
+    fn reaching(&self, boxes: &Boxes, shaft: &Shaft) -> Look {
         let (right, up, toward) = (self.right, self.up, self.toward);
-        let mut reaching = 0;
+        let mut may = 0;
+        let mut keys = [0.0; WIDTH];
         for place in 0..WIDTH {
             let low = DVec3::from_array(boxes.low.map(|axis| f64::from(axis[place])));
             let high = DVec3::from_array(boxes.high.map(|axis| f64::from(axis[place])));
@@ -122,9 +123,10 @@ impl<'world> Casters<'world> {
                 | (y - tall > shaft.high.y)
                 | (y + tall < shaft.low.y)
                 | (z + deep < shaft.lowest);
-            reaching |= u8::from(!is_beyond) << place;
+            may |= u8::from(!is_beyond) << place;
+            keys[place] = z - deep;
         }
-        reaching
+        Look { may, keys }
     }
 
     /// Whether a sphere may reach into a shaft.
