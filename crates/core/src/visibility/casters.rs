@@ -5,6 +5,8 @@
 
 use std::sync::Arc;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8};
 use glam::{DVec2, DVec3};
 
 use crate::Sphere;
@@ -21,6 +23,8 @@ pub(super) struct Casters<'world> {
     up: DVec3,
     /// Unit vector toward the light.
     toward: DVec3,
+    /// What the processor can do.
+    level: Level,
 }
 
 /// A box across a light, that begins somewhere and has no end toward the light.
@@ -41,6 +45,7 @@ impl<'world> Casters<'world> {
             right,
             up,
             toward,
+            level: Level::new(),
         }
     }
 
@@ -102,31 +107,47 @@ impl<'world> Casters<'world> {
 
     /// Which boxes may reach into a shaft; those first that begin lowest.
     fn reaching(&self, boxes: &Boxes, shaft: &Shaft) -> Look {
-        let (right, up, toward) = (self.right, self.up, self.toward);
-        let mut may = 0;
-        let mut keys = [0.0; WIDTH];
-        for place in 0..WIDTH {
-            let low = DVec3::from_array(boxes.low.map(|axis| f64::from(axis[place])));
-            let high = DVec3::from_array(boxes.high.map(|axis| f64::from(axis[place])));
-            let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-            // What rounding moves the spheres inside by, and the projections of the box.
-            let slack = 4.0 * slack(center, half.element_sum());
-            let x = center.dot(right);
-            let y = center.dot(up);
-            let z = center.dot(toward);
-            let wide = half.dot(right.abs()) + slack;
-            let tall = half.dot(up.abs()) + slack;
-            let deep = half.dot(toward.abs()) + slack;
-            // What is not a number, because a box is not finite, may reach anywhere.
-            let is_beyond = (x - wide > shaft.high.x)
-                | (x + wide < shaft.low.x)
-                | (y - tall > shaft.high.y)
-                | (y + tall < shaft.low.y)
-                | (z + deep < shaft.lowest);
-            may |= u8::from(!is_beyond) << place;
-            keys[place] = z - deep;
+        dispatch!(self.level, simd => self.reaching_lanes(simd, boxes, shaft))
+    }
+
+    #[inline(always)]
+    fn reaching_lanes<S: Simd>(&self, simd: S, boxes: &Boxes, shaft: &Shaft) -> Look {
+        /// Four times what rounding moves the spheres inside by: also the projections of the box.
+        const SLACK: f64 = 4.0 * 32.0 * UNIT_ROUNDOFF;
+        let zero = f64x8::splat(simd, 0.0);
+        let (mut x, mut y, mut z) = (zero, zero, zero);
+        let (mut wide, mut tall, mut deep) = (zero, zero, zero);
+        let mut size = zero;
+        for axis in 0..3 {
+            let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
+            for place in 0..WIDTH {
+                low[place] = f64::from(boxes.low[axis][place]);
+                high[place] = f64::from(boxes.high[axis][place]);
+            }
+            let low = f64x8::simd_from(simd, low);
+            let high = f64x8::simd_from(simd, high);
+            let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);
+            let (right, up, toward) = (self.right[axis], self.up[axis], self.toward[axis]);
+            x += center * right;
+            y += center * up;
+            z += center * toward;
+            wide += half * right.abs();
+            tall += half * up.abs();
+            deep += half * toward.abs();
+            size += center.abs() + half;
         }
-        Look { may, keys }
+        let slack = size * SLACK;
+        let (wide, tall, deep) = (wide + slack, tall + slack, deep + slack);
+        // What is not a number, because a box is not finite, may reach anywhere.
+        let is_beyond = (x - wide).simd_gt(shaft.high.x)
+            | (x + wide).simd_lt(shaft.low.x)
+            | (y - tall).simd_gt(shaft.high.y)
+            | (y + tall).simd_lt(shaft.low.y)
+            | (z + deep).simd_lt(shaft.lowest);
+        Look {
+            may: !(is_beyond.to_bitmask() as u8),
+            keys: (z - deep).into(),
+        }
     }
 
     /// Whether a sphere may reach into a shaft.
