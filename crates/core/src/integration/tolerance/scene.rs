@@ -1,6 +1,7 @@
 //! The world in the frame of a camera.
 
 use glam::{DMat3, DVec3};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use crate::edges::{Ball, Caster};
 use crate::visibility::Visibility;
@@ -25,6 +26,9 @@ pub(super) struct InCamera<'scene> {
     /// What spheres send without a light; nothing but for the first group.
     pub(super) ambient: Color,
 }
+
+/// Threads share the work on no fewer spheres than this.
+pub(super) const FEWEST_TO_SHARE: usize = 4096;
 
 /// A light in the camera's frame.
 #[derive(Clone, Copy, Debug)]
@@ -61,7 +65,8 @@ impl<'scene> InCamera<'scene> {
         let world_from_camera = view.camera.world_from_camera;
         let camera_from_world = world_from_camera.transpose();
         let viewpoint = view.camera.position;
-        let balls = world.spheres().iter().map(|sphere| Ball {
+        let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
+        let balls = spheres.map(|sphere| Ball {
             center: camera_from_world * (sphere.center() - viewpoint),
             radius: sphere.radius(),
             outside: sphere.relative_to(viewpoint).outside(),
