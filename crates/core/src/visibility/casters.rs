@@ -88,11 +88,16 @@ impl<'world> Casters<'world> {
             (low, high) = (low.min(center - around), high.max(center + around));
             most = most.max(slack);
         }
-        let shaft = Shaft {
+        let mut shaft = Shaft {
             low,
             high,
             lowest: lowest - most,
         };
+        if !points.iter().all(|point| point.is_finite()) {
+            // Nothing is known.
+            (shaft.low, shaft.high) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
+            shaft.lowest = f64::NEG_INFINITY;
+        }
         let first = indices.len();
         self.hierarchy.query(
             |boxes| self.reaching(boxes, &shaft),
@@ -136,7 +141,7 @@ impl<'world> Casters<'world> {
             deep += half * toward.abs();
             size += center.abs() + half;
         }
-        let slack = size * SLACK;
+        let slack = size * SLACK + f64::MIN_POSITIVE;
         let (wide, tall, deep) = (wide + slack, tall + slack, deep + slack);
         // What is not a number, because a box is not finite, may reach anywhere.
         let is_beyond = (x - wide).simd_gt(shaft.high.x)
@@ -184,7 +189,7 @@ impl<'world> Casters<'world> {
 /// axes are orthogonal up to 8u, over which the ray of light between a point and the sphere drifts
 /// by 8u times the sum of both M.
 pub(super) fn slack(center: DVec3, radius: f64) -> f64 {
-    32.0 * UNIT_ROUNDOFF * (center.abs().element_sum() + radius)
+    32.0 * UNIT_ROUNDOFF * (center.abs().element_sum() + radius) + f64::MIN_POSITIVE
 }
 
 #[cfg(test)]

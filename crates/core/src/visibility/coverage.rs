@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::View;
+use crate::rounding::UNIT_ROUNDOFF;
 
 /// Pixels on a side of a block.
 pub(super) const BLOCK: u32 = 64;
@@ -87,7 +88,9 @@ impl Grid {
 pub(super) struct Cover {
     /// In the camera's frame.
     center: DVec3,
-    /// The square of the distance to the center less that of the radius.
+    /// The square of its length.
+    center_sq: f64,
+    /// That less the square of the radius, which is a little smaller than the sphere's.
     outside: f64,
     /// By how much a half width may be off, relatively.
     error: f64,
@@ -100,14 +103,19 @@ impl Cover {
         const CLEAR: f64 = 1.0 + 1.0 / 64.0;
         const LEAST_OUTSIDE: f64 = 1e-3;
         const MOST_ERROR: f64 = 1e-2;
+        // As much smaller as other bounds are larger: what turning it into the camera's frame costs.
+        let radius = radius - 128.0 * UNIT_ROUNDOFF * (center.abs().element_sum() + radius);
         let (center_sq, radius_sq) = (center.length_squared(), radius * radius);
         let outside = center_sq - radius_sq;
         // Squares of sums of coordinates cancel down to that of the radius.
         let error = 256.0 * f64::EPSILON * (center_sq / radius_sq);
-        let is_known =
-            center.z > CLEAR * radius && outside > LEAST_OUTSIDE * center_sq && error < MOST_ERROR;
+        let is_known = radius > 0.0
+            && center.z > CLEAR * radius
+            && outside > LEAST_OUTSIDE * center_sq
+            && error < MOST_ERROR;
         is_known.then_some(Self {
             center,
+            center_sq,
             outside,
             error,
             range,
@@ -122,14 +130,19 @@ impl Cover {
     /// Between which places a line across the retina at the height `v` is covered.
     ///
     /// With d = (u, v, 1): (d·c)² ≥ K d·d, of which the terms in u² are negative for a sphere in
-    /// front of the eye.
+    /// front of the eye. A quarter of the discriminant is K (r² (v² + 1) − (c_y − v c_z)²), computed
+    /// from terms below 2 c⁴ (v² + 1) with a dozen roundings; v is off by a few units in its last
+    /// place, which makes 2 K r c_z √(v² + 1) as much. It is lowered by more: near its top an outline
+    /// is as wide as the root of what it is too high by.
     fn along(&self, v: f64) -> Option<(f64, f64)> {
         let (c, k) = (self.center, self.outside);
         let square = c.x * c.x - k;
         let rest = v * c.y + c.z;
         let linear = c.x * rest;
-        let discriminant = linear * linear - square * (rest * rest - (v * v + 1.0) * k);
-        if !(square < 0.0 && discriminant > 0.0) {
+        let line_sq = v * v + 1.0;
+        let slack = 128.0 * UNIT_ROUNDOFF * self.center_sq * self.center_sq * line_sq;
+        let discriminant = linear * linear - square * (rest * rest - line_sq * k) - slack;
+        if !(square < 0.0 && discriminant > 0.0 && discriminant < f64::INFINITY) {
             return None;
         }
         let half = discriminant.sqrt() / -square;
@@ -187,9 +200,10 @@ impl Coverage {
                 let low = (above.0.max(below.0) - grid.corner.x) / grid.cell;
                 let high = (above.1.min(below.1) - grid.corner.x) / grid.cell;
                 let size = (low.abs() + high.abs()) * 1e-9;
+                let is_finite = size < f64::INFINITY;
                 let first = (low + size + MARGIN).ceil().max(0.0);
                 let end = (high - size - MARGIN).floor().min(f64::from(CELLS));
-                if first < end {
+                if is_finite && first < end {
                     self.cover(row, first as u32, end as u32);
                 }
             }

@@ -22,7 +22,8 @@ pub(super) struct Crowd {
     blocks: Vec<Block>,
 }
 
-/// The spheres of a block of pixels.
+/// The spheres of a block of pixels, in the order in which they begin; odd balls, of which that is
+/// not known, in the order of boxes around them.
 #[derive(Clone, Debug)]
 struct Block {
     balls: Vec<Ball>,
@@ -112,12 +113,18 @@ impl Search<'_> {
             waiting.push(Reverse((0, root.level, root.index)));
         }
         while let Some(Reverse((nearest, level, index))) = waiting.pop() {
+            let mut has_grown = false;
             while let Some(&Reverse((farthest, cover))) = pending.peek() {
                 if farthest >= nearest {
                     break;
                 }
                 pending.pop();
                 coverage.add(&grid, &covers[cover as usize]);
+                has_grown = true;
+            }
+            // All that waits begins behind all that covers.
+            if has_grown && coverage.is_covered(CellRange::ALL) {
+                break;
             }
             if level != SPHERE {
                 self.open(
@@ -147,9 +154,6 @@ impl Search<'_> {
                     covers.len() as u32,
                 )));
                 covers.push(cover);
-            }
-            if pending.len().is_multiple_of(64) && coverage.is_covered(CellRange::ALL) {
-                break;
             }
         }
         let viewpoint = self.view.camera.position;
@@ -202,7 +206,8 @@ impl Search<'_> {
 
     /// Where a box begins, and which cells it may be seen in.
     fn see(&self, boxes: &Boxes, place: usize, grid: &Grid) -> Option<(u64, CellRange)> {
-        /// More than rounding moves the box by, and the distances to the spheres in it.
+        /// More than rounding moves the box by, and the distances to the spheres in it. (Sums of
+        /// neighbors in single precision are exact: the middle is rounded where the box is wide.)
         const MARGIN: f64 = 1e-9;
         let low = DVec3::from_array(boxes.low.map(|axis| f64::from(axis[place])));
         let high = DVec3::from_array(boxes.high.map(|axis| f64::from(axis[place])));

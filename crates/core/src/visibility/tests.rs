@@ -178,6 +178,43 @@ fn random_clouds() {
     }
 }
 
+/// Counted work, and what is seen, where most is hidden.
+#[test]
+fn crowds_leave_out_what_is_hidden() {
+    let mut random = Random(19);
+    for radius in [0.06, 0.2] {
+        let balls: Vec<_> = (0..4000).map(|_| (random.point(), radius)).collect();
+        let world = world_of(balls, &mut random);
+        let visibility = Visibility::new(&world);
+        let mut view = view(&mut random);
+        view.camera.position = view.camera.world_from_camera * DVec3::NEG_Z * 4.0;
+        (view.width, view.height) = (150, 90);
+        let few = Seen::new(&visibility, &view, SIDE);
+        let hierarchy = visibility.hierarchy.as_deref();
+        let crowd = Seen::with_hierarchy(&visibility, &view, SIDE, hierarchy);
+        let (mut listed, mut left) = (0, 0);
+        for row in (0..view.height).step_by(SIDE as usize) {
+            for col in (0..view.width).step_by(SIDE as usize) {
+                let tile = Tile {
+                    col,
+                    row,
+                    width: SIDE.min(view.width - col),
+                    height: SIDE.min(view.height - row),
+                };
+                let lists = [few.candidates(tile), crowd.candidates(tile)];
+                (listed, left) = (listed + lists[0].len(), left + lists[1].len());
+                for cell in cells_and_edges(tile) {
+                    let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
+                    let [one, other] = [(&few, &lists[0]), (&crowd, &lists[1])]
+                        .map(|(seen, list)| seen.nearest(list, ray.direction));
+                    assert_eq!(one, other);
+                }
+            }
+        }
+        assert!(2 * left < listed && left > 100, "{left} of {listed}");
+    }
+}
+
 #[test]
 fn no_spheres() {
     let mut random = Random(1);
