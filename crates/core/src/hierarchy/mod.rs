@@ -38,7 +38,7 @@ pub(crate) struct Node {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Child<'tree> {
     Node(Node),
-    /// Indices of spheres; [`Hierarchy::is_sphere`] tells the places that hold one.
+    /// Indices of spheres; [`is_sphere`] tells the places that hold one.
     Spheres(&'tree [u32]),
 }
 
@@ -152,24 +152,23 @@ impl Hierarchy {
                 places[at] = place;
                 known += 1;
             }
-            if node.level == 0 {
-                for &place in &places[..known] {
-                    let group = node.index as usize * WIDTH + place;
-                    for &index in &self.order[group * WIDTH..][..WIDTH] {
-                        if is_sphere(index) && holds(index) {
+            // What is put last among those that wait is taken first.
+            let first = count;
+            for &place in &places[..known] {
+                match self.child(node, place) {
+                    Child::Node(child) => {
+                        waiting[count] = child;
+                        count += 1;
+                    }
+                    Child::Spheres(indices) => {
+                        let mut spheres = indices.iter().filter(|&&index| is_sphere(index));
+                        if spheres.any(|&index| holds(index)) {
                             return true;
                         }
                     }
                 }
-                continue;
             }
-            // The last one in is the first one out.
-            for &place in places[..known].iter().rev() {
-                if let Child::Node(child) = self.child(node, place) {
-                    waiting[count] = child;
-                    count += 1;
-                }
-            }
+            waiting[first..count].reverse();
         }
         false
     }

@@ -166,8 +166,9 @@ impl Workspace {
         let mut batches = 0;
         // An event that is located to within a width w costs w^1.5 where a pair of edges begins, less
         // elsewhere.
+        let root = libm::cbrt(0.02 * goal.tolerance);
         let precision = Precision {
-            width: libm::cbrt(0.02 * goal.tolerance).powi(2).clamp(1e-9, 1e-2),
+            width: (root * root).clamp(1e-9, 1e-2),
             gap: (care.gap * goal.tolerance / goal.contrast).max(1e-12),
         };
         self.cuts.has_dropped();
