@@ -110,17 +110,9 @@ impl Hierarchy {
         }
     }
 
-    /// Calls `found` with the indices of all spheres whose boxes, and those around them, may matter,
-    /// and of others too, each once: `look` says of the boxes of a node which ones do.
-    pub(crate) fn query(&self, mut look: impl FnMut(&Boxes) -> Look, mut found: impl FnMut(u32)) {
-        self.any(&mut look, |index| {
-            found(index);
-            false
-        });
-    }
-
-    /// Whether something `holds` for any sphere that [`Hierarchy::query`] would find; no further
-    /// one is asked then. Of siblings those are asked first that come first by their keys.
+    /// Whether something `holds` for any of the spheres whose boxes, and those around them, may matter, and
+    /// of others too: `look` says of the boxes of a node which ones do. Each is asked once, and none
+    /// after one for which it holds. Of siblings those are asked first that come first by their keys.
     pub(crate) fn any(
         &self,
         mut look: impl FnMut(&Boxes) -> Look,

@@ -22,7 +22,10 @@ fn found(hierarchy: &Hierarchy, low: DVec3, high: DVec3) -> Vec<u32> {
             keys: [0.0; WIDTH],
         }
     };
-    hierarchy.query(may, |index| found.push(index));
+    hierarchy.any(may, |index| {
+        found.push(index);
+        false
+    });
     let count = found.len();
     found.sort_unstable();
     found.dedup();

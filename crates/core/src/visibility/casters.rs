@@ -70,9 +70,7 @@ impl<'world> Casters<'world> {
         )
     }
 
-    /// Appends the indices of all spheres whose disc may reach into the box of some points, made
-    /// larger by `around`, and which may lie toward the light from the height `lowest`; each once,
-    /// in their order.
+    /// Appends the indices of all spheres that [`Self::any_within`] asks, in their order.
     pub(super) fn within(
         &self,
         points: &[DVec3],
@@ -80,6 +78,24 @@ impl<'world> Casters<'world> {
         lowest: f64,
         indices: &mut Vec<usize>,
     ) {
+        let first = indices.len();
+        self.any_within(points, around, lowest, |index| {
+            indices.push(index);
+            false
+        });
+        indices[first..].sort_unstable();
+    }
+
+    /// Whether something holds for any sphere whose disc may reach into the box of some points, made
+    /// larger by `around`, and which may lie toward the light from the height `lowest`; each is asked
+    /// once.
+    pub(super) fn any_within(
+        &self,
+        points: &[DVec3],
+        around: f64,
+        lowest: f64,
+        mut holds: impl FnMut(usize) -> bool,
+    ) -> bool {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let mut most = 0.0_f64;
         for &point in points {
@@ -98,16 +114,10 @@ impl<'world> Casters<'world> {
             (shaft.low, shaft.high) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
             shaft.lowest = f64::NEG_INFINITY;
         }
-        let first = indices.len();
-        self.hierarchy.query(
+        self.hierarchy.any(
             |boxes| self.reaching(boxes, &shaft),
-            |index| {
-                if self.reaches(index, &shaft) {
-                    indices.push(index as usize);
-                }
-            },
-        );
-        indices[first..].sort_unstable();
+            |index| self.reaches(index, &shaft) && holds(index as usize),
+        )
     }
 
     /// Which boxes may reach into a shaft; those first that begin lowest.

@@ -117,19 +117,20 @@ impl<'world> Visibility<'world> {
         })
     }
 
-    /// Appends the spheres that may keep the light with this index from points of space that lie
-    /// within `around` of `points` or between them.
+    /// Whether something `holds` for any of the spheres that may keep the light with this index from
+    /// points of space that lie within `around` of `points` or between them: each is asked once, those
+    /// sooner, by and large, that lie nearer, until it does.
     pub(crate) fn casters(
         &self,
         light: usize,
         points: &[DVec3],
         around: f64,
-        casters: &mut Vec<usize>,
-    ) {
+        holds: impl FnMut(usize) -> bool,
+    ) -> bool {
         let of_light = &self.casters[light];
         let heights = points.iter().map(|&point| of_light.height(point));
         let lowest = heights.fold(f64::INFINITY, f64::min) - around;
-        of_light.within(points, around, lowest, casters);
+        of_light.any_within(points, around, lowest, holds)
     }
 }
 

@@ -2,13 +2,14 @@
 
 use fearless_simd::prelude::*;
 
+use super::boundary::Boundary;
 use super::breaks::Break;
 use super::contents::Contents;
 use super::cut::{Crowded, Cuts, Signature};
 use super::piece::{Part, Piece, Surroundings, Unlike};
 use super::rule::Roots;
 use super::scene::InCamera;
-use crate::edges::Cell;
+use crate::edges::{Ball, Cell};
 use crate::integration::Work;
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance};
@@ -18,6 +19,9 @@ use crate::{Color, Radiance};
 pub(super) struct Workspace {
     pub(super) contents: Contents,
     cuts: Cuts,
+    /// The candidates of a tile.
+    pub(super) balls: Vec<Ball>,
+    pub(super) boundary: Boundary,
     pub(super) scratch: Vec<f64>,
     pub(super) noise: Option<Box<NoiseCells>>,
     pub(super) breaks: Vec<Break>,

@@ -6,6 +6,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::{DVec2, DVec3};
 
+use super::casters::CasterCache;
 use super::scene::InCamera;
 use super::surface::{Finish, Points};
 use crate::edges::{Ball, Caster, Cell, Linear, Quadratic, Vectors, seam, silhouette, terminator};
@@ -39,9 +40,10 @@ pub(super) enum Reach {
 pub(super) enum Kind {
     /// Of the active sphere with this position.
     Silhouette(usize),
-    Seam,
-    /// Of a light on an active sphere.
-    Terminator(usize),
+    /// Between two active spheres.
+    Seam(usize, usize),
+    /// On an active sphere, of a light.
+    Terminator(usize, usize),
 }
 
 /// All that matters in a cell.
@@ -107,36 +109,6 @@ pub(super) enum Shade {
     Everything,
 }
 
-/// What a caster does to a patch under a light in the unit direction `toward`.
-pub(super) fn shade(patch: &Patch, caster: &Caster, toward: DVec3) -> Shade {
-    let around = patch.around + 1e-12 * caster.center.abs().max_element();
-    let [start, end] = patch.ends.map(|point| caster.project(point));
-    let ahead = patch.ends.map(|point| (point - caster.center).dot(toward));
-    if ahead[0].min(ahead[1]) - around > 0.0 {
-        return Shade::Nothing;
-    }
-    if distance_to_segment(start, end) - around > caster.radius {
-        return Shade::Nothing;
-    }
-    let farthest = start.length().max(end.length()) + around;
-    if farthest < caster.radius && ahead[0].max(ahead[1]) + around < 0.0 {
-        return Shade::Everything;
-    }
-    Shade::Edge
-}
-
-/// Distance of the origin from the way between two points.
-fn distance_to_segment(start: DVec2, end: DVec2) -> f64 {
-    let way = end - start;
-    let length_sq = way.length_squared();
-    let share = if length_sq > 0.0 {
-        (-start.dot(way) / length_sq).clamp(0.0, 1.0)
-    } else {
-        0.0
-    };
-    (start + way * share).length()
-}
-
 impl Contents {
     /// Takes in the spheres that a cell may see, out of some, and their edges.
     pub(super) fn see(
@@ -153,7 +125,7 @@ impl Contents {
         let size = cell.size[0].min(cell.size[1]);
         self.rounding = ROUNDINGS * cell.middle.length() / size;
         for &sphere in spheres {
-            let ball = scene.balls[sphere];
+            let ball = scene.ball(sphere);
             let discriminant = silhouette(cell, &ball);
             let along = cell.dot(ball.center);
             let spread = discriminant.spread();
@@ -185,7 +157,8 @@ impl Contents {
                 if is_smooth && matches!(reach, Reach::Past(_)) {
                     let terminator = terminator(cell, &ball, scene.lights[light].toward);
                     if terminator.may_vanish() {
-                        self.conics.push((Kind::Terminator(position), terminator));
+                        self.conics
+                            .push((Kind::Terminator(position, light), terminator));
                     }
                 }
                 self.reach.push(reach);
@@ -196,7 +169,8 @@ impl Contents {
 
     /// Adds where a sphere intersects those that are there.
     fn add_seams(&mut self, cell: &Cell, ball: &Ball) {
-        for other in &self.active {
+        let position = self.active.len();
+        for (index, other) in self.active.iter().enumerate() {
             let apart = (ball.center - other.ball.center).length();
             let sum = ball.radius + other.ball.radius;
             let difference = (ball.radius - other.ball.radius).abs();
@@ -204,7 +178,7 @@ impl Contents {
             if apart < sum + slack && apart > difference - slack && apart > 0.0 {
                 let seam = seam(cell, ball, &other.ball);
                 if seam.may_vanish() {
-                    self.conics.push((Kind::Seam, seam));
+                    self.conics.push((Kind::Seam(index, position), seam));
                     // The plane's place, by the radii or by K, whichever rounds less.
                     let by_radii = ball.radius.max(other.ball.radius).max(apart);
                     let by_outside = (ball.outside.abs() + other.ball.outside.abs()) / apart
@@ -236,25 +210,22 @@ impl Contents {
         if scene.world.shadows {
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let in_camera = &scene.lights[light];
-            let range = cache.casters(scene, active.sphere, light);
+            let Some(range) = cache.casters(scene, active.sphere, light) else {
+                return Reach::Nowhere;
+            };
             cache.tests += range.len() as u64;
-            for &index in &cache.indices[range] {
-                let caster = in_camera.caster(&scene.balls[index]);
-                match shade(&patch, &caster, in_camera.toward) {
-                    Shade::Nothing => {}
-                    Shade::Edge => {
-                        let reach = |ball: &Ball| ball.center.length() + ball.radius;
-                        let largest = reach(&active.ball).max(reach(&scene.balls[index]));
-                        let distance = patch.ends[0].length() / cell.middle.length();
-                        let size = cell.size[0].min(cell.size[1]) * distance;
-                        self.rounding = self.rounding.max(ROUNDINGS * largest / size);
-                        self.casters.push(caster);
-                    }
-                    Shade::Everything => {
-                        self.casters.truncate(first);
-                        return Reach::Nowhere;
-                    }
-                }
+            if cache.edges(&patch, in_camera, range) == Shade::Everything {
+                return Reach::Nowhere;
+            }
+            let extent = |center: DVec3, radius: f64| center.length() + radius;
+            let own = extent(active.ball.center, active.ball.radius);
+            let distance = patch.ends[0].length() / cell.middle.length();
+            let size = cell.size[0].min(cell.size[1]) * distance;
+            for &index in &cache.found {
+                let (center, radius) = scene.center(index as usize);
+                let largest = own.max(extent(center, radius));
+                self.rounding = self.rounding.max(ROUNDINGS * largest / size);
+                self.casters.push(in_camera.caster(center, radius));
             }
         }
         Reach::Past(first..self.casters.len())
@@ -357,72 +328,6 @@ impl Contents {
             active.discriminant = active.discriminant.transposed();
             std::mem::swap(&mut active.along.x, &mut active.along.y);
         }
-    }
-}
-
-/// The spheres that may keep lights from what a tile sees, found when they are asked for.
-#[derive(Clone, Debug)]
-pub(super) struct CasterCache {
-    tile: Cell,
-    /// Sphere, light, and where their casters stand.
-    known: Vec<(usize, usize, Range<usize>)>,
-    pub(super) indices: Vec<usize>,
-    found: Vec<usize>,
-    /// Casters that were asked whether they matter.
-    pub(super) tests: u64,
-}
-
-impl CasterCache {
-    /// Nothing is known yet of the tile that covers this cell.
-    pub(super) fn new(tile: Cell) -> Self {
-        Self {
-            tile,
-            known: Vec::new(),
-            indices: Vec::new(),
-            found: Vec::new(),
-            tests: 0,
-        }
-    }
-
-    /// Where in `indices` the spheres are that may keep a light from a sphere.
-    pub(super) fn casters(
-        &mut self,
-        scene: &InCamera<'_>,
-        sphere: usize,
-        light: usize,
-    ) -> Range<usize> {
-        let known = self
-            .known
-            .iter()
-            .find(|known| known.0 == sphere && known.1 == light);
-        if let Some((_, _, range)) = known {
-            return range.clone();
-        }
-        let ball = &scene.balls[sphere];
-        let discriminant = silhouette(&self.tile, ball);
-        let along = self.tile.dot(ball.center);
-        let patch = Patch::new(&self.tile, ball, &discriminant, &along);
-        let points = patch.ends.map(|point| scene.in_world(point));
-        let around = patch.around * (1.0 + 1e-9);
-        self.found.clear();
-        scene
-            .visibility
-            .casters(scene.lights[light].index, &points, around, &mut self.found);
-        self.found.sort_unstable();
-        self.tests += self.found.len() as u64;
-        let own = scene.world.spheres()[sphere];
-        let toward = scene.lights[light].toward;
-        let first = self.indices.len();
-        for &candidate in &self.found {
-            let caster = scene.lights[light].caster(&scene.balls[candidate]);
-            let is_other = candidate != sphere && scene.world.spheres()[candidate] != own;
-            if is_other && shade(&patch, &caster, toward) != Shade::Nothing {
-                self.indices.push(candidate);
-            }
-        }
-        let range = first..self.indices.len();
-        self.known.push((sphere, light, range.clone()));
-        range
     }
 }
 

@@ -364,7 +364,7 @@ pub(super) fn has_root_at(
     let conic = usize::from(branch / 2);
     match contents.conics.get(conic) {
         Some((Kind::Silhouette(of), _)) => *of == position,
-        Some((Kind::Terminator(of), _)) => *of == position && exponent.fract() != 0.0,
+        Some((Kind::Terminator(of, _), _)) => *of == position && exponent.fract() != 0.0,
         _ => false,
     }
 }

@@ -5,8 +5,8 @@ use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use super::Exact;
+use super::casters::CasterCache;
 use super::cell::Workspace;
-use super::contents::CasterCache;
 use super::glimpse::Glimpse;
 use super::parts::{SAMPLES_OF_PARTS, in_parts};
 use super::scene::MOST_LIGHTS;
@@ -41,10 +41,10 @@ impl Exact<'_> {
         let scene = &self.scene;
         let world = scene.world;
         let material = world.material(sphere);
-        let ball = &scene.balls[sphere];
         let Some(glimpse) = glimpses.iter().find(|glimpse| glimpse.sphere == sphere) else {
             return;
         };
+        let ball = &glimpse.ball;
         let mut hard = 0;
         let mut lit = [0_u64; MOST_LIGHTS];
         let mut manner = Manner {
@@ -167,7 +167,7 @@ impl Exact<'_> {
         lit: &mut [u64; MOST_LIGHTS],
     ) -> Manner<S> {
         let scene = &self.scene;
-        let ball = &scene.balls[glimpse.sphere];
+        let ball = &glimpse.ball;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let (ray, size) = self.rays(simd, start);
@@ -197,14 +197,20 @@ impl Exact<'_> {
             }
             if scene.world.shadows && reached != 0 {
                 let range = cache.casters(scene, glimpse.sphere, light);
+                let range = range.unwrap_or_else(|| {
+                    reached = 0;
+                    0..0
+                });
                 cache.tests += range.len() as u64 * u64::from(reached.count_ones());
-                for &index in &cache.indices[range] {
-                    let caster = in_camera.caster(&scene.balls[index]);
-                    let c = caster.center;
-                    let slack = 1e-12 * c.abs().max_element();
-                    let (x0, x1) = ends(&ray, nearest, farthest, caster.right, c);
-                    let (y0, y1) = ends(&ray, nearest, farthest, caster.up, c);
-                    let (z0, z1) = ends(&ray, nearest, farthest, toward, c);
+                let right = ends(&ray, nearest, farthest, in_camera.right);
+                let up = ends(&ray, nearest, farthest, in_camera.up);
+                let along = ends(&ray, nearest, farthest, toward);
+                for caster in range {
+                    let caster = cache.discs.get(caster);
+                    let slack = caster.slack;
+                    let (x0, x1) = (right.0 - caster.x, right.1 - caster.x);
+                    let (y0, y1) = (up.0 - caster.y, up.1 - caster.y);
+                    let (z0, z1) = (along.0 - caster.height, along.1 - caster.height);
                     let (dx, dy) = (x1 - x0, y1 - y0);
                     let way_sq = dx * dx + dy * dy;
                     let share = -(x0 * dx + y0 * dy) / way_sq.max(one * f64::MIN_POSITIVE);
@@ -246,19 +252,16 @@ struct Manner<S: Simd> {
     pace: f64x8<S>,
 }
 
-/// How far beyond `center` in the direction of `axis` the rays are at the ends of the ways that they
-/// see.
+/// How far in the direction of `axis` the rays are at the ends of the ways that they see.
 #[inline(always)]
 fn ends<S: Simd>(
     ray: &Vectors<S>,
     nearest: f64x8<S>,
     farthest: f64x8<S>,
     axis: DVec3,
-    center: DVec3,
 ) -> (f64x8<S>, f64x8<S>) {
     let along = ray.dot_one(axis);
-    let offset = center.dot(axis);
-    (along * nearest - offset, along * farthest - offset)
+    (along * nearest, along * farthest)
 }
 
 /// The positions of the bits that are set.

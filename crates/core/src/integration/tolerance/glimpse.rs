@@ -12,6 +12,7 @@ use crate::edges::{Ball, Cell, Vectors, silhouette};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Glimpse {
     pub(super) sphere: usize,
+    pub(super) ball: Ball,
     /// Bit by bit, pixels in which the sphere may be seen.
     pub(super) touched: u64,
     /// Pixels that the sphere fills, but for what is in front of it.
@@ -33,6 +34,7 @@ impl Exact<'_> {
         start: Tile,
         width: u32,
         candidates: &[usize],
+        balls: &[Ball],
         glimpses: &mut Vec<Glimpse>,
     ) {
         let zero = f64x8::splat(simd, 0.0);
@@ -42,8 +44,7 @@ impl Exact<'_> {
         let ray_sq = u * u + v * v + 1.0;
         let all = (1_u64 << width) - 1;
         let mut end = one * f64::INFINITY;
-        for &sphere in candidates {
-            let ball = &self.scene.balls[sphere];
+        for (&sphere, ball) in candidates.iter().zip(balls) {
             let (c, r, k) = (ball.center, ball.radius, ball.outside);
             let along = u * c.x + v * c.y + c.z;
             let along_spread = 0.5 * size * (c.x.abs() + c.y.abs());
@@ -95,6 +96,7 @@ impl Exact<'_> {
             end = covered.select(end.min(farthest), end);
             glimpses.push(Glimpse {
                 sphere,
+                ball: *ball,
                 touched,
                 covered: covered.to_bitmask() & all,
                 nearest: nearest.into(),
@@ -147,7 +149,7 @@ impl Exact<'_> {
         let here = |glimpse: &&Glimpse| glimpse.touched >> lane & 1 == 1;
         spheres.extend(glimpses.iter().filter(here).map(|glimpse| glimpse.sphere));
         for one in glimpses.iter().filter(here) {
-            let ball = &self.scene.balls[one.sphere];
+            let ball = &one.ball;
             if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !spheres.contains(&one.sphere)
             {
                 continue;
@@ -157,7 +159,7 @@ impl Exact<'_> {
                 if other.sphere == one.sphere || !spheres.contains(&other.sphere) {
                     continue;
                 }
-                let other_ball = &self.scene.balls[other.sphere];
+                let other_ball = &other.ball;
                 match side(&patch, ball, other_ball) {
                     Some(Side::Outside) => {
                         let along = cell.dot(other_ball.center);

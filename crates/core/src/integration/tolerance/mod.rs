@@ -3,7 +3,9 @@
 //! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
 //! known as curves, between whose events the light is smooth.
 
+mod boundary;
 mod breaks;
+mod casters;
 mod cell;
 mod contents;
 mod cut;
@@ -28,7 +30,7 @@ use fearless_simd::{Level, dispatch};
 
 use self::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
-use self::trust::trusted;
+use self::trust::trusts_view;
 use super::{Evidence, Integrator, Pixel, Status, Supersampling, Work};
 use crate::edges::Cell;
 use crate::image::Band;
@@ -42,8 +44,8 @@ pub(crate) struct Exact<'scene> {
     scene: InCamera<'scene>,
     view: &'scene View,
     seen: &'scene Seen<'scene>,
-    /// For every sphere whether doubles can be trusted with it.
-    trusted: Vec<bool>,
+    /// Whether doubles can be trusted with the view.
+    is_trusted: bool,
     /// For pixels that cannot be integrated.
     fallback: Supersampling<'scene>,
     /// What is left to the tolerance of each group of lights.
@@ -96,7 +98,7 @@ impl<'scene> Exact<'scene> {
             + world.background.max_element()
             + lights.sum::<f64>();
         Self {
-            trusted: trusted(&scene, view),
+            is_trusted: trusts_view(view),
             scene,
             view,
             seen,

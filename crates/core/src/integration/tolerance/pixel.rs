@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use fearless_simd::prelude::*;
 
 use super::Exact;
+use super::casters::CasterCache;
 use super::cell::{Goal, Workspace};
-use super::contents::CasterCache;
 use super::piece::Part;
 use crate::edges::Cell;
 use crate::integration::{Evidence, Pixel, Status};
@@ -18,6 +18,13 @@ const LOST: f64 = 0.01;
 
 /// The tolerances that a pixel is tried with, in its own: further ones where it costs too much.
 const LOOSER: [f64; 3] = [1.0, 10.0, 100.0];
+
+/// Into how many parts pieces of edges are cut before events are looked for on them: into more where
+/// something does not fit.
+const FINER: [usize; 3] = [1, 2, 4];
+
+/// So few edges are crossed by lines sooner than they are followed.
+const FEW: usize = 2;
 
 /// How deep pixels are quartered.
 const DEEPEST: i32 = 12;
@@ -47,6 +54,12 @@ impl Exact<'_> {
             error: f64::INFINITY,
             ..Part::NOTHING
         };
+        if let Some(found) = self.along_edges::<S, C>(simd, &cell, spheres, cache, workspace) {
+            part = found;
+            if part.error <= self.tolerance {
+                return self.of_part(&part);
+            }
+        }
         // What is given up is better known to a tolerance that can be met.
         for looser in LOOSER {
             workspace.begin_pixel();
@@ -68,6 +81,10 @@ impl Exact<'_> {
         if is_lost || part.rounding > self.tolerance.max(LOST) {
             return Pixel::LOST;
         }
+        self.of_part(&part)
+    }
+
+    fn of_part<C: Radiance>(&self, part: &Part) -> Pixel<C> {
         let error = part.error;
         Pixel {
             value: C::from_color(part.value),
@@ -82,6 +99,51 @@ impl Exact<'_> {
                 Status::OutOfBudget
             },
         }
+    }
+
+    /// The average over a cell along the edges in it, where spheres are smooth and highlights broad.
+    fn along_edges<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        cell: &Cell,
+        spheres: &[usize],
+        cache: &mut CasterCache,
+        workspace: &mut Workspace,
+    ) -> Option<Part> {
+        let goal = Goal {
+            tolerance: self.tolerance,
+            background: self.background(),
+            contrast: self.contrast,
+        };
+        let mut found = None;
+        workspace.work.candidate_tests += spheres.len() as u64;
+        workspace.contents.see(&self.scene, cell, spheres, cache);
+        let contents = &workspace.contents;
+        if contents.conics.len() + contents.casters.len() <= FEW {
+            return None;
+        }
+        for finer in FINER {
+            let part = simd.vectorize(
+                #[inline(always)]
+                || {
+                    let Workspace {
+                        contents, boundary, ..
+                    } = workspace;
+                    boundary.parts = finer;
+                    boundary.integrate::<S, C>(simd, &self.scene, cell, contents, &goal)
+                },
+            );
+            workspace.work.samples += std::mem::take(&mut workspace.boundary.samples);
+            let part = part?;
+            let is_met = part.error <= self.tolerance;
+            if found.is_none_or(|known: Part| part.error < known.error) {
+                found = Some(part);
+            }
+            if is_met {
+                break;
+            }
+        }
+        found
     }
 
     /// The average over a cell, by the averages over its quarters where it is hard, and over theirs:

@@ -5,7 +5,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 
 use crate::edges::{Ball, Caster};
 use crate::visibility::Visibility;
-use crate::{Color, View, World};
+use crate::{Color, Sphere, View, World};
 
 /// Lights that are integrated at a time: further ones in further groups.
 pub(super) const MOST_LIGHTS: usize = 8;
@@ -17,7 +17,9 @@ pub(super) struct InCamera<'scene> {
     pub(super) visibility: &'scene Visibility<'scene>,
     pub(super) world_from_camera: DMat3,
     pub(super) viewpoint: DVec3,
-    pub(super) balls: Vec<Ball>,
+    camera_from_world: DMat3,
+    /// All spheres; none in a world of very many, of which a view sees few.
+    balls: Vec<Ball>,
     /// Whether the eye is inside a sphere that casts shadows: so is all that it sees, and no light
     /// gets there.
     pub(super) is_enclosed: bool,
@@ -27,8 +29,11 @@ pub(super) struct InCamera<'scene> {
     pub(super) ambient: Color,
 }
 
+/// So many spheres are brought into the camera's frame once for a view.
+const MOST_KEPT: usize = 1 << 15;
+
 /// Threads share the work on no fewer spheres than this.
-pub(super) const FEWEST_TO_SHARE: usize = 4096;
+const FEWEST_TO_SHARE: usize = 4096;
 
 /// A light in the camera's frame.
 #[derive(Clone, Copy, Debug)]
@@ -39,16 +44,16 @@ pub(super) struct Light {
     /// Unit vector toward it.
     pub(super) toward: DVec3,
     /// Unit vectors across.
-    right: DVec3,
-    up: DVec3,
+    pub(super) right: DVec3,
+    pub(super) up: DVec3,
 }
 
 impl Light {
     /// A ball as the light sees it.
-    pub(super) fn caster(&self, ball: &Ball) -> Caster {
+    pub(super) fn caster(&self, center: DVec3, radius: f64) -> Caster {
         Caster {
-            center: ball.center,
-            radius: ball.radius,
+            center,
+            radius,
             right: self.right,
             up: self.up,
         }
@@ -65,12 +70,22 @@ impl<'scene> InCamera<'scene> {
         let world_from_camera = view.camera.world_from_camera;
         let camera_from_world = world_from_camera.transpose();
         let viewpoint = view.camera.position;
+        let in_camera = |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world);
         let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
-        let balls = spheres.map(|sphere| Ball {
-            center: camera_from_world * (sphere.center() - viewpoint),
-            radius: sphere.radius(),
-            outside: sphere.relative_to(viewpoint).outside(),
-        });
+        let balls: Vec<Ball> = if world.spheres().len() <= MOST_KEPT {
+            spheres.clone().map(in_camera).collect()
+        } else {
+            Vec::new()
+        };
+        let encloses = |sphere: &Sphere| {
+            /// Far more than rounding.
+            const NEARLY: f64 = 1.0 + 1e-9;
+            let distance_sq = (sphere.center() - viewpoint).length_squared();
+            let radius_sq = sphere.radius() * sphere.radius();
+            // What is not a number may be anything.
+            let is_far = distance_sq > radius_sq * NEARLY && radius_sq > 0.0;
+            !is_far && sphere.relative_to(viewpoint).outside() <= 0.0
+        };
         let of_group = world.lights.iter().enumerate();
         let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
         let lights = of_group.map(|(index, light)| {
@@ -84,13 +99,13 @@ impl<'scene> InCamera<'scene> {
                 up,
             }
         });
-        let balls: Vec<Ball> = balls.collect();
         Self {
             world,
             visibility,
             world_from_camera,
             viewpoint,
-            is_enclosed: world.shadows && balls.iter().any(|ball| ball.outside <= 0.0),
+            is_enclosed: world.shadows && spheres.any(encloses),
+            camera_from_world,
             balls,
             lights: lights.collect(),
             ambient: if group == 0 {
@@ -101,7 +116,39 @@ impl<'scene> InCamera<'scene> {
         }
     }
 
+    /// A sphere in the camera's frame.
+    pub(super) fn ball(&self, sphere: usize) -> Ball {
+        match self.balls.get(sphere) {
+            Some(ball) => *ball,
+            None => in_camera(
+                &self.world.spheres()[sphere],
+                self.viewpoint,
+                &self.camera_from_world,
+            ),
+        }
+    }
+
+    /// The center of a sphere in the camera's frame, and its radius.
+    pub(super) fn center(&self, sphere: usize) -> (DVec3, f64) {
+        match self.balls.get(sphere) {
+            Some(ball) => (ball.center, ball.radius),
+            None => {
+                let sphere = &self.world.spheres()[sphere];
+                let center = self.camera_from_world * (sphere.center() - self.viewpoint);
+                (center, sphere.radius())
+            }
+        }
+    }
+
     pub(super) fn in_world(&self, point: DVec3) -> DVec3 {
         self.viewpoint + self.world_from_camera * point
+    }
+}
+
+fn in_camera(sphere: &Sphere, viewpoint: DVec3, camera_from_world: &DMat3) -> Ball {
+    Ball {
+        center: *camera_from_world * (sphere.center() - viewpoint),
+        radius: sphere.radius(),
+        outside: sphere.relative_to(viewpoint).outside(),
     }
 }

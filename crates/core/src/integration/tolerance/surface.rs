@@ -108,10 +108,12 @@ impl<'scene> Finish<'scene> {
         let material = scene.world.material(sphere);
         let bumps = match &material.roughness {
             None => Relief::Smooth,
-            Some(roughness) => match roughness.bumps(scene.balls[sphere].radius, sphere) {
-                Some(bumps) => Relief::Bumpy(bumps),
-                None => Relief::Factors(roughness.pixel_factors(sphere, pixel)),
-            },
+            Some(roughness) => {
+                match roughness.bumps(scene.world.spheres()[sphere].radius(), sphere) {
+                    Some(bumps) => Relief::Bumpy(bumps),
+                    None => Relief::Factors(roughness.pixel_factors(sphere, pixel)),
+                }
+            }
         };
         Self {
             material,
@@ -364,6 +366,62 @@ impl<'scene> Finish<'scene> {
         /// Powers that are as smooth as need be where they begin.
         const SMOOTH: f64 = 6.0;
         self.is_rough() && self.specular.is_some() && self.exponents()[1] < SMOOTH
+    }
+
+    /// More diffuse light than some lights, bit by bit, make in any channel.
+    pub(super) fn brightest(&self, scene: &InCamera<'_>, lights: u64) -> f64 {
+        let mut sum = 0.0;
+        for (index, light) in scene.lights.iter().enumerate() {
+            if lights >> index & 1 == 1 {
+                sum += (self.albedo * light.intensity).max_element();
+            }
+        }
+        sum
+    }
+
+    /// The light of some lights, bit by bit, that points without bumps send to the eye, without what they
+    /// send where none of them reaches; on where the surface turns from them, as smooth as it is.
+    #[inline(always)]
+    pub(super) fn unclamped<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        points: &Points<S>,
+        lights: u64,
+    ) -> [f64x8<S>; 3] {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let mut sum = [zero; 3];
+        let (mut scale, mut to_eye) = (zero, zero);
+        if self.specular.is_some() {
+            scale = -one / points.ray_sq.sqrt();
+            to_eye = points.normal.dot(&points.ray) * scale;
+        }
+        for (index, light) in scene.lights.iter().enumerate() {
+            if lights >> index & 1 == 0 {
+                continue;
+            }
+            let facing = points.normal.dot_one(light.toward);
+            let diffuse = if self.material.exponent == 1.0 {
+                facing
+            } else {
+                self.diffuse.lanes(facing.max(zero).min(one))
+            };
+            let color = self.albedo * light.intensity;
+            for channel in 0..C::CHANNELS {
+                sum[channel] += diffuse * color[channel];
+            }
+            if let Some((strength, power)) = &self.specular {
+                let along = points.ray.dot_one(light.toward) * scale;
+                let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
+                let half = (facing + to_eye) / length_sq.sqrt();
+                let spot = power.lanes(half.max(zero).min(one));
+                for channel in 0..C::CHANNELS {
+                    sum[channel] += spot * (light.intensity[channel] * strength);
+                }
+            }
+        }
+        sum
     }
 
     /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels

@@ -3,9 +3,10 @@
 use fearless_simd::prelude::*;
 
 use super::Exact;
+use super::casters::CasterCache;
 use super::cell::Workspace;
-use super::contents::CasterCache;
 use super::glimpse::Glimpse;
+use super::trust::trusts;
 use crate::integration::{Evidence, Pixel, Status, Work};
 use crate::{Color, Radiance, Tile};
 
@@ -19,7 +20,11 @@ impl Exact<'_> {
         workspace: &mut Workspace,
         pixels: &mut Vec<Pixel<C>>,
     ) -> Work {
-        if candidates.iter().any(|&sphere| !self.trusted[sphere]) {
+        workspace.balls.clear();
+        for &sphere in candidates {
+            workspace.balls.push(self.scene.ball(sphere));
+        }
+        if !(self.is_trusted && workspace.balls.iter().all(trusts)) && !candidates.is_empty() {
             let count = tile.width as usize * tile.height as usize;
             pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
             return Work::default();
@@ -30,7 +35,14 @@ impl Exact<'_> {
         if candidates.is_empty() {
             return Work::default();
         }
-        let mut cache = CasterCache::new(self.cell(tile));
+        let pixel = self
+            .cell(Tile {
+                width: 1,
+                height: 1,
+                ..tile
+            })
+            .size[0];
+        let mut cache = CasterCache::new(self.cell(tile), pixel);
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<usize> = Vec::new();
         for row in 0..tile.height {
@@ -48,7 +60,10 @@ impl Exact<'_> {
                 workspace.work.candidate_tests += candidates.len() as u64 * u64::from(width);
                 simd.vectorize(
                     #[inline(always)]
-                    || self.glimpse(simd, start, width, candidates, &mut glimpses),
+                    || {
+                        let balls = &workspace.balls;
+                        self.glimpse(simd, start, width, candidates, balls, &mut glimpses);
+                    },
                 );
                 let mut singles: Vec<(usize, u64)> = Vec::new();
                 for (index, pixel) in pixels.iter_mut().enumerate() {

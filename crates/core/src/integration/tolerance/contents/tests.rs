@@ -1,6 +1,8 @@
 //! What is left out of a cell, against many of its points.
 
+use super::super::scene::Light;
 use super::*;
+use crate::edges::Caster;
 use crate::edges::tests::{
     ball_in_front, cell_at, coordinate, direction, first_hit, magnitude, ray,
 };
@@ -59,11 +61,23 @@ fn all_that_a_cell_sees_of_a_sphere_lies_in_its_patch() {
     assert!(seen > 10_000 && narrow > 500, "{seen} {narrow}");
 }
 
+/// A light from some direction.
+fn light_from(toward: DVec3) -> Light {
+    let (right, up) = toward.any_orthonormal_pair();
+    Light {
+        index: 0,
+        intensity: Color::ONE,
+        toward,
+        right,
+        up,
+    }
+}
+
 #[test]
 fn what_casters_do_to_a_patch_is_never_claimed_too_much() {
     let mut random = Random(2);
-    let mut counts = [0; 3];
-    for _ in 0..3000 {
+    let (mut counts, mut together) = ([0; 3], 0);
+    for _ in 0..6000 {
         let start = random.point() * 3.0;
         let patch = Patch {
             ends: [
@@ -72,35 +86,48 @@ fn what_casters_do_to_a_patch_is_never_claimed_too_much() {
             ],
             around: magnitude(&mut random, 1e-4, 0.3),
         };
-        let toward = direction(&mut random);
-        let (right, up) = toward.any_orthonormal_pair();
-        let caster = Caster {
-            center: start + random.point() * 0.7 + toward * (3.0 * random.number() - 1.0),
-            radius: magnitude(&mut random, 0.05, 2.0),
-            right,
-            up,
-        };
-        let shade = shade(&patch, &caster, toward);
+        let light = light_from(direction(&mut random));
+        let toward = light.toward;
+        let casters: Vec<Caster> = (0..7)
+            .map(|_| {
+                let lift = toward * (6.0 * random.number() - 1.0);
+                let center = start + random.point() * 0.7 + lift;
+                light.caster(center, magnitude(&mut random, 0.02, 0.8))
+            })
+            .collect();
+        let (mut cache, range) = CasterCache::of(&casters, &light);
+        let shade = cache.edges(&patch, &light, range);
         counts[shade as usize] += 1;
+        let (mut dark, mut alone) = (true, false);
         for _ in 0..100 {
             let [start, end] = patch.ends;
             let way = start + (end - start) * (1.2 * coordinate(&mut random) + 0.5).clamp(0.0, 1.0);
             // Most of them near its border, where there is most to be missed.
             let away = patch.around * (1.0 - random.number() * random.number());
             let point = way + direction(&mut random) * away;
-            let is_dark = is_between(&caster, point, toward);
-            match shade {
-                // A point inside of a caster is behind its surface, whatever is ahead.
-                Shade::Nothing => assert!(
-                    !is_dark || (point - caster.center).dot(toward) > 0.0,
-                    "{patch:?} {caster:?}"
-                ),
-                Shade::Everything => assert!(is_dark, "{patch:?} {caster:?}"),
-                Shade::Edge => {}
+            // A point inside of a caster is behind its surface, whatever is ahead.
+            let is_open = |caster: &&Caster| point.distance(caster.center) > caster.radius;
+            let hides = |caster: &Caster| is_between(caster, point, toward);
+            if !casters.iter().all(|caster| is_open(&caster)) {
+                continue;
             }
+            let is_dark = casters.iter().any(hides);
+            match shade {
+                Shade::Everything => assert!(is_dark, "{patch:?} {casters:?}"),
+                Shade::Nothing => assert!(!is_dark, "{patch:?} {casters:?}"),
+                Shade::Edge => {
+                    let found = cache.found.iter().map(|&index| &casters[index as usize]);
+                    let known = found.into_iter().any(hides);
+                    assert_eq!(is_dark, known, "{patch:?} {casters:?} {:?}", cache.found);
+                }
+            }
+            dark &= is_dark;
+            alone |= casters.iter().filter(|caster| hides(caster)).count() == 1;
         }
+        together += u32::from(shade == Shade::Everything && dark && alone);
     }
     assert!(counts.iter().all(|&count| count > 100), "{counts:?}");
+    assert!(together > 10, "{together}");
 }
 
 fn cloud(random: &mut Random, count: usize) -> World {
@@ -155,9 +182,9 @@ fn casters_are_those_of_all_spheres_that_matter() {
                 size: [magnitude(&mut random, 1e-3, 0.3); 2],
                 is_transposed: false,
             };
-            let mut cache = CasterCache::new(tile);
+            let mut cache = CasterCache::new(tile, tile.size[0] / 8.0);
             for sphere in 0..world.spheres().len() {
-                let ball = scene.balls[sphere];
+                let ball = scene.ball(sphere);
                 let points: Vec<DVec3> = (0..20)
                     .filter_map(|_| {
                         let (x, y) = (coordinate(&mut random), coordinate(&mut random));
@@ -167,22 +194,24 @@ fn casters_are_those_of_all_spheres_that_matter() {
                 if ball.outside <= 0.0 || points.is_empty() {
                     continue;
                 }
-                let patch = patch_of(&tile, &ball);
                 for light in 0..scene.lights.len() {
                     let toward = scene.lights[light].toward;
                     let range = cache.casters(&scene, sphere, light);
                     assert_eq!(range, cache.casters(&scene, sphere, light), "asked again");
-                    let found = cache.indices[range].to_vec();
+                    let is_dark = range.is_none();
+                    let found = cache.listed(range);
                     for other in (0..world.spheres().len()).filter(|&other| other != sphere) {
-                        let caster = scene.lights[light].caster(&scene.balls[other]);
+                        let (center, radius) = scene.center(other);
+                        let caster = scene.lights[light].caster(center, radius);
                         let is_listed = found.contains(&other);
-                        let is_dark = |&point: &DVec3| is_between(&caster, point, toward);
+                        let hides = |&point: &DVec3| is_between(&caster, point, toward);
                         // A point inside of another sphere is not seen, unless the eye is in there.
                         let is_open = |point: &DVec3| point.distance(caster.center) > caster.radius;
-                        let keeps = points.iter().any(|at| is_open(at) && is_dark(at));
-                        assert!(is_listed || !keeps, "{other} keeps light from {sphere}");
-                        let may = shade(&patch, &caster, toward) != Shade::Nothing;
-                        assert!(may || !is_listed, "{other} has no part in {sphere}");
+                        let keeps = points.iter().any(|at| is_open(at) && hides(at));
+                        assert!(
+                            is_listed || is_dark || !keeps,
+                            "{other} keeps light from {sphere}"
+                        );
                         dark += u32::from(keeps);
                         listed += u32::from(is_listed);
                         asked += 1;
@@ -217,12 +246,12 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
         frame: 1,
     };
     let scene = InCamera::new(&world, &visibility, &view, 0);
-    let tile = cell_at(&mut random, &scene.balls[0], 2.0);
-    let mut cache = CasterCache::new(tile);
+    let tile = cell_at(&mut random, &scene.ball(0), 2.0);
+    let mut cache = CasterCache::new(tile, tile.size[0] / 8.0);
     for light in 0..scene.lights.len() {
         for (sphere, twin) in [(0, other), (other, 0)] {
             let range = cache.casters(&scene, sphere, light);
-            assert!(!cache.indices[range].contains(&twin));
+            assert!(!cache.listed(range).contains(&twin));
         }
     }
 }

@@ -1,0 +1,483 @@
+//! Which parts of curves are seen, and what lies on either side of them.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::super::contents::{Contents, Kind, Reach};
+use super::super::cut::ray;
+use super::super::surface::Points;
+use super::curve::{Piece, Trace};
+use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
+use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
+
+/// What is in front, or next behind a curve, at eight places.
+#[derive(Clone, Copy)]
+struct Front<S: Simd> {
+    /// In multiples of the ray.
+    nearest: f64x8<S>,
+    /// The position of the sphere and one more, or zero.
+    first: f64x8<S>,
+    /// Whether one sphere hides all of the places.
+    is_hidden: bool,
+}
+
+impl<S: Simd> Front<S> {
+    /// At which of the places an active sphere is first.
+    #[inline(always)]
+    fn is(&self, sphere: usize) -> u64 {
+        self.first.simd_eq((sphere + 1) as f64).to_bitmask()
+    }
+}
+
+/// Intervals that begin or end at some of the places.
+fn beside(lanes: u64) -> u64 {
+    (lanes | lanes >> 1) & INTERVALS
+}
+
+/// Intervals that begin and end at some of the places.
+fn between(lanes: u64) -> u64 {
+    lanes & lanes >> 1 & INTERVALS
+}
+
+/// The first of the active spheres on which a curve does not lie, at some places of it.
+#[inline(always)]
+fn front<S: Simd>(simd: S, contents: &Contents, own: [usize; 2], places: &Trace<S>) -> Front<S> {
+    let zero = f64x8::splat(simd, 0.0);
+    let mut front = Front {
+        nearest: f64x8::splat(simd, f64::INFINITY),
+        first: zero,
+        is_hidden: false,
+    };
+    let (x, y) = (places.x, places.y);
+    for (position, active) in contents.active.iter().enumerate() {
+        if own.contains(&position) {
+            continue;
+        }
+        let discriminant = polynomial(&active.discriminant, x, y);
+        let covers = discriminant.simd_ge(0.0);
+        let lanes = covers.to_bitmask();
+        if lanes == 0 {
+            continue;
+        }
+        let along = x * active.along.x + y * active.along.y + active.along.one;
+        let root = discriminant.max(zero).sqrt();
+        let t = f64x8::splat(simd, active.ball.outside) / (along + root);
+        let is_nearer = covers & t.simd_lt(front.nearest);
+        front.nearest = is_nearer.select(t, front.nearest);
+        front.first = is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
+        if lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff {
+            front.is_hidden = true;
+            return front;
+        }
+    }
+    front
+}
+
+impl Boundary {
+    /// Finds the parts of a piece that are seen.
+    #[inline(always)]
+    pub(super) fn find_arcs<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        piece: &Piece,
+    ) {
+        self.arcs.clear();
+        self.breaks.clear();
+        let stretch = Stretch {
+            curve,
+            piece,
+            start: 0.0,
+            end: 1.0,
+        };
+        let places = stretch.places(simd, setting);
+        if !self.find_own_breaks(simd, setting, &stretch, &places) {
+            return;
+        }
+        let contents = setting.contents;
+        let front = front(simd, contents, curve.own, &places);
+        let is_side = matches!(curve.edge, Edge::Left | Edge::Right);
+        if front.is_hidden && !is_side {
+            return;
+        }
+        let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
+        let firsts: [f64; 8] = front.first.into();
+        let mut alike = 0;
+        for lane in 0..7 {
+            alike |= u64::from(firsts[lane] == firsts[lane + 1]) << lane;
+        }
+        // Nothing comes in sight where one sphere hides both ends.
+        let open = if is_side {
+            INTERVALS
+        } else {
+            INTERVALS & !(between(hidden) & alike)
+        };
+        for (position, active) in contents.active.iter().enumerate() {
+            if curve.own.contains(&position) {
+                continue;
+            }
+            let mut intervals = open;
+            if self.parts == 1 {
+                // Where the same is first at both ends, others begin behind it.
+                intervals &= beside(front.is(position)) | !alike;
+            }
+            let values = polynomial(&active.discriminant, places.x, places.y);
+            let function = Function::Outline(position);
+            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+        }
+        for (index, (kind, conic)) in contents.conics.iter().enumerate() {
+            let Kind::Seam(one, other) = *kind else {
+                continue;
+            };
+            let (function, intervals) = match (curve.own.contains(&one), curve.own.contains(&other))
+            {
+                (true, true) => continue,
+                (false, false) => {
+                    let mut intervals = open;
+                    if self.parts == 1 {
+                        intervals &= !alike;
+                    }
+                    let values = polynomial(conic, places.x, places.y);
+                    let function = Function::Conic(index);
+                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+                    continue;
+                }
+                (true, false) => (Function::Inside(other), beside(front.is(other))),
+                (false, true) => (Function::Inside(one), beside(front.is(one))),
+            };
+            let values = value(simd, setting, function, &places);
+            let intervals = intervals & open;
+            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+        }
+        self.order_breaks(0.0, 1.0);
+        self.see_arcs(simd, setting, &stretch);
+    }
+
+    /// Finds where a piece leaves the outer sides of its own spheres, the cell or the lower side of a
+    /// caster; whether any of it may be seen.
+    #[inline(always)]
+    fn find_own_breaks<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        places: &Trace<S>,
+    ) -> bool {
+        let curve = stretch.curve;
+        if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+            return true;
+        }
+        let mut functions = [(Function::Across(false, 0.0), 0.0); 7];
+        let mut count = 0;
+        for own in curve.own {
+            if own != NONE {
+                functions[count] = (Function::Facing(own), 1.0);
+                count += 1;
+            }
+        }
+        if let Edge::Shadow(light, caster) = curve.edge {
+            functions[count] = (Function::Above(light, caster), -1.0);
+            functions[count + 1] = (Function::Across(false, -0.5), 1.0);
+            functions[count + 2] = (Function::Across(false, 0.5), -1.0);
+            functions[count + 3] = (Function::Across(true, -0.5), 1.0);
+            functions[count + 4] = (Function::Across(true, 0.5), -1.0);
+            count += 5;
+        }
+        let mut outside = [0; 7];
+        for (index, (function, sign)) in functions.iter().enumerate().take(count) {
+            let values = value(simd, setting, *function, places);
+            outside[index] = (values * *sign).simd_lt(0.0).to_bitmask();
+            let known = self.breaks.len();
+            stretch.roots(
+                simd,
+                setting,
+                *function,
+                values,
+                INTERVALS,
+                &mut self.breaks,
+            );
+            if outside[index] == 0xff && self.breaks.len() == known {
+                return false;
+            }
+        }
+        if let Edge::Shadow(light, own) = curve.edge {
+            // Where it is dark anyway, no shadow ends.
+            let lights = setting.scene.lights.len();
+            let reach = &setting.contents.reach[curve.own[0] * lights + light];
+            let Reach::Past(casters) = reach else {
+                return false;
+            };
+            let toward = setting.scene.lights[light].toward;
+            for caster in casters.clone() {
+                if caster == own {
+                    continue;
+                }
+                let inside = in_disc(simd, setting, caster, &places.point);
+                let height = setting.contents.casters[caster].center.dot(toward);
+                let is_below = places.point.dot_one(toward).simd_lt(height);
+                if (inside.simd_lt(0.0) & is_below).to_bitmask() == 0xff {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Brings the breaks in order, between two ends.
+    pub(super) fn order_breaks(&mut self, start: f64, end: f64) {
+        self.breaks.push(start);
+        self.breaks.push(end);
+        self.breaks.sort_unstable_by(f64::total_cmp);
+    }
+
+    /// The middles between eight of the breaks and the next ones.
+    fn middles(&self, first: usize, count: usize) -> [f64; 8] {
+        let mut middles = [0.0; 8];
+        for (lane, middle) in middles.iter_mut().enumerate() {
+            let at = first + lane.min(count - 1);
+            *middle = 0.5 * (self.breaks[at] + self.breaks[at + 1]);
+        }
+        middles
+    }
+
+    /// Finds what is seen beside the curve between the breaks.
+    #[inline(always)]
+    fn see_arcs<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, stretch: &Stretch<'_>) {
+        let (contents, curve) = (setting.contents, stretch.curve);
+        let steps = self.breaks.len() - 1;
+        let mut first = 0;
+        while first < steps {
+            let count = (steps - first).min(8);
+            let middles = self.middles(first, count);
+            let places = stretch.trace(simd, setting, middles.simd_into(simd));
+            let front = front(simd, contents, curve.own, &places);
+            let mut hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
+            if matches!(curve.edge, Edge::Left | Edge::Right) {
+                hidden = 0;
+            } else if front.is_hidden {
+                hidden = 0xff;
+            }
+            if !matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+                for own in curve.own {
+                    if own != NONE {
+                        let facing = value(simd, setting, Function::Facing(own), &places);
+                        hidden |= facing.simd_le(0.0).to_bitmask();
+                    }
+                }
+            }
+            if let Edge::Shadow(light, caster) = curve.edge {
+                let above = value(simd, setting, Function::Above(light, caster), &places);
+                hidden |= above.simd_ge(0.0).to_bitmask();
+                let far = places.x.abs().max(places.y.abs());
+                hidden |= far.simd_gt(0.5).to_bitmask();
+            }
+            let firsts: [f64; 8] = front.first.into();
+            for lane in 0..count {
+                if hidden >> lane & 1 == 1 {
+                    continue;
+                }
+                let seen = (firsts[lane] as usize).wrapping_sub(1);
+                let (inner, outer) = match curve.edge {
+                    Edge::Left | Edge::Right => (seen, NONE),
+                    Edge::Limb => (curve.own[0], seen),
+                    Edge::Seam => (curve.own[0], curve.own[1]),
+                    Edge::Terminator(_) | Edge::Shadow(..) => (curve.own[0], curve.own[0]),
+                };
+                let arc = Arc {
+                    start: self.breaks[first + lane],
+                    end: self.breaks[first + lane + 1],
+                    inner,
+                    outer,
+                    lit: [0; 2],
+                };
+                add(&mut self.arcs, arc);
+            }
+            first += count;
+        }
+    }
+
+    /// Cuts the arcs where lights begin or end on either side.
+    #[inline(always)]
+    pub(super) fn light_arcs<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        piece: &Piece,
+    ) {
+        self.lit_arcs.clear();
+        for index in 0..self.arcs.len() {
+            let arc = self.arcs[index];
+            let stretch = Stretch {
+                curve,
+                piece,
+                start: arc.start,
+                end: arc.end,
+            };
+            self.breaks.clear();
+            for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
+                if sphere != NONE && (side == 0 || sphere != arc.inner) {
+                    self.find_light_breaks(simd, setting, &stretch, sphere);
+                }
+            }
+            self.order_breaks(arc.start, arc.end);
+            let steps = self.breaks.len() - 1;
+            let mut first = 0;
+            while first < steps {
+                let count = (steps - first).min(8);
+                let middles = self.middles(first, count);
+                let places = stretch.trace(simd, setting, middles.simd_into(simd));
+                let mut lit = [[0; 8]; 2];
+                if arc.inner != NONE {
+                    lit[0] = self.lit(simd, setting, arc.inner, curve, &places);
+                }
+                if arc.outer == arc.inner {
+                    lit[1] = lit[0];
+                } else if arc.outer != NONE {
+                    lit[1] = self.lit(simd, setting, arc.outer, curve, &places);
+                }
+                for lane in 0..count {
+                    let mut here = [lit[0][lane], lit[1][lane]];
+                    if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
+                        if here[0] >> light & 1 == 0 {
+                            continue;
+                        }
+                        here[1] = here[0] & !(1 << light);
+                    }
+                    let arc = Arc {
+                        start: self.breaks[first + lane],
+                        end: self.breaks[first + lane + 1],
+                        lit: here,
+                        ..arc
+                    };
+                    add(&mut self.lit_arcs, arc);
+                }
+                first += count;
+            }
+        }
+    }
+
+    /// Finds where lights begin or end on an active sphere along a stretch.
+    #[inline(always)]
+    fn find_light_breaks<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        sphere: usize,
+    ) {
+        let lights = setting.scene.lights.len();
+        let reach = &setting.contents.reach[sphere * lights..][..lights];
+        if reach.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
+            return;
+        }
+        let curve = stretch.curve;
+        let places = stretch.places(simd, setting);
+        let ball = &setting.contents.active[sphere].ball;
+        let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+        let place = points.place();
+        for (light, reach) in reach.iter().enumerate() {
+            let Reach::Past(casters) = reach else {
+                continue;
+            };
+            let toward = setting.scene.lights[light].toward;
+            let is_own = curve.own[0] == sphere;
+            let facing = points.normal.dot_one(toward);
+            let mut closed = 0;
+            if !(is_own && curve.edge == Edge::Terminator(light)) {
+                closed = between(facing.simd_lt(0.0).to_bitmask());
+            }
+            let height = place.dot_one(toward);
+            for caster in casters.clone() {
+                if is_own && curve.edge == Edge::Shadow(light, caster) {
+                    continue;
+                }
+                let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
+                let top = setting.contents.casters[caster].center.dot(toward);
+                closed |= between((inside & height.simd_lt(top)).to_bitmask());
+            }
+            let open = INTERVALS & !closed;
+            if open == 0 {
+                continue;
+            }
+            if !(is_own && curve.edge == Edge::Terminator(light)) {
+                let function = Function::Lit(sphere, light);
+                stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
+            }
+            for caster in casters.clone() {
+                if is_own && curve.edge == Edge::Shadow(light, caster) {
+                    continue;
+                }
+                let values = in_disc(simd, setting, caster, &place);
+                let function = Function::Shaded(sphere, caster);
+                stretch.roots(simd, setting, function, values, open, &mut self.breaks);
+            }
+        }
+    }
+
+    /// Which lights reach an active sphere where it is seen at some places, but for the event that the
+    /// curve is.
+    #[inline(always)]
+    fn lit<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        sphere: usize,
+        curve: &Curve,
+        places: &Trace<S>,
+    ) -> [u64; 8] {
+        let mut masks = [0; 8];
+        let contents = setting.contents;
+        let lights = setting.scene.lights.len();
+        let reach = &contents.reach[sphere * lights..][..lights];
+        if reach.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
+            return masks;
+        }
+        let ball = &contents.active[sphere].ball;
+        let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+        let place = points.place();
+        let is_own = curve.own[0] == sphere;
+        for (light, reach) in reach.iter().enumerate() {
+            let Reach::Past(casters) = reach else {
+                continue;
+            };
+            let toward = setting.scene.lights[light].toward;
+            let mut lit = 0xff;
+            if !(is_own && curve.edge == Edge::Terminator(light)) {
+                lit = points.normal.dot_one(toward).simd_gt(0.0).to_bitmask();
+            }
+            let height = place.dot_one(toward);
+            for caster in casters.clone() {
+                if is_own && curve.edge == Edge::Shadow(light, caster) {
+                    continue;
+                }
+                let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
+                let top = contents.casters[caster].center.dot(toward);
+                lit &= !(inside & height.simd_lt(top)).to_bitmask();
+                if lit == 0 {
+                    break;
+                }
+            }
+            for (lane, mask) in masks.iter_mut().enumerate() {
+                *mask |= (lit >> lane & 1) << light;
+            }
+        }
+        masks
+    }
+}
+
+/// Adds an arc, to the last one where that goes on.
+fn add(arcs: &mut Vec<Arc>, arc: Arc) {
+    match arcs.last_mut() {
+        Some(last)
+            if last.end == arc.start
+                && last.inner == arc.inner
+                && last.outer == arc.outer
+                && last.lit == arc.lit =>
+        {
+            last.end = arc.end;
+        }
+        _ => arcs.push(arc),
+    }
+}

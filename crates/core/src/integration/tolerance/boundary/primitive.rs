@@ -1,0 +1,190 @@
+//! Light summed up along lines.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::super::contents::Active;
+use super::super::scene::InCamera;
+use super::super::surface::{Finish, Points};
+use crate::Radiance;
+use crate::edges::{Cell, Vectors};
+
+/// Gauss's rules on 0 to 1: nodes and weights.
+///
+/// # Source
+/// Abramowitz and Stegun, Handbook of Mathematical Functions, 1964, table 25.4.
+const FOUR: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+const SIX: [(f64, f64); 6] = [
+    (0.033_765_242_898_423_975, 0.085_662_246_189_585_25),
+    (0.169_395_306_766_867_7, 0.180_380_786_524_069_3),
+    (0.380_690_406_958_401_5, 0.233_956_967_286_345_63),
+    (0.619_309_593_041_598_5, 0.233_956_967_286_345_63),
+    (0.830_604_693_233_132_4, 0.180_380_786_524_069_3),
+    (0.966_234_757_101_576, 0.085_662_246_189_585_25),
+];
+const EIGHT: [(f64, f64); 8] = [
+    (0.019_855_071_751_231_856, 0.050_614_268_145_188_09),
+    (0.101_666_761_293_186_66, 0.111_190_517_226_687_23),
+    (0.237_233_795_041_835_5, 0.156_853_322_938_943_7),
+    (0.408_282_678_752_175_1, 0.181_341_891_689_181),
+    (0.591_717_321_247_824_9, 0.181_341_891_689_181),
+    (0.762_766_204_958_164_5, 0.156_853_322_938_943_7),
+    (0.898_333_238_706_813_5, 0.111_190_517_226_687_23),
+    (0.980_144_928_248_768_2, 0.050_614_268_145_188_09),
+];
+
+/// What the rules are off by for n·l on a way of the parameter that is 1 long, wherever it lies: the
+/// largest that a test finds, made larger. It falls with the power of the way that is twice the nodes and
+/// one.
+const OFF: [f64; 3] = [1.2e-3, 8e-6, 4e-8];
+
+/// Where light is summed up: on lines of the cell with these y, to these x.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lines<'a, S: Simd> {
+    pub(super) cell: &'a Cell,
+    pub(super) x: f64x8<S>,
+    pub(super) y: f64x8<S>,
+}
+
+/// Light summed up, and what the sum may be off by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Summed<S: Simd> {
+    pub(super) light: [f64x8<S>; 3],
+    pub(super) doubt: f64x8<S>,
+    pub(super) samples: u64,
+}
+
+/// The light that a sphere sends where some lights reach it, summed up from a place on the line of y
+/// to x.
+///
+/// On the chord of a line the parameter τ is -1 and 1 at the outline, x = middle + width · 2 τ / (1 + τ²),
+/// so that the root of the distance to either end is rational, and the light smooth. The place to begin
+/// with has the same τ on all lines.
+#[inline(always)]
+pub(super) fn lit_up_to<S: Simd, C: Radiance>(
+    simd: S,
+    scene: &InCamera<'_>,
+    active: &Active,
+    finish: &Finish<'_>,
+    lights: u64,
+    reference: f64,
+    lines: &Lines<'_, S>,
+    negligible: f64,
+) -> Summed<S> {
+    let zero = f64x8::splat(simd, 0.0);
+    let one = f64x8::splat(simd, 1.0);
+    let (x, y) = (lines.x, lines.y);
+    let q = &active.discriminant;
+    let half = (y * q.xy + q.x) * 0.5;
+    let rest = (y * q.yy + q.y) * y + q.one;
+    let middle = half * (-1.0 / q.xx);
+    let most = rest + middle * half;
+    let width = (most * (-1.0 / q.xx)).max(zero).sqrt();
+    let here = ((x * q.xx + half * 2.0) * x + rest).max(zero);
+    let root = (here / most).min(one).sqrt();
+    let sine = ((x - middle) / width).min(one).max(-one);
+    let chord = Chord {
+        middle,
+        width,
+        reference,
+        way: sine / (one + root) - reference,
+    };
+    let ways: [f64; 8] = chord.way.abs().into();
+    let way = ways.into_iter().fold(0.0, f64::max);
+    let widths: [f64; 8] = width.into();
+    let width = widths.into_iter().fold(0.0, f64::max);
+    let brightest = finish.brightest(scene, lights);
+    if finish.is_told() {
+        let eight = chord.sum::<C, 8>(simd, scene, active, finish, lights, lines, &EIGHT);
+        let six = chord.sum::<C, 6>(simd, scene, active, finish, lights, lines, &SIX);
+        let mut doubt = zero;
+        for channel in 0..C::CHANNELS {
+            doubt = doubt.max((eight[channel] - six[channel]).abs());
+        }
+        return Summed {
+            light: eight,
+            doubt,
+            samples: 112,
+        };
+    }
+    let way_sq = way * way;
+    let power = way_sq * way_sq * way_sq * way_sq * way;
+    let offs = [
+        OFF[0] * power,
+        OFF[1] * power * way_sq * way_sq,
+        OFF[2] * power * way_sq * way_sq * way_sq * way_sq,
+    ];
+    let scale = width * brightest;
+    let (light, off, samples) = if offs[0] * scale <= negligible {
+        let sum = chord.sum::<C, 4>(simd, scene, active, finish, lights, lines, &FOUR);
+        (sum, offs[0], 32)
+    } else if offs[1] * scale <= negligible {
+        let sum = chord.sum::<C, 6>(simd, scene, active, finish, lights, lines, &SIX);
+        (sum, offs[1], 48)
+    } else {
+        let sum = chord.sum::<C, 8>(simd, scene, active, finish, lights, lines, &EIGHT);
+        (sum, offs[2], 64)
+    };
+    Summed {
+        light,
+        doubt: one * (off * scale),
+        samples,
+    }
+}
+
+/// The chords of lines in an outline.
+#[derive(Clone, Copy, Debug)]
+struct Chord<S: Simd> {
+    middle: f64x8<S>,
+    /// Half of it.
+    width: f64x8<S>,
+    /// Where the parameter begins, and how far it goes.
+    reference: f64,
+    way: f64x8<S>,
+}
+
+impl<S: Simd> Chord<S> {
+    #[inline(always)]
+    fn sum<C: Radiance, const COUNT: usize>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        active: &Active,
+        finish: &Finish<'_>,
+        lights: u64,
+        lines: &Lines<'_, S>,
+        rule: &[(f64, f64); COUNT],
+    ) -> [f64x8<S>; 3] {
+        let one = f64x8::splat(simd, 1.0);
+        let mut sum = [f64x8::splat(simd, 0.0); 3];
+        let cell = lines.cell;
+        let ray_y = lines.y * cell.size[1] + cell.middle.y;
+        for (node, weight) in rule {
+            let tau = self.way * *node + self.reference;
+            let tau_sq = tau * tau;
+            let inverse = one / (tau_sq + 1.0);
+            let x = self.middle + self.width * tau * 2.0 * inverse;
+            let slope = (one - tau_sq) * inverse * inverse * (2.0 * weight);
+            let ray = Vectors {
+                x: x * cell.size[0] + cell.middle.x,
+                y: ray_y,
+                z: one,
+            };
+            let points = Points::new(simd, &active.ball, ray);
+            let light = finish.unclamped::<S, C>(simd, scene, &points, lights);
+            for channel in 0..C::CHANNELS {
+                sum[channel] += light[channel] * slope;
+            }
+        }
+        let scale = self.width * self.way;
+        for channel in 0..C::CHANNELS {
+            sum[channel] = sum[channel] * scale;
+        }
+        sum
+    }
+}
