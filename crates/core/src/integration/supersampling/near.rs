@@ -219,7 +219,8 @@ impl<S: Simd> Eight<S> {
         let half = radius * (y * y + product).sqrt() * scale;
         let margin = (middle.abs() + half + rows.size) * MARGIN;
         let half = half + margin;
-        // A sample's row reaches from it as far as this; the next whole number is the row.
+        // Row k is asked where its samples, from k + first to k + last, reach the outline. Cutting
+        // off rounds the first row up: where it already is whole, the margin alone reaches it.
         let first = rows.origin - middle - half - rows.last + 1.0;
         let end_row = rows.origin - middle + half - rows.first + 1.0;
         let is_known = z.simd_gt(radius * CLEAR) & half.simd_lt(f64::INFINITY);
