@@ -93,6 +93,16 @@ pub fn square_view(scene: &Scene, side: u32) -> View {
 /// A cloud of balls, at random but always the same, in a cube of side 200 around (0, 0, 400): what
 /// a thousand with radii from 3 to 12 fill of it.
 pub fn cloud(count: u32) -> World {
+    let scale = (1e3 / f64::from(count)).cbrt();
+    scattered(count, |random| scale * (3.0 + 9.0 * random))
+}
+
+/// A cloud of balls of one radius in the same cube.
+pub fn even_cloud(count: u32, radius: f64) -> World {
+    scattered(count, |_| radius)
+}
+
+fn scattered(count: u32, radius: impl Fn(f64) -> f64) -> World {
     let mut state = u64::from(count);
     let mut random = || {
         // Knuth's linear congruence, of which the upper bits are good.
@@ -103,11 +113,9 @@ pub fn cloud(count: u32) -> World {
     };
     let mut world = World::new();
     let white = world.add_material(Material::MATTE_WHITE);
-    let scale = (1e3 / f64::from(count)).cbrt();
     for _ in 0..count {
         let point = DVec3::new(random(), random(), random()) - 0.5;
-        let radius = scale * (3.0 + 9.0 * random());
-        let sphere = Sphere::new(200.0 * point + 400.0 * DVec3::Z, radius);
+        let sphere = Sphere::new(200.0 * point + 400.0 * DVec3::Z, radius(random()));
         world.add_sphere(sphere.expect("radii are positive"), white);
     }
     let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);

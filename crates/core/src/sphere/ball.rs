@@ -49,23 +49,22 @@ const SURE: f64 = 64.0;
 const MODERATE: std::ops::Range<f64> = 1e-77..1e77;
 
 impl Ball {
-    /// The balls of spheres of the world, by their indices; all lengths times 2^−`exponent`.
-    pub(crate) fn all(
-        spheres: &[Sphere],
-        indices: impl Iterator<Item = u32>,
+    /// The balls of spheres of the world and their indices; all lengths times 2^−`exponent`.
+    pub(crate) fn all<'world>(
+        spheres: impl Iterator<Item = (u32, &'world Sphere)>,
         viewpoint: DVec3,
         exponent: i32,
     ) -> Vec<Self> {
-        let mut balls = Vec::with_capacity(indices.size_hint().0);
+        let mut balls = Vec::with_capacity(spheres.size_hint().0);
         // The processor is asked once what it can do, not for every ball. A loop and no `collect`:
         // only what is inlined here is compiled for it.
         dispatch!(Level::new(), simd => if is_fused(simd) {
-            for index in indices {
-                balls.push(Self::new::<true>(spheres, index, viewpoint, exponent));
+            for (index, sphere) in spheres {
+                balls.push(Self::new::<true>(sphere, index, viewpoint, exponent));
             }
         } else {
-            for index in indices {
-                balls.push(Self::new::<false>(spheres, index, viewpoint, exponent));
+            for (index, sphere) in spheres {
+                balls.push(Self::new::<false>(sphere, index, viewpoint, exponent));
             }
         });
         balls
@@ -87,12 +86,11 @@ impl Ball {
 
     #[inline(always)]
     fn new<const FUSED: bool>(
-        spheres: &[Sphere],
+        sphere: &Sphere,
         index: u32,
         viewpoint: DVec3,
         exponent: i32,
     ) -> Self {
-        let sphere = &spheres[index as usize];
         let scale = libm::scalbn(1.0, -exponent);
         let axis = |axis: usize| two_difference(sphere.center[axis], viewpoint[axis]);
         let parts = [axis(0), axis(1), axis(2)];

@@ -64,20 +64,44 @@ impl Bins {
     }
 
     /// The places of the ranges that cover a tile, in rising order.
-    pub(super) fn at(&self, column: u32, row: u32) -> impl Iterator<Item = u32> {
+    #[inline]
+    pub(super) fn at(&self, column: u32, row: u32) -> Places<'_> {
         let tile = row as usize * self.columns as usize + column as usize;
-        let listed = &self.places[self.starts[tile] as usize..self.starts[tile + 1] as usize];
-        let mut listed = listed.iter().copied().peekable();
-        let is_here = move |(_, range): &&(u32, TileRange)| {
-            range.columns.0 <= column && column <= range.columns.1
-        };
-        let wide = self.wide[row as usize].iter().filter(is_here);
-        let mut wide = wide.map(|(place, _)| *place).peekable();
-        std::iter::from_fn(move || match (listed.peek(), wide.peek()) {
-            (Some(one), Some(other)) if other < one => wide.next(),
-            (None, _) => wide.next(),
-            _ => listed.next(),
-        })
+        let (start, end) = (self.starts[tile] as usize, self.starts[tile + 1] as usize);
+        Places {
+            column,
+            listed: &self.places[start..end],
+            wide: &self.wide[row as usize],
+        }
+    }
+}
+
+/// Places in rising order: those listed for a tile, and those of wide ranges that cover it.
+#[derive(Clone, Debug)]
+pub(super) struct Places<'bins> {
+    column: u32,
+    listed: &'bins [u32],
+    wide: &'bins [(u32, TileRange)],
+}
+
+impl Iterator for Places<'_> {
+    type Item = u32;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<u32> {
+        while let Some((&(place, range), rest)) = self.wide.split_first() {
+            let is_here = range.columns.0 <= self.column && self.column <= range.columns.1;
+            if is_here && self.listed.first().is_some_and(|&listed| listed < place) {
+                break;
+            }
+            self.wide = rest;
+            if is_here {
+                return Some(place);
+            }
+        }
+        let (&place, rest) = self.listed.split_first()?;
+        self.listed = rest;
+        Some(place)
     }
 }
 

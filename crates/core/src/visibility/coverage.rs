@@ -1,5 +1,7 @@
 //! Which parts of a block of pixels are covered.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
 use crate::View;
@@ -12,6 +14,8 @@ const CELLS_A_PIXEL: u32 = 4;
 /// Cells on a side of a block.
 pub(super) const CELLS: u32 = BLOCK * CELLS_A_PIXEL;
 const WORDS: usize = (CELLS / u64::BITS) as usize;
+/// Lines across the retina side by side.
+const LINES: usize = 8;
 
 /// Some cells of a block: columns and rows, ends included.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -127,28 +131,31 @@ impl Cover {
         self.outside.sqrt() * (1.0 + 1e-9)
     }
 
-    /// Between which places a line across the retina at the height `v` is covered.
+    /// Between which places lines across the retina at the heights `v` are covered, where any part
+    /// of them is.
     ///
     /// With d = (u, v, 1): (d·c)² ≥ K d·d, of which the terms in u² are negative for a sphere in
     /// front of the eye. A quarter of the discriminant is K (r² (v² + 1) − (c_y − v c_z)²), computed
     /// from terms below 2 c⁴ (v² + 1) with a dozen roundings; v is off by a few units in its last
     /// place, which makes 2 K r c_z √(v² + 1) as much. It is lowered by more: near its top an outline
     /// is as wide as the root of what it is too high by.
-    fn along(&self, v: f64) -> Option<(f64, f64)> {
+    #[inline(always)]
+    fn along<S: Simd>(&self, simd: S, v: f64x8<S>) -> (f64x8<S>, f64x8<S>, mask64x8<S>) {
         let (c, k) = (self.center, self.outside);
+        let zero = f64x8::splat(simd, 0.0);
         let square = c.x * c.x - k;
         let rest = v * c.y + c.z;
-        let linear = c.x * rest;
+        let linear = rest * c.x;
         let line_sq = v * v + 1.0;
-        let slack = 128.0 * UNIT_ROUNDOFF * self.center_sq * self.center_sq * line_sq;
-        let discriminant = linear * linear - square * (rest * rest - line_sq * k) - slack;
-        if !(square < 0.0 && discriminant > 0.0 && discriminant < f64::INFINITY) {
-            return None;
-        }
-        let half = discriminant.sqrt() / -square;
+        let slack = line_sq * (128.0 * UNIT_ROUNDOFF * self.center_sq * self.center_sq);
+        let discriminant = linear * linear - (rest * rest - line_sq * k) * square - slack;
+        let is_ahead = f64x8::splat(simd, square).simd_lt(zero);
+        let is_finite = discriminant.simd_lt(f64::INFINITY);
+        let is_met = discriminant.simd_gt(zero) & is_finite & is_ahead;
+        let half = is_met.select(discriminant, zero).sqrt() / -square;
         let middle = linear / -square;
-        let inner = half * (1.0 - self.error) - f64::EPSILON * 16.0 * middle.abs();
-        Some((middle - inner, middle + inner))
+        let inner = half * (1.0 - self.error) - middle.abs() * (f64::EPSILON * 16.0);
+        (middle - inner, middle + inner, is_met)
     }
 }
 
@@ -156,6 +163,8 @@ impl Cover {
 #[derive(Clone, Debug)]
 pub(super) struct Coverage {
     rows: Box<[[u64; WORDS]]>,
+    /// What the processor can do.
+    level: Level,
 }
 
 impl Coverage {
@@ -164,6 +173,7 @@ impl Coverage {
     pub(super) fn new(columns: u32, rows: u32) -> Self {
         let mut coverage = Self {
             rows: vec![[0; WORDS]; CELLS as usize].into_boxed_slice(),
+            level: Level::new(),
         };
         let (columns, rows) = (columns * CELLS_A_PIXEL, rows * CELLS_A_PIXEL);
         for row in 0..CELLS {
@@ -175,60 +185,67 @@ impl Coverage {
 
     /// Whether all of some cells are covered.
     pub(super) fn is_covered(&self, range: CellRange) -> bool {
-        let masks = masks(range.columns.0, range.columns.1 + 1);
-        let words = range.columns.0 / u64::BITS..=range.columns.1 / u64::BITS;
-        self.rows[range.rows.0 as usize..=range.rows.1 as usize]
-            .iter()
-            .all(|row| {
-                words
-                    .clone()
-                    .all(|word| masks[word as usize] & !row[word as usize] == 0)
-            })
+        let (first, end) = (range.columns.0, range.columns.1 + 1);
+        let rows = &self.rows[range.rows.0 as usize..=range.rows.1 as usize];
+        (first / u64::BITS..=range.columns.1 / u64::BITS).all(|word| {
+            let mask = mask(word, first, end);
+            rows.iter().all(|row| mask & !row[word as usize] == 0)
+        })
     }
 
     /// Covers what lies inside a sphere for certain.
     pub(super) fn add(&mut self, grid: &Grid, cover: &Cover) {
+        dispatch!(self.level, simd => self.add_lanes(simd, grid, cover));
+    }
+
+    #[inline(always)]
+    fn add_lanes<S: Simd>(&mut self, simd: S, grid: &Grid, cover: &Cover) {
         /// In cells: above what their places are off by.
         const MARGIN: f64 = 1e-6;
-        let height = |row: u32| grid.corner.y - f64::from(row) * grid.cell;
-        let (first, last) = cover.range.rows;
-        let mut above = cover.along(height(first));
-        for row in first..=last {
-            let below = cover.along(height(row + 1));
-            if let (Some(above), Some(below)) = (above, below) {
-                // The outline is convex: what is inside at both ends of an upright line is inside.
-                let low = (above.0.max(below.0) - grid.corner.x) / grid.cell;
-                let high = (above.1.min(below.1) - grid.corner.x) / grid.cell;
-                let size = (low.abs() + high.abs()) * 1e-9;
-                let is_finite = size < f64::INFINITY;
-                let first = (low + size + MARGIN).ceil().max(0.0);
-                let end = (high - size - MARGIN).floor().min(f64::from(CELLS));
-                if is_finite && first < end {
-                    self.cover(row, first as u32, end as u32);
+        const STEPS: [f64; LINES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        let zero = f64x8::splat(simd, 0.0);
+        let cells = f64x8::splat(simd, f64::from(CELLS));
+        let (mut row, last) = cover.range.rows;
+        while row <= last {
+            let lines = f64x8::simd_from(simd, STEPS) + f64::from(row);
+            let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell;
+            let (low, high, is_met) = cover.along(simd, height);
+            let low = (low - grid.corner.x) / grid.cell;
+            let high = (high - grid.corner.x) / grid.cell;
+            let size = (low.abs() + high.abs()) * 1e-9 + MARGIN;
+            let is_met = is_met & size.simd_lt(f64::INFINITY);
+            let first = is_met.select((low + size).ceil().max(zero).min(cells), cells);
+            let end = is_met.select((high - size).floor().max(zero).min(cells), zero);
+            let (first, end): ([f64; LINES], [f64; LINES]) = (first.into(), end.into());
+            // The outline is convex: what is inside at both ends of an upright line is inside.
+            for line in 0..LINES - 1 {
+                if row > last {
+                    break;
                 }
+                let first = first[line].max(first[line + 1]) as u32;
+                let end = end[line].min(end[line + 1]) as u32;
+                if first < end {
+                    self.cover(row, first, end);
+                }
+                row += 1;
             }
-            above = below;
         }
     }
 
     /// Covers the cells of a row from `first` up to, but without, `end`.
+    #[inline(always)]
     fn cover(&mut self, row: u32, first: u32, end: u32) {
-        let masks = masks(first, end);
-        for (word, mask) in self.rows[row as usize].iter_mut().zip(masks) {
-            *word |= mask;
+        let row = &mut self.rows[row as usize];
+        for word in first / u64::BITS..end.div_ceil(u64::BITS) {
+            row[word as usize] |= mask(word, first, end);
         }
     }
 }
 
-/// Bits of a row from `first` up to, but without, `end`.
-fn masks(first: u32, end: u32) -> [u64; WORDS] {
-    let mut masks = [0; WORDS];
-    for (word, mask) in (0..).zip(&mut masks) {
-        let from = first.saturating_sub(word * u64::BITS).min(u64::BITS);
-        let to = end.saturating_sub(word * u64::BITS).min(u64::BITS);
-        if from < to {
-            *mask = u64::MAX << from & u64::MAX >> (u64::BITS - to);
-        }
-    }
-    masks
+/// Bits of a word of a row from `first` up to, but without, `end`, which it reaches.
+#[inline(always)]
+fn mask(word: u32, first: u32, end: u32) -> u64 {
+    let from = first.saturating_sub(word * u64::BITS);
+    let to = (end - word * u64::BITS).min(u64::BITS);
+    u64::MAX << from & u64::MAX >> (u64::BITS - to)
 }

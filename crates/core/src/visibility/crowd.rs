@@ -22,10 +22,12 @@ pub(super) struct Crowd {
     blocks: Vec<Block>,
 }
 
-/// The spheres of a block of pixels, in the order in which they begin; odd balls, of which that is
-/// not known, in the order of boxes around them.
+/// The spheres of a block of pixels. Each tile has a list of places in the order in which they begin;
+/// odd balls, of which that is not known, come in the order of boxes around them.
 #[derive(Clone, Debug)]
 struct Block {
+    /// Those of the first tile, those that the second one has besides, and so on: what is read
+    /// together lies together.
     balls: Vec<Ball>,
     /// Where the list of each tile starts in `places`; one more for the end.
     starts: Vec<u32>,
@@ -80,39 +82,52 @@ impl Crowd {
         }
     }
 
-    /// The balls that may be seen in a tile, those that come nearest first.
-    pub(super) fn balls(&self, tile: Tile) -> impl Iterator<Item = &Ball> {
+    /// The balls of a tile's surroundings, and the places of those that may be seen in it, those that
+    /// come nearest first.
+    #[inline]
+    pub(super) fn balls(&self, tile: Tile) -> (&[Ball], &[u32]) {
         let block = &self.blocks[(tile.row / BLOCK * self.columns + tile.col / BLOCK) as usize];
         let (column, row) = (tile.col % BLOCK, tile.row % BLOCK);
         let tiles = BLOCK / self.tile_side;
         let index = (row / self.tile_side * tiles + column / self.tile_side) as usize;
-        let places = &block.places[block.starts[index] as usize..block.starts[index + 1] as usize];
-        places.iter().map(|&place| &block.balls[place as usize])
+        let (start, end) = (
+            block.starts[index] as usize,
+            block.starts[index + 1] as usize,
+        );
+        (&block.balls, &block.places[start..end])
     }
 }
 
 /// Something that comes no nearer than the number in front, by its bits: a node or, with
-/// [`SPHERE`] for a level, a sphere.
+/// [`SPHERE`] for a level, a sphere by its place among the copies.
 type Waiting = Reverse<(u64, u32, u32)>;
 
 const SPHERE: u32 = u32::MAX;
+
+/// What is open in a block. Spheres are copied as they are found: in the world they are far apart.
+#[derive(Default)]
+struct Open {
+    waiting: BinaryHeap<Waiting>,
+    copies: Vec<(u32, Sphere)>,
+}
 
 impl Search<'_> {
     fn block(&self, col: u32, row: u32) -> Block {
         let grid = Grid::new(self.view, col, row);
         let (width, height) = (self.view.width - col, self.view.height - row);
         let mut coverage = Coverage::new(width.min(BLOCK), height.min(BLOCK));
-        let mut waiting: BinaryHeap<Waiting> = BinaryHeap::new();
+        let mut open = Open::default();
         // What covers whatever begins behind its farthest point.
         let mut covers: Vec<Cover> = Vec::new();
         let mut pending: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
-        let mut indices: Vec<u32> = Vec::new();
+        // The places of copies.
+        let mut kept: Vec<u32> = Vec::new();
         // Tile and place.
         let mut listed: Vec<(u32, u32)> = Vec::new();
         if let Some(root) = self.hierarchy.root() {
-            waiting.push(Reverse((0, root.level, root.index)));
+            open.waiting.push(Reverse((0, root.level, root.index)));
         }
-        while let Some(Reverse((nearest, level, index))) = waiting.pop() {
+        while let Some(Reverse((nearest, level, index))) = open.waiting.pop() {
             let mut has_grown = false;
             while let Some(&Reverse((farthest, cover))) = pending.peek() {
                 if farthest >= nearest {
@@ -127,26 +142,21 @@ impl Search<'_> {
                 break;
             }
             if level != SPHERE {
-                self.open(
-                    Node { level, index },
-                    nearest,
-                    &grid,
-                    &coverage,
-                    &mut waiting,
-                );
+                let node = Node { level, index };
+                self.open(node, nearest, &grid, &coverage, &mut open);
                 continue;
             }
-            let sphere = &self.spheres[index as usize];
+            let sphere = &open.copies[index as usize].1;
             let Some(range) = self.range(sphere, &grid) else {
                 continue;
             };
-            let place = indices.len() as u32;
+            let place = kept.len() as u32;
             let count = listed.len();
             self.list(range, place, &coverage, &mut listed);
             if listed.len() == count {
                 continue;
             }
-            indices.push(index);
+            kept.push(index);
             let center = self.camera_from_world * self.offset(sphere);
             if let Some(cover) = Cover::new(center, sphere.radius() * self.scale, range) {
                 pending.push(Reverse((
@@ -157,9 +167,14 @@ impl Search<'_> {
             }
         }
         let viewpoint = self.view.camera.position;
-        let (starts, places) = self.sorted(&listed);
+        let (starts, mut places) = self.sorted(&listed);
+        let kept = gathered(&mut places, &kept);
+        let kept = kept.iter().map(|&copy| {
+            let (index, sphere) = &open.copies[copy as usize];
+            (*index, sphere)
+        });
         Block {
-            balls: Ball::all(self.spheres, indices.into_iter(), viewpoint, self.exponent),
+            balls: Ball::all(kept, viewpoint, self.exponent),
             starts,
             places,
         }
@@ -171,14 +186,7 @@ impl Search<'_> {
     }
 
     /// Puts what a node holds among what waits, as far as it may be seen.
-    fn open(
-        &self,
-        node: Node,
-        nearest: u64,
-        grid: &Grid,
-        coverage: &Coverage,
-        waiting: &mut BinaryHeap<Waiting>,
-    ) {
+    fn open(&self, node: Node, nearest: u64, grid: &Grid, coverage: &Coverage, open: &mut Open) {
         let boxes = self.hierarchy.boxes(node);
         for place in 0..WIDTH {
             let Some((begin, range)) = self.see(boxes, place, grid) else {
@@ -190,14 +198,19 @@ impl Search<'_> {
             match self.hierarchy.child(node, place) {
                 Child::Node(child) => {
                     let begin = begin.max(nearest);
-                    waiting.push(Reverse((begin, child.level, child.index)));
+                    open.waiting
+                        .push(Reverse((begin, child.level, child.index)));
                 }
                 Child::Spheres(indices) => {
+                    let first = open.copies.len();
+                    // One after the other they would be waited for one by one.
                     for &index in indices.iter().filter(|&&index| is_sphere(index)) {
-                        let sphere = &self.spheres[index as usize];
+                        open.copies.push((index, self.spheres[index as usize]));
+                    }
+                    for (copy, (_, sphere)) in (first as u32..).zip(&open.copies[first..]) {
                         let radius = sphere.radius() * self.scale;
                         let begin = rising_bits(Ball::nearest(self.offset(sphere), radius));
-                        waiting.push(Reverse((begin, SPHERE, index)));
+                        open.waiting.push(Reverse((begin, SPHERE, copy)));
                     }
                 }
             }
@@ -304,6 +317,23 @@ impl Search<'_> {
         }
         (starts, places)
     }
+}
+
+/// Numbers places anew, in the order in which they are first listed; what was at the old ones, in that
+/// order.
+fn gathered(places: &mut [u32], old: &[u32]) -> Vec<u32> {
+    const NONE: u32 = u32::MAX;
+    let mut renumbered = vec![NONE; old.len()];
+    let mut new = Vec::with_capacity(old.len());
+    for place in places {
+        let number = &mut renumbered[*place as usize];
+        if *number == NONE {
+            *number = new.len() as u32;
+            new.push(old[*place as usize]);
+        }
+        *place = *number;
+    }
+    new
 }
 
 /// Bits that rise with the number.

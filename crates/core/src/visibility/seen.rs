@@ -1,13 +1,14 @@
 //! What a view sees of a world.
 
 use std::ops::RangeInclusive;
+use std::slice;
 
 use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
 use super::Visibility;
-use super::bins::Bins;
+use super::bins::{Bins, Places};
 use super::crowd::{Crowd, rising_bits};
 use super::frustum::{Frustum, InCamera, TileRange};
 use crate::Tile;
@@ -36,6 +37,33 @@ enum Lists {
     Few { balls: Vec<Ball>, bins: Bins },
     /// By blocks of tiles.
     Many(Crowd),
+}
+
+/// The balls that may be seen in a tile, those that come nearest first.
+#[derive(Clone, Debug)]
+pub(crate) struct Balls<'seen> {
+    balls: &'seen [Ball],
+    places: Listed<'seen>,
+}
+
+/// Their places.
+#[derive(Clone, Debug)]
+enum Listed<'seen> {
+    Few(Places<'seen>),
+    Many(slice::Iter<'seen, u32>),
+}
+
+impl<'seen> Iterator for Balls<'seen> {
+    type Item = &'seen Ball;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<&'seen Ball> {
+        let place = match &mut self.places {
+            Listed::Few(places) => places.next()?,
+            Listed::Many(places) => *places.next()?,
+        };
+        Some(&self.balls[place as usize])
+    }
 }
 
 /// A sphere that may be seen in a tile.
@@ -87,16 +115,19 @@ impl<'world> Seen<'world> {
     }
 
     /// The balls that may be seen in a tile, those that come nearest first.
-    pub(crate) fn balls(&self, tile: Tile) -> impl Iterator<Item = &Ball> {
-        let (column, row) = (tile.col / self.tile_side, tile.row / self.tile_side);
-        let (few, many) = match &self.lists {
+    #[inline]
+    pub(crate) fn balls(&self, tile: Tile) -> Balls<'_> {
+        let (balls, places): (&[Ball], _) = match &self.lists {
             Lists::Few { balls, bins } => {
-                let places = bins.at(column, row);
-                (Some(places.map(|place| &balls[place as usize])), None)
+                let (column, row) = (tile.col / self.tile_side, tile.row / self.tile_side);
+                (balls, Listed::Few(bins.at(column, row)))
             }
-            Lists::Many(crowd) => (None, Some(crowd.balls(tile))),
+            Lists::Many(crowd) => {
+                let (balls, places) = crowd.balls(tile);
+                (balls, Listed::Many(places.iter()))
+            }
         };
-        few.into_iter().flatten().chain(many.into_iter().flatten())
+        Balls { balls, places }
     }
 
     /// The spheres that may be seen in a tile, those that come nearest first.
@@ -215,10 +246,12 @@ impl Lists {
         } else {
             order.par_sort_unstable_by_key(key);
         }
-        let indices = order.iter().map(|visible| visible.index);
+        let here = order
+            .iter()
+            .map(|visible| (visible.index, &spheres[visible.index as usize]));
         let ranges = || order.iter().map(|visible| visible.range);
         Self::Few {
-            balls: Ball::all(spheres, indices, viewpoint, length_exponent),
+            balls: Ball::all(here, viewpoint, length_exponent),
             bins: Bins::new(frustum.columns(), frustum.rows(), ranges),
         }
     }

@@ -199,7 +199,7 @@ impl<'scene> Supersampling<'scene> {
                     *row = RayRow::new(simd, self.rays.directions(across, place));
                     place.row += 1;
                 }
-                tracer.search(simd, &mut rows[..height]);
+                tracer.search(simd, &mut rows);
                 place.row = tile.row;
                 for (row, sample) in rows[..height].iter().zip(&mut samples) {
                     let sight = tracer.look(simd, place, row, &mut groups);

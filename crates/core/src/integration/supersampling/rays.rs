@@ -19,6 +19,11 @@ pub(super) struct Rays<'scene> {
     /// Directions are divided by two to the power of this, which makes them moderate.
     exponent: i32,
     scale: f64,
+    /// Rows on a length of 1 at the distance of 1, and in the lens's shift.
+    rows_on_unit: f64,
+    shift_rows: f64,
+    /// Where the first sample lies in a pixel.
+    first: f64,
 }
 
 /// A sample of each of eight pixels in a row: which part of the pixels, and where the row starts.
@@ -44,6 +49,9 @@ impl<'scene> Rays<'scene> {
             distance,
             exponent,
             scale: libm::scalbn(1.0, -exponent),
+            rows_on_unit: distance / view.pixel_size(),
+            shift_rows: view.lens.shift.y / view.pixel_size(),
+            first: 0.5 / f64::from(side),
         }
     }
 
@@ -123,8 +131,25 @@ impl<'scene> Rays<'scene> {
         let (shortest, longest) = (center_length - reach, center_length + reach);
         Bundle {
             cone: self.cone(center, half),
+            rows: self.rows(tile),
             shortest: shortest.max(center.z) * (1.0 / WIDER),
             longest: longest * WIDER,
+        }
+    }
+
+    /// The rows of a tile.
+    fn rows(&self, tile: Tile) -> Rows {
+        let axes = &self.view.camera.world_from_camera;
+        let middle = 0.5 * f64::from(self.view.height) - f64::from(tile.row);
+        Rows {
+            up: axes.y_axis,
+            forward: axes.z_axis,
+            on_unit: self.rows_on_unit,
+            origin: middle + self.shift_rows,
+            size: f64::from(self.view.height) + self.shift_rows.abs(),
+            first: self.first,
+            last: 1.0 - self.first,
+            count: tile.height,
         }
     }
 
@@ -163,6 +188,7 @@ impl<'scene> Rays<'scene> {
 pub(super) struct Bundle {
     /// Around them; none where it would be wider than is worth having.
     pub(super) cone: Option<Cone>,
+    pub(super) rows: Rows,
     /// No direction is shorter.
     pub(super) shortest: f64,
     /// No direction is longer.
@@ -177,4 +203,22 @@ pub(super) struct Cone {
     /// Of the angle between the axis and the surface.
     pub(super) sine: f64,
     pub(super) cosine: f64,
+}
+
+/// Where the rows of a tile lie.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows {
+    /// Unit axes of the camera, in the world frame.
+    pub(super) up: DVec3,
+    pub(super) forward: DVec3,
+    /// How many rows lie on a length of 1 at the distance of 1.
+    pub(super) on_unit: f64,
+    /// How far below the tile's upper edge the height 0 is, in rows.
+    pub(super) origin: f64,
+    /// More than any number of rows that is added up.
+    pub(super) size: f64,
+    /// Where the first and last samples of a row lie in it.
+    pub(super) first: f64,
+    pub(super) last: f64,
+    pub(super) count: u32,
 }

@@ -10,6 +10,9 @@ use super::rays::{Place, Rays};
 use crate::Tile;
 use crate::visibility::{Candidate, Seen};
 
+/// Rows of a tile.
+const SIDE: usize = Tile::SIDE as usize;
+
 /// All lanes of a bit mask.
 const ALL_LANES: u64 = (1 << LANES) - 1;
 
@@ -103,9 +106,12 @@ impl<'tile> Tracer<'tile> {
     /// by their B ± √Q, whose errors [`Ball`](crate::sphere::Ball) bounds by |d| times its `blur`.
     /// What lies closer together counts as doubtful from there on.
     ///
-    /// Ball by ball and row by row: the rows do not wait for each other.
+    /// Ball by ball and row by row: the rows do not wait for each other. Rows beyond the height of
+    /// the tile are left alone.
     #[inline(always)]
-    pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>]) {
+    pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>; SIDE]) {
+        // The rows in which something may come nearer, as bits.
+        let mut open = u8::MAX >> (SIDE as u32 - self.tile.height);
         let zero = f64x8::splat(simd, 0.0);
         let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
         for (place, near) in self.nearby.balls.iter().enumerate() {
@@ -114,13 +120,18 @@ impl<'tile> Tracer<'tile> {
             let begin = f64x8::splat(simd, near.begin);
             let center = Vectors::splat(simd, ball.to_center);
             let inside = near.root_sign > 0.0;
-            let mut tests = 0;
-            for row in &mut *rows {
-                // Whatever lies within the error of the nearest was met before, or is doubtful.
+            let mut left = near.rows & open;
+            while left != 0 {
+                let number = left.trailing_zeros();
+                left &= left - 1;
+                let row = &mut rows[number as usize % SIDE];
+                // Whatever lies within the error of the nearest was met before, or is doubtful; and
+                // the next ones begin no sooner.
                 if begin.simd_gt(row.key + blur).all_true() {
+                    open &= !(1 << number);
                     continue;
                 }
-                tests += 1;
+                self.tests += 1;
                 let along = row.direction.dot(center);
                 let discriminant = along * along - row.length_sq * ball.outside;
                 let doubt = row.length_sq * ball.doubt;
@@ -149,11 +160,9 @@ impl<'tile> Tracer<'tile> {
                     row.doubtful = sooner.select(row.key, row.doubtful);
                 }
             }
-            // The next ones begin no sooner.
-            if tests == 0 {
+            if open == 0 {
                 break;
             }
-            self.tests += tests;
         }
     }
 
