@@ -30,6 +30,7 @@ mod roughness;
 mod rounding;
 mod shading;
 mod sphere;
+mod strips;
 mod tile;
 mod view;
 mod visibility;
@@ -46,6 +47,7 @@ pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
 pub use render::{Cancelled, Method, Renderer, Settings};
 pub use sphere::{Floor, Hit, Sphere, SphereError};
+pub use strips::{BAND_ROWS, Sink};
 pub use view::View;
 pub use world::{MaterialId, World};
 

@@ -1,0 +1,126 @@
+//! A picture strip by strip, for those that need not have it as a whole.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+
+use crate::image::Form;
+use crate::integration::Integrator;
+use crate::render::{self, paint};
+use crate::{Cancelled, Image, Radiance, Tile, Work};
+
+/// Rows of a band; a strip is a number of bands.
+pub const BAND_ROWS: u32 = Tile::SIDE;
+
+/// Columns of a strip that are rendered before they go to the sink: so few that what a thread
+/// writes stays near it, however wide a picture is.
+const PART_COLUMNS: u32 = 1024;
+
+/// Where a picture goes while it is rendered.
+///
+/// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
+/// of its own, which it hands over in parts from left to right.
+pub trait Sink: Sync {
+    /// What is made of a strip.
+    type Strip;
+
+    /// How many bands of [`BAND_ROWS`] rows a strip has, at least 1; the last one may have fewer rows.
+    fn bands(&self) -> u32;
+
+    /// The strip with this index, counted from the top, is about to be rendered. `None` ends the
+    /// rendering.
+    ///
+    /// May wait until the strips above are done, but not for those below.
+    fn begin(&self, index: u32) -> Option<Self::Strip>;
+
+    /// Some columns of the strip are rendered, `col` the first of them: all of the picture `part`.
+    fn add(&self, strip: &mut Self::Strip, col: u32, part: &Image);
+
+    /// All columns of the strip with this index were added.
+    fn end(&self, index: u32, strip: Self::Strip);
+}
+
+/// All strips of a picture.
+pub(crate) struct Job<'a, S> {
+    pub(crate) sink: &'a S,
+    pub(crate) progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
+}
+
+impl<S: Sink> render::Job for Job<'_, S> {
+    type Output = Work;
+
+    fn run<C: Radiance, I: Integrator<C>>(
+        self,
+        form: Form,
+        integrator: &I,
+    ) -> Result<Work, Cancelled> {
+        let strips = Strips {
+            job: self,
+            form,
+            next: AtomicU32::new(0),
+            is_cancelled: AtomicBool::new(false),
+        };
+        let mut sum = Work::default();
+        for work in rayon::broadcast(|_| strips.render_some(integrator)) {
+            sum += work?;
+        }
+        Ok(sum)
+    }
+}
+
+/// What the threads share.
+struct Strips<'a, S> {
+    job: Job<'a, S>,
+    form: Form,
+    /// The index of the strip that nobody has begun.
+    next: AtomicU32,
+    is_cancelled: AtomicBool,
+}
+
+impl<S: Sink> Strips<'_, S> {
+    /// Renders strips that nobody else does until there are no more.
+    fn render_some<C: Radiance, I: Integrator<C>>(
+        &self,
+        integrator: &I,
+    ) -> Result<Work, Cancelled> {
+        let (width, height) = self.form.size;
+        let rows = self.job.sink.bands().max(1).saturating_mul(BAND_ROWS);
+        let mut room = I::Room::default();
+        let mut image = None;
+        let mut work = Work::default();
+        loop {
+            let index = self.next.fetch_add(1, Ordering::Relaxed);
+            if index >= height.div_ceil(rows) || self.is_cancelled.load(Ordering::Relaxed) {
+                return Ok(work);
+            }
+            let row = index * rows;
+            let rows = rows.min(height - row);
+            let strip = self.job.sink.begin(index);
+            let mut strip = strip.ok_or_else(|| self.cancel())?;
+            for col in (0..width).step_by(PART_COLUMNS as usize) {
+                let form = Form {
+                    size: (PART_COLUMNS.min(width - col), rows),
+                    ..self.form
+                };
+                let mut part = Image::new(form, image);
+                for first in (0..rows).step_by(BAND_ROWS as usize) {
+                    let rows = first..rows.min(first + BAND_ROWS);
+                    let mut band = part.band_mut((col, row), rows);
+                    let painted = paint(&mut band, integrator, &mut room, self.job.progress);
+                    work += painted.map_err(|_| self.cancel())?;
+                }
+                self.job.sink.add(&mut strip, col, &part);
+                image = Some(part);
+            }
+            self.job.sink.end(index, strip);
+        }
+    }
+
+    /// Has the others stop, too.
+    fn cancel(&self) -> Cancelled {
+        self.is_cancelled.store(true, Ordering::Relaxed);
+        Cancelled
+    }
+}
+
+#[cfg(test)]
+mod tests;
