@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::loading::LINE;
 use crate::numbers;
 
 /// Shades of the bar, from full to empty.
@@ -53,6 +54,27 @@ impl<'a> Progress<'a> {
             left_out: AtomicU64::new(0),
             display,
         }
+    }
+
+    /// Prepares what so many spheres are rendered with.
+    pub(crate) fn while_preparing<T>(&self, spheres: usize, prepare: impl FnOnce() -> T) -> T {
+        /// Fewer take no time.
+        const MANY: usize = 1 << 15;
+        let Display::Bar(bar) = &self.display else {
+            return prepare();
+        };
+        if spheres < MANY {
+            return prepare();
+        }
+        if let Ok(line) = ProgressStyle::with_template(LINE) {
+            bar.set_style(line);
+        }
+        bar.set_message(format!("preparing {spheres} spheres"));
+        bar.tick();
+        let prepared = prepare();
+        bar.set_style(style(self.frames > 1));
+        bar.reset();
+        prepared
     }
 
     /// The frame with this index begins, and the others are supposed to be as large.

@@ -249,6 +249,84 @@ fn tables_are_found_beside_the_scene_and_told() {
     assert!(errors.ends_with(end), "{errors}");
 }
 
+/// What `marbles` prints on a terminal of this width; `None` where there is no way to have one.
+#[cfg(target_os = "linux")]
+fn run_on_terminal(folder: &Folder, columns: u32, arguments: &str) -> Option<String> {
+    let marbles = folder.marbles(arguments);
+    let program = marbles.get_program().to_str().unwrap();
+    let command = format!("stty cols {columns} rows 24 && '{program}' {arguments}");
+    let output = Command::new("script")
+        .args(["-qec", &command, "/dev/null"])
+        .current_dir(&folder.0)
+        .env("TERM", "xterm")
+        .stdin(Stdio::null())
+        .output();
+    match output {
+        Ok(output) if output.status.success() => Some(text(&output.stdout)),
+        _ => {
+            eprintln!("skipped: this test needs the program `script`");
+            None
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_terminal_shows_what_takes_long() {
+    const CLOUD: &str = "(
+    image: (width: 60, height: 60),
+    lens: Fov(40),
+    camera: Frame(),
+    clouds: [(file: \"table_with_a_long_name.csv\", radius: 0.5)],
+)
+";
+    let folder = Folder::new();
+    fs::write(folder.path("cloud.ron"), CLOUD).unwrap();
+    let rows = "100000.25,200000.25,300000.25\n".repeat(40_000);
+    let table = "x,y,z\n".to_owned() + &rows;
+    fs::write(folder.path("table_with_a_long_name.csv"), table).unwrap();
+    let arguments = "render cloud.ron --size 9x9 --samples 1";
+    for columns in [80, 30, 10] {
+        let Some(shown) = run_on_terminal(&folder, columns, arguments) else {
+            return;
+        };
+        let lines = shown.split(['\r', '\n']).map(|line| {
+            let parts = line.split("\x1b[").enumerate();
+            let visible = parts.map(|(index, part)| match index {
+                0 => part,
+                // Behind the letter that ends a control sequence.
+                _ => part.trim_start_matches(|byte: char| !byte.is_ascii_alphabetic()),
+            });
+            let visible = visible.enumerate().map(|(index, part)| match index {
+                0 => part,
+                _ => part.get(1..).unwrap_or_default(),
+            });
+            visible.collect::<String>()
+        });
+        let lines: Vec<String> = lines.collect();
+        for (start, whole) in [
+            (
+                "reading",
+                "reading 100% of 1.2 MB: table_with_a_long_name.csv",
+            ),
+            ("prepari", "preparing 40000 spheres"),
+        ] {
+            let mut found = lines.iter().filter(|line| line.starts_with(start));
+            let widest = found.clone().map(|line| line.trim_end().len()).max();
+            assert!(
+                widest.is_some_and(|width| width <= columns as usize),
+                "{lines:?}"
+            );
+            assert!(
+                columns < 80 || found.any(|line| line.trim_end() == whole),
+                "{lines:?}"
+            );
+        }
+    }
+    let output = folder.run(arguments);
+    assert_eq!(text(&output.stderr), "");
+}
+
 #[test]
 fn a_line_is_printed_for_each_file() {
     let folder = Folder::new();
@@ -585,35 +663,61 @@ fn links_are_written_through() {
     }
 }
 
+/// Address space that is not too much, of which the allocator sets aside up to 64 MiB for every
+/// thread.
+#[cfg(target_os = "linux")]
+const KILOBYTES: u32 = 900_000;
+
+/// Runs `marbles` with no more addresses than so many.
+#[cfg(target_os = "linux")]
+fn run_in_memory(folder: &Folder, kilobytes: u32, arguments: &str) -> Output {
+    let marbles = folder.marbles(arguments);
+    let output = Command::new("sh")
+        .args(["-c", &format!("ulimit -v {kilobytes}; exec \"$@\""), "sh"])
+        .arg(marbles.get_program())
+        .args(marbles.get_args())
+        .current_dir(&folder.0)
+        .output();
+    output.unwrap()
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn pictures_larger_than_the_memory_are_rendered() {
+    let folder = Folder::new();
+    // 16.8 million pixels of three channels and an error in double precision are 537 MB.
+    for name in ["a.png", "a.exr"] {
+        let arguments =
+            format!("render ball.ron -o {name} --rgb --samples 1 --threads 2 --size 16384x1024");
+        let arguments = match name {
+            "a.exr" => arguments.replace(" --rgb", ""),
+            _ => arguments,
+        };
+        let output = run_in_memory(&folder, KILOBYTES, &arguments);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        assert!(text(&output.stdout).starts_with(&format!("{name}: 16777216 pixels, ")));
+    }
+    assert_complete(&folder.path("a.png"));
+}
+
 #[cfg(target_os = "linux")]
 #[test]
 fn too_little_memory_is_an_error() {
-    /// Of address space, of which the allocator sets aside up to 64 MiB for every thread.
-    const KILOBYTES: u32 = 900_000;
     let folder = Folder::new();
     let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
     fs::write(folder.path("ball.ron"), colored).unwrap();
     let mut codes = Vec::new();
-    for (side, frames) in [
-        (500, "1-3"),
-        (2400, "1"),
-        (2700, "1-4"),
-        (3600, "1"),
-        (6000, "1"),
+    for (size, frames) in [
+        ("500x500", "1-3"),
+        ("100000x9", "1-4"),
+        ("700000x9", "1"),
+        ("9000000x9", "1"),
     ] {
         for options in ["-o #.exr --float", "-o #.png --bits 16"] {
             let arguments = format!(
-                "render ball.ron {options} --samples 1 --threads 2 --size {side}x{side} \
-                 --frames {frames}"
+                "render ball.ron {options} --samples 1 --threads 2 --size {size} --frames {frames}"
             );
-            let marbles = folder.marbles(&arguments);
-            let output = Command::new("sh")
-                .args(["-c", &format!("ulimit -v {KILOBYTES}; exec \"$@\""), "sh"])
-                .arg(marbles.get_program())
-                .args(marbles.get_args())
-                .current_dir(&folder.0)
-                .output()
-                .unwrap();
+            let output = run_in_memory(&folder, KILOBYTES, &arguments);
             let errors = text(&output.stderr);
             let code = output.status.code();
             assert!(matches!(code, Some(0 | 1)), "{arguments}: {errors}");

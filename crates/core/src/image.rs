@@ -90,6 +90,19 @@ pub struct Summary {
     pub over_tolerance: u64,
 }
 
+impl Summary {
+    /// What is true of two pictures, or parts of one, together.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            largest_error: self.largest_error.max(other.largest_error),
+            evidence: self.evidence.min(other.evidence),
+            over_tolerance: self.over_tolerance + other.over_tolerance,
+        }
+    }
+}
+
 impl Image {
     /// A picture to be written, in the memory of another one where that suffices.
     pub(crate) fn new(form: Form, spent: Option<Self>) -> Self {

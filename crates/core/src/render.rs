@@ -8,7 +8,6 @@ use thiserror::Error;
 
 use crate::image::{Band, Form, Prospect};
 use crate::integration::{Exact, Integrator, Supersampling};
-use crate::strips::{self, Sink};
 use crate::visibility::{Seen, Visibility};
 use crate::{Channels, Color, Image, Radiance, Tile, View, Work, World};
 
@@ -84,26 +83,8 @@ impl<'world> Renderer<'world> {
         self.run(view, settings, job)
     }
 
-    /// Renders strip by strip, each of which goes to `sink` as soon as a thread has rendered it, so
-    /// that a picture of any height needs little memory; what it cost.
-    ///
-    /// The pixels are those of [`Self::render`], and so is `progress`. Strips are begun from the top
-    /// downward, each by one of the threads of the current rayon pool, and end as they come.
-    ///
-    /// # Errors
-    /// [`Cancelled`] when `progress` broke or `sink` wants no more.
-    pub fn render_strips<S: Sink>(
-        &self,
-        view: &View,
-        settings: &Settings,
-        sink: &S,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled> {
-        self.run(view, settings, strips::Job { sink, progress })
-    }
-
     /// Prepares the integrator that `settings` ask for, and has the job done with it.
-    fn run<J: Job>(
+    pub(crate) fn run<J: Job>(
         &self,
         view: &View,
         settings: &Settings,

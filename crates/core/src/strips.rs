@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use crate::image::Form;
 use crate::integration::Integrator;
 use crate::render::{self, paint};
-use crate::{Cancelled, Image, Radiance, Tile, Work};
+use crate::{Cancelled, Image, Radiance, Renderer, Settings, Tile, View, Work};
 
 /// Rows of a band; a strip is a number of bands.
 pub const BAND_ROWS: u32 = Tile::SIDE;
@@ -39,10 +39,30 @@ pub trait Sink: Sync {
     fn end(&self, index: u32, strip: Self::Strip);
 }
 
+impl Renderer<'_> {
+    /// Renders strip by strip, each of which goes to `sink` as soon as a thread has rendered it, so
+    /// that a picture of any height needs little memory; what it cost.
+    ///
+    /// The pixels are those of [`Self::render`], and so is `progress`. Strips are begun from the top
+    /// downward, each by one of the threads of the current rayon pool, and end as they come.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `progress` broke or `sink` wants no more.
+    pub fn render_strips<S: Sink>(
+        &self,
+        view: &View,
+        settings: &Settings,
+        sink: &S,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        self.run(view, settings, Job { sink, progress })
+    }
+}
+
 /// All strips of a picture.
-pub(crate) struct Job<'a, S> {
-    pub(crate) sink: &'a S,
-    pub(crate) progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
+struct Job<'a, S> {
+    sink: &'a S,
+    progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
 }
 
 impl<S: Sink> render::Job for Job<'_, S> {

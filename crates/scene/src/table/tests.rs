@@ -1,6 +1,7 @@
 //! Tables of every format, good and bad, read by way of a scene.
 
-use std::path::PathBuf;
+use std::cell::RefCell;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{env, fs, process};
 
@@ -875,4 +876,33 @@ fn clouds_come_behind_the_spheres_in_the_order_of_the_file() {
         [Color::ONE, dark, dark, from_srgb(0x808080)]
     );
     assert_eq!(scene.world().material(3).exponent, 2.0);
+}
+
+#[test]
+fn reading_tells_how_far_it_is() {
+    const ROWS: usize = 300_000;
+    let folder = Folder::new();
+    let text = "x,y,z\n".to_owned() + &"100000,200000,300000\n".repeat(ROWS);
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({ROWS}, 3), }}\n");
+    let array = npy(&header, &doubles(&vec![1.0; 3 * ROWS]));
+    for (name, bytes) in [("a.csv", text.into_bytes()), ("a.npy", array)] {
+        fs::write(folder.0.join(name), &bytes).unwrap();
+        let scene = format!(
+            "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(),\n\
+             clouds: [(file: \"{name}\", radius: 1)])"
+        );
+        let path = folder.0.join("scene.ron");
+        fs::write(&path, scene).unwrap();
+        let told = RefCell::new(Vec::new());
+        let scene = Scene::load_watched(&path, &|progress| {
+            assert_eq!(progress.table, Path::new(name));
+            assert_eq!(progress.size, bytes.len() as u64);
+            told.borrow_mut().push(progress.read);
+        });
+        assert_eq!(scene.unwrap().world().spheres().len(), ROWS);
+        let told = told.into_inner();
+        assert!(told.is_sorted() && told.last() == Some(&(bytes.len() as u64)));
+        // In megabytes, so that telling costs nothing.
+        assert!((3..30).contains(&told.len()), "{}", told.len());
+    }
 }
