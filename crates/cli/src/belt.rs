@@ -103,6 +103,13 @@ impl Belt {
     }
 }
 
+impl Closing<'_> {
+    /// Leaves the belt as it is.
+    pub(crate) fn keep_open(self) {
+        std::mem::forget(self);
+    }
+}
+
 impl Drop for Closing<'_> {
     fn drop(&mut self) {
         self.0.close();

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use marbles_core::{Image, Sink, Summary};
 
-use crate::belt::Belt;
+use crate::belt::{Belt, Closing};
 use crate::output::Coder;
 
 /// A picture that is being rendered.
@@ -41,10 +41,12 @@ pub(crate) struct Worst {
 }
 
 /// A strip that is being rendered.
-pub(crate) struct Strip {
+pub(crate) struct Strip<'a> {
     samples: Vec<u8>,
     row: u32,
     gathered: Gathered,
+    /// Without this strip nobody need wait for those below.
+    closing: Closing<'a>,
 }
 
 impl<'a> Film<'a> {
@@ -77,14 +79,14 @@ impl<'a> Film<'a> {
     }
 }
 
-impl Sink for Film<'_> {
-    type Strip = Strip;
+impl<'a> Sink for Film<'a> {
+    type Strip = Strip<'a>;
 
     fn bands(&self) -> u32 {
         self.coder.bands()
     }
 
-    fn begin(&self, index: u32) -> Option<Strip> {
+    fn begin(&self, index: u32) -> Option<Strip<'a>> {
         self.apart(|| {
             let mut samples = self.belt.admit(self.first + u64::from(index))?;
             samples.resize(self.coder.sample_bytes(index), 0);
@@ -92,11 +94,12 @@ impl Sink for Film<'_> {
                 samples,
                 row: index * self.coder.rows(),
                 gathered: Gathered::default(),
+                closing: self.belt.closing(),
             })
         })
     }
 
-    fn add(&self, strip: &mut Strip, col: u32, part: &Image) {
+    fn add(&self, strip: &mut Strip<'a>, col: u32, part: &Image) {
         self.apart(|| {
             let rows = 0..part.height();
             let clipped = self.coder.encode(&mut strip.samples, col, part, rows);
@@ -105,10 +108,11 @@ impl Sink for Film<'_> {
         });
     }
 
-    fn end(&self, index: u32, strip: Strip) {
+    fn end(&self, index: u32, strip: Strip<'a>) {
         self.apart(|| {
             let piece = self.coder.piece(index, strip.samples);
             self.belt.put(self.first + u64::from(index), piece);
+            strip.closing.keep_open();
             let mut gathered = self.gathered.lock().unwrap_or_else(PoisonError::into_inner);
             gathered.add(&strip.gathered);
         });
@@ -161,7 +165,33 @@ impl Worst {
 
 #[cfg(test)]
 mod tests {
+    use marbles_core::Channels;
+
     use super::*;
+    use crate::memory::Form;
+    use crate::output::{Encoding, PngOptions};
+
+    #[test]
+    fn a_strip_that_is_given_up_leaves_nobody_waiting() {
+        let form = Form {
+            width: 3,
+            height: 90,
+            channels: Channels::Grey,
+            alpha: false,
+        };
+        let (deep, rgb) = (false, false);
+        let coder = Coder::new(Encoding::Png(PngOptions { deep, rgb }), form);
+        let belt = Belt::new(2);
+        let film = Film::new(&coder, &belt, 0);
+        let [first, second] = [0, 1].map(|index| film.begin(index).unwrap());
+        film.end(1, second);
+        std::thread::scope(|scope| {
+            let waiting = scope.spawn(|| film.begin(2).is_none());
+            drop(first);
+            assert!(waiting.join().unwrap());
+        });
+        assert!(belt.take().is_none());
+    }
 
     #[test]
     fn the_worst_pixel_does_not_depend_on_the_order_of_strips() {

@@ -71,10 +71,7 @@ impl<'a> Progress<'a> {
         }
         bar.set_message(format!("preparing {spheres} spheres"));
         bar.tick();
-        let prepared = prepare();
-        bar.set_style(style(self.frames > 1));
-        bar.reset();
-        prepared
+        prepare()
     }
 
     /// The frame with this index begins, and the others are supposed to be as large.
@@ -82,6 +79,11 @@ impl<'a> Progress<'a> {
         if let Display::Bar(bar) = &self.display {
             let frames = self.frames - self.left_out.load(Ordering::Relaxed);
             bar.set_length(frames.saturating_mul(pixels));
+            bar.set_style(style(self.frames > 1));
+            if index == 0 {
+                // What came before tells nothing about the frames.
+                bar.reset_eta();
+            }
             bar.set_message(format!("frame {} of {}", index + 1, self.frames));
         }
     }
