@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use marbles_core::{Image, Sink, Summary};
+use marbles_core::{Image, Sink, Strip, Summary};
 
 use crate::belt::{Belt, Closing};
 use crate::output::Coder;
@@ -41,9 +41,10 @@ pub(crate) struct Worst {
 }
 
 /// A strip that is being rendered.
-pub(crate) struct Strip<'a> {
+struct FilmStrip<'a> {
+    film: &'a Film<'a>,
+    index: u32,
     samples: Vec<u8>,
-    row: u32,
     gathered: Gathered,
     /// Without this strip nobody need wait for those below.
     closing: Closing<'a>,
@@ -79,42 +80,51 @@ impl<'a> Film<'a> {
     }
 }
 
-impl<'a> Sink for Film<'a> {
-    type Strip = Strip<'a>;
-
+impl Sink for Film<'_> {
     fn bands(&self) -> u32 {
         self.coder.bands()
     }
 
-    fn begin(&self, index: u32) -> Option<Strip<'a>> {
+    fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
         self.apart(|| {
             let mut samples = self.belt.admit(self.first + u64::from(index))?;
             samples.resize(self.coder.sample_bytes(index), 0);
-            Some(Strip {
+            Some(Box::new(FilmStrip {
+                film: self,
+                index,
                 samples,
-                row: index * self.coder.rows(),
                 gathered: Gathered::default(),
                 closing: self.belt.closing(),
-            })
+            }) as Box<dyn Strip>)
         })
     }
+}
 
-    fn add(&self, strip: &mut Strip<'a>, col: u32, part: &Image) {
-        self.apart(|| {
+impl Strip for FilmStrip<'_> {
+    fn add(&mut self, col: u32, part: &Image) {
+        let coder = self.film.coder;
+        self.film.apart(|| {
             let rows = 0..part.height();
-            let clipped = self.coder.encode(&mut strip.samples, col, part, rows);
-            let place = (col, strip.row);
-            strip.gathered.add(&Gathered::of(part, place, clipped));
+            let clipped = coder.encode(&mut self.samples, col, part, rows);
+            let place = (col, self.index * coder.rows());
+            self.gathered.add(&Gathered::of(part, place, clipped));
         });
     }
 
-    fn end(&self, index: u32, strip: Strip<'a>) {
-        self.apart(|| {
-            let piece = self.coder.piece(index, strip.samples);
-            self.belt.put(self.first + u64::from(index), piece);
-            strip.closing.keep_open();
-            let mut gathered = self.gathered.lock().unwrap_or_else(PoisonError::into_inner);
-            gathered.add(&strip.gathered);
+    fn end(self: Box<Self>) {
+        let Self {
+            film,
+            index,
+            samples,
+            gathered,
+            closing,
+        } = *self;
+        film.apart(|| {
+            let piece = film.coder.piece(index, samples);
+            film.belt.put(film.first + u64::from(index), piece);
+            closing.keep_open();
+            let whole = film.gathered.lock();
+            whole.unwrap_or_else(PoisonError::into_inner).add(&gathered);
         });
     }
 }
@@ -184,7 +194,7 @@ mod tests {
         let belt = Belt::new(2);
         let film = Film::new(&coder, &belt, 0);
         let [first, second] = [0, 1].map(|index| film.begin(index).unwrap());
-        film.end(1, second);
+        second.end();
         std::thread::scope(|scope| {
             let waiting = scope.spawn(|| film.begin(2).is_none());
             drop(first);

@@ -18,11 +18,8 @@ const PART_COLUMNS: u32 = 1024;
 /// Where a picture goes while it is rendered.
 ///
 /// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
-/// of its own, which it hands over in parts from left to right.
+/// of its own.
 pub trait Sink: Sync {
-    /// What is made of a strip.
-    type Strip;
-
     /// How many bands of [`BAND_ROWS`] rows a strip has, at least 1; the last one may have fewer rows.
     fn bands(&self) -> u32;
 
@@ -30,13 +27,17 @@ pub trait Sink: Sync {
     /// rendering.
     ///
     /// May wait until the strips above are done, but not for those below.
-    fn begin(&self, index: u32) -> Option<Self::Strip>;
+    fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>>;
+}
 
-    /// Some columns of the strip are rendered, `col` the first of them: all of the picture `part`.
-    fn add(&self, strip: &mut Self::Strip, col: u32, part: &Image);
+/// A strip that is being rendered; dropped before its end where the rendering is cancelled.
+pub trait Strip {
+    /// Some columns are rendered, `col` the first of them, from left to right: all of the picture
+    /// `part`.
+    fn add(&mut self, col: u32, part: &Image);
 
-    /// All columns of the strip with this index were added.
-    fn end(&self, index: u32, strip: Self::Strip);
+    /// All columns were added.
+    fn end(self: Box<Self>);
 }
 
 impl Renderer<'_> {
@@ -48,11 +49,11 @@ impl Renderer<'_> {
     ///
     /// # Errors
     /// [`Cancelled`] when `progress` broke or `sink` wants no more.
-    pub fn render_strips<S: Sink>(
+    pub fn render_strips(
         &self,
         view: &View,
         settings: &Settings,
-        sink: &S,
+        sink: &dyn Sink,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
         self.run(view, settings, Job { sink, progress })
@@ -60,12 +61,13 @@ impl Renderer<'_> {
 }
 
 /// All strips of a picture.
-struct Job<'a, S> {
-    sink: &'a S,
+struct Job<'a> {
+    // Not generic, so that integrators are compiled here, once.
+    sink: &'a dyn Sink,
     progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
 }
 
-impl<S: Sink> render::Job for Job<'_, S> {
+impl render::Job for Job<'_> {
     type Output = Work;
 
     fn run<C: Radiance, I: Integrator<C>>(
@@ -88,15 +90,15 @@ impl<S: Sink> render::Job for Job<'_, S> {
 }
 
 /// What the threads share.
-struct Strips<'a, S> {
-    job: Job<'a, S>,
+struct Strips<'a> {
+    job: Job<'a>,
     form: Form,
     /// The index of the strip that nobody has begun.
     next: AtomicU32,
     is_cancelled: AtomicBool,
 }
 
-impl<S: Sink> Strips<'_, S> {
+impl Strips<'_> {
     /// Renders strips that nobody else does until there are no more.
     fn render_some<C: Radiance, I: Integrator<C>>(
         &self,
@@ -128,10 +130,10 @@ impl<S: Sink> Strips<'_, S> {
                     let painted = paint(&mut band, integrator, &mut room, self.job.progress);
                     work += painted.map_err(|_| self.cancel())?;
                 }
-                self.job.sink.add(&mut strip, col, &part);
+                strip.add(col, &part);
                 image = Some(part);
             }
-            self.job.sink.end(index, strip);
+            strip.end();
         }
     }
 

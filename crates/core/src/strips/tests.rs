@@ -46,6 +46,7 @@ struct Collector {
     /// Row by row; empty where none came.
     pixels: Mutex<Vec<String>>,
     begun: AtomicU32,
+    ended: AtomicU32,
     /// After so many strips no more are wanted.
     most: u32,
 }
@@ -57,41 +58,55 @@ impl Collector {
             bands,
             pixels: Mutex::new(vec![String::new(); (view.width * view.height) as usize]),
             begun: AtomicU32::new(0),
+            ended: AtomicU32::new(0),
             most: u32::MAX,
         }
     }
 }
 
 impl Sink for Collector {
-    type Strip = (u32, u32);
-
     fn bands(&self) -> u32 {
         self.bands
     }
 
-    fn begin(&self, index: u32) -> Option<(u32, u32)> {
+    fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
         let begun = self.begun.fetch_add(1, Ordering::Relaxed);
         let row = index * self.bands * BAND_ROWS;
-        (begun < self.most).then_some((row, 0))
+        let strip = CollectedStrip {
+            collector: self,
+            row,
+            rows: (self.bands * BAND_ROWS).min(self.view.height - row),
+            next: 0,
+        };
+        (begun < self.most).then(|| Box::new(strip) as Box<dyn Strip>)
     }
+}
 
-    fn add(&self, (row, next): &mut (u32, u32), col: u32, part: &Image) {
-        assert_eq!(col, *next);
-        *next += part.width();
-        let rows = (self.bands * BAND_ROWS).min(self.view.height - *row);
-        assert_eq!(part.height(), rows);
-        let mut pixels = self.pixels.lock().unwrap();
-        for in_part in 0..rows {
-            let first = ((*row + in_part) * self.view.width + col) as usize;
+struct CollectedStrip<'a> {
+    collector: &'a Collector,
+    row: u32,
+    rows: u32,
+    /// The column that comes next.
+    next: u32,
+}
+
+impl Strip for CollectedStrip<'_> {
+    fn add(&mut self, col: u32, part: &Image) {
+        assert_eq!(col, self.next);
+        self.next += part.width();
+        assert_eq!(part.height(), self.rows);
+        let mut pixels = self.collector.pixels.lock().unwrap();
+        for in_part in 0..self.rows {
+            let first = ((self.row + in_part) * self.collector.view.width + col) as usize;
             for col in 0..part.width() {
                 pixels[first + col as usize] += &pixel(part, col, in_part);
             }
         }
     }
 
-    fn end(&self, index: u32, (row, next): (u32, u32)) {
-        assert_eq!(next, self.view.width);
-        assert_eq!(row, index * self.bands * BAND_ROWS);
+    fn end(self: Box<Self>) {
+        assert_eq!(self.next, self.collector.view.width);
+        self.collector.ended.fetch_add(1, Ordering::Relaxed);
     }
 }
 
@@ -124,6 +139,7 @@ fn strips_are_the_picture_whatever_their_height() {
                     let work = renderer.render_strips(&view, &settings, &sink, &count);
                     assert_eq!(work, Ok(image.work()));
                     assert_eq!(done.into_inner(), u64::from(width) * u64::from(height));
+                    assert_eq!(sink.ended.into_inner(), height.div_ceil(bands * BAND_ROWS));
                     assert!(
                         sink.pixels.into_inner().unwrap() == expected,
                         "{bands} bands"
