@@ -141,23 +141,28 @@ mod tests {
     fn pieces_come_in_order_and_never_too_many() {
         const MOST: u64 = 3;
         let belt = Belt::new(MOST);
+        // Whoever fails closes the belt, so that the test ends.
         thread::scope(|scope| {
             for remainder in 0..MOST {
                 let belt = &belt;
                 // Each of them is late for another reason, and none may wait for ever.
                 scope.spawn(move || {
+                    let closing = belt.closing();
                     for number in (remainder..300).step_by(MOST as usize) {
                         assert!(belt.admit(number).is_some());
                         assert!(belt.lock().waiting.len() < MOST as usize);
                         belt.put(number, piece(number));
                     }
+                    closing.keep_open();
                 });
             }
+            let closing = belt.closing();
             for number in 0..300_u64 {
                 let taken = bytes(belt.take()).unwrap();
                 assert_eq!(taken, [number as u8]);
                 belt.give_back(taken);
             }
+            closing.keep_open();
         });
         assert!(belt.admit(300).is_some_and(|spent| !spent.is_empty()));
     }
