@@ -9,6 +9,7 @@ use marbles_scene::{CloudDescription, FrameError, Scene};
 use crate::args::CheckArguments;
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::loading;
 use crate::numbers::short;
 use crate::render::FRAME_OF_A_STILL;
 use crate::status;
@@ -21,7 +22,7 @@ const LIGHTS_LISTED: usize = 8;
 const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
-    let scene = Scene::load(&arguments.scene).map_err(|error| Failure::Scene(Box::new(error)))?;
+    let scene = loading::scene(&arguments.scene, console, false)?;
     let still = FRAME_OF_A_STILL..=FRAME_OF_A_STILL;
     let frames = scene.frames().unwrap_or(still);
     let (views, errors) = views(&scene, &frames);

@@ -4,13 +4,16 @@
 //! and become files in `output`; `input` reads pictures back.
 
 mod args;
+mod belt;
 mod check;
 mod compare;
 mod console;
 mod failure;
+mod film;
 mod frames;
 mod input;
 mod interrupt;
+mod loading;
 mod memory;
 mod messages;
 mod numbers;

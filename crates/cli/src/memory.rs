@@ -1,14 +1,21 @@
-//! Whether there is memory for the pictures of a sequence, asked before it is needed: where there
+//! Whether there is memory for what is on its way to files, asked before it is needed: where there
 //! is none, allocating ends the process without a word.
 
-use marbles_core::{Channels, View};
+use marbles_core::{BAND_ROWS, Channels, View, World};
 
 use crate::failure::Failure;
-use crate::output::Encoding;
+use crate::output::Coder;
 
 /// What threads and all that is small may take: glibc reserves this many addresses for a thread
 /// that allocates, though it uses few of them.
 const SMALL_THINGS: u64 = 1 << 27;
+
+/// What strips between rendering and file may take together, where two of them do not take more:
+/// enough to keep many threads busy with wide pictures, and whole pictures of common sizes.
+const STRIPS: u64 = 1 << 29;
+
+/// What a thread renders at a time takes less.
+const PART: u64 = 1 << 20;
 
 /// The pictures of a sequence, all of the same form.
 #[derive(Clone, Copy, Debug)]
@@ -20,69 +27,65 @@ pub(crate) struct Form {
 }
 
 impl Form {
-    /// What `view` is rendered as.
-    pub(crate) fn of(view: &View, is_grey: bool, alpha: bool) -> Self {
+    /// Of a sequence without pictures.
+    pub(crate) const EMPTY: Self = Self {
+        width: 1,
+        height: 1,
+        channels: Channels::Grey,
+        alpha: false,
+    };
+
+    /// What `view` of a world is rendered as.
+    pub(crate) fn of(view: &View, world: &World, alpha: bool) -> Self {
         Self {
             width: view.width,
             height: view.height,
-            channels: if is_grey {
-                Channels::Grey
-            } else {
-                Channels::Rgb
-            },
+            channels: Channels::of(world, alpha),
             alpha,
         }
     }
 
-    pub(crate) fn pixels(&self) -> u64 {
-        u64::from(self.width) * u64::from(self.height)
-    }
-
-    /// Bytes of one of core's pictures: the channels and the error in double precision, what
-    /// stands behind it, and the status.
+    /// Bytes of one of core's pictures as a whole: the channels and the error in double precision,
+    /// what stands behind it, and the status.
     fn picture_bytes(&self) -> u64 {
         let colors = match self.channels {
             Channels::Grey => 1,
             Channels::Rgb => 3,
         };
-        self.pixels() * (8 * (colors + u64::from(self.alpha) + 1) + 2)
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        pixels * (8 * (colors + u64::from(self.alpha) + 1) + 2)
     }
 
-    /// Whether there is memory for so many pictures at a time and the encoding of one.
-    ///
-    /// All of it is asked for in one piece: systems that promise more than they have still refuse
-    /// a piece that is larger than all they have.
-    fn fits(&self, pictures: u64, encoding: Encoding) -> bool {
-        can_reserve(self.bytes(pictures, encoding))
-    }
-
-    fn bytes(&self, pictures: u64, encoding: Encoding) -> u64 {
-        pictures * self.picture_bytes() + encoding.memory(self) + SMALL_THINGS
+    /// Bytes of the lists of what is seen in which tile, where few spheres are.
+    fn list_bytes(&self) -> u64 {
+        let tiles = |pixels: u32| u64::from(pixels.div_ceil(BAND_ROWS));
+        4 * tiles(self.width) * tiles(self.height)
     }
 }
 
-/// How many of at most `most` pictures there is memory for, at least `least`.
-pub(crate) fn pictures_at_a_time(
-    form: &Form,
-    encoding: Encoding,
-    least: u64,
-    most: u64,
-) -> Result<u64, Failure> {
-    let fitting = (least..=most)
-        .rev()
-        .find(|&count| form.fits(count, encoding));
-    fitting.ok_or_else(|| {
-        let Form { width, height, .. } = form;
-        let gigabytes = form.bytes(least, encoding) as f64 / 1e9;
-        let picture = format!("a picture of {width} x {height} pixels");
-        let what = match least {
-            1 => format!("rendering and writing {picture}"),
-            _ => format!("rendering {picture} while another is written"),
-        };
-        Failure::Work(format!(
-            "{what} needs {gigabytes:.1} GB of memory, more than there is"
-        ))
-    })
+/// How many strips may be between rendering and file: as many as are useful, or as there is memory
+/// for, at least 2.
+///
+/// All of it is asked for in one piece: systems that promise more than they have still refuse
+/// a piece that is larger than all they have.
+pub(crate) fn strips_at_a_time(form: &Form, coder: &Coder, threads: usize) -> Result<u64, Failure> {
+    const LEAST: u64 = 2;
+    let strip = coder.strip_bytes();
+    let others = form.list_bytes() + threads as u64 * PART + SMALL_THINGS;
+    let bytes = |strips: u64| strips.saturating_mul(strip).saturating_add(others);
+    let mut strips = (STRIPS / strip.max(1)).max(LEAST);
+    while !can_reserve(bytes(strips)) {
+        if strips == LEAST {
+            let Form { width, height, .. } = form;
+            let gigabytes = bytes(LEAST) as f64 / 1e9;
+            return Err(Failure::Work(format!(
+                "rendering and writing a picture of {width} x {height} pixels needs \
+                 {gigabytes:.1} GB of memory, more than there is"
+            )));
+        }
+        strips = (strips / 2).max(LEAST);
+    }
+    Ok(strips)
 }
 
 /// Refuses pictures for which there is no memory, so many at a time.
@@ -117,29 +120,67 @@ pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::PngOptions;
+    use crate::output::{Encoding, ExrOptions, PngOptions};
 
-    const PNG: Encoding = Encoding::Png(PngOptions {
-        deep: false,
-        rgb: false,
-    });
-
-    #[test]
-    fn small_pictures_fit_and_the_largest_do_not() {
-        let form = |side| Form {
-            width: side,
-            height: side,
+    fn form(width: u32, height: u32) -> Form {
+        Form {
+            width,
+            height,
             channels: Channels::Rgb,
             alpha: true,
-        };
-        assert_eq!(pictures_at_a_time(&form(9), PNG, 2, 3).ok(), Some(3));
-        // Larger than scenes allow, and than any address space.
-        let failure = pictures_at_a_time(&form(1 << 26), PNG, 2, 3).unwrap_err();
+        }
+    }
+
+    const PNG: Encoding = Encoding::Png(PngOptions {
+        deep: true,
+        rgb: true,
+    });
+    const EXR: Encoding = Encoding::Exr(ExrOptions {
+        float: true,
+        error: true,
+    });
+
+    /// What is planned for a picture; `None` where there is no memory.
+    fn strips(encoding: Encoding, form: &Form) -> Option<u64> {
+        strips_at_a_time(form, &Coder::new(encoding, *form), 2).ok()
+    }
+
+    #[test]
+    fn the_height_of_a_picture_costs_no_strips() {
+        for encoding in [PNG, EXR] {
+            let [low, high] = [9, 1 << 20].map(|height| form(600, height));
+            // The lower one has no whole strip of an EXR file.
+            assert!(strips(encoding, &high) > Some(2));
+            assert!(strips(encoding, &low) >= strips(encoding, &high));
+        }
+    }
+
+    #[test]
+    fn large_pictures_have_room_in_a_gigabyte() {
+        const THREADS: usize = 64;
+        let form = form(1 << 15, 1 << 15);
+        for encoding in [PNG, EXR] {
+            let coder = Coder::new(encoding, form);
+            let strips = strips_at_a_time(&form, &coder, THREADS).unwrap();
+            let bytes = strips * coder.strip_bytes() + form.list_bytes() + THREADS as u64 * PART;
+            assert!(bytes + SMALL_THINGS < 1 << 30, "{bytes}");
+        }
+    }
+
+    #[test]
+    fn the_widest_pictures_do_not_fit() {
+        // Wider than scenes allow.
+        let form = form(u32::MAX, 1 << 31);
+        let failure = strips_at_a_time(&form, &Coder::new(EXR, form), 2).unwrap_err();
         let Failure::Work(message) = failure else {
             panic!("{failure:?}");
         };
         assert!(message.ends_with("GB of memory, more than there is"));
-        assert!(check_pictures(&form(9), 3).is_ok());
-        assert!(check_pictures(&form(1 << 26), 3).is_err());
+    }
+
+    #[test]
+    fn whole_pictures_are_refused_where_they_do_not_fit() {
+        assert!(check_pictures(&form(9, 9), 3).is_ok());
+        assert!(check_pictures(&form(1 << 26, 1 << 26), 3).is_err());
     }
 }

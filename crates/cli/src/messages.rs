@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
-use marbles_core::{Evidence, Image, Summary};
+use marbles_core::{Evidence, Summary};
 
+use crate::film::Worst;
 use crate::numbers::bound;
 use crate::output::Encoding;
 
@@ -46,14 +47,9 @@ pub(crate) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
 }
 
 /// That pixels did not meet the tolerance, and which one least of all.
-pub(crate) fn over_tolerance(path: &str, image: &Image, count: u64) -> String {
-    let error = |(col, row)| image.error(col, row);
-    let worst = (0..image.height())
-        .flat_map(|row| (0..image.width()).map(move |col| (col, row)))
-        .filter(|&(col, row)| image.status(col, row).is_over_tolerance())
-        .max_by(|&one, &other| error(one).total_cmp(&error(other)));
-    let worst = worst.map_or(String::new(), |(col, row)| {
-        let error = bound(image.error(col, row));
+pub(crate) fn over_tolerance(path: &str, count: u64, worst: Option<Worst>) -> String {
+    let worst = worst.map_or(String::new(), |Worst { col, row, error }| {
+        let error = bound(error);
         format!(", the worst in column {col}, row {row} with an error <= {error}")
     });
     let pixels = if count == 1 { "pixel" } else { "pixels" };

@@ -106,9 +106,18 @@ fn digits(value: f64, digits: i32) -> String {
 
 /// A number of pixels: `360 kpx`, `21.6 Mpx`.
 pub(crate) fn pixels(pixels: u64) -> String {
-    const UNITS: [(f64, &str); 3] = [(1e9, "Gpx"), (1e6, "Mpx"), (1e3, "kpx")];
-    for (size, unit) in UNITS {
-        let count = pixels as f64 / size;
+    counted(pixels, [(1e9, "Gpx"), (1e6, "Mpx"), (1e3, "kpx")], "px")
+}
+
+/// A number of bytes: `360 kB`, `21.6 MB`.
+pub(crate) fn bytes(bytes: u64) -> String {
+    counted(bytes, [(1e9, "GB"), (1e6, "MB"), (1e3, "kB")], "bytes")
+}
+
+/// A number of units, in the largest of which there is one.
+fn counted(count: u64, units: [(f64, &str); 3], one: &str) -> String {
+    for (size, unit) in units {
+        let count = count as f64 / size;
         if count >= 100.0 {
             return format!("{count:.0} {unit}");
         }
@@ -116,7 +125,7 @@ pub(crate) fn pixels(pixels: u64) -> String {
             return format!("{count:.1} {unit}");
         }
     }
-    format!("{pixels} px")
+    format!("{count} {one}")
 }
 
 /// A time to wait: `12 s`, `3 min 20 s`, `2 h 5 min`.

@@ -9,6 +9,7 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::loading::LINE;
 use crate::numbers;
 
 /// Shades of the bar, from full to empty.
@@ -55,11 +56,34 @@ impl<'a> Progress<'a> {
         }
     }
 
+    /// Prepares what so many spheres are rendered with.
+    pub(crate) fn while_preparing<T>(&self, spheres: usize, prepare: impl FnOnce() -> T) -> T {
+        /// Fewer take no time.
+        const MANY: usize = 1 << 15;
+        let Display::Bar(bar) = &self.display else {
+            return prepare();
+        };
+        if spheres < MANY {
+            return prepare();
+        }
+        if let Ok(line) = ProgressStyle::with_template(LINE) {
+            bar.set_style(line);
+        }
+        bar.set_message(format!("preparing {spheres} spheres"));
+        bar.tick();
+        prepare()
+    }
+
     /// The frame with this index begins, and the others are supposed to be as large.
     pub(crate) fn begin(&self, index: u64, pixels: u64) {
         if let Display::Bar(bar) = &self.display {
             let frames = self.frames - self.left_out.load(Ordering::Relaxed);
             bar.set_length(frames.saturating_mul(pixels));
+            bar.set_style(style(self.frames > 1));
+            if index == 0 {
+                // What came before tells nothing about the frames.
+                bar.reset_eta();
+            }
             bar.set_message(format!("frame {} of {}", index + 1, self.frames));
         }
     }

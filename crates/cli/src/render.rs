@@ -8,6 +8,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
+use crate::loading;
 use crate::messages;
 use crate::output::{self, Encoding, ExrOptions, PngOptions};
 use crate::pattern::{Format, Pattern};
@@ -26,8 +27,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     let encoding = encoding(arguments, format)?;
 
     let threads = threads::start(arguments.threads)?;
-    let scene = threads.install(|| Scene::load(&arguments.scene));
-    let scene = scene.map_err(|error| Failure::Scene(Box::new(error)))?;
+    let scene = threads.install(|| loading::scene(&arguments.scene, console, arguments.quiet))?;
     let frames = frames(arguments, &scene);
     let pattern = pattern.unwrap_or_else(|| {
         let numbered = arguments.frames.is_some() || scene.frames().is_some();

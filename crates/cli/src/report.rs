@@ -27,6 +27,7 @@ use crate::args::{ReportArguments, Size};
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
+use crate::loading;
 use crate::memory::{self, Form};
 use crate::output;
 use crate::render::FRAME_OF_A_STILL;
@@ -35,7 +36,7 @@ use crate::threads;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     let plot = arguments.plot.as_deref().map(PlotFile::at).transpose()?;
-    let scene = Scene::load(&arguments.scene).map_err(|error| Failure::Scene(Box::new(error)))?;
+    let scene = loading::scene(&arguments.scene, console, arguments.quiet)?;
     let view = view(arguments, &scene)?;
     // What cannot be written is refused before the long work.
     check_files(arguments)?;
@@ -44,7 +45,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     for path in arguments.csv.iter().chain(&arguments.plot) {
         output::prepare(path)?;
     }
-    memory::check_pictures(&Form::of(&view, scene.world().is_grey(), false), PICTURES)?;
+    memory::check_pictures(&Form::of(&view, scene.world(), false), PICTURES)?;
 
     let progress = Progress::new(console, arguments.quiet);
     let renderer = Renderer::new(scene.world());
@@ -71,7 +72,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         measurement,
     };
     if let Some(path) = &arguments.csv {
-        output::write_bytes(csv::bytes(&report), path)?;
+        output::write_bytes(&csv::bytes(&report), path)?;
     }
     if let Some(plot) = &plot {
         plot.write(&report)?;

@@ -4,27 +4,29 @@ use std::ops::ControlFlow;
 use std::panic;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use marbles_core::{Image, Renderer, Settings, Summary, View};
+use marbles_core::{Renderer, Settings, Summary, View};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
 use crate::args::Size;
+use crate::belt::Belt;
 use crate::failure::Failure;
+use crate::film::{Film, Gathered};
 use crate::frames::FrameList;
 use crate::interrupt;
 use crate::memory::{self, Form};
 use crate::messages;
-use crate::output::{self, Encoding, Facts};
+use crate::output::{Coder, Encoding, Facts, Piece, Pieces, Unwritten};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
 
-/// Pictures in memory: one is rendered, one waits, one is written. If more waited, it would only
-/// take memory: in the long run the slower of rendering and writing sets the pace.
-const MOST_PICTURES: u64 = 3;
+/// Pictures that wait to be written while another one is. If more waited, it would not help: in the
+/// long run the slower of rendering and writing sets the pace.
+const WAITING_PICTURES: usize = 1;
 
 /// What is rendered, and where it goes.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +62,7 @@ impl Tally {
     fn add(&mut self, summary: Summary, time: Duration) {
         self.written += 1;
         self.time += time;
-        self.total = Some(self.total.map_or(summary, |total| both(&total, &summary)));
+        self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
     }
 
     /// Whether some pixel of a written frame did not meet the tolerance.
@@ -69,22 +71,25 @@ impl Tally {
     }
 }
 
-/// What is true of two pictures together.
-fn both(one: &Summary, other: &Summary) -> Summary {
-    Summary {
-        pixels: one.pixels + other.pixels,
-        largest_error: one.largest_error.max(other.largest_error),
-        evidence: one.evidence.min(other.evidence),
-        over_tolerance: one.over_tolerance + other.over_tolerance,
-    }
-}
-
-/// A picture on its way to its file.
-struct Rendered {
-    image: Image,
+/// A picture that is on its way to its file.
+struct Order {
     facts: Facts,
     path: PathBuf,
+    /// What became of it; nothing where it was not finished.
+    ending: Receiver<Ending>,
+}
+
+/// A picture all of whose strips were rendered.
+struct Ending {
+    gathered: Gathered,
     time: Duration,
+}
+
+/// What the thread that renders and the one that writes have in common.
+struct Ways {
+    coder: Coder,
+    belt: Belt,
+    write_failed: AtomicBool,
 }
 
 impl Sequence<'_> {
@@ -94,8 +99,8 @@ impl Sequence<'_> {
     /// ends the work, as the next would fare no better.
     pub(crate) fn render(&self, threads: &ThreadPool, progress: &Progress) -> Tally {
         let frames = self.frames.count();
-        let pictures = match self.pictures_at_a_time() {
-            Ok(pictures) => pictures,
+        let ways = match self.ways(threads) {
+            Ok(ways) => ways,
             Err(failure) => {
                 progress.failure(&failure);
                 return Tally {
@@ -105,15 +110,10 @@ impl Sequence<'_> {
                 };
             }
         };
-        let write_failed = AtomicBool::new(false);
-        let waiting = pictures.saturating_sub(2) as usize;
-        let (sender, receiver) = sync_channel(waiting);
-        // Pictures that are written give their memory back to the renderer.
-        let (giver, spent) = channel();
+        let (sender, receiver) = sync_channel(WAITING_PICTURES);
         let (left_out, written) = thread::scope(|scope| {
-            let writer = scope.spawn(|| self.write_all(receiver, &giver, &write_failed, progress));
-            let to_files = || self.render_all(sender, spent, &write_failed, progress);
-            let left_out = threads.install(to_files);
+            let writer = scope.spawn(|| self.write_all(receiver, &ways, progress));
+            let left_out = threads.install(|| self.render_all(sender, &ways, progress));
             let written = writer.join();
             (
                 left_out,
@@ -122,7 +122,7 @@ impl Sequence<'_> {
         });
         Tally {
             frames,
-            failed: left_out || write_failed.into_inner(),
+            failed: left_out || ways.write_failed.into_inner(),
             interrupted: interrupt::requested() && written.written < frames,
             ..written
         }
@@ -130,16 +130,14 @@ impl Sequence<'_> {
 
     /// Sends pictures to the writer until there are no more, or somebody wants to stop. Whether
     /// some frame was left out.
-    fn render_all(
-        &self,
-        writer: SyncSender<Rendered>,
-        spent: Receiver<Image>,
-        write_failed: &AtomicBool,
-        progress: &Progress,
-    ) -> bool {
-        let stop = || interrupt::requested() || write_failed.load(Ordering::Relaxed);
-        let renderer = Renderer::new(self.scene.world());
+    fn render_all(&self, writer: SyncSender<Order>, ways: &Ways, progress: &Progress) -> bool {
+        let _closing = ways.belt.closing();
+        let stop = || interrupt::requested() || ways.write_failed.load(Ordering::Relaxed);
+        let world = self.scene.world();
+        let prepare = || Renderer::new(world);
+        let renderer = progress.while_preparing(world.spheres().len(), prepare);
         let mut left_out = false;
+        let mut first_piece = 0;
         for (index, frame) in self.frames.iter().enumerate() {
             if stop() {
                 break;
@@ -154,19 +152,8 @@ impl Sequence<'_> {
                 }
             };
             progress.begin(index as u64, u64::from(view.width) * u64::from(view.height));
-            let started = Instant::now();
-            let spent = spent.try_recv().ok();
-            let image = renderer.render_over(spent, &view, &self.settings, &|pixels| {
-                progress.advance(pixels);
-                if stop() {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            });
-            let Ok(image) = image else { break };
-            let rendered = Rendered {
-                image,
+            let (finish, ending) = channel();
+            let order = Order {
                 facts: Facts {
                     camera: view.camera,
                     frame,
@@ -174,35 +161,48 @@ impl Sequence<'_> {
                     method: self.settings.method,
                 },
                 path: self.pattern.path(frame),
-                time: started.elapsed(),
+                ending,
             };
-            if writer.send(rendered).is_err() {
+            if writer.send(order).is_err() {
                 break;
             }
+            let film = Film::new(&ways.coder, &ways.belt, first_piece);
+            first_piece += u64::from(ways.coder.pieces());
+            let started = Instant::now();
+            let rendered = renderer.render_strips(&view, &self.settings, &film, &|pixels| {
+                progress.advance(pixels);
+                if stop() {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            });
+            if rendered.is_err() {
+                break;
+            }
+            let elapsed = started.elapsed();
+            let (gathered, aside) = film.finish(rayon::current_num_threads());
+            let time = elapsed.saturating_sub(aside);
+            // The writer has gone if it could not write.
+            let _ = finish.send(Ending { gathered, time });
         }
         left_out
     }
 
     /// Writes pictures as they come, until one cannot be written.
-    fn write_all(
-        &self,
-        pictures: Receiver<Rendered>,
-        spent: &Sender<Image>,
-        write_failed: &AtomicBool,
-        progress: &Progress,
-    ) -> Tally {
+    fn write_all(&self, orders: Receiver<Order>, ways: &Ways, progress: &Progress) -> Tally {
+        let _closing = ways.belt.closing();
         let mut tally = Tally::default();
-        for picture in pictures {
-            let frame = picture.facts.frame;
-            match self.write(picture, progress) {
-                Ok((image, summary, time)) => {
-                    // Nobody takes it after the last frame.
-                    let _ = spent.send(image);
+        for order in orders {
+            let frame = order.facts.frame;
+            match self.write(order, ways, progress) {
+                Ok((summary, time)) => {
                     tally.add(summary, time);
                     progress.written(frame, tally.written);
                 }
-                Err(failure) => {
-                    write_failed.store(true, Ordering::Relaxed);
+                Err(Unwritten::Stopped) => break,
+                Err(Unwritten::Failed(failure)) => {
+                    ways.write_failed.store(true, Ordering::Relaxed);
                     progress.failure(&failure);
                     break;
                 }
@@ -211,30 +211,31 @@ impl Sequence<'_> {
         tally
     }
 
-    /// Writes a picture and says so. The picture, what it achieved, and in which time.
+    /// Writes a picture and says so; what it achieved, and in which time.
     fn write(
         &self,
-        rendered: Rendered,
+        order: Order,
+        ways: &Ways,
         progress: &Progress,
-    ) -> Result<(Image, Summary, Duration), Failure> {
-        let Rendered {
-            image,
+    ) -> Result<(Summary, Duration), Unwritten> {
+        let Order {
             facts,
             path,
-            time,
-        } = rendered;
+            ending,
+        } = order;
+        ways.coder.write(&facts, &path, &mut &ways.belt)?;
+        let Ending { gathered, time } = ending.recv().map_err(|_| Unwritten::Stopped)?;
+        let summary = gathered.summary.ok_or(Unwritten::Stopped)?;
         let shown = path.display().to_string();
-        let written = output::write(&image, &facts, self.encoding, path)?;
-        let summary = image.summary();
         progress.result(&messages::result(&shown, &summary, time));
-        if written.clipped > 0 {
-            progress.warn(&messages::clipped(&shown, written.clipped, self.encoding));
+        if gathered.clipped > 0 {
+            progress.warn(&messages::clipped(&shown, gathered.clipped, self.encoding));
         }
         if summary.over_tolerance > 0 {
-            let message = messages::over_tolerance(&shown, &image, summary.over_tolerance);
-            progress.warn(&message);
+            let count = summary.over_tolerance;
+            progress.warn(&messages::over_tolerance(&shown, count, gathered.worst));
         }
-        Ok((image, summary, time))
+        Ok((summary, time))
     }
 
     fn resized(&self, view: View) -> View {
@@ -248,25 +249,32 @@ impl Sequence<'_> {
         }
     }
 
-    /// How many pictures may be in memory at a time: one that is rendered, one that is written, and
-    /// as a rule one that waits in between.
-    fn pictures_at_a_time(&self) -> Result<u64, Failure> {
+    /// Makes ready what all frames share, if there is memory for it.
+    fn ways(&self, threads: &ThreadPool) -> Result<Ways, Failure> {
         // All frames have the same size.
-        let Some(view) = self
-            .frames
-            .iter()
-            .find_map(|frame| self.scene.view(frame).ok())
-        else {
-            return Ok(1);
-        };
-        let is_grey = self.scene.world().is_grey();
-        let form = Form::of(&self.resized(view), is_grey, self.settings.alpha);
-        let (least, most) = match self.frames.count() {
-            0..=1 => (1, 1),
-            2 => (2, 2),
-            _ => (2, MOST_PICTURES),
-        };
-        memory::pictures_at_a_time(&form, self.encoding, least, most)
+        let view = self.frames.iter();
+        let view = view.filter_map(|frame| self.scene.view(frame).ok()).next();
+        let view = view.map(|view| self.resized(view));
+        let form = view.map_or(Form::EMPTY, |view| {
+            Form::of(&view, self.scene.world(), self.settings.alpha)
+        });
+        let coder = Coder::new(self.encoding, form);
+        let strips = memory::strips_at_a_time(&form, &coder, threads.current_num_threads())?;
+        Ok(Ways {
+            coder,
+            belt: Belt::new(strips),
+            write_failed: AtomicBool::new(false),
+        })
+    }
+}
+
+impl Pieces for &Belt {
+    fn next(&mut self) -> Option<Piece> {
+        self.take()
+    }
+
+    fn give_back(&mut self, samples: Vec<u8>) {
+        Belt::give_back(self, samples);
     }
 }
 

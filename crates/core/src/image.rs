@@ -1,11 +1,13 @@
 //! Pictures in linear light.
 
+use std::ops::Range;
+
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
 use crate::integration::Pixel;
 use crate::plane::{Plane, PlaneBand};
-use crate::{Color, Evidence, Radiance, Status, Tile, TileLight, Work};
+use crate::{Color, Evidence, Radiance, Status, Tile, TileLight, Work, World};
 
 /// Which numbers a picture holds for each pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -17,6 +19,16 @@ pub enum Channels {
 }
 
 impl Channels {
+    /// Those of a world's pictures, with or without an alpha channel in place of the background.
+    pub fn of(world: &World, alpha: bool) -> Self {
+        let is_grey = if alpha {
+            world.has_grey_spheres()
+        } else {
+            world.is_grey()
+        };
+        if is_grey { Self::Grey } else { Self::Rgb }
+    }
+
     fn count(self) -> usize {
         match self {
             Self::Grey => 1,
@@ -46,6 +58,16 @@ pub struct Image {
     work: Work,
 }
 
+/// What a picture is before its pixels are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    /// Columns and rows.
+    pub(crate) size: (u32, u32),
+    pub(crate) channels: Channels,
+    pub(crate) alpha: bool,
+    pub(crate) prospect: Prospect,
+}
+
 /// What is known of a picture's pixels before they are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Prospect {
@@ -68,16 +90,28 @@ pub struct Summary {
     pub over_tolerance: u64,
 }
 
+impl Summary {
+    /// What is true of two pictures, or parts of one, together.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            largest_error: self.largest_error.max(other.largest_error),
+            evidence: self.evidence.min(other.evidence),
+            over_tolerance: self.over_tolerance + other.over_tolerance,
+        }
+    }
+}
+
 impl Image {
     /// A picture to be written, in the memory of another one where that suffices.
-    pub(crate) fn new(
-        (width, height): (u32, u32),
-        channels: Channels,
-        alpha: bool,
-        prospect: Prospect,
-        spent: Option<Self>,
-    ) -> Self {
-        let Prospect { error, ending } = prospect;
+    pub(crate) fn new(form: Form, spent: Option<Self>) -> Self {
+        let Form {
+            size: (width, height),
+            channels,
+            alpha,
+            prospect: Prospect { error, ending },
+        } = form;
         let pixels = width as usize * height as usize;
         let numbers = pixels * (channels.count() + usize::from(alpha));
         let (evidence, status) = (ending.map(|ending| ending.0), ending.map(|ending| ending.1));
@@ -238,6 +272,28 @@ impl Image {
             })
     }
 
+    /// Some rows of the picture as a band, where the picture's first pixel is (`col`, `row`) of a
+    /// larger one.
+    pub(crate) fn band_mut(&mut self, (col, row): (u32, u32), rows: Range<u32>) -> Band<'_> {
+        let stride = self.channels.count() + usize::from(self.alpha);
+        let width = self.width as usize;
+        let pixels = rows.start as usize * width..rows.end as usize * width;
+        Band {
+            area: Tile {
+                col,
+                row: row + rows.start,
+                width: self.width,
+                height: rows.end - rows.start,
+            },
+            stride,
+            values: &mut self.values[pixels.start * stride..pixels.end * stride],
+            errors: self.errors.band_mut(pixels.clone()),
+            evidence: self.evidence.band_mut(pixels.clone()),
+            statuses: self.statuses.band_mut(pixels),
+            is_blank: self.is_blank,
+        }
+    }
+
     fn index(&self, col: u32, row: u32) -> usize {
         assert!(
             col < self.width && row < self.height,
@@ -345,7 +401,8 @@ impl Band<'_> {
     }
 
     fn index(&self, col: u32, row: u32) -> usize {
-        (row - self.area.row) as usize * self.area.width as usize + col as usize
+        let (col, row) = (col - self.area.col, row - self.area.row);
+        row as usize * self.area.width as usize + col as usize
     }
 }
 

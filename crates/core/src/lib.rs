@@ -2,7 +2,8 @@
 //! average of their light over each pixel.
 //!
 //! A [`World`] is what is rendered, a [`View`] is from where; a [`Renderer`] turns both into an
-//! [`Image`] whose every pixel says its value, its error and its [`Status`].
+//! [`Image`] whose every pixel says its value, its error and its [`Status`], or into strips of one
+//! for a [`Sink`].
 //!
 //! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Color is
 //! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
@@ -30,6 +31,7 @@ mod roughness;
 mod rounding;
 mod shading;
 mod sphere;
+mod strips;
 mod tile;
 mod view;
 mod visibility;
@@ -46,6 +48,7 @@ pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
 pub use render::{Cancelled, Method, Renderer, Settings};
 pub use sphere::{Floor, Hit, Sphere, SphereError};
+pub use strips::{BAND_ROWS, Sink, Strip};
 pub use view::View;
 pub use world::{MaterialId, World};
 

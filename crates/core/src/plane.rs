@@ -1,5 +1,7 @@
 //! One number for every pixel, or one for all.
 
+use std::ops::Range;
+
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator};
 
 /// A number for every pixel of a picture, row by row.
@@ -38,6 +40,14 @@ impl<T: Copy + Send + Sync> Plane<T> {
         match self {
             Self::Same(value) => std::slice::from_ref(value),
             Self::Each(values) => values,
+        }
+    }
+
+    /// Some pixels of the plane.
+    pub(crate) fn band_mut(&mut self, pixels: Range<usize>) -> PlaneBand<'_, T> {
+        match self {
+            Self::Same(_) => PlaneBand(None),
+            Self::Each(values) => PlaneBand(Some(&mut values[pixels])),
         }
     }
 

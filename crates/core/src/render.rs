@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use thiserror::Error;
 
-use crate::image::Prospect;
+use crate::image::{Band, Form, Prospect};
 use crate::integration::{Exact, Integrator, Supersampling};
 use crate::visibility::{Seen, Visibility};
 use crate::{Channels, Color, Image, Radiance, Tile, View, Work, World};
@@ -79,83 +79,123 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
+        let job = Whole { spent, progress };
+        self.run(view, settings, job)
+    }
+
+    /// Prepares the integrator that `settings` ask for, and has the job done with it.
+    pub(crate) fn run<J: Job>(
+        &self,
+        view: &View,
+        settings: &Settings,
+        job: J,
+    ) -> Result<J::Output, Cancelled> {
         let seen = Seen::new(&self.visibility, view, Tile::SIDE);
         let world = self.world;
-        let is_grey = if settings.alpha {
-            world.has_grey_spheres()
-        } else {
-            world.is_grey()
+        let alpha = settings.alpha;
+        let channels = Channels::of(world, alpha);
+        let form = |prospect| Form {
+            size: (view.width, view.height),
+            channels,
+            alpha,
+            prospect,
         };
-        let channels = if is_grey {
-            Channels::Grey
-        } else {
-            Channels::Rgb
-        };
-        let prospect = match settings.method {
-            Method::Samples(samples) => Supersampling::prospect(samples),
-            Method::Tolerance(_) => Prospect {
-                error: None,
-                ending: None,
-            },
-        };
-        let size = (view.width, view.height);
-        let mut image = Image::new(size, channels, settings.alpha, prospect, spent);
         match settings.method {
             Method::Samples(samples) => {
-                let integrator = Supersampling::new(world, view, &seen, samples, settings.alpha);
+                let form = form(Supersampling::prospect(samples));
+                let integrator = Supersampling::new(world, view, &seen, samples, alpha);
                 match channels {
-                    Channels::Grey => fill::<f64, _>(&mut image, &integrator, progress),
-                    Channels::Rgb => fill::<Color, _>(&mut image, &integrator, progress),
+                    Channels::Grey => job.run::<f64, _>(form, &integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
                 }
             }
             Method::Tolerance(tolerance) => {
-                let integrator = Exact::new(world, view, &seen, tolerance, settings.alpha);
+                let form = form(Prospect {
+                    error: None,
+                    ending: None,
+                });
+                let integrator = Exact::new(world, view, &seen, tolerance, alpha);
                 match channels {
-                    Channels::Grey => fill::<f64, _>(&mut image, &integrator, progress),
-                    Channels::Rgb => fill::<Color, _>(&mut image, &integrator, progress),
+                    Channels::Grey => job.run::<f64, _>(form, &integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
                 }
             }
-        }?;
+        }
+    }
+}
+
+/// What is done with an integrator.
+pub(crate) trait Job {
+    type Output;
+
+    /// Renders a picture of this form.
+    fn run<C: Radiance, I: Integrator<C>>(
+        self,
+        form: Form,
+        integrator: &I,
+    ) -> Result<Self::Output, Cancelled>;
+}
+
+/// A picture in one piece.
+struct Whole<'a> {
+    /// A picture in whose memory it may be.
+    spent: Option<Image>,
+    progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
+}
+
+impl Job for Whole<'_> {
+    type Output = Image;
+
+    fn run<C: Radiance, I: Integrator<C>>(
+        self,
+        form: Form,
+        integrator: &I,
+    ) -> Result<Image, Cancelled> {
+        let mut image = Image::new(form, self.spent);
+        // One by one: bands differ in what they cost, and threads that wait for the last take longer than
+        // all handing over.
+        let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
+        let bands = bands.map(|mut band| {
+            paint(
+                &mut band,
+                integrator,
+                &mut I::Room::default(),
+                self.progress,
+            )
+        });
+        let add = |mut sum: Work, work| {
+            sum += work;
+            Ok(sum)
+        };
+        let work = bands.try_reduce(Work::default, add)?;
+        image.set_work(work);
         Ok(image)
     }
 }
 
-fn fill<C: Radiance, I: Integrator<C>>(
-    image: &mut Image,
+/// Renders a row of tiles; what they cost.
+pub(crate) fn paint<C: Radiance, I: Integrator<C>>(
+    band: &mut Band<'_>,
     integrator: &I,
+    room: &mut I::Room,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-) -> Result<(), Cancelled> {
-    // One by one: bands differ in what they cost, and threads that wait for the last take longer than
-    // all handing over.
-    let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
-    let bands = bands.map(|mut band| {
-        let mut work = Work::default();
-        let Tile {
-            row, width, height, ..
-        } = band.area;
-        let mut room = I::Room::default();
-        for col in (0..width).step_by(Tile::SIDE as usize) {
-            let tile = Tile {
-                col,
-                row,
-                width: Tile::SIDE.min(width - col),
-                height,
-            };
-            work += integrator.paint(tile, &mut room, &mut band);
-            let pixels = u64::from(tile.width) * u64::from(tile.height);
-            if progress(pixels).is_break() {
-                return Err(Cancelled);
-            }
+) -> Result<Work, Cancelled> {
+    let mut work = Work::default();
+    let area = band.area;
+    let end = area.col + area.width;
+    for col in (area.col..end).step_by(Tile::SIDE as usize) {
+        let tile = Tile {
+            col,
+            width: Tile::SIDE.min(end - col),
+            ..area
+        };
+        work += integrator.paint(tile, room, band);
+        let pixels = u64::from(tile.width) * u64::from(tile.height);
+        if progress(pixels).is_break() {
+            return Err(Cancelled);
         }
-        Ok(work)
-    });
-    let add = |mut sum: Work, work| {
-        sum += work;
-        Ok(sum)
-    };
-    let work = bands.try_reduce(Work::default, add)?;
-    image.set_work(work);
-    Ok(())
+    }
+    Ok(work)
 }
 
 #[cfg(test)]

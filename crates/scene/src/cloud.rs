@@ -13,6 +13,7 @@ use crate::assemble::quoted;
 use crate::fault::{Fault, report};
 use crate::file;
 use crate::framing;
+use crate::scene::Progress;
 use crate::suggest::{closest, list};
 use crate::table::{self, Coloring, Colormap, Paint, Request, Rows, TableError, TableFault};
 
@@ -107,9 +108,12 @@ impl Cloud {
         &self,
         world: &mut World,
         folder: &Path,
+        watch: &dyn Fn(Progress<'_>),
     ) -> Result<Range<usize>, CloudError> {
         let path = folder.join(&self.name);
-        let rows = match table::read(&path, &self.request) {
+        let table = Path::new(&self.name);
+        let watch = |read, size| watch(Progress { table, read, size });
+        let rows = match table::read(&path, &self.request, &watch) {
             Ok(rows) => rows,
             Err(TableError::Fault(fault)) => return Err(CloudError::Table(path, fault)),
             Err(error) => return Err(self.refused(self.explain(&path, &error))),

@@ -33,4 +33,4 @@ mod token;
 mod turntable;
 
 pub use error::{FrameError, FrameFault, SceneError, SceneFault};
-pub use scene::{CloudDescription, Description, Scene};
+pub use scene::{CloudDescription, Description, Progress, Scene};

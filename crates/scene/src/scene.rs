@@ -56,6 +56,17 @@ pub struct Description {
     pub lens: String,
 }
 
+/// How far the reading of a table is.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Progress<'scene> {
+    /// The table as the scene file names it.
+    pub table: &'scene Path,
+    /// Bytes that were read.
+    pub read: u64,
+    /// Bytes of the whole file; 0 where it does not say.
+    pub size: u64,
+}
+
 impl Scene {
     /// Reads and checks the scene file at `path`, and the tables that it names.
     ///
@@ -65,6 +76,15 @@ impl Scene {
     /// Refuses what is not a readable file of at most 1 GiB, and everything that the format and
     /// those of the tables do not allow.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
+        Self::load_watched(path, &|_| {})
+    }
+
+    /// Loads as [`Self::load`] does, and calls `watch` each time that some megabytes of a table were
+    /// read.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn load_watched(path: &Path, watch: &dyn Fn(Progress<'_>)) -> Result<Self, SceneError> {
         if path.is_dir() {
             return Err(SceneError::unreadable(
                 path,
@@ -84,7 +104,7 @@ impl Scene {
             SceneError::unreadable(path, &reason)
         })?;
         match str::from_utf8(&bytes) {
-            Ok(text) => Self::parse(text, path),
+            Ok(text) => Self::parse_watched(text, path, watch),
             Err(error) => {
                 let (valid, rest) = bytes.split_at(error.valid_up_to());
                 let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
@@ -103,6 +123,14 @@ impl Scene {
     /// # Errors
     /// Refuses everything that the format does not allow.
     pub fn parse(text: &str, path: &Path) -> Result<Self, SceneError> {
+        Self::parse_watched(text, path, &|_| {})
+    }
+
+    fn parse_watched(
+        text: &str,
+        path: &Path,
+        watch: &dyn Fn(Progress<'_>),
+    ) -> Result<Self, SceneError> {
         let text = without_byte_order_mark(text);
         let (scene, faults) = fault::collect(text, || {
             let start = token::skip_trivia(text, 0);
@@ -110,7 +138,7 @@ impl Scene {
             Self::assemble(&file, text)
         });
         match scene {
-            Some(draft) if faults.is_empty() => draft.finish(text, path),
+            Some(draft) if faults.is_empty() => draft.finish(text, path, watch),
             _ => Err(SceneError::refused(path, text, faults)),
         }
     }
@@ -241,11 +269,16 @@ struct Draft {
 
 impl Draft {
     /// Reads the tables, and places the camera where that depends on the spheres.
-    fn finish(self, text: &str, path: &Path) -> Result<Scene, SceneError> {
+    fn finish(
+        self,
+        text: &str,
+        path: &Path,
+        watch: &dyn Fn(Progress<'_>),
+    ) -> Result<Scene, SceneError> {
         let mut scene = self.scene;
         let folder = path.parent().unwrap_or(Path::new(""));
         for cloud in &self.clouds {
-            match cloud.add_to(&mut scene.world, folder) {
+            match cloud.add_to(&mut scene.world, folder, watch) {
                 Ok(spheres) => scene.clouds.push(CloudDescription {
                     file: PathBuf::from(&cloud.name),
                     spheres,

@@ -86,7 +86,6 @@ impl DifferencePicture {
                 output::write_floats(width, height, channels, &self.path)
             }
         }
-        .map(drop)
     }
 }
 

@@ -1,17 +1,20 @@
 //! OpenEXR: linear light, and what is known of the camera that saw it.
 
-use std::io::Cursor;
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 
-use exr::meta::attribute::Chromaticities;
-use exr::prelude::{
-    AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples,
-    Image as ExrImage, Layer, LayerAttributes, LineOrder, SmallVec, Text, Vec2, WritableImage, f16,
-};
+use exr::block::chunk::Chunk;
+use exr::block::writer::ChunksWriter;
+use exr::block::{BlockIndex, UncompressedBlock};
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, SampleType};
+use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
+use exr::prelude::{AttributeValue, Compression, Error, SmallVec, Text, Vec2};
 use glam::DVec3;
 use marbles_core::{Camera, Image, Method};
 
-use super::{Encoded, Facts, SOFTWARE, half, header};
-use crate::memory::{self, Form};
+use super::{Facts, Fault, SOFTWARE, half, header};
+use crate::memory::Form;
 use crate::rational;
 
 /// CIE xy of the primaries and the white of Rec. 709.
@@ -36,119 +39,249 @@ pub(crate) struct ExrOptions {
 const ERROR_CHANNEL: &str = "error";
 
 /// Rows that are compressed together.
-const ROWS_OF_A_BLOCK: u64 = 16;
-/// What a file has besides its blocks, generously.
+pub(super) const ROWS_OF_A_BLOCK: u32 = 16;
+/// What a file has at most before its blocks and their places, generously.
 const HEADER_BYTES: u64 = 1 << 16;
+/// Bytes that are written at a time.
+const BUFFER_BYTES: usize = 1 << 18;
+
+/// How the light and the errors of pictures become blocks of a file.
+#[derive(Clone, Debug)]
+pub(super) struct Blocks {
+    options: ExrOptions,
+    channels: Vec<Channel>,
+    /// Without what a file says of its picture, which does not matter to the blocks.
+    header: Header,
+}
+
+/// A channel of a file.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    name: &'static str,
+    source: Source,
+    /// Bytes of a sample.
+    bytes: usize,
+}
+
+/// Where the numbers of a channel come from.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// From red, green, blue and alpha, by number.
+    Light(usize),
+    Error,
+}
 
 impl ExrOptions {
-    /// Bytes that [`ExrOptions::encode`] takes at most: the samples, as many for the file, and
-    /// some copies of a block while it is compressed.
-    pub(super) fn memory(self, form: &Form) -> u64 {
-        const COPIES_OF_A_BLOCK: u64 = 8;
-        let samples = form.pixels() * self.bytes_per_pixel(form.alpha);
-        let row = u64::from(form.width) * self.bytes_per_pixel(form.alpha);
-        let file = self.file_bytes(form.width, form.height, form.alpha);
-        samples + file + COPIES_OF_A_BLOCK * ROWS_OF_A_BLOCK * row
-    }
-
-    /// Bytes that a file has at most: blocks that compression would make larger are stored as
-    /// they are.
-    fn file_bytes(self, width: u32, height: u32, alpha: bool) -> u64 {
-        // Its place in the file, its first row and its size.
-        const BYTES_OF_A_BLOCK: u64 = 8 + 4 + 4;
-        let blocks = u64::from(height).div_ceil(ROWS_OF_A_BLOCK);
-        let samples = u64::from(width) * u64::from(height) * self.bytes_per_pixel(alpha);
-        samples + blocks * BYTES_OF_A_BLOCK + HEADER_BYTES
-    }
-
-    fn bytes_per_pixel(self, alpha: bool) -> u64 {
-        let light = (3 + u64::from(alpha)) * if self.float { 4 } else { 2 };
-        // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
-        light + if self.error { 4 } else { 0 }
-    }
-
-    /// The bytes of the file, the same for the same picture and facts.
-    pub(super) fn encode(self, image: &Image, facts: &Facts) -> Result<Encoded, String> {
-        let (width, height) = (image.width() as usize, image.height() as usize);
-        let mut clipped = 0;
-        let mut channels = SmallVec::new();
-        for (index, name) in ["R", "G", "B", "A"].into_iter().enumerate() {
-            if name == "A" && !image.has_alpha() {
-                continue;
-            }
-            let values = pixels(image).map(|(col, row)| image.rgba(col, row)[index]);
-            let samples = if self.float {
-                let mut samples: Vec<f32> = memory::reserve(width * height)?;
-                let largest = f32::MAX.into();
-                samples.extend(values.map(|value| float(clip(value, largest, &mut clipped))));
-                FlatSamples::F32(samples)
-            } else {
-                let mut samples: Vec<f16> = memory::reserve(width * height)?;
-                let largest = half::LARGEST;
-                samples
-                    .extend(values.map(|value| half::nearest(clip(value, largest, &mut clipped))));
-                FlatSamples::F16(samples)
-            };
-            channels.push(AnyChannel::new(name, samples));
-        }
+    /// The blocks of such a picture.
+    pub(super) fn blocks(self, form: &Form) -> Blocks {
+        let light = |(source, name)| Channel {
+            name,
+            source: Source::Light(source),
+            bytes: if self.float { 4 } else { 2 },
+        };
+        // In the order of their names.
+        let names = [(3, "A"), (2, "B"), (1, "G"), (0, "R")].into_iter();
+        let names = names.skip(usize::from(!form.alpha));
+        let mut channels: Vec<Channel> = names.map(light).collect();
         if self.error {
-            let mut samples: Vec<f32> = memory::reserve(width * height)?;
-            samples.extend(pixels(image).map(|(col, row)| float_above(image.error(col, row))));
-            channels.push(AnyChannel::new(ERROR_CHANNEL, FlatSamples::F32(samples)));
+            channels.push(Channel {
+                name: ERROR_CHANNEL,
+                source: Source::Error,
+                // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
+                bytes: 4,
+            });
         }
-        let most = self.file_bytes(image.width(), image.height(), image.has_alpha());
-        let bytes = file((width, height), channels, attributes(facts), most)?;
-        Ok(Encoded { bytes, clipped })
+        let kind = |channel: &Channel| match channel.bytes {
+            2 => SampleType::F16,
+            _ => SampleType::F32,
+        };
+        let names = channels.iter().map(|channel| (channel.name, kind(channel)));
+        let header = header_of(form.width, form.height, names.collect());
+        Blocks {
+            options: self,
+            channels,
+            header,
+        }
     }
 }
 
-/// The bytes of a picture in single precision, of channels with these names.
-pub(super) fn floats(
-    size: (usize, usize),
-    channels: Vec<(&str, Vec<f32>)>,
-) -> Result<Encoded, String> {
-    let channel = |(name, values)| AnyChannel::new(name, FlatSamples::F32(values));
-    let channels = channels.into_iter().map(channel).collect();
+impl Blocks {
+    /// Bytes of a row's samples.
+    pub(super) fn row_bytes(&self) -> usize {
+        let pixel: usize = self.channels.iter().map(|channel| channel.bytes).sum();
+        self.header.layer_size.x() * pixel
+    }
+
+    /// Puts the numbers of some rows of an image where they belong in `samples`, which are as many
+    /// rows, from the column `col` on; how many were too large.
+    pub(super) fn encode(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        image: &Image,
+        rows: Range<u32>,
+    ) -> u64 {
+        let mut clipped = 0;
+        for (mut rest, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+            for channel in &self.channels {
+                let (own, others) = rest.split_at_mut(self.header.layer_size.x() * channel.bytes);
+                rest = others;
+                let own = &mut own[col as usize * channel.bytes..];
+                let columns = 0..image.width();
+                match channel.source {
+                    Source::Error => {
+                        let (floats, _) = own.as_chunks_mut();
+                        for (float, col) in floats.iter_mut().zip(columns) {
+                            *float = float_above(image.error(col, row)).to_ne_bytes();
+                        }
+                    }
+                    Source::Light(source) if self.options.float => {
+                        let (floats, _) = own.as_chunks_mut();
+                        for (sample, col) in floats.iter_mut().zip(columns) {
+                            let value = image.rgba(col, row)[source];
+                            let value = clip(value, f32::MAX.into(), &mut clipped);
+                            *sample = float(value).to_ne_bytes();
+                        }
+                    }
+                    Source::Light(source) => {
+                        let (halves, _) = own.as_chunks_mut();
+                        for (sample, col) in halves.iter_mut().zip(columns) {
+                            let value = image.rgba(col, row)[source];
+                            let value = clip(value, half::LARGEST, &mut clipped);
+                            *sample = half::nearest(value).to_ne_bytes();
+                        }
+                    }
+                }
+            }
+        }
+        clipped
+    }
+
+    /// The block with this index, counted from the top, compressed.
+    pub(super) fn compress(&self, index: u32, samples: Vec<u8>) -> Result<Chunk, String> {
+        compress(&self.header, index as usize, samples)
+    }
+
+    /// Writes a file whose blocks `next` gives, the same for the same picture and facts.
+    pub(super) fn write(
+        &self,
+        file: &mut (impl Read + Write + Seek),
+        facts: &Facts,
+        next: impl FnMut() -> Result<Chunk, Fault>,
+    ) -> Result<(), Fault> {
+        let header = self.header.clone().with_attributes(attributes(facts));
+        write(file, header, next)
+    }
+}
+
+/// Writes a picture in single precision, of channels with these names.
+pub(super) fn write_floats(
+    file: &mut (impl Read + Write + Seek),
+    (width, height): (u32, u32),
+    mut channels: Vec<(&str, Vec<f32>)>,
+) -> Result<(), Fault> {
+    channels.sort_unstable_by_key(|(name, _)| *name);
+    let names = channels.iter().map(|(name, _)| (*name, SampleType::F32));
+    let header = header_of(width, height, names.collect());
     let attributes = LayerAttributes {
         software_name: Some(Text::from(SOFTWARE)),
         ..LayerAttributes::default()
     };
-    // Room to start with: the vector grows where the channels are more.
-    let most = (size.0 * size.1) as u64 * 16;
-    let bytes = file(size, channels, attributes, most)?;
-    Ok(Encoded { bytes, clipped: 0 })
+    let header = header.with_attributes(attributes);
+    let mut rows = (0..height as usize).step_by(ROWS_OF_A_BLOCK as usize);
+    let (of_blocks, width) = (header.clone(), width as usize);
+    write(file, header, || {
+        let first = rows.next().ok_or(Fault::Stopped)?;
+        let last = (height as usize).min(first + ROWS_OF_A_BLOCK as usize);
+        let lines = (first..last)
+            .flat_map(|row| channels.iter().map(move |(_, values)| (row, values)))
+            .flat_map(|(row, values)| &values[row * width..(row + 1) * width]);
+        let samples = lines.flat_map(|value| value.to_ne_bytes()).collect();
+        let index = first / ROWS_OF_A_BLOCK as usize;
+        compress(&of_blocks, index, samples).map_err(Fault::Encoding)
+    })
 }
 
-/// The bytes of a file with these channels, in any order.
-fn file(
-    size: (usize, usize),
-    channels: SmallVec<[AnyChannel<FlatSamples>; 4]>,
-    attributes: LayerAttributes,
-    most_bytes: u64,
-) -> Result<Vec<u8>, String> {
-    let encoding = Encoding {
-        compression: Compression::ZIP16,
-        blocks: Blocks::ScanLines,
-        line_order: LineOrder::Increasing,
+/// The header of a file with these channels, in the order of their names.
+fn header_of(width: u32, height: u32, channels: Vec<(&str, SampleType)>) -> Header {
+    let channel = |(name, kind)| ChannelDescription::named(name, kind);
+    let size = Vec2(width as usize, height as usize);
+    let shared = ImageAttributes {
+        chromaticities: Some(REC_709),
+        ..ImageAttributes::with_size(size)
     };
-    let channels = AnyChannels::sort(channels);
-    let layer = Layer::new(size, attributes, encoding, channels);
-    let mut file = ExrImage::from_layer(layer);
-    file.attributes.chromaticities = Some(REC_709);
-
-    let mut bytes = Cursor::new(memory::reserve(most_bytes as usize)?);
-    file.write()
-        .non_parallel()
-        .to_buffered(&mut bytes)
-        .map_err(|error| error.to_string())?;
-    let mut bytes = bytes.into_inner();
-    header::sort_attributes(&mut bytes).ok_or("the header has an unknown form")?;
-    Ok(bytes)
+    let channels: SmallVec<[ChannelDescription; 5]> = channels.into_iter().map(channel).collect();
+    Header::new(Text::default(), size, channels)
+        .with_encoding(
+            Compression::ZIP16,
+            BlockDescription::ScanLines,
+            LineOrder::Increasing,
+        )
+        .with_shared_attributes(shared)
+        .with_attributes(LayerAttributes::default())
 }
 
-fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
-    let width = image.width();
-    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
+/// The block with this index, whose samples are row by row, in each channel by channel.
+fn compress(header: &Header, index: usize, samples: Vec<u8>) -> Result<Chunk, String> {
+    let size = header.layer_size;
+    let row = index * ROWS_OF_A_BLOCK as usize;
+    let rows = (size.y() - row).min(ROWS_OF_A_BLOCK as usize);
+    let block = UncompressedBlock {
+        index: BlockIndex {
+            layer: 0,
+            pixel_position: Vec2(0, row),
+            pixel_size: Vec2(size.x(), rows),
+            level: Vec2(0, 0),
+        },
+        data: samples,
+    };
+    block
+        .compress_to_chunk(std::slice::from_ref(header))
+        .map_err(|error| error.to_string())
+}
+
+/// Writes a file with this header, whose blocks `next` gives from the top downward.
+fn write(
+    file: &mut (impl Read + Write + Seek),
+    header: Header,
+    mut next: impl FnMut() -> Result<Chunk, Fault>,
+) -> Result<(), Fault> {
+    let mut fault = None;
+    let buffered = BufWriter::with_capacity(BUFFER_BYTES, &mut *file);
+    let written = exr::block::write(
+        buffered,
+        [header].into_iter().collect(),
+        true,
+        |_, chunks| {
+            for index in 0..chunks.total_chunks_count() {
+                match next() {
+                    Ok(chunk) => chunks.write_chunk(index, chunk)?,
+                    Err(other) => {
+                        fault = Some(other);
+                        return Err(Error::Aborted);
+                    }
+                }
+            }
+            Ok(())
+        },
+    );
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    written.map_err(|error| match error {
+        Error::Io(error) => Fault::Io(error),
+        other => Fault::Encoding(other.to_string()),
+    })?;
+    let mut start = Vec::new();
+    file.seek(SeekFrom::Start(0))?;
+    Read::by_ref(file)
+        .take(HEADER_BYTES)
+        .read_to_end(&mut start)?;
+    let unknown = || Fault::Encoding("the header has an unknown form".to_owned());
+    header::sort_attributes(&mut start).ok_or_else(unknown)?;
+    file.seek(SeekFrom::Start(0))?;
+    file.write_all(&start)?;
+    Ok(())
 }
 
 /// The nearest float.

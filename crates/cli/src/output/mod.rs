@@ -1,7 +1,8 @@
 //! Pictures as files, and what else is written.
 //!
-//! A file is encoded in memory, written beside its place under a temporary name, and moved there
-//! when it is complete.
+//! Files are written under a temporary name beside their place, and moved there when they are
+//! complete. Strips become samples and, where blocks are compressed on their own, blocks by
+//! a [`Coder`], in the threads that render them; another one writes what comes of it.
 
 mod exr;
 mod half;
@@ -10,12 +11,17 @@ mod png;
 pub(crate) mod srgb;
 pub(crate) mod temporary;
 
+use std::io::{self, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use marbles_core::{Camera, Image, Method};
+use ::exr::block::chunk::Chunk;
+use marbles_core::{BAND_ROWS, Camera, Image, Method};
 
+use self::exr::Blocks;
 pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
+use self::png::Shape;
 use self::temporary::TemporaryFile;
 use crate::failure::{Failure, lower};
 use crate::memory::Form;
@@ -30,13 +36,160 @@ pub(crate) enum Encoding {
     Exr(ExrOptions),
 }
 
-impl Encoding {
-    /// Bytes that encoding a picture of this form takes at most, the file's own included.
-    pub(crate) fn memory(self, form: &Form) -> u64 {
-        match self {
-            Self::Png(options) => options.memory(form),
-            Self::Exr(options) => options.memory(form),
+/// How the pictures of a sequence, which are all of one form, become pieces of files.
+#[derive(Debug)]
+pub(crate) struct Coder {
+    form: Form,
+    format: Format,
+}
+
+#[derive(Debug)]
+enum Format {
+    Png(Shape),
+    Exr(Box<Blocks>),
+}
+
+/// What a strip becomes.
+#[derive(Debug)]
+pub(crate) enum Piece {
+    /// To be compressed after what comes before.
+    Samples(Vec<u8>),
+    /// Ready to be written, or why it is not.
+    Block(Result<Chunk, String>),
+}
+
+impl Coder {
+    pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
+        let format = match encoding {
+            Encoding::Png(options) => Format::Png(options.shape(&form)),
+            Encoding::Exr(options) => Format::Exr(Box::new(options.blocks(&form))),
+        };
+        Self { form, format }
+    }
+
+    /// Bands of a strip: what becomes one piece.
+    pub(crate) fn bands(&self) -> u32 {
+        match self.format {
+            Format::Png(_) => 1,
+            Format::Exr(_) => exr::ROWS_OF_A_BLOCK / BAND_ROWS,
         }
+    }
+
+    /// Rows of a strip.
+    pub(crate) fn rows(&self) -> u32 {
+        self.bands() * BAND_ROWS
+    }
+
+    /// Pieces of a picture.
+    pub(crate) fn pieces(&self) -> u32 {
+        self.form.height.div_ceil(self.rows())
+    }
+
+    /// Bytes that a strip takes on its way at most.
+    pub(crate) fn strip_bytes(&self) -> u64 {
+        /// The samples; while a block is compressed, three copies more.
+        const COPIES_OF_A_BLOCK: u64 = 4;
+        let samples = self.sample_bytes(0) as u64;
+        match self.format {
+            Format::Png(_) => samples,
+            Format::Exr(_) => COPIES_OF_A_BLOCK * samples,
+        }
+    }
+
+    /// Bytes of the samples of the strip with this index.
+    pub(crate) fn sample_bytes(&self, index: u32) -> usize {
+        let rows = (self.form.height - index * self.rows()).min(self.rows());
+        let row_bytes = match &self.format {
+            Format::Png(shape) => shape.row_bytes(),
+            Format::Exr(blocks) => blocks.row_bytes(),
+        };
+        rows as usize * row_bytes
+    }
+
+    /// Puts some rows of an image where they belong in a strip of as many rows, from the column `col`
+    /// on; how many finite numbers were too large for the format's.
+    pub(crate) fn encode(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        image: &Image,
+        rows: Range<u32>,
+    ) -> u64 {
+        match &self.format {
+            Format::Png(shape) => {
+                shape.encode(samples, col, image, rows);
+                0
+            }
+            Format::Exr(blocks) => blocks.encode(samples, col, image, rows),
+        }
+    }
+
+    /// What the strip with this index becomes.
+    pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
+        match &self.format {
+            Format::Png(_) => Piece::Samples(samples),
+            Format::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
+        }
+    }
+
+    /// Writes the file of a picture to `path`, whole or not at all.
+    pub(crate) fn write(
+        &self,
+        facts: &Facts,
+        path: &Path,
+        pieces: &mut impl Pieces,
+    ) -> Result<(), Unwritten> {
+        match &self.format {
+            Format::Png(shape) => write_png(path, *shape, |stream| {
+                for _ in 0..self.pieces() {
+                    // The others are never made.
+                    if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
+                        stream.write_all(&samples)?;
+                        pieces.give_back(samples);
+                    }
+                }
+                Ok(())
+            }),
+            Format::Exr(blocks) => save(path, |mut file| {
+                blocks.write(file.file(), facts, || match pieces.next() {
+                    Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
+                    _ => Err(Fault::Stopped),
+                })?;
+                Ok(file)
+            }),
+        }
+    }
+}
+
+/// The pieces of a picture, from the top downward.
+pub(crate) trait Pieces {
+    /// The next one; `None` where it will not come.
+    fn next(&mut self) -> Option<Piece>;
+
+    /// Takes memory that is to be used again.
+    fn give_back(&mut self, samples: Vec<u8>);
+}
+
+/// Why a file was not written.
+#[derive(Debug)]
+pub(crate) enum Unwritten {
+    Failed(Failure),
+    /// Pieces of the picture will not come.
+    Stopped,
+}
+
+/// Why something could not be encoded or written.
+#[derive(Debug)]
+enum Fault {
+    Io(io::Error),
+    Encoding(String),
+    /// See [`Unwritten`].
+    Stopped,
+}
+
+impl From<io::Error> for Fault {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
     }
 }
 
@@ -47,20 +200,6 @@ pub(crate) struct Facts {
     pub(crate) frame: i32,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) method: Method,
-}
-
-/// A file in memory.
-struct Encoded {
-    bytes: Vec<u8>,
-    /// How many finite numbers were too large for the format's floats.
-    clipped: u64,
-}
-
-/// What became of a file that was written.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) struct Written {
-    /// How many numbers are the largest of the format's floats in place of a larger one.
-    pub(crate) clipped: u64,
 }
 
 /// Makes sure that a file can be created at `path`, folders included, and leaves none.
@@ -74,28 +213,15 @@ pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::io(path, "cannot create the file", &error))
 }
 
-/// Writes a picture to `path`, whole or not at all.
-pub(crate) fn write(
-    image: &Image,
-    facts: &Facts,
-    encoding: Encoding,
-    path: PathBuf,
-) -> Result<Written, Failure> {
-    let encoded = match encoding {
-        Encoding::Png(options) => options.encode(image),
-        Encoding::Exr(options) => options.encode(image, facts),
-    };
-    save(encoded, &path)
-}
-
 /// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
 pub(crate) fn write_codes(
     width: u32,
     height: u32,
     codes: &[u8],
     path: &Path,
-) -> Result<Written, Failure> {
-    save(png::grey(width, height, codes), path)
+) -> Result<(), Failure> {
+    let shape = Shape::of_codes(width, height, true);
+    write_png(path, shape, |stream| Ok(stream.write_all(codes)?)).map_err(Unwritten::into_failure)
 }
 
 /// Writes a PNG of 8 bit codes of red, green and blue, row by row, whole or not at all.
@@ -105,12 +231,17 @@ pub(crate) fn write_rgb_codes(
     codes: &[u8],
     path: &Path,
 ) -> Result<(), Failure> {
-    save(png::rgb(width, height, codes), path).map(drop)
+    let shape = Shape::of_codes(width, height, false);
+    write_png(path, shape, |stream| Ok(stream.write_all(codes)?)).map_err(Unwritten::into_failure)
 }
 
 /// Writes a file that is no picture, or already encoded, whole or not at all.
-pub(crate) fn write_bytes(bytes: Vec<u8>, path: &Path) -> Result<(), Failure> {
-    save(Ok(Encoded { bytes, clipped: 0 }), path).map(drop)
+pub(crate) fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), Failure> {
+    let written = save(path, |mut file| {
+        file.file().write_all(bytes)?;
+        Ok(file)
+    });
+    written.map_err(Unwritten::into_failure)
 }
 
 /// Writes an EXR of channels in single precision, whole or not at all.
@@ -119,29 +250,57 @@ pub(crate) fn write_floats(
     height: u32,
     channels: Vec<(&str, Vec<f32>)>,
     path: &Path,
-) -> Result<Written, Failure> {
-    save(
-        exr::floats((width as usize, height as usize), channels),
-        path,
-    )
+) -> Result<(), Failure> {
+    let written = save(path, |mut file| {
+        exr::write_floats(file.file(), (width, height), channels)?;
+        Ok(file)
+    });
+    written.map_err(Unwritten::into_failure)
 }
 
-/// Puts a file where it belongs, if it could be encoded.
-fn save(encoded: Result<Encoded, String>, path: &Path) -> Result<Written, Failure> {
-    let Encoded { bytes, clipped } = encoded.map_err(|error| {
-        Failure::at(
-            path,
-            &format!("cannot encode the picture: {}", lower(&error)),
-        )
-    })?;
-    let destination = destination(path)?;
-    TemporaryFile::beside(&destination)
-        .and_then(|mut file| {
-            file.write(&bytes)?;
-            file.persist()
-        })
-        .map_err(|error| Failure::io(path, "cannot write the file", &error))?;
-    Ok(Written { clipped })
+impl Unwritten {
+    /// Of a file whose pieces were all there.
+    fn into_failure(self) -> Failure {
+        match self {
+            Self::Failed(failure) => failure,
+            Self::Stopped => Failure::Work("the picture is not complete".to_owned()),
+        }
+    }
+}
+
+/// Writes a PNG, whose samples `samples` writes.
+fn write_png(
+    path: &Path,
+    shape: Shape,
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<(), Unwritten> {
+    save(path, |mut file| {
+        let has_grown = png::write(file.file(), shape, samples)?;
+        if !has_grown {
+            return Ok(file);
+        }
+        let mut stored = file.another()?;
+        png::store(file.file(), stored.file(), shape)?;
+        Ok(stored)
+    })
+}
+
+/// Puts the file that `write` has written where it belongs.
+fn save(
+    path: &Path,
+    write: impl FnOnce(TemporaryFile<'_>) -> Result<TemporaryFile<'_>, Fault>,
+) -> Result<(), Unwritten> {
+    let destination = destination(path).map_err(Unwritten::Failed)?;
+    let file = TemporaryFile::beside(&destination).map_err(Fault::Io);
+    let written = file.and_then(write).and_then(|file| Ok(file.persist()?));
+    written.map_err(|fault| match fault {
+        Fault::Io(error) => Unwritten::Failed(Failure::io(path, "cannot write the file", &error)),
+        Fault::Encoding(error) => {
+            let message = format!("cannot encode the picture: {}", lower(&error));
+            Unwritten::Failed(Failure::at(path, &message))
+        }
+        Fault::Stopped => Unwritten::Stopped,
+    })
 }
 
 /// Where the file for `path` belongs: at the end of symbolic links, which stay as they are, and
@@ -175,78 +334,4 @@ fn folder(path: &Path) -> &Path {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    use std::num::NonZeroU32;
-    use std::ops::ControlFlow;
-
-    use glam::{DVec2, DVec3};
-    use marbles_core::{
-        Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View,
-        World,
-    };
-
-    use super::{ExrOptions, Facts, PngOptions};
-
-    /// The bytes of a PNG file.
-    pub(crate) fn png(image: &Image, options: PngOptions) -> Vec<u8> {
-        options.encode(image).unwrap().bytes
-    }
-
-    /// The bytes of an EXR file.
-    pub(crate) fn exr(image: &Image, options: ExrOptions) -> Vec<u8> {
-        let facts = Facts {
-            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
-            frame: 1,
-            frames_per_second: None,
-            method: Method::Samples(NonZeroU32::MIN),
-        };
-        options.encode(image, &facts).unwrap().bytes
-    }
-
-    /// Light on a ball.
-    #[derive(Clone, Copy, Debug)]
-    pub(crate) enum Scene {
-        Grey,
-        Color,
-        /// More light than a half can hold.
-        Bright,
-    }
-
-    /// A small picture of a ball before a background.
-    pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
-        let (albedo, background, intensity) = match scene {
-            Scene::Grey => (DVec3::ONE, DVec3::splat(0.25), 1.0),
-            Scene::Color => (DVec3::new(1.0, 0.5, 0.001), DVec3::new(0.0, 0.2, 0.4), 1.5),
-            Scene::Bright => (DVec3::ONE, DVec3::ZERO, 1e5),
-        };
-        let mut world = World::new();
-        let material = world.add_material(Material {
-            albedo,
-            ..Material::MATTE_WHITE
-        });
-        world.add_sphere(Sphere::new(4.0 * DVec3::Z, 1.0).unwrap(), material);
-        world.background = background;
-        let toward = DVec3::new(-1.0, 1.0, -1.0);
-        let light = DirectionalLight::new(toward, DVec3::splat(intensity)).unwrap();
-        world.lights.push(light);
-        let view = View {
-            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
-            lens: Lens {
-                width: 0.6,
-                distance: 1.0,
-                shift: DVec2::ZERO,
-            },
-            zoom: 1.0,
-            width: 23,
-            height: 19,
-            frame: 1,
-        };
-        let settings = Settings {
-            method: Method::Samples(NonZeroU32::new(3).unwrap()),
-            alpha,
-        };
-        marbles_core::Renderer::new(&world)
-            .render(&view, &settings, &|_| ControlFlow::Continue(()))
-            .unwrap()
-    }
-}
+pub(crate) mod tests;

@@ -1,12 +1,15 @@
 //! PNG: sRGB in 8 or 16 bit, grey where the picture is.
 
-use std::io::{self, Write};
+use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
 
 use marbles_core::{Channels, Image};
-use png::{BitDepth, ColorType, Compression, Encoder, EncodingError, SrgbRenderingIntent};
+use png::{
+    BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Limits, SrgbRenderingIntent,
+};
 
-use super::{Encoded, SOFTWARE, srgb};
-use crate::memory::{self, Form};
+use super::{Fault, SOFTWARE, srgb};
+use crate::memory::Form;
 
 /// Bytes of the samples' parts in a file.
 const CHUNK_BYTES: usize = 1 << 18;
@@ -20,42 +23,79 @@ pub(crate) struct PngOptions {
     pub(crate) rgb: bool,
 }
 
+/// What the samples of a file are.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) struct Shape {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    color_type: ColorType,
+    depth: BitDepth,
+}
+
 impl PngOptions {
-    /// The bytes of the file.
-    pub(super) fn encode(self, image: &Image) -> Result<Encoded, String> {
-        let grey = image.channels() == Channels::Grey && !self.rgb;
-        let color_type = match (grey, image.has_alpha()) {
-            (true, false) => ColorType::Grayscale,
-            (true, true) => ColorType::GrayscaleAlpha,
-            (false, false) => ColorType::Rgb,
-            (false, true) => ColorType::Rgba,
-        };
-        let depth = if self.deep {
-            BitDepth::Sixteen
-        } else {
-            BitDepth::Eight
-        };
-        let samples = self.samples(image, color_type)?;
-        let sides = (image.width(), image.height());
-        let bytes = file(sides, color_type, depth, &samples)?;
-        Ok(Encoded { bytes, clipped: 0 })
-    }
-
-    /// Bytes that [`PngOptions::encode`] takes at most: the samples, and the file.
-    pub(super) fn memory(self, form: &Form) -> u64 {
+    /// What the file of such a picture holds.
+    pub(super) fn shape(self, form: &Form) -> Shape {
         let grey = form.channels == Channels::Grey && !self.rgb;
-        let samples = if grey { 1 } else { 3 } + u64::from(form.alpha);
-        let depth = if self.deep { 2 } else { 1 };
-        let samples = form.pixels() * samples * depth;
-        samples + file_bytes(samples, form.height)
+        Shape {
+            width: form.width,
+            height: form.height,
+            color_type: match (grey, form.alpha) {
+                (true, false) => ColorType::Grayscale,
+                (true, true) => ColorType::GrayscaleAlpha,
+                (false, false) => ColorType::Rgb,
+                (false, true) => ColorType::Rgba,
+            },
+            depth: if self.deep {
+                BitDepth::Sixteen
+            } else {
+                BitDepth::Eight
+            },
+        }
+    }
+}
+
+impl Shape {
+    /// A picture in 8 bit, grey or with red, green and blue.
+    pub(super) fn of_codes(width: u32, height: u32, grey: bool) -> Self {
+        Self {
+            width,
+            height,
+            color_type: if grey {
+                ColorType::Grayscale
+            } else {
+                ColorType::Rgb
+            },
+            depth: BitDepth::Eight,
+        }
     }
 
-    /// The codes of all pixels, row by row, big end first.
-    fn samples(self, image: &Image, color_type: ColorType) -> Result<Vec<u8>, String> {
-        let depth = if self.deep { 2 } else { 1 };
-        let pixels = image.width() as usize * image.height() as usize;
-        let mut samples = memory::reserve(pixels * color_type.samples() * depth)?;
-        let colors = match color_type {
+    /// Bytes of a sample.
+    fn depth(self) -> usize {
+        if self.depth == BitDepth::Sixteen {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// Bytes of a row's samples.
+    pub(super) fn row_bytes(self) -> usize {
+        self.width as usize * self.color_type.samples() * self.depth()
+    }
+
+    /// Bytes that a file has at most.
+    fn file_bytes(self) -> u64 {
+        /// The parts before and behind the samples take less.
+        const OTHER_PARTS: u64 = 1 << 12;
+        // A byte before each row, and five before each block, which has thousands.
+        let rows = (self.row_bytes() as u64 + 1) * u64::from(self.height);
+        rows + rows / 1000 + OTHER_PARTS
+    }
+
+    /// Puts the codes of some rows of an image, big end first, where they belong in `samples`, which
+    /// are as many rows, from the column `col` on.
+    pub(super) fn encode(self, samples: &mut [u8], col: u32, image: &Image, rows: Range<u32>) {
+        let colors = match self.color_type {
             ColorType::Grayscale | ColorType::GrayscaleAlpha => 1,
             _ => 3,
         };
@@ -63,113 +103,113 @@ impl PngOptions {
             Channels::Grey => 1,
             Channels::Rgb => 3,
         };
-        let is_plain = !self.deep && !image.has_alpha() && colors == stored;
-        for row in 0..image.height() {
+        let is_plain = self.depth() == 1 && !image.has_alpha() && colors == stored;
+        let pixel_bytes = self.color_type.samples() * self.depth();
+        let first = col as usize * pixel_bytes;
+        let length = image.width() as usize * pixel_bytes;
+        for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+            let samples = &mut samples[first..first + length];
             if is_plain {
-                srgb::encode_all_8(image.row(row), &mut samples);
+                srgb::encode_all_8(image.row(row), samples);
                 continue;
             }
-            for col in 0..image.width() {
+            for (samples, col) in samples.chunks_exact_mut(pixel_bytes).zip(0..) {
                 let rgba = image.rgba(col, row);
                 let alpha = rgba[3];
-                for &value in &rgba[..colors] {
+                let mut samples = samples.chunks_exact_mut(self.depth());
+                for (&value, sample) in rgba[..colors].iter().zip(&mut samples) {
                     let value = straight(value, alpha);
-                    self.push(&mut samples, srgb::encode_8, srgb::encode_16, value);
+                    put(sample, srgb::encode_8, srgb::encode_16, value);
                 }
-                if image.has_alpha() {
-                    self.push(&mut samples, linear_8, linear_16, alpha);
+                // The alpha channel, where there is one.
+                if let Some(sample) = samples.next() {
+                    put(sample, linear_8, linear_16, alpha);
                 }
             }
         }
-        Ok(samples)
     }
+}
 
-    fn push(
-        self,
-        samples: &mut Vec<u8>,
-        code_8: fn(f64) -> u8,
-        code_16: fn(f64) -> u16,
-        value: f64,
-    ) {
-        if self.deep {
-            samples.extend(code_16(value).to_be_bytes());
-        } else {
-            samples.push(code_8(value));
+/// Puts the code of a value where a sample of one byte or two is.
+fn put(sample: &mut [u8], code_8: fn(f64) -> u8, code_16: fn(f64) -> u16, value: f64) {
+    match sample {
+        [byte] => *byte = code_8(value),
+        pair => pair.copy_from_slice(&code_16(value).to_be_bytes()),
+    }
+}
+
+/// Writes a file, the samples as `samples` writes them; whether it has become larger than they are,
+/// and is to be stored by [`store`].
+///
+/// Noise grows when it is compressed in a hurry.
+pub(super) fn write(
+    file: &mut (impl Write + Seek),
+    shape: Shape,
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<bool, Fault> {
+    let length = write_compressed(file, shape, Compression::Fast, samples)?;
+    Ok(length > shape.file_bytes())
+}
+
+/// Writes a file with the samples of another one as they are.
+pub(super) fn store(
+    from: &mut (impl Read + Seek),
+    to: &mut (impl Write + Seek),
+    shape: Shape,
+) -> Result<(), Fault> {
+    // What was written here is no danger to the memory.
+    let limits = Limits { bytes: usize::MAX };
+    from.seek(SeekFrom::Start(0))?;
+    let decoder = Decoder::new_with_limits(BufReader::with_capacity(CHUNK_BYTES, from), limits);
+    let mut reader = decoder.read_info()?;
+    write_compressed(to, shape, Compression::NoCompression, |stream| {
+        while let Some(row) = reader.next_row()? {
+            stream.write_all(row.data())?;
         }
-    }
-}
-
-/// The bytes of a file with these samples, not many more than they are.
-fn file(
-    sides: (u32, u32),
-    color_type: ColorType,
-    depth: BitDepth,
-    samples: &[u8],
-) -> Result<Vec<u8>, String> {
-    let most = file_bytes(samples.len() as u64, sides.1);
-    let mut bytes = memory::reserve(most as usize)?;
-    let mut write = |compression| {
-        bytes.clear();
-        let mut encoder = Encoder::new(Bounded(&mut bytes), sides.0, sides.1);
-        encoder.set_color(color_type);
-        encoder.set_depth(depth);
-        encoder.set_compression(compression);
-        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-        encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
-        let mut writer = encoder.write_header()?;
-        let mut stream = writer.stream_writer_with_size(CHUNK_BYTES)?;
-        stream.write_all(samples)?;
-        stream.finish()?;
-        writer.finish()
-    };
-    // Noise grows when it is compressed in a hurry, until it has no room.
-    write(Compression::Fast)
-        .or_else(|_| write(Compression::NoCompression))
-        .map_err(|error: EncodingError| error.to_string())?;
-    Ok(bytes)
-}
-
-/// Bytes that a file with this many bytes of samples has at most.
-fn file_bytes(samples: u64, height: u32) -> u64 {
-    /// The parts before and behind the samples take less.
-    const OTHER_PARTS: u64 = 1 << 12;
-    // A byte before each row, and five before each block, which has thousands.
-    let rows = samples + u64::from(height);
-    rows + rows / 1000 + OTHER_PARTS
-}
-
-/// Writes into the room that a vector has, and never makes it larger.
-struct Bounded<'bytes>(&'bytes mut Vec<u8>);
-
-impl Write for Bounded<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        if bytes.len() > self.0.capacity() - self.0.len() {
-            return Err(io::ErrorKind::StorageFull.into());
-        }
-        self.0.extend_from_slice(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
         Ok(())
+    })?;
+    Ok(())
+}
+
+/// Writes a file; how long it is.
+fn write_compressed(
+    file: &mut (impl Write + Seek),
+    shape: Shape,
+    compression: Compression,
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<u64, Fault> {
+    let mut file = BufWriter::with_capacity(CHUNK_BYTES, file);
+    let mut encoder = Encoder::new(&mut file, shape.width, shape.height);
+    encoder.set_color(shape.color_type);
+    encoder.set_depth(shape.depth);
+    encoder.set_compression(compression);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    let mut writer = encoder.write_header()?;
+    let mut stream = writer.stream_writer_with_size(CHUNK_BYTES)?;
+    samples(&mut stream)?;
+    stream.finish()?;
+    writer.finish()?;
+    file.flush()?;
+    Ok(file.stream_position()?)
+}
+
+impl From<EncodingError> for Fault {
+    fn from(error: EncodingError) -> Self {
+        match error {
+            EncodingError::IoError(error) => Self::Io(error),
+            other => Self::Encoding(other.to_string()),
+        }
     }
 }
 
-/// The bytes of a grey picture in 8 bit, with these codes row by row.
-pub(super) fn grey(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, String> {
-    let bytes = file(
-        (width, height),
-        ColorType::Grayscale,
-        BitDepth::Eight,
-        codes,
-    )?;
-    Ok(Encoded { bytes, clipped: 0 })
-}
-
-/// The bytes of a picture in 8 bit, with the codes of red, green and blue row by row.
-pub(super) fn rgb(width: u32, height: u32, codes: &[u8]) -> Result<Encoded, String> {
-    let bytes = file((width, height), ColorType::Rgb, BitDepth::Eight, codes)?;
-    Ok(Encoded { bytes, clipped: 0 })
+impl From<png::DecodingError> for Fault {
+    fn from(error: png::DecodingError) -> Self {
+        match error {
+            png::DecodingError::IoError(error) => Self::Io(error),
+            other => Self::Encoding(other.to_string()),
+        }
+    }
 }
 
 /// The light of the covered part of a pixel alone.

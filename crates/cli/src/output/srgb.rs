@@ -20,10 +20,12 @@ pub(crate) fn encode_8(linear: f64) -> u8 {
     encoder_8().encode(linear)
 }
 
-/// As [`encode_8`], for many numbers: the codes are put behind those in `codes`.
-pub(crate) fn encode_all_8(linear: &[f64], codes: &mut Vec<u8>) {
+/// As [`encode_8`], for many numbers.
+pub(crate) fn encode_all_8(linear: &[f64], codes: &mut [u8]) {
     let encoder = encoder_8();
-    codes.extend(linear.iter().map(|&linear| encoder.encode(linear)));
+    for (code, &linear) in codes.iter_mut().zip(linear) {
+        *code = encoder.encode(linear);
+    }
 }
 
 fn encoder_8() -> &'static Encoder {

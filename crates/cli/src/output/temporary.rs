@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -35,7 +35,8 @@ impl<'path> TemporaryFile<'path> {
                 _ => format!(".{process}-{attempt}.tmp"),
             };
             let path = with_ending(destination, &ending);
-            match File::options().write(true).create_new(true).open(&path) {
+            let mut options = File::options();
+            match options.read(true).write(true).create_new(true).open(&path) {
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
                 Err(error) => return Err(error),
                 Ok(file) => {
@@ -54,8 +55,14 @@ impl<'path> TemporaryFile<'path> {
         ))
     }
 
-    pub(super) fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.file.write_all(bytes)
+    /// Another file for the same place.
+    pub(super) fn another(&self) -> io::Result<Self> {
+        Self::beside(self.destination)
+    }
+
+    /// What is to be read from and written to.
+    pub(super) fn file(&mut self) -> &mut File {
+        &mut self.file
     }
 
     /// Moves the complete file to its destination, in place of what was there.
@@ -115,6 +122,8 @@ fn lock() -> MutexGuard<'static, Vec<PathBuf>> {
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write;
+
     use super::*;
 
     /// A file name in the tests' own folder that no other test uses.
@@ -128,7 +137,7 @@ mod tests {
         let destination = destination("complete");
         let mut file = TemporaryFile::beside(&destination).unwrap();
         let path = file.path.clone();
-        file.write(b"marbles").unwrap();
+        file.file().write_all(b"marbles").unwrap();
         assert!(path.exists() && !destination.exists());
         file.persist().unwrap();
         assert!(!path.exists());

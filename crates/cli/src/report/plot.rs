@@ -49,7 +49,7 @@ impl PlotFile {
     pub(super) fn write(&self, report: &Report) -> Result<(), Failure> {
         let drawing = chart::draw(report);
         match self.format {
-            Format::Svg => output::write_bytes(svg::text(&drawing).into_bytes(), &self.path),
+            Format::Svg => output::write_bytes(svg::text(&drawing).as_bytes(), &self.path),
             Format::Png => {
                 let (width, height, codes) = raster::rgb(&drawing);
                 output::write_rgb_codes(width, height, &codes, &self.path)

@@ -1,6 +1,5 @@
 //! Rows of bytes, each value at its place.
 
-use std::fs::File;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
 
 use rayon::prelude::*;
@@ -8,6 +7,7 @@ use rayon::prelude::*;
 use super::columns::{Plan, Slot};
 use super::fault::TablePlace;
 use super::rows::{Numbers, Rows};
+use super::source::Source;
 use super::{TableError, TableFault};
 
 /// How a value is stored, little-endian.
@@ -79,7 +79,7 @@ const BLOCK: u64 = 1 << 21;
 const PIECE: usize = 1 << 13;
 
 /// Reads a table.
-pub(crate) fn read(mut file: File, layout: &Layout, plan: &Plan) -> Result<Rows, TableError> {
+pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result<Rows, TableError> {
     let sizes = layout.kinds.iter().map(|kind| kind.size());
     let stride = sizes.fold(0_u64, u64::saturating_add);
     let header = || {
@@ -149,7 +149,7 @@ pub(crate) fn read(mut file: File, layout: &Layout, plan: &Plan) -> Result<Rows,
 
 /// Reads a part of every column.
 fn read_columns(
-    file: &mut File,
+    file: &mut Source<'_>,
     layout: &Layout,
     first: u64,
     count: u64,

@@ -3,17 +3,16 @@
 //! Fields are separated by commas, semicolons or tabs, whichever comes first in the first line, and
 //! may stand between quotation marks, but not go over lines.
 
-use std::fs::File;
-
 use super::columns::Plan;
 use super::fault::LineFault;
 use super::lines::Lines;
 use super::rows::Rows;
+use super::source::Source;
 use super::text::{self, Fields, Form};
 use super::{Request, TableError, TableFault};
 
 /// Reads a table.
-pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
+pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
     let mut lines = Lines::new(file)?;
     let header = lines.next()?.map(<[u8]>::to_vec).unwrap_or_default();
     // As some programs write it.

@@ -1,9 +1,9 @@
 //! The lines of a file, a block at a time.
 
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 
 use super::fault::TablePlace;
+use super::source::Source;
 use super::{TableError, TableFault};
 
 /// How much of a file is held at a time, in bytes.
@@ -12,9 +12,8 @@ const BLOCK: usize = 4 << 20;
 const LONGEST_LINE: usize = 1 << 20;
 
 /// Reads a file line by line, and then by blocks of whole lines.
-#[derive(Debug)]
-pub(crate) struct Lines {
-    file: File,
+pub(crate) struct Lines<'watch> {
+    file: Source<'watch>,
     buffer: Vec<u8>,
     /// The bytes of the buffer that were read and not yet handed out.
     start: usize,
@@ -26,9 +25,9 @@ pub(crate) struct Lines {
     pub(crate) position: u64,
 }
 
-impl Lines {
+impl<'watch> Lines<'watch> {
     /// The lines of a file; a byte order mark at its start is skipped.
-    pub(crate) fn new(file: File) -> Result<Self, TableError> {
+    pub(crate) fn new(file: Source<'watch>) -> Result<Self, TableError> {
         // A byte more than the file has, so that its end is found.
         let whole = file.metadata()?.len().saturating_add(1);
         let size = match usize::try_from(whole) {
@@ -54,7 +53,7 @@ impl Lines {
     }
 
     /// The file, of which more may have been read than was handed out.
-    pub(crate) fn into_file(self) -> File {
+    pub(crate) fn into_file(self) -> Source<'watch> {
         self.file
     }
 

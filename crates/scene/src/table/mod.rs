@@ -15,6 +15,7 @@ mod npy;
 mod ply;
 mod python;
 mod rows;
+mod source;
 mod text;
 mod xyz;
 
@@ -23,6 +24,8 @@ use std::io;
 use std::path::Path;
 
 use serde::Deserialize;
+
+use self::source::Source;
 
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use element::{Radii, colors as element_colors};
@@ -85,8 +88,13 @@ impl From<TableFault> for TableError {
 /// The endings of names by which formats are told.
 pub(crate) const ENDINGS: [&str; 5] = ["csv", "npy", "ply", "xyz", "extxyz"];
 
-/// Reads the table at `path`, in the format that its ending tells.
-pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
+/// Reads the table at `path`, in the format that its ending tells. `watch` is called with the bytes
+/// that were read and those that there are.
+pub(crate) fn read(
+    path: &Path,
+    request: &Request,
+    watch: &dyn Fn(u64, u64),
+) -> Result<Rows, TableError> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     let ending = ending.unwrap_or_default().to_ascii_lowercase();
     let read = match ending.as_str() {
@@ -97,10 +105,12 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
         _ => return Err(TableError::UnknownFormat),
     };
     let file = File::open(path)?;
-    if file.metadata()?.is_dir() {
+    let metadata = file.metadata()?;
+    if metadata.is_dir() {
         return Err(io::Error::from(io::ErrorKind::IsADirectory).into());
     }
-    read(file, request)
+    let watch = |read| watch(read, metadata.len());
+    read(Source::new(file, &watch), request)
 }
 
 #[cfg(test)]

@@ -3,13 +3,13 @@
 //! # Source
 //! The format is described at `numpy.lib.format`.
 
-use std::fs::File;
 use std::io::Read;
 
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
 use super::python::Literal;
 use super::rows::Rows;
+use super::source::Source;
 use super::{Request, TableError, TableFault};
 use crate::fault::show;
 
@@ -18,7 +18,7 @@ const MAGIC: &[u8] = b"\x93NUMPY";
 const LONGEST_HEADER: u64 = 1 << 20;
 
 /// Reads a table.
-pub(crate) fn read(mut file: File, request: &Request) -> Result<Rows, TableError> {
+pub(crate) fn read(mut file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
     let (start, header) = header(&mut file)?;
     let literal = Literal::read(&header).ok_or_else(|| {
         fault(format!(
@@ -55,7 +55,7 @@ pub(crate) fn read(mut file: File, request: &Request) -> Result<Rows, TableError
 }
 
 /// Where the array starts, and the text before it.
-fn header(file: &mut File) -> Result<(u64, String), TableError> {
+fn header(file: &mut Source<'_>) -> Result<(u64, String), TableError> {
     let mut start = [0; 8];
     let mut length = [0; 4];
     let mut read = 0;

@@ -5,13 +5,12 @@
 //! # Source
 //! Greg Turk, "The PLY Polygon File Format", 1994.
 
-use std::fs::File;
-
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
 use super::fault::LineFault;
 use super::lines::Lines;
 use super::rows::Rows;
+use super::source::Source;
 use super::text::{self, Form};
 use super::{Request, TableError, TableFault};
 use crate::suggest::either;
@@ -25,7 +24,7 @@ struct Header {
 }
 
 /// Reads the vertices.
-pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
+pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
     let mut lines = Lines::new(file)?;
     let header = header(&mut lines)?;
     let kinds = &header.kinds;
@@ -61,7 +60,7 @@ pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
 /// The line that ends a header.
 const END: &str = "end_header";
 
-fn header(lines: &mut Lines) -> Result<Header, TableError> {
+fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
     const MOST_COLUMNS: usize = 1000;
     let mut header = Header {
         is_text: true,

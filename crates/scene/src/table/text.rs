@@ -29,7 +29,7 @@ const PIECE: usize = 1 << 18;
 /// The pieces of a block are read on all threads of the current pool; what comes of it does not
 /// depend on their number.
 pub(crate) fn read(
-    lines: &mut Lines,
+    lines: &mut Lines<'_>,
     plan: &Plan,
     form: Form,
     count: Option<u64>,

@@ -3,18 +3,17 @@
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
-use std::fs::File;
-
 use super::columns::Plan;
 use super::fault::LineFault;
 use super::lines::Lines;
 use super::rows::Rows;
+use super::source::Source;
 use super::text::{self, Form};
 use super::{Request, TableError, TableFault};
 use crate::fault::show;
 
 /// Reads the first frame.
-pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
+pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
     let mut lines = Lines::new(file)?;
     let count = count(&mut lines)?;
     let comment = lines.next()?.map(<[u8]>::to_vec);
@@ -41,7 +40,7 @@ pub(crate) fn read(file: File, request: &Request) -> Result<Rows, TableError> {
 }
 
 /// The number in the first line.
-fn count(lines: &mut Lines) -> Result<u64, TableError> {
+fn count(lines: &mut Lines<'_>) -> Result<u64, TableError> {
     let expected = "the number of atoms";
     let Some(line) = lines.next()? else {
         return Err(TableFault::at_end(1, expected).into());

@@ -1,12 +1,15 @@
 use std::io::Cursor;
 use std::num::NonZeroU32;
 
-use exr::prelude::{ReadChannels, ReadLayers};
+use exr::prelude::{
+    AnyChannels, FlatSamples, Image as ExrImage, Layer, ReadChannels, ReadLayers, f16,
+};
 use glam::DVec4;
 use marbles_core::Angle;
 
 use super::*;
-use crate::output::tests::{Scene, render};
+use crate::output::tests::{Scene, encode, render};
+use crate::output::{Encoding, Facts};
 
 const HALF: ExrOptions = ExrOptions {
     float: false,
@@ -25,6 +28,16 @@ fn facts() -> Facts {
         frames_per_second: Some(23.976),
         method: Method::Samples(NonZeroU32::MIN),
     }
+}
+
+/// The bytes of a file, and how many numbers were too large.
+fn file(image: &Image, options: ExrOptions, facts: &Facts) -> (Vec<u8>, u64) {
+    encode(image, Encoding::Exr(options), facts)
+}
+
+fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+    let width = image.width();
+    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
 }
 
 type Layers = ExrImage<Layer<AnyChannels<FlatSamples>>>;
@@ -46,9 +59,9 @@ fn pictures_come_back() {
         for alpha in [false, true] {
             let image = render(scene, alpha);
             for options in [HALF, FLOAT] {
-                let encoded = options.encode(&image, &facts()).unwrap();
-                assert_eq!(encoded.clipped, 0);
-                let file = read(&encoded.bytes);
+                let (bytes, clipped) = file(&image, options, &facts());
+                assert_eq!(clipped, 0);
+                let file = read(&bytes);
                 compare(&image, &file.layer_data.channel_data, options.float);
             }
         }
@@ -86,7 +99,7 @@ fn errors_are_floats_that_stay_bounds() {
             error: true,
             ..light
         };
-        let file = read(&options.encode(&image, &facts()).unwrap().bytes);
+        let file = read(&file(&image, options, &facts()).0);
         let channels = file.layer_data.channel_data.list;
         let names: Vec<String> = channels.iter().map(|c| c.name.to_string()).collect();
         assert_eq!(names, ["A", "B", "G", "R", "error"]);
@@ -109,8 +122,8 @@ fn errors_are_floats_that_stay_bounds() {
 #[test]
 fn the_header_tells_the_facts() {
     let image = render(Scene::Color, false);
-    let bytes = HALF.encode(&image, &facts()).unwrap().bytes;
-    let file = read(&bytes);
+    let from_facts = |facts: &Facts| read(&file(&image, HALF, facts).0);
+    let file = from_facts(&facts());
     assert_eq!(file.attributes.chromaticities, Some(REC_709));
     let attributes = &file.layer_data.attributes;
     assert_eq!(attributes.frames_per_second, Some((24000, 1001)));
@@ -123,7 +136,7 @@ fn the_header_tells_the_facts() {
         method: Method::Tolerance(1e-3),
         ..facts()
     };
-    let file = read(&HALF.encode(&image, &to_a_tolerance).unwrap().bytes);
+    let file = from_facts(&to_a_tolerance);
     let custom = &file.layer_data.attributes.other;
     let tolerance = custom.get(&Text::from("tolerance"));
     assert_eq!(tolerance, Some(&AttributeValue::F32(1e-3)));
@@ -161,10 +174,10 @@ fn the_header_tells_the_facts() {
 #[test]
 fn attributes_are_sorted_and_bytes_repeat() {
     let image = render(Scene::Color, true);
-    let first = HALF.encode(&image, &facts()).unwrap().bytes;
+    let (first, _) = file(&image, HALF, &facts());
     // Hash maps differ within a process as they do from run to run.
     for _ in 0..50 {
-        assert!(HALF.encode(&image, &facts()).unwrap().bytes == first);
+        assert!(file(&image, HALF, &facts()).0 == first);
     }
     let mut sorted = first.clone();
     header::sort_attributes(&mut sorted).unwrap();
@@ -174,18 +187,17 @@ fn attributes_are_sorted_and_bytes_repeat() {
 #[test]
 fn numbers_above_the_range_become_the_largest() {
     let image = render(Scene::Bright, false);
-    let encoded = HALF.encode(&image, &facts()).unwrap();
+    let (bytes, clipped) = file(&image, HALF, &facts());
     let above = pixels(&image).filter(|&(col, row)| image.rgba(col, row)[0] > half::LARGEST);
     let above = above.count() as u64;
     assert!(above > 0);
-    assert_eq!(encoded.clipped, 3 * above);
-    let file = read(&encoded.bytes);
-    for channel in file.layer_data.channel_data.list {
+    assert_eq!(clipped, 3 * above);
+    for channel in read(&bytes).layer_data.channel_data.list {
         let FlatSamples::F16(samples) = channel.sample_data else {
             panic!("expected halves");
         };
         assert!(samples.contains(&f16::MAX));
         assert!(samples.iter().all(|sample| sample.is_finite()));
     }
-    assert_eq!(FLOAT.encode(&image, &facts()).unwrap().clipped, 0);
+    assert_eq!(file(&image, FLOAT, &facts()).1, 0);
 }

@@ -1,7 +1,8 @@
 use std::io::Cursor;
 
 use super::*;
-use crate::output::tests::{Scene, render};
+use crate::output::tests::{Scene, png, render};
+use crate::output::write_rgb_codes;
 
 const ALL: [PngOptions; 4] = [
     PngOptions {
@@ -35,8 +36,7 @@ fn pictures_come_back() {
 }
 
 fn check(image: &Image, options: PngOptions) {
-    let encoded = options.encode(image).unwrap();
-    let decoder = png::Decoder::new(Cursor::new(encoded.bytes));
+    let decoder = Decoder::new(Cursor::new(png(image, options)));
     let mut reader = decoder.read_info().unwrap();
     let info = reader.info();
     assert_eq!((info.width, info.height), (image.width(), image.height()));
@@ -124,11 +124,24 @@ fn noise_does_not_grow() {
         (state >> 24) as u8
     };
     let samples: Vec<u8> = (0..SIDES.0 * SIDES.1 * 3).map(|_| noise()).collect();
-    let bytes = file(SIDES, ColorType::Rgb, BitDepth::Eight, &samples).unwrap();
-    assert!(bytes.len() as u64 <= file_bytes(samples.len() as u64, SIDES.1));
-    let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+    let shape = Shape::of_codes(SIDES.0, SIDES.1, false);
+    let name = format!("marbles-{}-noise.png", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    write_rgb_codes(SIDES.0, SIDES.1, &samples, &path).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    std::fs::remove_file(&path).unwrap();
+    assert!(bytes.len() as u64 <= shape.file_bytes());
+    let mut reader = Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     let mut decoded = vec![0; reader.output_buffer_size().unwrap()];
     reader.next_frame(&mut decoded).unwrap();
     reader.finish().unwrap();
     assert!(decoded == samples);
+    // In a hurry it would have grown.
+    let mut hurried = Cursor::new(Vec::new());
+    let has_grown = write(
+        &mut hurried,
+        shape,
+        |stream| Ok(stream.write_all(&samples)?),
+    );
+    assert!(has_grown.unwrap());
 }

@@ -1,0 +1,166 @@
+//! Files, links and disks.
+
+use std::fs::{self, File};
+use std::process::{Command, Output};
+
+use crate::folder::{Folder, assert_complete, code, text};
+
+#[cfg(target_os = "linux")]
+#[test]
+fn results_that_cannot_be_written_are_an_error() {
+    let folder = Folder::new();
+    for arguments in [
+        "check ball.ron",
+        "render ball.ron --size 9x9 --frames 1-3 -o #.png",
+        "--help",
+    ] {
+        let full = File::options().write(true).open("/dev/full").unwrap();
+        let output = folder.marbles(arguments).stdout(full).output().unwrap();
+        assert_eq!(code(&output), 1, "marbles {arguments}");
+        let errors = text(&output.stderr);
+        let expected = "marbles: cannot write the results: no space left on device\n";
+        assert!(errors.ends_with(expected), "{errors}");
+        assert_eq!(errors.matches("cannot").count(), 1, "{errors}");
+    }
+    assert_eq!(folder.names(".").len(), 4);
+}
+
+/// Runs `marbles` while a file system with these options is mounted at `out`, which nobody else
+/// sees. The output ends with the names in `out`; `None` where nothing can be mounted.
+fn run_on_file_system(folder: &Folder, options: &str, arguments: &str) -> Option<Output> {
+    const CANNOT_MOUNT: i32 = 77;
+    fs::create_dir_all(folder.path("out")).unwrap();
+    let script = format!(
+        "mount -t tmpfs -o {options} none out || exit {CANNOT_MOUNT}
+        \"$@\"; code=$?; ls -A out; exit $code"
+    );
+    let marbles = folder.marbles(arguments);
+    for namespaces in ["-m", "-rm"] {
+        let output = Command::new("unshare")
+            .args([namespaces, "sh", "-c", &script, "sh"])
+            .arg(marbles.get_program())
+            .args(marbles.get_args())
+            .current_dir(&folder.0)
+            .output();
+        match output {
+            Ok(output) if text(&output.stderr).starts_with("unshare:") => {}
+            Ok(output) if output.status.code() == Some(CANNOT_MOUNT) => {}
+            Ok(output) => return Some(output),
+            Err(_) => {}
+        }
+    }
+    eprintln!("skipped: this test has to mount a file system, which is not allowed here");
+    None
+}
+
+#[test]
+fn a_full_disk_is_an_error() {
+    let folder = Folder::new();
+    let arguments = "render ball.ron -o out/##.exr --frames 1-60 --size 99x99 --float";
+    let Some(output) = run_on_file_system(&folder, "size=128k", arguments) else {
+        return;
+    };
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    let expected = ".exr: cannot write the file: no space left on device\n";
+    assert_eq!(errors.matches(expected).count(), 1, "{errors}");
+    let names = text(&output.stdout);
+    let names: Vec<&str> = names.lines().filter(|line| !line.contains(' ')).collect();
+    assert!((2..60).contains(&names.len()), "{names:?}");
+    assert!(names.iter().all(|name| name.ends_with(".exr")), "{names:?}");
+    let last = format!("marbles: {} of 60 frames written\n", names.len());
+    assert!(errors.ends_with(&last), "{errors}");
+}
+
+#[test]
+fn a_folder_without_permission_is_an_error() {
+    let folder = Folder::new();
+    let arguments = "render ball.ron -o out/#.png --frames 1-60";
+    let Some(output) = run_on_file_system(&folder, "ro", arguments) else {
+        return;
+    };
+    assert_eq!(code(&output), 1);
+    assert_eq!(text(&output.stdout), "");
+    assert_eq!(
+        text(&output.stderr),
+        "marbles: out/1.png: cannot create the file: read-only file system\n"
+    );
+}
+
+#[test]
+fn a_file_in_place_of_a_folder_is_an_error() {
+    let folder = Folder::new();
+    fs::write(folder.path("file"), "").unwrap();
+    let output = folder.run("render ball.ron -o file/a.png");
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    assert!(
+        errors.starts_with("marbles: file: cannot create the folder: "),
+        "{errors}"
+    );
+    assert_eq!(errors.lines().count(), 1);
+
+    let output = folder.run("render ball.ron -o a.png/b.png --size 9x9");
+    assert_eq!(code(&output), 0);
+    let output = folder.run("render ball.ron -o a.png --size 9x9");
+    assert_eq!(code(&output), 1);
+    let expected = "marbles: a.png: cannot write the file: there is a folder\n";
+    assert_eq!(text(&output.stderr), expected);
+}
+
+#[test]
+fn pictures_replace_older_ones() {
+    let folder = Folder::new();
+    fs::write(folder.path("a.png"), "older").unwrap();
+    let output = folder.run("render ball.ron -o a.png --size 9x9");
+    assert_eq!(code(&output), 0);
+    assert_complete(&folder.path("a.png"));
+}
+
+#[test]
+fn the_longest_names_can_be_written() {
+    let folder = Folder::new();
+    // 255 bytes are the most that common file systems take; the ö has two.
+    for length in [248, 251, 255] {
+        let name = format!("{}ö.png", "a".repeat(length - "ö.png".len()));
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        assert_complete(&folder.path(&name));
+    }
+    assert_eq!(folder.names(".").len(), 4);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_written_through() {
+    use std::os::unix::fs::symlink;
+
+    let folder = Folder::new();
+    fs::create_dir(folder.path("real")).unwrap();
+    fs::write(folder.path("real/old.png"), "older").unwrap();
+    symlink("real/old.png", folder.path("old.png")).unwrap();
+    symlink("real/new.png", folder.path("new.png")).unwrap();
+    symlink("new.png", folder.path("twice.png")).unwrap();
+    for name in ["old", "twice"] {
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        let link = fs::symlink_metadata(folder.path(&format!("{name}.png")));
+        assert!(link.unwrap().is_symlink());
+    }
+    assert_complete(&folder.path("real/old.png"));
+    assert_complete(&folder.path("real/new.png"));
+    assert_eq!(folder.names("real"), ["new.png", "old.png"]);
+
+    symlink("circle.png", folder.path("circle.png")).unwrap();
+    symlink("/dev/null", folder.path("null.png")).unwrap();
+    for (name, expected) in [
+        ("circle", "cannot create the file: too many"),
+        ("null", "cannot write the file: there is something"),
+    ] {
+        let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
+        assert_eq!(code(&output), 1);
+        let start = format!("marbles: {name}.png: {expected}");
+        let errors = text(&output.stderr);
+        assert!(errors.starts_with(&start), "{errors}");
+    }
+}

@@ -1,0 +1,237 @@
+//! What only the real process shows: exit codes, signals, disks, pipes.
+
+#![allow(
+    clippy::print_stderr,
+    reason = "tests that this machine cannot run say so"
+)]
+
+mod files;
+mod folder;
+#[cfg(target_os = "linux")]
+mod memory;
+mod signals;
+#[cfg(target_os = "linux")]
+mod terminal;
+
+use std::fs;
+
+use folder::{BALL, Folder, code, text};
+
+#[test]
+fn exit_codes_tell_what_happened() {
+    let folder = Folder::new();
+    for (arguments, expected) in [
+        ("--help", 0),
+        ("--version", 0),
+        ("render --help", 0),
+        ("check ball.ron", 0),
+        ("render ball.ron --size 9x9", 0),
+        ("render ball.ron --size 9x9 -o new/folder/a.png", 0),
+        ("render ball.ron --size 9x9 --frames -2--1 -o a.#.exr", 0),
+        ("render ball.ron --size 9x9 -o ball.ron/a.png", 1),
+        ("", 2),
+        ("paint ball.ron", 2),
+        ("render", 2),
+        ("render ball.ron -o a.jpg", 2),
+        ("render ball.ron -o a.png --frames 1-2", 2),
+        ("render ball.ron --frames 2-1", 2),
+        ("render ball.ron --size 0x9", 2),
+        ("render missing.ron", 2),
+        ("render .", 2),
+        ("check missing.ron", 2),
+        ("render ball.ron --threads 0", 2),
+        ("render ball.ron --size 9x9 --samples 2", 0),
+        ("render ball.ron --samples 2 --tolerance 1e-3", 2),
+        ("render ball.ron --float", 2),
+        ("render ball.ron -o a.exr --rgb", 2),
+    ] {
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), expected, "marbles {arguments}");
+        let silent = output.stderr.is_empty();
+        assert!(expected == 0 || !silent, "marbles {arguments}");
+        assert!(
+            expected == 0 || output.stdout.is_empty(),
+            "marbles {arguments}"
+        );
+    }
+    let expected = ["a.-1.exr", "a.-2.exr", "ball.png", "ball.ron", "new"];
+    assert_eq!(folder.names("."), expected);
+}
+
+#[test]
+fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
+    const THROUGH: &str = "(
+    image: (width: 9, height: 9),
+    lens: Fov(50),
+    camera: LookAt(position: (0, 0, -2), target: (0, 0, 0)),
+    animation: Keyframes(frames: (1, 3), keys: [
+        (frame: 1, position: (0, 0, -2), ease: Linear),
+        (frame: 3, position: (0, 0, 2)),
+    ]),
+)
+";
+    let folder = Folder::new();
+    fs::write(folder.path("through.ron"), THROUGH).unwrap();
+    let output = folder.run("render through.ron");
+    assert_eq!(code(&output), 1);
+    let pictures = ["through.0001.png", "through.0003.png"];
+    let expected = [&["ball.ron"], &pictures[..], &["through.ron"]].concat();
+    assert_eq!(folder.names("."), expected);
+    let errors = text(&output.stderr);
+    assert!(errors.starts_with("marbles: frame 2: "), "{errors}");
+    assert!(
+        errors.ends_with("marbles: 2 of 3 frames written\n"),
+        "{errors}"
+    );
+
+    let output = folder.run("check through.ron");
+    assert_eq!(code(&output), 2);
+    let errors = text(&output.stderr);
+    let start = "marbles: through.ron: frame 2: ";
+    assert!(errors.starts_with(start), "{errors}");
+
+    // Only the frame in the middle has no view, and there are too many to look at all.
+    for (last, expected) in [(99_999, 2), (1_000_001, 0)] {
+        let far = THROUGH
+            .replace("frame: 3", &format!("frame: {last}"))
+            .replace("(1, 3)", &format!("(1, {last})"));
+        fs::write(folder.path("far.ron"), far).unwrap();
+        let output = folder.run("check far.ron");
+        assert_eq!(code(&output), expected, "{last} frames");
+        let all = !text(&output.stdout).contains("100000 of 1000001 were looked at\n");
+        assert_eq!(all, last < 100_000);
+    }
+}
+
+#[test]
+fn tables_are_found_beside_the_scene_and_told() {
+    const CLOUD: &str = "(
+    image: (width: 60, height: 60),
+    lens: Fov(40),
+    camera: Frame(elevation: 20),
+    lights: [Directional(toward: (-1, 1, -1))],
+    clouds: [(file: \"tables/salt.csv\", radius: 0.5, value: \"x\", position: (1, 0, 0))],
+)
+";
+    let folder = Folder::new();
+    fs::create_dir_all(folder.path("in/tables")).unwrap();
+    fs::write(folder.path("in/cloud.ron"), CLOUD).unwrap();
+    let table = folder.path("in/tables/salt.csv");
+    fs::write(&table, "x,y,z\n-1,-2,-3\n1,2,3\n").unwrap();
+    let output = folder.run("check in/cloud.ron");
+    assert_eq!(code(&output), 0);
+    let lines = text(&output.stdout);
+    let told = "cloud       tables/salt.csv: 2, radius 0.5
+  from      (-0.5, -2.5, -3.5)
+  to        (2.5, 2.5, 3.5)
+  seen by   Orbit(target: (1, 0, 0), radius: 12.53";
+    assert!(lines.contains(told), "{lines}");
+    assert!(lines.contains("camera      Frame: x 1, y 4."), "{lines}");
+
+    for threads in [1, 2] {
+        let output = folder.run(&format!(
+            "render in/cloud.ron -o {threads}.png --threads {threads}"
+        ));
+        assert_eq!(code(&output), 0);
+    }
+    let [one, two] = ["1.png", "2.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert_eq!(one, two);
+
+    fs::write(&table, "x,y,z\n-1,-2,-3\n1,2\n").unwrap();
+    let output = folder.run("render in/cloud.ron");
+    assert_eq!(code(&output), 2);
+    let errors = text(&output.stderr);
+    let start = "in/tables/salt.csv:3:4: expected a number for `z`, found the end of the line\n";
+    assert!(errors.contains(start), "{errors}");
+    let end = "the table is named at in/cloud.ron:6:21\n";
+    assert!(errors.ends_with(end), "{errors}");
+}
+
+#[test]
+fn a_line_is_printed_for_each_file() {
+    let folder = Folder::new();
+    let output = folder.run("render ball.ron -o out/%02d.png --frames 8-9 --size 30x20");
+    assert_eq!(code(&output), 0);
+    let lines = text(&output.stdout);
+    let lines: Vec<&str> = lines.lines().collect();
+    assert_eq!(lines.len(), 3);
+    let starts = [
+        "out/08.png: 600 pixels, ",
+        "out/09.png: 600 pixels, ",
+        "2 frames: 1200 pixels, ",
+    ];
+    for (line, start) in lines.iter().zip(starts) {
+        let start = format!("{start}error <= ");
+        let rest = line.strip_prefix(&start).unwrap();
+        let (error, rest) = rest.split_once(' ').unwrap();
+        // The default tolerance.
+        assert!(error.parse::<f64>().unwrap() <= 1e-3);
+        let (evidence, rest) = rest.split_once(", 0 over the tolerance, ").unwrap();
+        assert!(["(bound)", "(estimate)"].contains(&evidence), "{line}");
+        let seconds = rest.strip_suffix(" s").unwrap();
+        assert!(seconds.parse::<f64>().unwrap() < 60.0);
+    }
+    let progress = text(&output.stderr);
+    let progress: Vec<&str> = progress.lines().collect();
+    assert_eq!(progress.len(), 2);
+    assert!(progress[0].starts_with("frame 8: 1 of 2 done, "));
+    assert!(progress[0].ends_with(" s left"));
+    assert_eq!(progress[1], "frame 9: 2 of 2 done");
+
+    let output = folder.run("render ball.ron -o a.png --size 30x20");
+    assert_eq!(text(&output.stdout).lines().count(), 1);
+    assert_eq!(text(&output.stderr), "");
+}
+
+#[test]
+fn quiet_prints_nothing() {
+    let folder = Folder::new();
+    let output = folder.run("render ball.ron -o a.#.png --frames 1-3 --size 9x9 --quiet");
+    assert_eq!(code(&output), 0);
+    assert_eq!(text(&output.stdout), "");
+    assert_eq!(text(&output.stderr), "");
+    assert_eq!(folder.names(".").len(), 4);
+}
+
+#[test]
+fn pictures_repeat_with_any_number_of_threads() {
+    let folder = Folder::new();
+    for ending in ["png", "exr"] {
+        let names = ["a", "b", "1", "2", "7"];
+        for name in names {
+            let threads = match name.parse::<u32>() {
+                Ok(threads) => format!("--threads {threads}"),
+                Err(_) => String::new(),
+            };
+            let output = folder.run(&format!(
+                "render ball.ron -o {name}.{ending} --size 101x67 {threads}"
+            ));
+            assert_eq!(code(&output), 0);
+        }
+        let first = folder.read(&format!("a.{ending}"));
+        for name in names {
+            let same = folder.read(&format!("{name}.{ending}")) == first;
+            assert!(same, "{name}.{ending}");
+        }
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_not_met_ends_with_1() {
+    let folder = Folder::new();
+    let met = folder.run("render ball.ron --tolerance 1e-3 --size 30x30 -o met.png");
+    assert_eq!(code(&met), 0);
+    assert!(text(&met.stdout).contains(" 0 over the tolerance"));
+    // Lines cannot be trusted with numbers of this size.
+    let huge = BALL.replace("(0, 0, 400), radius: 300", "(0, 0, 4e200), radius: 3e200");
+    fs::write(folder.path("huge.ron"), huge).unwrap();
+    let missed = folder.run("render huge.ron --tolerance 1e-3 --size 30x30 -o missed.png");
+    assert_eq!(code(&missed), 1);
+    assert!(!text(&missed.stdout).contains(" 0 over the tolerance"));
+    assert!(folder.path("missed.png").exists());
+    assert!(text(&missed.stderr).contains("tolerance"));
+    for refused in ["0", "-1", "1e-10", "NaN", "much"] {
+        let output = folder.run(&format!("render ball.ron --tolerance={refused}"));
+        assert_eq!(code(&output), 2, "{refused}");
+    }
+}

@@ -1,0 +1,67 @@
+//! Pictures that are larger than the memory.
+
+use std::fs;
+use std::process::Command;
+
+use crate::folder::{BALL, Folder, assert_complete, code, text};
+
+/// `marbles` with no more addresses than so many.
+fn in_memory(folder: &Folder, kilobytes: u32, arguments: &str) -> Command {
+    let marbles = folder.marbles(arguments);
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", &format!("ulimit -v {kilobytes}; exec \"$@\""), "sh"])
+        .arg(marbles.get_program())
+        .args(marbles.get_args())
+        .current_dir(&folder.0);
+    command
+}
+
+/// A folder in which the picture of the ball has color, so that none of its channels can be left out.
+fn colored() -> Folder {
+    let folder = Folder::new();
+    let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
+    fs::write(folder.path("ball.ron"), colored).unwrap();
+    folder
+}
+
+#[test]
+fn pictures_larger_than_the_memory_are_rendered() {
+    // Of address space, which the binary and the stacks of threads take, too.
+    const KILOBYTES: u32 = 400_000;
+    let folder = colored();
+    // 16.8 million pixels of four channels in double precision are 537 MB.
+    for output in ["a.png --bits 16", "a.exr --float"] {
+        let arguments = format!(
+            "render ball.ron -o {output} --alpha --samples 1 --threads 2 --size 16384x1024"
+        );
+        let mut marbles = in_memory(&folder, KILOBYTES, &arguments);
+        // Otherwise glibc sets 64 MiB aside for each thread, more or less of them from run to run.
+        let output = marbles.env("MALLOC_ARENA_MAX", "1").output().unwrap();
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        assert!(text(&output.stdout).contains(": 16777216 pixels, "));
+    }
+    assert_complete(&folder.path("a.png"));
+}
+
+#[test]
+fn too_little_memory_is_an_error() {
+    let folder = colored();
+    let mut codes = Vec::new();
+    for kilobytes in [300_000, 400_000, 500_000, 900_000] {
+        for options in ["-o #.exr --float --alpha", "-o #.png --bits 16"] {
+            // The widest there are.
+            let arguments = format!(
+                "render ball.ron {options} --samples 1 --threads 2 --size 65536x30 --frames 1-2"
+            );
+            let output = in_memory(&folder, kilobytes, &arguments).output().unwrap();
+            let errors = text(&output.stderr);
+            let code = output.status.code();
+            assert!(matches!(code, Some(0 | 1)), "{arguments}: {errors}");
+            let refused = errors.contains(" memory");
+            assert_eq!(refused, code == Some(1), "{arguments}: {errors}");
+            codes.push(code);
+        }
+    }
+    assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
+}
