@@ -146,7 +146,7 @@ impl CasterCache {
                 cover.add(&disc);
                 cover.is_full()
             });
-        let range = (!is_dark).then(|| first..self.indices.len());
+        let range = (!is_dark).then_some(first..self.indices.len());
         self.known.push((sphere, light, range.clone()));
         range
     }
@@ -208,20 +208,11 @@ impl CasterCache {
         let mut first = range.start;
         while first < range.end {
             let count = (range.end - first).min(8);
-            let mut rows = [[0.0; 8]; 5];
-            for lane in 0..count {
-                let disc = self.discs.get(first + lane);
-                rows[0][lane] = disc.x;
-                rows[1][lane] = disc.y;
-                rows[2][lane] = disc.height;
-                rows[3][lane] = disc.radius;
-                rows[4][lane] = disc.slack;
-            }
-            let x: f64x8<S> = rows[0].simd_into(simd);
-            let y: f64x8<S> = rows[1].simd_into(simd);
-            let height: f64x8<S> = rows[2].simd_into(simd);
-            let radius: f64x8<S> = rows[3].simd_into(simd);
-            let slack: f64x8<S> = rows[4].simd_into(simd);
+            let x: f64x8<S> = eight(&self.discs.x, first).simd_into(simd);
+            let y: f64x8<S> = eight(&self.discs.y, first).simd_into(simd);
+            let height: f64x8<S> = eight(&self.discs.height, first).simd_into(simd);
+            let radius: f64x8<S> = eight(&self.discs.radius, first).simd_into(simd);
+            let slack: f64x8<S> = eight(&self.discs.slack, first).simd_into(simd);
             let around = slack + patch.around;
             let (x0, y0) = (ax - x, ay - y);
             let (x1, y1) = (bx - x, by - y);
@@ -250,6 +241,16 @@ impl CasterCache {
         }
         false
     }
+}
+
+/// Eight numbers from a place on; zeros where there are none.
+#[inline(always)]
+fn eight(numbers: &[f64], first: usize) -> [f64; 8] {
+    let mut eight = [0.0; 8];
+    let rest = &numbers[first..];
+    let count = rest.len().min(8);
+    eight[..count].copy_from_slice(&rest[..count]);
+    eight
 }
 
 #[cfg(test)]

@@ -416,8 +416,8 @@ impl<'scene> Finish<'scene> {
                 let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
                 let half = (facing + to_eye) / length_sq.sqrt();
                 let spot = power.lanes(half.max(zero).min(one));
-                for channel in 0..C::CHANNELS {
-                    sum[channel] += spot * (light.intensity[channel] * strength);
+                for (channel, sum) in sum.iter_mut().enumerate().take(C::CHANNELS) {
+                    *sum += spot * (light.intensity[channel] * strength);
                 }
             }
         }

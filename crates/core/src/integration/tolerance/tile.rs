@@ -24,7 +24,8 @@ impl Exact<'_> {
         for &sphere in candidates {
             workspace.balls.push(self.scene.ball(sphere));
         }
-        if !(self.is_trusted && workspace.balls.iter().all(trusts)) && !candidates.is_empty() {
+        let trusts_all = self.is_trusted && workspace.balls.iter().all(trusts);
+        if !trusts_all && !candidates.is_empty() {
             let count = tile.width as usize * tile.height as usize;
             pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
             return Work::default();

@@ -40,37 +40,43 @@ fn between(lanes: u64) -> u64 {
 }
 
 /// The first of the active spheres on which a curve does not lie, at some places of it.
-#[inline(always)]
+#[inline(never)]
 fn front<S: Simd>(simd: S, contents: &Contents, own: [usize; 2], places: &Trace<S>) -> Front<S> {
-    let zero = f64x8::splat(simd, 0.0);
-    let mut front = Front {
-        nearest: f64x8::splat(simd, f64::INFINITY),
-        first: zero,
-        is_hidden: false,
-    };
-    let (x, y) = (places.x, places.y);
-    for (position, active) in contents.active.iter().enumerate() {
-        if own.contains(&position) {
-            continue;
-        }
-        let discriminant = polynomial(&active.discriminant, x, y);
-        let covers = discriminant.simd_ge(0.0);
-        let lanes = covers.to_bitmask();
-        if lanes == 0 {
-            continue;
-        }
-        let along = x * active.along.x + y * active.along.y + active.along.one;
-        let root = discriminant.max(zero).sqrt();
-        let t = f64x8::splat(simd, active.ball.outside) / (along + root);
-        let is_nearer = covers & t.simd_lt(front.nearest);
-        front.nearest = is_nearer.select(t, front.nearest);
-        front.first = is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
-        if lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff {
-            front.is_hidden = true;
-            return front;
-        }
-    }
-    front
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let mut front = Front {
+                nearest: f64x8::splat(simd, f64::INFINITY),
+                first: zero,
+                is_hidden: false,
+            };
+            let (x, y) = (places.x, places.y);
+            for (position, active) in contents.active.iter().enumerate() {
+                if own.contains(&position) {
+                    continue;
+                }
+                let discriminant = polynomial(&active.discriminant, x, y);
+                let covers = discriminant.simd_ge(0.0);
+                let lanes = covers.to_bitmask();
+                if lanes == 0 {
+                    continue;
+                }
+                let along = x * active.along.x + y * active.along.y + active.along.one;
+                let root = discriminant.max(zero).sqrt();
+                let t = f64x8::splat(simd, active.ball.outside) / (along + root);
+                let is_nearer = covers & t.simd_lt(front.nearest);
+                front.nearest = is_nearer.select(t, front.nearest);
+                front.first =
+                    is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
+                if lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff {
+                    front.is_hidden = true;
+                    return front;
+                }
+            }
+            front
+        },
+    )
 }
 
 impl Boundary {
@@ -122,6 +128,9 @@ impl Boundary {
                 // Where the same is first at both ends, others begin behind it.
                 intervals &= beside(front.is(position)) | !alike;
             }
+            if intervals == 0 {
+                continue;
+            }
             let values = polynomial(&active.discriminant, places.x, places.y);
             let function = Function::Outline(position);
             stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
@@ -146,8 +155,11 @@ impl Boundary {
                 (true, false) => (Function::Inside(other), beside(front.is(other))),
                 (false, true) => (Function::Inside(one), beside(front.is(one))),
             };
-            let values = value(simd, setting, function, &places);
             let intervals = intervals & open;
+            if intervals == 0 {
+                continue;
+            }
+            let values = value(simd, setting, function, &places);
             stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
         }
         self.order_breaks(0.0, 1.0);
@@ -273,11 +285,11 @@ impl Boundary {
                 hidden |= far.simd_gt(0.5).to_bitmask();
             }
             let firsts: [f64; 8] = front.first.into();
-            for lane in 0..count {
+            for (lane, first_here) in firsts.into_iter().enumerate().take(count) {
                 if hidden >> lane & 1 == 1 {
                     continue;
                 }
-                let seen = (firsts[lane] as usize).wrapping_sub(1);
+                let seen = (first_here as usize).wrapping_sub(1);
                 let (inner, outer) = match curve.edge {
                     Edge::Left | Edge::Right => (seen, NONE),
                     Edge::Limb => (curve.own[0], seen),
@@ -321,6 +333,15 @@ impl Boundary {
                     self.find_light_breaks(simd, setting, &stretch, sphere);
                 }
             }
+            if [arc.inner, arc.outer]
+                .iter()
+                .all(|&sphere| is_dark(setting, sphere))
+            {
+                if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
+                    add(&mut self.lit_arcs, arc);
+                }
+                continue;
+            }
             self.order_breaks(arc.start, arc.end);
             let steps = self.breaks.len() - 1;
             let mut first = 0;
@@ -337,8 +358,9 @@ impl Boundary {
                 } else if arc.outer != NONE {
                     lit[1] = self.lit(simd, setting, arc.outer, curve, &places);
                 }
-                for lane in 0..count {
-                    let mut here = [lit[0][lane], lit[1][lane]];
+                let [inner, outer] = lit;
+                for (lane, sides) in inner.into_iter().zip(outer).enumerate().take(count) {
+                    let mut here = <[u64; 2]>::from(sides);
                     if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
                         if here[0] >> light & 1 == 0 {
                             continue;
@@ -359,7 +381,7 @@ impl Boundary {
     }
 
     /// Finds where lights begin or end on an active sphere along a stretch.
-    #[inline(always)]
+    #[inline(never)]
     fn find_light_breaks<S: Simd>(
         &mut self,
         simd: S,
@@ -367,58 +389,63 @@ impl Boundary {
         stretch: &Stretch<'_>,
         sphere: usize,
     ) {
-        let lights = setting.scene.lights.len();
-        let reach = &setting.contents.reach[sphere * lights..][..lights];
-        if reach.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
-            return;
-        }
-        let curve = stretch.curve;
-        let places = stretch.places(simd, setting);
-        let ball = &setting.contents.active[sphere].ball;
-        let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-        let place = points.place();
-        for (light, reach) in reach.iter().enumerate() {
-            let Reach::Past(casters) = reach else {
-                continue;
-            };
-            let toward = setting.scene.lights[light].toward;
-            let is_own = curve.own[0] == sphere;
-            let facing = points.normal.dot_one(toward);
-            let mut closed = 0;
-            if !(is_own && curve.edge == Edge::Terminator(light)) {
-                closed = between(facing.simd_lt(0.0).to_bitmask());
-            }
-            let height = place.dot_one(toward);
-            for caster in casters.clone() {
-                if is_own && curve.edge == Edge::Shadow(light, caster) {
-                    continue;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let lights = setting.scene.lights.len();
+                let reach = &setting.contents.reach[sphere * lights..][..lights];
+                if is_dark(setting, sphere) {
+                    return;
                 }
-                let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                let top = setting.contents.casters[caster].center.dot(toward);
-                closed |= between((inside & height.simd_lt(top)).to_bitmask());
-            }
-            let open = INTERVALS & !closed;
-            if open == 0 {
-                continue;
-            }
-            if !(is_own && curve.edge == Edge::Terminator(light)) {
-                let function = Function::Lit(sphere, light);
-                stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
-            }
-            for caster in casters.clone() {
-                if is_own && curve.edge == Edge::Shadow(light, caster) {
-                    continue;
+                let curve = stretch.curve;
+                let places = stretch.places(simd, setting);
+                let ball = &setting.contents.active[sphere].ball;
+                let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                let place = points.place();
+                for (light, reach) in reach.iter().enumerate() {
+                    let Reach::Past(casters) = reach else {
+                        continue;
+                    };
+                    let toward = setting.scene.lights[light].toward;
+                    let is_own = curve.own[0] == sphere;
+                    let facing = points.normal.dot_one(toward);
+                    let mut closed = 0;
+                    if !(is_own && curve.edge == Edge::Terminator(light)) {
+                        closed = between(facing.simd_lt(0.0).to_bitmask());
+                    }
+                    let height = place.dot_one(toward);
+                    for caster in casters.clone() {
+                        if is_own && curve.edge == Edge::Shadow(light, caster) {
+                            continue;
+                        }
+                        let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
+                        let top = setting.contents.casters[caster].center.dot(toward);
+                        closed |= between((inside & height.simd_lt(top)).to_bitmask());
+                    }
+                    let open = INTERVALS & !closed;
+                    if open == 0 {
+                        continue;
+                    }
+                    if !(is_own && curve.edge == Edge::Terminator(light)) {
+                        let function = Function::Lit(sphere, light);
+                        stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
+                    }
+                    for caster in casters.clone() {
+                        if is_own && curve.edge == Edge::Shadow(light, caster) {
+                            continue;
+                        }
+                        let values = in_disc(simd, setting, caster, &place);
+                        let function = Function::Shaded(sphere, caster);
+                        stretch.roots(simd, setting, function, values, open, &mut self.breaks);
+                    }
                 }
-                let values = in_disc(simd, setting, caster, &place);
-                let function = Function::Shaded(sphere, caster);
-                stretch.roots(simd, setting, function, values, open, &mut self.breaks);
-            }
-        }
+            },
+        )
     }
 
     /// Which lights reach an active sphere where it is seen at some places, but for the event that the
     /// curve is.
-    #[inline(always)]
+    #[inline(never)]
     fn lit<S: Simd>(
         &self,
         simd: S,
@@ -427,44 +454,58 @@ impl Boundary {
         curve: &Curve,
         places: &Trace<S>,
     ) -> [u64; 8] {
-        let mut masks = [0; 8];
-        let contents = setting.contents;
-        let lights = setting.scene.lights.len();
-        let reach = &contents.reach[sphere * lights..][..lights];
-        if reach.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
-            return masks;
-        }
-        let ball = &contents.active[sphere].ball;
-        let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-        let place = points.place();
-        let is_own = curve.own[0] == sphere;
-        for (light, reach) in reach.iter().enumerate() {
-            let Reach::Past(casters) = reach else {
-                continue;
-            };
-            let toward = setting.scene.lights[light].toward;
-            let mut lit = 0xff;
-            if !(is_own && curve.edge == Edge::Terminator(light)) {
-                lit = points.normal.dot_one(toward).simd_gt(0.0).to_bitmask();
-            }
-            let height = place.dot_one(toward);
-            for caster in casters.clone() {
-                if is_own && curve.edge == Edge::Shadow(light, caster) {
-                    continue;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut masks = [0; 8];
+                let contents = setting.contents;
+                let lights = setting.scene.lights.len();
+                let reach = &contents.reach[sphere * lights..][..lights];
+                if is_dark(setting, sphere) {
+                    return masks;
                 }
-                let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                let top = contents.casters[caster].center.dot(toward);
-                lit &= !(inside & height.simd_lt(top)).to_bitmask();
-                if lit == 0 {
-                    break;
+                let ball = &contents.active[sphere].ball;
+                let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                let place = points.place();
+                let is_own = curve.own[0] == sphere;
+                for (light, reach) in reach.iter().enumerate() {
+                    let Reach::Past(casters) = reach else {
+                        continue;
+                    };
+                    let toward = setting.scene.lights[light].toward;
+                    let mut lit = 0xff;
+                    if !(is_own && curve.edge == Edge::Terminator(light)) {
+                        lit = points.normal.dot_one(toward).simd_gt(0.0).to_bitmask();
+                    }
+                    let height = place.dot_one(toward);
+                    for caster in casters.clone() {
+                        if is_own && curve.edge == Edge::Shadow(light, caster) {
+                            continue;
+                        }
+                        let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
+                        let top = contents.casters[caster].center.dot(toward);
+                        lit &= !(inside & height.simd_lt(top)).to_bitmask();
+                        if lit == 0 {
+                            break;
+                        }
+                    }
+                    for (lane, mask) in masks.iter_mut().enumerate() {
+                        *mask |= (lit >> lane & 1) << light;
+                    }
                 }
-            }
-            for (lane, mask) in masks.iter_mut().enumerate() {
-                *mask |= (lit >> lane & 1) << light;
-            }
-        }
-        masks
+                masks
+            },
+        )
     }
+}
+
+/// Whether no light reaches an active sphere, or there is none.
+fn is_dark(setting: &Setting<'_, '_>, sphere: usize) -> bool {
+    let lights = setting.scene.lights.len();
+    sphere == NONE
+        || setting.contents.reach[sphere * lights..][..lights]
+            .iter()
+            .all(|reach| matches!(reach, Reach::Nowhere))
 }
 
 /// Adds an arc, to the last one where that goes on.

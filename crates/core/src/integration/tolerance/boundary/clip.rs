@@ -9,7 +9,6 @@ use crate::edges::Cell;
 pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
     let mut roots = [DVec2::ZERO; 8];
     let mut count = 0;
-    let mut is_inside = true;
     for axis in 0..2 {
         for side in [-0.5, 0.5] {
             let edge = cell.middle[axis] + side * cell.size[axis];
@@ -22,12 +21,13 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
                 roots[count] = one;
                 roots[count + 1] = other;
                 count += 2;
-            } else {
-                is_inside &= c < 0.0;
+            } else if c >= 0.0 || c.is_nan() {
+                // All of it lies beyond.
+                return;
             }
         }
     }
-    between(&mut roots[..count], is_inside, pieces, |e| {
+    between(&mut roots[..count], pieces, |e| {
         let point = circle.at(e);
         let (x, y) = cell.place(point);
         x.abs() < 0.5 && y.abs() < 0.5
@@ -38,7 +38,7 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
 fn zeros(a: f64, b: f64, c: f64) -> [Option<DVec2>; 2] {
     let size_sq = a * a + b * b;
     let rest = size_sq - c * c;
-    if !(rest > 0.0) {
+    if rest <= 0.0 || rest.is_nan() {
         return [None; 2];
     }
     let root = rest.sqrt();
@@ -62,9 +62,8 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
     let disc_sq = circle.right.length_squared();
     let mut roots = [DVec2::ZERO; 4];
     let mut count = 0;
-    let mut is_inside = true;
     // Both ask for |middle + r e - p|² < limit.
-    let limits = [(DVec3::ZERO, *radius_sq), (near, around * around)];
+    let limits = [(near, around * around), (DVec3::ZERO, *radius_sq)];
     let first = pieces.len();
     for (point, limit) in limits {
         let to_middle = circle.middle - point;
@@ -78,11 +77,11 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
             roots[count] = one;
             roots[count + 1] = other;
             count += 2;
-        } else {
-            is_inside &= c < 0.0;
+        } else if c >= 0.0 || c.is_nan() {
+            return;
         }
     }
-    between(&mut roots[..count], is_inside, pieces, |e| {
+    between(&mut roots[..count], pieces, |e| {
         let at = circle.at(e);
         limits
             .iter()
@@ -96,35 +95,37 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
     }
 }
 
-/// The parts between unit vectors whose middles lie inside.
-fn between(
-    roots: &mut [DVec2],
-    is_inside: bool,
-    pieces: &mut Vec<Piece>,
-    inside: impl Fn(DVec2) -> bool,
-) {
+/// The parts between unit vectors whose middles lie inside; all, where there are none.
+fn between(roots: &mut [DVec2], pieces: &mut Vec<Piece>, inside: impl Fn(DVec2) -> bool) {
     const QUARTERS: [DVec2; 5] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y, DVec2::X];
     if roots.is_empty() {
-        if is_inside {
-            for ends in QUARTERS.windows(2) {
-                pieces.push(Piece {
-                    ends: [ends[0], ends[1]],
-                    roots: [false; 2],
-                });
-            }
+        for ends in QUARTERS.windows(2) {
+            pieces.push(Piece {
+                ends: [ends[0], ends[1]],
+                roots: [false; 2],
+            });
         }
         return;
     }
-    roots.sort_unstable_by(|one, other| angle(*one).total_cmp(&angle(*other)));
+    let mut angles = [0.0; 8];
     for index in 0..roots.len() {
-        let (start, end) = (roots[index], roots[(index + 1) % roots.len()]);
-        let turn = angle(end) - angle(start);
+        let (root, here) = (roots[index], angle(roots[index]));
+        let mut at = index;
+        while at > 0 && angles[at - 1] > here {
+            (roots[at], angles[at]) = (roots[at - 1], angles[at - 1]);
+            at -= 1;
+        }
+        (roots[at], angles[at]) = (root, here);
+    }
+    for index in 0..roots.len() {
+        let next = (index + 1) % roots.len();
+        let (start, end) = (roots[index], roots[next]);
+        let turn = angles[next] - angles[index];
         let turn = if turn <= 0.0 { turn + 4.0 } else { turn };
         if roots.len() > 1 && turn < 1e-12 {
             continue;
         }
-        let middle = middle(start, end, turn);
-        if inside(middle) {
+        if inside(middle(start, end, turn)) {
             divide(start, end, turn, pieces);
         }
     }

@@ -125,7 +125,7 @@ impl Stretch<'_> {
 
     /// Appends where a function with these values at the eight places vanishes, in some intervals
     /// between them.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn roots<S: Simd>(
         &self,
         simd: S,
@@ -135,36 +135,41 @@ impl Stretch<'_> {
         intervals: u64,
         breaks: &mut Vec<f64>,
     ) {
-        let below = values.simd_lt(0.0).to_bitmask();
-        let mut changes = (below ^ (below >> 1)) & intervals;
-        while changes != 0 {
-            let lane = changes.trailing_zeros() as usize;
-            changes &= changes - 1;
-            let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
-            let ends = [values[lane], values[lane + 1]];
-            breaks.push(self.root(simd, setting, function, bracket, ends));
-        }
-        let mut touches = touches(simd, values) & (intervals | intervals << 1);
-        while touches != 0 {
-            let lane = touches.trailing_zeros() as usize;
-            touches &= touches - 1;
-            let [before, here, after] = [values[lane - 1], values[lane], values[lane + 1]];
-            let way = -0.5 * (after - before) / (before - 2.0 * here + after);
-            let step = if way < 0.0 { lane - 1 } else { lane };
-            let at = self.at(STEPS[lane] + way * STEPS[1]);
-            let places = self.trace(simd, setting, f64x8::splat(simd, at));
-            let there = value(simd, setting, function, &places)[0];
-            if (there < 0.0) == (here < 0.0) {
-                continue;
-            }
-            let (low, high) = (self.at(STEPS[step]), self.at(STEPS[step + 1]));
-            for (bracket, ends) in [
-                ([low, at], [values[step], there]),
-                ([at, high], [there, values[step + 1]]),
-            ] {
-                breaks.push(self.root(simd, setting, function, bracket, ends));
-            }
-        }
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let below = values.simd_lt(0.0).to_bitmask();
+                let mut changes = (below ^ (below >> 1)) & intervals;
+                while changes != 0 {
+                    let lane = changes.trailing_zeros() as usize;
+                    changes &= changes - 1;
+                    let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
+                    let ends = [values[lane], values[lane + 1]];
+                    breaks.push(self.root(simd, setting, function, bracket, ends));
+                }
+                let mut touches = touches(simd, values) & (intervals | intervals << 1);
+                while touches != 0 {
+                    let lane = touches.trailing_zeros() as usize;
+                    touches &= touches - 1;
+                    let [before, here, after] = [values[lane - 1], values[lane], values[lane + 1]];
+                    let way = -0.5 * (after - before) / (before - 2.0 * here + after);
+                    let step = if way < 0.0 { lane - 1 } else { lane };
+                    let at = self.at(STEPS[lane] + way * STEPS[1]);
+                    let places = self.trace(simd, setting, f64x8::splat(simd, at));
+                    let there = value(simd, setting, function, &places)[0];
+                    if (there < 0.0) == (here < 0.0) {
+                        continue;
+                    }
+                    let (low, high) = (self.at(STEPS[step]), self.at(STEPS[step + 1]));
+                    for (bracket, ends) in [
+                        ([low, at], [values[step], there]),
+                        ([at, high], [there, values[step + 1]]),
+                    ] {
+                        breaks.push(self.root(simd, setting, function, bracket, ends));
+                    }
+                }
+            },
+        )
     }
 
     #[inline(always)]

@@ -32,7 +32,7 @@ const EIGHT: [(f64, f64); 8] = [
     (0.101_666_761_293_186_66, 0.111_190_517_226_687_23),
     (0.237_233_795_041_835_5, 0.156_853_322_938_943_7),
     (0.408_282_678_752_175_1, 0.181_341_891_689_181),
-    (0.591_717_321_247_824_9, 0.181_341_891_689_181),
+    (0.591_717_321_247_825, 0.181_341_891_689_181),
     (0.762_766_204_958_164_5, 0.156_853_322_938_943_7),
     (0.898_333_238_706_813_5, 0.111_190_517_226_687_23),
     (0.980_144_928_248_768_2, 0.050_614_268_145_188_09),
@@ -42,6 +42,18 @@ const EIGHT: [(f64, f64); 8] = [
 /// largest that a test finds, made larger. It falls with the power of the way that is twice the nodes and
 /// one.
 const OFF: [f64; 3] = [1.2e-3, 8e-6, 4e-8];
+
+/// A sphere that sends light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sender<'a, 'scene> {
+    pub(super) scene: &'a InCamera<'scene>,
+    pub(super) active: &'a Active,
+    pub(super) finish: &'a Finish<'scene>,
+    /// Those that reach it, bit by bit.
+    pub(super) lights: u64,
+    /// The parameter of the place to begin with.
+    pub(super) reference: f64,
+}
 
 /// Where light is summed up: on lines of the cell with these y, to these x.
 #[derive(Clone, Copy, Debug)]
@@ -65,76 +77,77 @@ pub(super) struct Summed<S: Simd> {
 /// On the chord of a line the parameter τ is -1 and 1 at the outline, x = middle + width · 2 τ / (1 + τ²),
 /// so that the root of the distance to either end is rational, and the light smooth. The place to begin
 /// with has the same τ on all lines.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn lit_up_to<S: Simd, C: Radiance>(
     simd: S,
-    scene: &InCamera<'_>,
-    active: &Active,
-    finish: &Finish<'_>,
-    lights: u64,
-    reference: f64,
+    sender: &Sender<'_, '_>,
     lines: &Lines<'_, S>,
     negligible: f64,
 ) -> Summed<S> {
-    let zero = f64x8::splat(simd, 0.0);
-    let one = f64x8::splat(simd, 1.0);
-    let (x, y) = (lines.x, lines.y);
-    let q = &active.discriminant;
-    let half = (y * q.xy + q.x) * 0.5;
-    let rest = (y * q.yy + q.y) * y + q.one;
-    let middle = half * (-1.0 / q.xx);
-    let most = rest + middle * half;
-    let width = (most * (-1.0 / q.xx)).max(zero).sqrt();
-    let here = ((x * q.xx + half * 2.0) * x + rest).max(zero);
-    let root = (here / most).min(one).sqrt();
-    let sine = ((x - middle) / width).min(one).max(-one);
-    let chord = Chord {
-        middle,
-        width,
-        reference,
-        way: sine / (one + root) - reference,
-    };
-    let ways: [f64; 8] = chord.way.abs().into();
-    let way = ways.into_iter().fold(0.0, f64::max);
-    let widths: [f64; 8] = width.into();
-    let width = widths.into_iter().fold(0.0, f64::max);
-    let brightest = finish.brightest(scene, lights);
-    if finish.is_told() {
-        let eight = chord.sum::<C, 8>(simd, scene, active, finish, lights, lines, &EIGHT);
-        let six = chord.sum::<C, 6>(simd, scene, active, finish, lights, lines, &SIX);
-        let mut doubt = zero;
-        for channel in 0..C::CHANNELS {
-            doubt = doubt.max((eight[channel] - six[channel]).abs());
-        }
-        return Summed {
-            light: eight,
-            doubt,
-            samples: 112,
-        };
-    }
-    let way_sq = way * way;
-    let power = way_sq * way_sq * way_sq * way_sq * way;
-    let offs = [
-        OFF[0] * power,
-        OFF[1] * power * way_sq * way_sq,
-        OFF[2] * power * way_sq * way_sq * way_sq * way_sq,
-    ];
-    let scale = width * brightest;
-    let (light, off, samples) = if offs[0] * scale <= negligible {
-        let sum = chord.sum::<C, 4>(simd, scene, active, finish, lights, lines, &FOUR);
-        (sum, offs[0], 32)
-    } else if offs[1] * scale <= negligible {
-        let sum = chord.sum::<C, 6>(simd, scene, active, finish, lights, lines, &SIX);
-        (sum, offs[1], 48)
-    } else {
-        let sum = chord.sum::<C, 8>(simd, scene, active, finish, lights, lines, &EIGHT);
-        (sum, offs[2], 64)
-    };
-    Summed {
-        light,
-        doubt: one * (off * scale),
-        samples,
-    }
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let one = f64x8::splat(simd, 1.0);
+            let (x, y) = (lines.x, lines.y);
+            let q = &sender.active.discriminant;
+            let half = (y * q.xy + q.x) * 0.5;
+            let rest = (y * q.yy + q.y) * y + q.one;
+            let middle = half * (-1.0 / q.xx);
+            let most = rest + middle * half;
+            let width = (most * (-1.0 / q.xx)).max(zero).sqrt();
+            let here = ((x * q.xx + half * 2.0) * x + rest).max(zero);
+            let root = (here / most).min(one).sqrt();
+            let sine = ((x - middle) / width).min(one).max(-one);
+            let chord = Chord {
+                middle,
+                width,
+                reference: sender.reference,
+                way: sine / (one + root) - sender.reference,
+            };
+            let ways: [f64; 8] = chord.way.abs().into();
+            let way = ways.into_iter().fold(0.0, f64::max);
+            let widths: [f64; 8] = width.into();
+            let width = widths.into_iter().fold(0.0, f64::max);
+            let brightest = sender.finish.brightest(sender.scene, sender.lights);
+            if sender.finish.is_told() {
+                let eight = chord.sum::<C, 8>(simd, sender, lines, &EIGHT);
+                let six = chord.sum::<C, 6>(simd, sender, lines, &SIX);
+                let mut doubt = zero;
+                for channel in 0..C::CHANNELS {
+                    doubt = doubt.max((eight[channel] - six[channel]).abs());
+                }
+                return Summed {
+                    light: eight,
+                    doubt,
+                    samples: 112,
+                };
+            }
+            let way_sq = way * way;
+            let power = way_sq * way_sq * way_sq * way_sq * way;
+            let offs = [
+                OFF[0] * power,
+                OFF[1] * power * way_sq * way_sq,
+                OFF[2] * power * way_sq * way_sq * way_sq * way_sq,
+            ];
+            let scale = width * brightest;
+            let (light, off, samples) = if offs[0] * scale <= negligible {
+                let sum = chord.sum::<C, 4>(simd, sender, lines, &FOUR);
+                (sum, offs[0], 32)
+            } else if offs[1] * scale <= negligible {
+                let sum = chord.sum::<C, 6>(simd, sender, lines, &SIX);
+                (sum, offs[1], 48)
+            } else {
+                let sum = chord.sum::<C, 8>(simd, sender, lines, &EIGHT);
+                (sum, offs[2], 64)
+            };
+            Summed {
+                light,
+                doubt: one * (off * scale),
+                samples,
+            }
+        },
+    )
 }
 
 /// The chords of lines in an outline.
@@ -153,10 +166,7 @@ impl<S: Simd> Chord<S> {
     fn sum<C: Radiance, const COUNT: usize>(
         &self,
         simd: S,
-        scene: &InCamera<'_>,
-        active: &Active,
-        finish: &Finish<'_>,
-        lights: u64,
+        sender: &Sender<'_, '_>,
         lines: &Lines<'_, S>,
         rule: &[(f64, f64); COUNT],
     ) -> [f64x8<S>; 3] {
@@ -175,15 +185,17 @@ impl<S: Simd> Chord<S> {
                 y: ray_y,
                 z: one,
             };
-            let points = Points::new(simd, &active.ball, ray);
-            let light = finish.unclamped::<S, C>(simd, scene, &points, lights);
+            let points = Points::new(simd, &sender.active.ball, ray);
+            let light = sender
+                .finish
+                .unclamped::<S, C>(simd, sender.scene, &points, sender.lights);
             for channel in 0..C::CHANNELS {
                 sum[channel] += light[channel] * slope;
             }
         }
         let scale = self.width * self.way;
-        for channel in 0..C::CHANNELS {
-            sum[channel] = sum[channel] * scale;
+        for channel in &mut sum {
+            *channel *= scale;
         }
         sum
     }

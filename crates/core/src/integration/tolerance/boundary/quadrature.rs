@@ -8,9 +8,12 @@ use super::super::contents::Contents;
 use super::super::rule::{Roots, Rule, error_estimate};
 use super::super::scene::InCamera;
 use super::curve::{Piece, Shape, Trace, trace};
-use super::primitive::{Lines, lit_up_to};
+use super::primitive::{Lines, Sender, lit_up_to};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
 use crate::Radiance;
+
+/// The lane of a trace that is in the middle of an arc.
+const MIDDLE: usize = 2;
 
 impl Boundary {
     /// Adds what an arc contributes.
@@ -38,11 +41,20 @@ impl Boundary {
                 if arc.end - arc.start < 1e-12 {
                     return;
                 }
+                let length = arc.end - arc.start;
+                let mut at = [arc.start; 8];
+                at[1] = arc.end;
+                at[MIDDLE] = arc.start + 0.5 * length;
+                let ends = trace(simd, cell, &curve.shape, piece, at.simd_into(simd));
+                let sign = sign(scene, setting.contents, curve, &ends);
+                let rise = (ends.y[1] - ends.y[0]) * sign;
+                if !sends_light(setting, curve, arc) {
+                    self.note_sides(curve, arc, rise);
+                    return;
+                }
                 let rule = Rule::of(Roots::default());
                 let nodes: f64x8<S> = rule.nodes.simd_into(simd);
-                let length = arc.end - arc.start;
                 let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
-                let sign = sign(scene, setting.contents, curve, &places);
                 let dy = places.dy * (length * sign);
                 let fine: f64x8<S> = rule.fine.simd_into(simd);
                 let coarse: f64x8<S> = rule.coarse.simd_into(simd);
@@ -58,15 +70,16 @@ impl Boundary {
                             continue;
                         }
                         is_empty[side] = factor;
-                        for channel in 0..C::CHANNELS {
-                            light[channel] += places.x * (factor * goal.background[channel]);
+                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                            *light += places.x * (factor * goal.background[channel]);
                         }
                         continue;
                     }
                     let active = &setting.contents.active[sphere];
                     let albedo = scene.world.albedo(active.sphere);
-                    for channel in 0..C::CHANNELS {
-                        light[channel] += places.x * (factor * (albedo * scene.ambient)[channel]);
+                    let ambient = albedo * scene.ambient * factor;
+                    for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                        *light += places.x * ambient[channel];
                     }
                     // What both sides have need not be computed.
                     let mut lights = arc.lit[side];
@@ -79,43 +92,39 @@ impl Boundary {
                             x: places.x,
                             y: places.y,
                         };
-                        let summed = lit_up_to::<S, C>(
-                            simd,
+                        let sender = Sender {
                             scene,
                             active,
-                            &setting.finishes[sphere],
+                            finish: &setting.finishes[sphere],
                             lights,
-                            self.references[sphere],
-                            &lines,
-                            0.01 * goal.tolerance,
-                        );
+                            reference: self.references[sphere],
+                        };
+                        let negligible = 0.01 * goal.tolerance;
+                        let summed = lit_up_to::<S, C>(simd, &sender, &lines, negligible);
                         self.samples += summed.samples;
                         doubt += summed.doubt;
-                        for channel in 0..C::CHANNELS {
-                            light[channel] += summed.light[channel] * factor;
+                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                            *light += summed.light[channel] * factor;
                         }
                     }
                 }
                 let empty = is_empty[0] + is_empty[1];
                 let all = dy * fine;
-                if empty != 0.0 {
-                    sum.empty += places.x * all * empty;
-                }
-                let ends: [f64; 8] = [
-                    arc.start, arc.end, arc.end, arc.end, arc.end, arc.end, arc.end, arc.end,
-                ];
-                let ends = trace(simd, cell, &curve.shape, piece, ends.simd_into(simd));
-                let rise = (ends.y[1] - ends.y[0]) * sign;
                 let slip = (total(all) - rise).abs();
                 let of_sums = total(doubt * all.abs());
                 let mut error = 0.0_f64;
-                for channel in 0..C::CHANNELS {
-                    let part = light[channel] * dy;
+                if empty != 0.0 {
+                    let (one, other) = (places.x * all, places.x * dy * coarse);
+                    sum.empty += one * empty;
+                    error = error_estimate(total(one - other).abs(), total(one.abs())) + slip;
+                }
+                for (channel, light) in light.into_iter().enumerate().take(C::CHANNELS) {
+                    let part = light * dy;
                     let (one, other) = (part * fine, part * coarse);
                     sum.value[channel] += one;
                     let difference = total(one - other).abs();
                     let spread = total(one.abs());
-                    let highest = greatest(light[channel].abs());
+                    let highest = greatest(light.abs());
                     error = error.max(error_estimate(difference, spread) + slip * highest);
                 }
                 if error > 0.02 * goal.tolerance && depth < 5 {
@@ -132,12 +141,17 @@ impl Boundary {
                     return;
                 }
                 sum.error += error + of_sums;
-                self.note(arc.inner, arc.lit[0], rise);
-                if !matches!(curve.edge, Edge::Left | Edge::Right) {
-                    self.note(arc.outer, arc.lit[1], -rise);
-                }
+                self.note_sides(curve, arc, rise);
             },
         );
+    }
+
+    /// Notes how far an arc rises for what lies on either side.
+    fn note_sides(&mut self, curve: &Curve, arc: &Arc, rise: f64) {
+        self.note(arc.inner, arc.lit[0], rise);
+        if !matches!(curve.edge, Edge::Left | Edge::Right) {
+            self.note(arc.outer, arc.lit[1], -rise);
+        }
     }
 
     fn note(&mut self, sphere: usize, lit: u64, rise: f64) {
@@ -150,6 +164,20 @@ impl Boundary {
             None => self.regions.push((sphere, lit, rise)),
         }
     }
+}
+
+/// Whether anything but darkness lies on either side of an arc.
+fn sends_light(setting: &Setting<'_, '_>, curve: &Curve, arc: &Arc) -> bool {
+    let scene = setting.scene;
+    let sides = [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])];
+    let is_side = matches!(curve.edge, Edge::Left | Edge::Right);
+    sides
+        .iter()
+        .enumerate()
+        .any(|(index, &(sphere, lit))| match sphere {
+            NONE => index == 0 || !is_side,
+            _ => lit != 0 || scene.ambient.max_element() > 0.0,
+        })
 }
 
 /// The sum of the lanes.
@@ -172,8 +200,6 @@ fn sign<S: Simd>(
     curve: &Curve,
     places: &Trace<S>,
 ) -> f64 {
-    /// A node in the middle.
-    const MIDDLE: usize = 3;
     let point = DVec3::new(
         places.point.x[MIDDLE],
         places.point.y[MIDDLE],
