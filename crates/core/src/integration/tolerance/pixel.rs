@@ -122,6 +122,18 @@ impl Exact<'_> {
         if contents.conics.len() + contents.casters.len() <= FEW {
             return None;
         }
+        let materials = contents.active.iter().map(|active| active.sphere);
+        let mut materials = materials.map(|sphere| self.scene.world.material(sphere));
+        if materials.any(|material| material.highlight.is_some() || material.exponent > 1.0) {
+            let negligible = 0.01 * self.tolerance;
+            let is_sharp = simd.vectorize(
+                #[inline(always)]
+                || contents.is_sharp(simd, &self.scene, cell, negligible),
+            );
+            if is_sharp {
+                return None;
+            }
+        }
         for finer in FINER {
             let part = simd.vectorize(
                 #[inline(always)]

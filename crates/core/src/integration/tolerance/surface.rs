@@ -368,6 +368,11 @@ impl<'scene> Finish<'scene> {
         self.is_rough() && self.specular.is_some() && self.exponents()[1] < SMOOTH
     }
 
+    /// Whether light is the cosine of the angle to it, and nothing else.
+    pub(super) fn is_plain(&self) -> bool {
+        self.material.exponent == 1.0 && self.specular.is_none() && !self.is_rough()
+    }
+
     /// More diffuse light than some lights, bit by bit, make in any channel.
     pub(super) fn brightest(&self, scene: &InCamera<'_>, lights: u64) -> f64 {
         let mut sum = 0.0;

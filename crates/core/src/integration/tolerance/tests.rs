@@ -115,3 +115,65 @@ fn processors_and_tiles_do_not_change_a_bit() {
         }
     }
 }
+
+/// Spheres as large as a pixel, some of which hide and shade others: against sixty-four times
+/// sixty-four samples of the same pixels.
+#[test]
+fn crowds_meet_their_tolerance() {
+    let mut random = Random(9);
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    let shiny = world.add_material(Material {
+        highlight: Some(Highlight {
+            strength: 0.3,
+            shininess: 8.0,
+        }),
+        exponent: 2.0,
+        ..Material::MATTE_WHITE
+    });
+    for index in 0..2000 {
+        let center = random.point() + DVec3::Z * 4.0;
+        let radius = 0.02 + 0.05 * random.number();
+        let material = if index % 3 == 0 { shiny } else { white };
+        world.add_sphere(Sphere::new(center, radius).unwrap(), material);
+    }
+    for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, -0.2)] {
+        let intensity = Color::splat(0.5);
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, intensity));
+    }
+    world.ambient = Color::splat(0.1);
+    world.background = Color::splat(0.2);
+    let view = view();
+    let visibility = Visibility::new(&world);
+    let seen = Seen::new(&visibility, &view, Tile::SIDE);
+    let samples = NonZeroU32::new(64).unwrap();
+    let sampled = Supersampling::new(&world, &view, &seen, samples, false);
+    let exact = Exact::new(&world, &view, &seen, 1e-4, false);
+    let tile = Tile {
+        col: 8,
+        row: 8,
+        width: 8,
+        height: 8,
+    };
+    let (mut expected, mut found) = (Vec::new(), Vec::new());
+    Integrator::<f64>::integrate(&sampled, tile, &mut Default::default(), &mut expected);
+    let work = Integrator::<f64>::integrate(&exact, tile, &mut Default::default(), &mut found);
+    let (mut partly, mut square) = (0, 0.0);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.status, Status::Met);
+        let off = (found.value - expected.value).abs();
+        // Edges along the grid cost samples a share of a row of them.
+        assert!(off <= found.error + 0.2 * expected.error, "{off:e}");
+        square += off * off;
+        partly += u32::from(expected.error > 1e-3);
+    }
+    assert!(partly > 50, "{partly} pixels with edges");
+    let mean = (square / found.len() as f64).sqrt();
+    assert!(mean < 5e-4, "{mean:e}");
+    assert!(
+        work.lines < 64 * 16,
+        "{work:?}: most are followed along edges"
+    );
+}

@@ -109,7 +109,7 @@ pub(super) struct Trace<S: Simd> {
 }
 
 /// The points of a piece with these parameters, from 0 to 1.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn trace<S: Simd>(
     simd: S,
     cell: &Cell,
@@ -117,54 +117,59 @@ pub(super) fn trace<S: Simd>(
     piece: &Piece,
     s: f64x8<S>,
 ) -> Trace<S> {
-    let zero = f64x8::splat(simd, 0.0);
-    let one = f64x8::splat(simd, 1.0);
-    let [start, end] = piece.ends;
-    match shape {
-        Shape::Side(x) => {
-            let x = f64x8::splat(simd, *x);
-            let y = s * (end.y - start.y) + start.y;
-            Trace {
-                point: Vectors {
-                    x: x * cell.size[0] + cell.middle.x,
-                    y: y * cell.size[1] + cell.middle.y,
-                    z: one,
-                },
-                x,
-                y,
-                dx: zero,
-                dy: one * (end.y - start.y),
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let one = f64x8::splat(simd, 1.0);
+            let [start, end] = piece.ends;
+            match shape {
+                Shape::Side(x) => {
+                    let x = f64x8::splat(simd, *x);
+                    let y = s * (end.y - start.y) + start.y;
+                    Trace {
+                        point: Vectors {
+                            x: x * cell.size[0] + cell.middle.x,
+                            y: y * cell.size[1] + cell.middle.y,
+                            z: one,
+                        },
+                        x,
+                        y,
+                        dx: zero,
+                        dy: one * (end.y - start.y),
+                    }
+                }
+                Shape::Circle(circle) => {
+                    let (e, turn) = turned(start, end, s);
+                    let point = on_circle(simd, circle, e);
+                    let step = along_circle(simd, circle, e).times(turn);
+                    placed(cell, point, step)
+                }
+                Shape::Shadow {
+                    circle,
+                    center,
+                    radius_sq,
+                    toward,
+                } => {
+                    let (s, slope) = warped(piece.roots, s);
+                    let (e, turn) = turned(start, end, s);
+                    let turn = turn * slope;
+                    let aside = on_circle(simd, circle, e);
+                    let step = along_circle(simd, circle, e).times(turn);
+                    let rest = (one * *radius_sq - aside.length_squared()).max(zero);
+                    let height = rest.sqrt();
+                    let inverse = one / height.max(one * 1e-150);
+                    let toward = Vectors::splat(simd, *toward);
+                    let point = aside
+                        .plus(&Vectors::splat(simd, *center))
+                        .plus(&toward.times(height));
+                    let rise = -(aside.dot(&step)) * inverse;
+                    let step = step.plus(&toward.times(rise));
+                    placed(cell, point, step)
+                }
             }
-        }
-        Shape::Circle(circle) => {
-            let (e, turn) = turned(start, end, s);
-            let point = on_circle(simd, circle, e);
-            let step = along_circle(simd, circle, e).times(turn);
-            placed(cell, point, step)
-        }
-        Shape::Shadow {
-            circle,
-            center,
-            radius_sq,
-            toward,
-        } => {
-            let (s, slope) = warped(piece.roots, s);
-            let (e, turn) = turned(start, end, s);
-            let turn = turn * slope;
-            let aside = on_circle(simd, circle, e);
-            let step = along_circle(simd, circle, e).times(turn);
-            let rest = (one * *radius_sq - aside.length_squared()).max(zero);
-            let height = rest.sqrt();
-            let inverse = one / height.max(one * 1e-150);
-            let toward = Vectors::splat(simd, *toward);
-            let point = aside
-                .plus(&Vectors::splat(simd, *center))
-                .plus(&toward.times(height));
-            let rise = -(aside.dot(&step)) * inverse;
-            let step = step.plus(&toward.times(rise));
-            placed(cell, point, step)
-        }
-    }
+        },
+    )
 }
 
 /// A parameter in which places are smooth that go with the root of the distance to an end, and how fast

@@ -51,47 +51,54 @@ pub(super) fn polynomial<S: Simd>(q: &Quadratic, x: f64x8<S>, y: f64x8<S>) -> f6
 }
 
 /// The values of a function at some places.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn value<S: Simd>(
     simd: S,
     setting: &Setting<'_, '_>,
     function: Function,
     places: &Trace<S>,
 ) -> f64x8<S> {
-    let contents = setting.contents;
-    match function {
-        Function::Outline(sphere) => {
-            polynomial(&contents.active[sphere].discriminant, places.x, places.y)
-        }
-        Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
-        Function::Facing(sphere) => {
-            let center = contents.active[sphere].ball.center;
-            places.point.dot_one(center) - places.point.length_squared()
-        }
-        Function::Above(light, caster) => {
-            let toward = setting.scene.lights[light].toward;
-            places.point.dot_one(toward) - contents.casters[caster].center.dot(toward)
-        }
-        Function::Inside(sphere) => {
-            let ball = &contents.active[sphere].ball;
-            let from = places.point.minus(&Vectors::splat(simd, ball.center));
-            from.length_squared() - ball.radius * ball.radius
-        }
-        Function::Across(is_upward, side) => {
-            let place = if is_upward { places.y } else { places.x };
-            place - side
-        }
-        Function::Lit(sphere, light) => {
-            let ball = &contents.active[sphere].ball;
-            let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-            points.normal.dot_one(setting.scene.lights[light].toward)
-        }
-        Function::Shaded(sphere, caster) => {
-            let ball = &contents.active[sphere].ball;
-            let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-            in_disc(simd, setting, caster, &points.place())
-        }
-    }
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let contents = setting.contents;
+            match function {
+                Function::Outline(sphere) => {
+                    polynomial(&contents.active[sphere].discriminant, places.x, places.y)
+                }
+                Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
+                Function::Facing(sphere) => {
+                    let center = contents.active[sphere].ball.center;
+                    places.point.dot_one(center) - places.point.length_squared()
+                }
+                Function::Above(light, caster) => {
+                    let toward = setting.scene.lights[light].toward;
+                    places.point.dot_one(toward) - contents.casters[caster].center.dot(toward)
+                }
+                Function::Inside(sphere) => {
+                    let ball = &contents.active[sphere].ball;
+                    let from = places.point.minus(&Vectors::splat(simd, ball.center));
+                    from.length_squared() - ball.radius * ball.radius
+                }
+                Function::Across(is_upward, side) => {
+                    let place = if is_upward { places.y } else { places.x };
+                    place - side
+                }
+                Function::Lit(sphere, light) => {
+                    let ball = &contents.active[sphere].ball;
+                    let points =
+                        Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                    points.normal.dot_one(setting.scene.lights[light].toward)
+                }
+                Function::Shaded(sphere, caster) => {
+                    let ball = &contents.active[sphere].ball;
+                    let points =
+                        Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                    in_disc(simd, setting, caster, &points.place())
+                }
+            }
+        },
+    )
 }
 
 /// The square of the distance of points from the middle of a caster, seen along its light, less that
