@@ -7,6 +7,8 @@ const TOP: f64 = 84.0;
 const BOTTOM: f64 = 384.0;
 /// From the left side of a panel to its scale, which is as wide as it says.
 const MARGIN: f64 = 66.0;
+/// About as wide as a letter.
+const LETTER: f64 = 7.0;
 const INK: &str = "#222830";
 const GRID: &str = "#e3e7ec";
 const DASHED: &str = "#98a2ae";
@@ -44,13 +46,13 @@ pub fn svg(names: &[&str], panels: &[Panel]) -> String {
         svg.push_str(&panel.draw(left + MARGIN, decades));
         left += MARGIN + panel.width + 30.0;
     }
-    let each = (width - 24.0) / (names.len() as f64 + 1.0);
+    let mut x = 12.0;
     let dashed = ("in proportion", DASHED);
     let named = names.iter().copied().zip(COLORS);
-    for (index, (name, color)) in named.chain([dashed]).enumerate() {
-        let x = 12.0 + each * index as f64;
+    for (name, color) in named.chain([dashed]) {
         line(&mut svg, &[(x, 424.0), (x + 22.0, 424.0)], color);
         text(&mut svg, (x + 28.0, 428.0), "start", name);
+        x += 50.0 + LETTER * name.chars().count() as f64;
     }
     svg + "</svg>\n"
 }
