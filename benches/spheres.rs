@@ -1,13 +1,9 @@
 //! How does the time grow with the number of spheres that fill the same part of a volume?
 
-use marbles_benches::{
-    Case, by_samples, cloud, load, main as run, mean, square_view, table, to_tolerance,
-};
-use marbles_core::{Renderer, View, World};
+use marbles_benches::{Case, cloud, load, main as run, mean, square_view, table, to_tolerance};
+use marbles_core::{Renderer, World};
 
 const COUNTS: [u32; 5] = [10, 100, 1000, 10_000, 100_000];
-/// By one sample a pixel.
-const CROWDS: [u32; 3] = [10_000, 100_000, 1_000_000];
 const TOLERANCE: f64 = 1e-2;
 const SIDE: u32 = 300;
 
@@ -37,7 +33,6 @@ fn main() {
             });
         }
         let images = table("to render", "pixels", 15, &cases);
-        crowds(&view);
         // Without a sphere it is dark; with more there is light, and not all of it.
         assert_eq!(mean(&images[0]), 0.0);
         for image in &images[1..] {
@@ -45,37 +40,4 @@ fn main() {
             assert!(0.001 < mean && mean < 1.0, "{mean}");
         }
     });
-}
-
-/// What it takes to prepare very many spheres, and to see them.
-fn crowds(view: &View) {
-    let worlds = CROWDS.map(|count| {
-        let mut world = cloud(count);
-        world.shadows = false;
-        world
-    });
-    let case = |count: u32, millions: f64| (format!("{count} spheres"), millions);
-    let mut cases = Vec::new();
-    for (count, world) in CROWDS.into_iter().zip(&worlds) {
-        let (name, millions) = case(count, f64::from(count) * 1e-6);
-        let run = Box::new(move |_| Renderer::new(world));
-        cases.push(Case {
-            name,
-            millions,
-            run,
-        });
-    }
-    let renderers = table("crowds, to prepare", "spheres", 3, &cases);
-    let mut cases = Vec::new();
-    for (count, renderer) in CROWDS.into_iter().zip(&renderers) {
-        let (name, millions) = case(count, f64::from(SIDE * SIDE) * 1e-6);
-        let run = Box::new(move |spent| by_samples(renderer, view, 1, spent));
-        cases.push(Case {
-            name,
-            millions,
-            run,
-        });
-    }
-    let images = table("crowds, one sample a pixel", "pixels", 3, &cases);
-    assert!(images.iter().all(|image| mean(image) > 0.001));
 }

@@ -3,6 +3,8 @@
 //! Every benchmark answers one question, asserts that its pictures are right and prints a table of
 //! medians. Pictures are rendered on one thread.
 
+pub mod chart;
+
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -33,38 +35,59 @@ pub fn main(benchmarks: impl FnOnce() + Send) {
     }
 }
 
+/// What was measured of a case.
+pub struct Timed<T> {
+    /// The median of its times, in seconds.
+    pub median: f64,
+    /// What it made last.
+    pub result: T,
+}
+
 /// Runs all cases in turns, until `seconds` are over, but once at least; prints the median times
 /// and the units a second. What each case made.
-///
-/// # Panics
-/// Without a case.
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
 pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) -> Vec<T> {
+    let (rounds, timed) = medians(1, seconds, cases);
+    println!("\n{title}, medians of {rounds}");
+    let print = |(case, timed): (&Case<'_, T>, Timed<T>)| {
+        let (milliseconds, rate) = (1e3 * timed.median, case.millions / timed.median);
+        println!(
+            "{:>24} {milliseconds:>12.3} ms {rate:>10.2} M {unit}/s",
+            case.name
+        );
+        timed.result
+    };
+    cases.iter().zip(timed).map(print).collect()
+}
+
+/// Runs all cases in turns, until `seconds` are over, but `least` times at least; how often, and
+/// what was measured of each.
+///
+/// # Panics
+/// Where `least` is 0.
+pub fn medians<T>(least: usize, seconds: u64, cases: &[Case<'_, T>]) -> (usize, Vec<Timed<T>>) {
     const MOST_ROUNDS: usize = 25;
     let start = Instant::now();
     let mut times = vec![Vec::new(); cases.len()];
     let mut results: Vec<Option<T>> = cases.iter().map(|_| None).collect();
-    while times[0].is_empty()
-        || times[0].len() < MOST_ROUNDS && start.elapsed() < Duration::from_secs(seconds)
-    {
+    let mut rounds = 0;
+    while rounds < least || rounds < MOST_ROUNDS && start.elapsed() < Duration::from_secs(seconds) {
         for ((case, times), result) in cases.iter().zip(&mut times).zip(&mut results) {
             let spent = result.take();
             let start = Instant::now();
             *result = Some((case.run)(spent));
             times.push(start.elapsed().as_secs_f64());
         }
+        rounds += 1;
     }
-    println!("\n{title}, medians of {}", times[0].len());
-    for (case, times) in cases.iter().zip(&mut times) {
+    let timed = |(mut times, result): (Vec<f64>, Option<T>)| {
         times.sort_unstable_by(f64::total_cmp);
-        let median = times[times.len() / 2];
-        let (milliseconds, rate) = (1e3 * median, case.millions / median);
-        println!(
-            "{:>24} {milliseconds:>12.3} ms {rate:>10.2} M {unit}/s",
-            case.name
-        );
-    }
-    results.into_iter().flatten().collect()
+        Timed {
+            median: times[times.len() / 2],
+            result: result.expect("every case has run"),
+        }
+    };
+    (rounds, times.into_iter().zip(results).map(timed).collect())
 }
 
 /// A scene of the repository, by its path there without the ending.
@@ -72,9 +95,15 @@ pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) ->
 /// # Panics
 /// When it cannot be read.
 pub fn load(name: &str) -> Scene {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("..");
-    let path = root.join(format!("{name}.ron"));
+    let path = in_repository(&format!("{name}.ron"));
     Scene::load(&path).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// A path of the repository, wherever the benchmark was started.
+pub fn in_repository(path: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("..")
+        .join(path)
 }
 
 /// The first view of a scene, as a square with this side.
