@@ -18,6 +18,8 @@ use crate::{Color, Radiance};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Workspace {
     pub(super) contents: Contents,
+    /// Whether those are of the cell that is to be integrated next.
+    pub(super) is_seen: bool,
     cuts: Cuts,
     /// The candidates of a tile.
     pub(super) balls: Vec<Ball>,

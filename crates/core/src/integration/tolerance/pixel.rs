@@ -11,7 +11,7 @@ use super::piece::Part;
 use crate::edges::Cell;
 use crate::integration::{Evidence, Pixel, Status};
 use crate::roughness::PixelKey;
-use crate::{Radiance, Tile};
+use crate::{Material, Radiance, Tile};
 
 /// What rounding, or parts of a pixel that were given up, may cost before samples know more.
 const LOST: f64 = 0.01;
@@ -25,6 +25,9 @@ const FINER: [usize; 3] = [1, 2, 4];
 
 /// So few edges are crossed by lines sooner than they are followed.
 const FEW: usize = 2;
+
+/// Powers that no rule along a chord overlooks.
+const BROAD: f64 = 60.0;
 
 /// How deep pixels are quartered.
 const DEEPEST: i32 = 12;
@@ -118,13 +121,20 @@ impl Exact<'_> {
         let mut found = None;
         workspace.work.candidate_tests += spheres.len() as u64;
         workspace.contents.see(&self.scene, cell, spheres, cache);
+        workspace.is_seen = true;
         let contents = &workspace.contents;
         if contents.conics.len() + contents.casters.len() <= FEW {
             return None;
         }
         let materials = contents.active.iter().map(|active| active.sphere);
         let mut materials = materials.map(|sphere| self.scene.world.material(sphere));
-        if materials.any(|material| material.highlight.is_some() || material.exponent > 1.0) {
+        let is_narrow = |material: &Material| {
+            let shininess = material
+                .highlight
+                .map_or(0.0, |highlight| highlight.shininess);
+            material.exponent.max(shininess) > BROAD
+        };
+        if materials.any(is_narrow) {
             let negligible = 0.01 * self.tolerance;
             let is_sharp = simd.vectorize(
                 #[inline(always)]
@@ -218,8 +228,11 @@ impl Exact<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                workspace.work.candidate_tests += spheres.len() as u64;
-                workspace.contents.see(&self.scene, cell, spheres, cache);
+                // The whole pixel was seen when its edges were counted.
+                if !std::mem::take(&mut workspace.is_seen) {
+                    workspace.work.candidate_tests += spheres.len() as u64;
+                    workspace.contents.see(&self.scene, cell, spheres, cache);
+                }
                 workspace.spend_on_cell();
                 let negligible = 0.01 * goal.tolerance;
                 let is_sharp = workspace

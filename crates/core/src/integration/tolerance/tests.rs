@@ -150,7 +150,7 @@ fn crowds_meet_their_tolerance() {
     let seen = Seen::new(&visibility, &view, Tile::SIDE);
     let samples = NonZeroU32::new(64).unwrap();
     let sampled = Supersampling::new(&world, &view, &seen, samples, false);
-    let exact = Exact::new(&world, &view, &seen, 1e-4, false);
+    let exact = Exact::new(&world, &view, &seen, 1e-3, false);
     let tile = Tile {
         col: 8,
         row: 8,

@@ -41,7 +41,7 @@ const EIGHT: [(f64, f64); 8] = [
 /// What the rules are off by for n·l on a way of the parameter that is 1 long, wherever it lies: the
 /// largest that a test finds, made larger. It falls with the power of the way that is twice the nodes and
 /// one.
-const OFF: [f64; 3] = [1.2e-3, 8e-6, 4e-8];
+const OFF: [f64; 3] = [2e-3, 1.6e-5, 1e-7];
 
 /// A sphere that sends light.
 #[derive(Clone, Copy, Debug)]
@@ -245,7 +245,7 @@ mod tests {
                 }
                 let said = off * libm::pow(way, 2.0 * rule.len() as f64 + 1.0);
                 assert!(worst <= said, "{} {way}: {worst:e} {said:e}", rule.len());
-                assert!(worst > 0.02 * said, "{} {way}: {worst:e}", rule.len());
+                assert!(worst > 0.1 * said, "{} {way}: {worst:e}", rule.len());
             }
         }
     }

@@ -12,6 +12,9 @@ use super::primitive::{Lines, Sender, lit_up_to};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
 use crate::Radiance;
 
+/// How much larger than what the rules differ by their error is taken to be.
+const CAUTION: f64 = 3.0;
+
 /// The lane of a trace that is in the middle of an arc.
 const MIDDLE: usize = 2;
 
@@ -140,7 +143,7 @@ impl Boundary {
                     }
                     return;
                 }
-                sum.error += error + of_sums;
+                sum.error += CAUTION * (error + of_sums);
                 self.note_sides(curve, arc, rise);
             },
         );
