@@ -73,8 +73,11 @@ pub(super) struct Boundary {
     lit_arcs: Vec<Arc>,
     /// What is seen, and how far its edges are from closing.
     regions: Vec<(usize, u64, f64)>,
+    /// For every active sphere the parameter of chords at which light begins to be summed up.
     references: Vec<f64>,
+    /// Points at which light was computed.
     pub(super) samples: u64,
+    /// Into how many parts pieces are cut; with one, events of what is hidden are not looked for.
     pub(super) parts: usize,
 }
 
@@ -88,6 +91,7 @@ struct Setting<'a, 'scene> {
     finishes: &'a [Finish<'scene>],
 }
 
+/// What arcs contribute so far, by nodes of the rule.
 #[derive(Clone, Copy)]
 struct Sum<S: Simd> {
     value: [f64x8<S>; 3],
@@ -96,7 +100,7 @@ struct Sum<S: Simd> {
 }
 
 impl Boundary {
-    /// The integral over a cell.
+    /// The integral over a cell; nothing where a sphere is rough, or its outline no ellipse.
     #[inline(always)]
     pub(super) fn integrate<'scene, S: Simd, C: Radiance>(
         &mut self,
@@ -115,8 +119,8 @@ impl Boundary {
         self.references.clear();
         for active in actives {
             let q = &active.discriminant;
-            let far = active.ball.center.z > active.ball.radius;
-            if !far || !active.is_smooth || q.xx >= 0.0 {
+            let is_ahead = active.ball.center.z > active.ball.radius;
+            if !is_ahead || !active.is_smooth || q.xx >= 0.0 {
                 return None;
             }
             let half = 0.5 * q.x;

@@ -15,6 +15,13 @@ use crate::Radiance;
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
 
+/// Arcs that take more of the tolerance are halved, so often.
+const SHARE: f64 = 0.02;
+const DEEPEST: u32 = 5;
+
+/// Arcs that are not worth it, in pieces.
+const SHORTEST: f64 = 1e-12;
+
 /// The lane of a trace that is in the middle of an arc.
 const MIDDLE: usize = 2;
 
@@ -41,7 +48,7 @@ impl Boundary {
                 let Setting {
                     scene, cell, goal, ..
                 } = *setting;
-                if arc.end - arc.start < 1e-12 {
+                if arc.end - arc.start < SHORTEST {
                     return;
                 }
                 let length = arc.end - arc.start;
@@ -130,7 +137,7 @@ impl Boundary {
                     let highest = greatest(light.abs());
                     error = error.max(error_estimate(difference, spread) + slip * highest);
                 }
-                if error > 0.02 * goal.tolerance && depth < 5 {
+                if error > SHARE * goal.tolerance && depth < DEEPEST {
                     for (channel, kept) in kept.into_iter().enumerate() {
                         sum.value[channel] = kept;
                     }
