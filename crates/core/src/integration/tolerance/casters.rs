@@ -7,6 +7,7 @@ use fearless_simd::{Level, Simd, dispatch, f64x8};
 
 use super::contents::{Patch, Shade};
 use super::scene::{InCamera, Light};
+use super::squares;
 use crate::edges::{Cell, silhouette};
 
 /// Spheres as a light sees them, in rows of numbers.
@@ -61,7 +62,7 @@ pub(super) struct CasterCache {
     tile: Cell,
     /// The side of a pixel at distance 1.
     pixel: f64,
-    level: Level,
+    pub(super) level: Level,
     /// Sphere, light, and where their casters stand; none where they leave no light at all.
     known: Vec<(usize, usize, Option<Range<usize>>)>,
     pub(super) discs: Discs,
@@ -283,7 +284,7 @@ impl CasterCache {
     }
 }
 
-/// What discs cover of the box around a patch, as a light sees it: in cells, a bit each.
+/// What discs cover of the box around a patch, as a light sees it: in squares, a bit each.
 #[derive(Clone, Copy, Debug)]
 struct Cover {
     level: Level,
@@ -293,12 +294,6 @@ struct Cover {
     top: f64,
     covered: u64,
 }
-
-/// Cells on a side of the box.
-const SIDE: usize = 7;
-
-/// All cells: a byte a row.
-const CELLS: u64 = 0x007f_7f7f_7f7f_7f7f;
 
 impl Cover {
     fn new(level: Level, patch: &Patch, light: &Light) -> Self {
@@ -318,8 +313,8 @@ impl Cover {
             level,
             low,
             step: [
-                (high[0] - low[0]) / SIDE as f64,
-                (high[1] - low[1]) / SIDE as f64,
+                (high[0] - low[0]) / squares::SIDE as f64,
+                (high[1] - low[1]) / squares::SIDE as f64,
             ],
             top: height[0].max(height[1]) + around,
             covered: 0,
@@ -327,16 +322,14 @@ impl Cover {
     }
 
     fn is_full(&self) -> bool {
-        self.covered == CELLS
+        self.covered == squares::ALL
     }
 
     /// Covers the cells whose corners lie in a disc that is wholly above the patch.
     fn add(&mut self, disc: &Disc) {
         let radius = disc.radius - disc.slack;
         if radius > 0.0 && disc.height - disc.slack > self.top {
-            let lines = self.lines(disc, 0.0, radius, 1e-9);
-            let pairs = lines & lines >> 1;
-            self.covered |= pairs & pairs >> 8 & CELLS;
+            self.covered |= squares::between(self.lines(disc, 0.0, radius, 1e-9));
         }
     }
 
@@ -348,7 +341,7 @@ impl Cover {
         // A cell is touched where its middle is no farther than half its diagonal.
         let [x, y] = self.step;
         let reach = disc.radius + disc.slack + 0.5 * (x * x + y * y).sqrt() * (1.0 + 1e-9);
-        self.lines(disc, 0.5, reach, -1e-9) & CELLS & !self.covered == 0
+        self.lines(disc, 0.5, reach, -1e-9) & squares::ALL & !self.covered == 0
     }
 
     /// Which points of the grid lie in a circle around a disc's middle: a byte for each of eight lines,

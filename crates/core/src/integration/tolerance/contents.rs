@@ -1,11 +1,14 @@
 //! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
 
+mod hidden;
+
 use std::ops::Range;
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::{DVec2, DVec3};
 
+use self::hidden::Hiding;
 use super::casters::CasterCache;
 use super::scene::InCamera;
 use super::surface::{Finish, Points};
@@ -14,7 +17,7 @@ use crate::roughness::PixelKey;
 use crate::rounding::UNIT_ROUNDOFF;
 
 /// A sphere that may be seen in a cell.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Active {
     pub(super) sphere: usize,
     pub(super) ball: Ball,
@@ -57,6 +60,7 @@ pub(super) struct Contents {
     pub(super) pixel: Option<PixelKey>,
     /// How far, in sides of the cell, rounding may move an edge.
     pub(super) rounding: f64,
+    hiding: Hiding,
 }
 
 /// Where in space a cell sees a sphere: within `around` of the way between two points.
@@ -115,7 +119,7 @@ impl Contents {
         &mut self,
         scene: &InCamera<'_>,
         cell: &Cell,
-        spheres: &[usize],
+        spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
     ) {
         self.active.clear();
@@ -124,8 +128,7 @@ impl Contents {
         self.casters.clear();
         let size = cell.size[0].min(cell.size[1]);
         self.rounding = ROUNDINGS * cell.middle.length() / size;
-        for &sphere in spheres {
-            let ball = scene.ball(sphere);
+        for &(sphere, ball) in spheres {
             let discriminant = silhouette(cell, &ball);
             let along = cell.dot(ball.center);
             let spread = discriminant.spread();
@@ -135,27 +138,32 @@ impl Contents {
             if is_outside && (discriminant.one + spread + slack < 0.0 || along.one + half <= 0.0) {
                 continue;
             }
-            let position = self.active.len();
-            if is_outside && discriminant.may_vanish() {
-                self.conics.push((Kind::Silhouette(position), discriminant));
-            }
-            self.add_seams(cell, &ball);
-            let is_smooth = scene.world.material(sphere).roughness.is_none();
-            let active = Active {
+            self.active.push(Active {
                 sphere,
                 ball,
                 discriminant,
                 along,
-                is_smooth,
-            };
+                is_smooth: scene.world.material(sphere).roughness.is_none(),
+            });
+        }
+        self.hiding.leave_out(cache.level, &mut self.active);
+        for position in 0..self.active.len() {
+            let active = self.active[position];
+            let is_outside = active.ball.outside > 0.0;
+            if is_outside && active.discriminant.may_vanish() {
+                let kind = Kind::Silhouette(position);
+                self.conics.push((kind, active.discriminant));
+            }
+            self.add_seams(cell, position);
             for light in 0..scene.lights.len() {
                 let reach = if is_outside && !scene.is_enclosed {
                     self.reach_of(scene, cell, &active, light, cache)
                 } else {
                     Reach::Nowhere
                 };
-                if is_smooth && matches!(reach, Reach::Past(_)) {
-                    let terminator = terminator(cell, &ball, scene.lights[light].toward);
+                if active.is_smooth && matches!(reach, Reach::Past(_)) {
+                    let toward = scene.lights[light].toward;
+                    let terminator = terminator(cell, &active.ball, toward);
                     if terminator.may_vanish() {
                         self.conics
                             .push((Kind::Terminator(position, light), terminator));
@@ -163,20 +171,24 @@ impl Contents {
                 }
                 self.reach.push(reach);
             }
-            self.active.push(active);
         }
     }
 
-    /// Adds where a sphere intersects those that are there.
-    fn add_seams(&mut self, cell: &Cell, ball: &Ball) {
-        let position = self.active.len();
-        for (index, other) in self.active.iter().enumerate() {
-            let apart = (ball.center - other.ball.center).length();
+    /// Adds where an active sphere intersects those before it.
+    fn add_seams(&mut self, cell: &Cell, position: usize) {
+        let ball = self.active[position].ball;
+        for (index, other) in self.active[..position].iter().enumerate() {
+            let apart_sq = (ball.center - other.ball.center).length_squared();
             let sum = ball.radius + other.ball.radius;
+            // Most are far apart.
+            if apart_sq > 1.001 * sum * sum {
+                continue;
+            }
+            let apart = apart_sq.sqrt();
             let difference = (ball.radius - other.ball.radius).abs();
             let slack = 1e-12 * (sum + apart);
             if apart < sum + slack && apart > difference - slack && apart > 0.0 {
-                let seam = seam(cell, ball, &other.ball);
+                let seam = seam(cell, &ball, &other.ball);
                 if seam.may_vanish() {
                     self.conics.push((Kind::Seam(index, position), seam));
                     // The plane's place, by the radii or by K, whichever rounds less.

@@ -144,7 +144,7 @@ impl Exact<'_> {
                 col: start.col + lane as u32,
                 ..start
             };
-            pixels[lane] = self.pixel(simd, here, &[sphere], cache, workspace);
+            pixels[lane] = self.pixel(simd, here, &[(sphere, *ball)], cache, workspace);
         }
     }
 

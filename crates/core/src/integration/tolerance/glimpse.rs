@@ -144,19 +144,26 @@ impl Exact<'_> {
         cell: &Cell,
         lane: usize,
         glimpses: &[Glimpse],
-        spheres: &mut Vec<usize>,
+        spheres: &mut Vec<(usize, Ball)>,
     ) {
         let here = |glimpse: &&Glimpse| glimpse.touched >> lane & 1 == 1;
-        spheres.extend(glimpses.iter().filter(here).map(|glimpse| glimpse.sphere));
+        spheres.extend(
+            glimpses
+                .iter()
+                .filter(here)
+                .map(|glimpse| (glimpse.sphere, glimpse.ball)),
+        );
+        let contains = |spheres: &[(usize, Ball)], glimpse: &Glimpse| {
+            spheres.iter().any(|&(sphere, _)| sphere == glimpse.sphere)
+        };
         for one in glimpses.iter().filter(here) {
             let ball = &one.ball;
-            if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !spheres.contains(&one.sphere)
-            {
+            if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !contains(spheres, one) {
                 continue;
             }
             let patch = Patch::new(cell, ball, &silhouette(cell, ball), &cell.dot(ball.center));
             for other in glimpses.iter().filter(here) {
-                if other.sphere == one.sphere || !spheres.contains(&other.sphere) {
+                if other.sphere == one.sphere || !contains(spheres, other) {
                     continue;
                 }
                 let other_ball = &other.ball;
@@ -167,13 +174,13 @@ impl Exact<'_> {
                         let middle = (along.one - 0.5 * (along.x.abs() + along.y.abs()))
                             / (ray_sq.one + ray_sq.spread());
                         if other_ball.outside > 0.0 && middle > one.farthest[lane] {
-                            spheres.retain(|&sphere| sphere != other.sphere);
+                            spheres.retain(|&(sphere, _)| sphere != other.sphere);
                         }
                     }
                     Some(Side::Inside)
                         if other.covered >> lane & 1 == 1 && other_ball.outside > 0.0 =>
                     {
-                        spheres.retain(|&sphere| sphere != one.sphere);
+                        spheres.retain(|&(sphere, _)| sphere != one.sphere);
                         break;
                     }
                     Some(Side::Inside) | None => {}

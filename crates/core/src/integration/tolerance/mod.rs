@@ -19,6 +19,7 @@ mod rule;
 mod samples;
 mod scene;
 mod smooth;
+mod squares;
 mod surface;
 mod tile;
 mod trust;

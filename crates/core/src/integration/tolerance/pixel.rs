@@ -8,7 +8,7 @@ use super::Exact;
 use super::casters::CasterCache;
 use super::cell::{Goal, Workspace};
 use super::piece::Part;
-use crate::edges::Cell;
+use crate::edges::{Ball, Cell};
 use crate::integration::{Evidence, Pixel, Status};
 use crate::roughness::PixelKey;
 use crate::{Material, Radiance, Tile};
@@ -46,7 +46,7 @@ impl Exact<'_> {
         &self,
         simd: S,
         here: Tile,
-        spheres: &[usize],
+        spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
     ) -> Pixel<C> {
@@ -109,7 +109,7 @@ impl Exact<'_> {
         &self,
         simd: S,
         cell: &Cell,
-        spheres: &[usize],
+        spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
     ) -> Option<Part> {
@@ -174,7 +174,7 @@ impl Exact<'_> {
         &self,
         simd: S,
         cell: Cell,
-        spheres: &[usize],
+        spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
         tolerance: f64,
@@ -214,7 +214,7 @@ impl Exact<'_> {
         &self,
         simd: S,
         cell: &Cell,
-        spheres: &[usize],
+        spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
         tolerance: f64,

@@ -7,6 +7,7 @@ use super::casters::CasterCache;
 use super::cell::Workspace;
 use super::glimpse::Glimpse;
 use super::trust::trusts;
+use crate::edges::Ball;
 use crate::integration::{Evidence, Pixel, Status, Work};
 use crate::{Color, Radiance, Tile};
 
@@ -45,7 +46,7 @@ impl Exact<'_> {
             .size[0];
         let mut cache = CasterCache::new(self.cell(tile), pixel);
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
-        let mut spheres: Vec<usize> = Vec::new();
+        let mut spheres: Vec<(usize, Ball)> = Vec::new();
         for row in 0..tile.height {
             for left in (0..tile.width).step_by(8) {
                 let width = (tile.width - left).min(8);
@@ -74,7 +75,7 @@ impl Exact<'_> {
                     let is_single = touching.next().is_none() && one.covered >> index & 1 == 1;
                     spheres.clear();
                     if is_single {
-                        spheres.push(one.sphere);
+                        spheres.push((one.sphere, one.ball));
                     } else {
                         let here = Tile {
                             col: start.col + index as u32,
@@ -87,14 +88,15 @@ impl Exact<'_> {
                                 glimpse.sphere == sphere && glimpse.covered >> index & 1 == 1
                             })
                         };
-                        if spheres.len() != 1 || !covers(spheres[0]) {
+                        if spheres.len() != 1 || !covers(spheres[0].0) {
                             *pixel = self.pixel(simd, here, &spheres, &mut cache, workspace);
                             continue;
                         }
                     }
-                    match singles.iter_mut().find(|single| single.0 == spheres[0]) {
+                    let sphere = spheres[0].0;
+                    match singles.iter_mut().find(|single| single.0 == sphere) {
                         Some(single) => single.1 |= 1 << index,
-                        None => singles.push((spheres[0], 1 << index)),
+                        None => singles.push((sphere, 1 << index)),
                     }
                 }
                 for (sphere, which) in singles {

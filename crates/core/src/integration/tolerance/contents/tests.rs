@@ -1,5 +1,7 @@
 //! What is left out of a cell, against many of its points.
 
+use fearless_simd::Level;
+
 use super::super::scene::Light;
 use super::*;
 use crate::edges::Caster;
@@ -254,4 +256,52 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
             assert!(!cache.listed(range).contains(&twin));
         }
     }
+}
+
+#[test]
+fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
+    let mut random = Random(5);
+    let (mut left_out, mut seen) = (0, 0);
+    for _ in 0..3000 {
+        let front = ball_in_front(&mut random);
+        let width = magnitude(&mut random, 0.2, 3.0);
+        let cell = cell_at(&mut random, &front, width);
+        let mut active: Vec<Active> = (0..12)
+            .map(|sphere| {
+                let aside = (random.point() * front.radius).with_z(0.0);
+                let center = (front.center + aside) * (1.0 + 3.0 * random.number());
+                let radius = front.radius * (0.5 + random.number());
+                let ball = Ball {
+                    center,
+                    radius,
+                    outside: center.length_squared() - radius * radius,
+                };
+                Active {
+                    sphere,
+                    ball,
+                    discriminant: silhouette(&cell, &ball),
+                    along: cell.dot(center),
+                    is_smooth: true,
+                }
+            })
+            .collect();
+        let all = active.clone();
+        Hiding::default().leave_out(Level::new(), &mut active);
+        left_out += all.len() - active.len();
+        for _ in 0..100 {
+            let ray = ray(&cell, coordinate(&mut random), coordinate(&mut random));
+            let hits = all.iter().filter_map(|active| {
+                let point = first_hit(ray, &active.ball)?;
+                Some((point.length(), active.sphere))
+            });
+            let first = hits.min_by(|one, other| one.0.total_cmp(&other.0));
+            let Some((_, first)) = first else { continue };
+            seen += 1;
+            assert!(
+                active.iter().any(|active| active.sphere == first),
+                "{first} of {all:?} in {cell:?}"
+            );
+        }
+    }
+    assert!(left_out > 5000 && seen > 50_000, "{left_out} {seen}");
 }
