@@ -67,7 +67,8 @@ impl Boxes {
 }
 
 /// Eight spheres in single precision, as much larger as their centers are moved: they contain the
-/// true ones, if single precision holds their places. Where there is none is one of radius 0.
+/// true ones, if single precision holds their places, and are contained in them when they are smaller
+/// by [`Group::excess`]. Where there is none is one of radius 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(align(64))]
 pub(crate) struct Group {
@@ -77,6 +78,17 @@ pub(crate) struct Group {
 }
 
 impl Group {
+    /// More than what the radius has to be smaller by for a sphere inside of the true one: twice what
+    /// the center may be moved by, and what it costs to round the radius up twice.
+    #[inline(always)]
+    pub(crate) fn excess(&self, place: usize) -> f64 {
+        let mut moved = 0.0;
+        for axis in 0..3 {
+            moved += f64::from(self.center[axis][place]).abs() * ROUNDING + LEAST;
+        }
+        2.0 * moved + 4.0 * ROUNDING * f64::from(self.radius[place])
+    }
+
     /// Of no more than eight entries.
     pub(super) fn new(entries: &[Entry]) -> Self {
         let mut group = Self {

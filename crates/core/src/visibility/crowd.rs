@@ -104,24 +104,29 @@ impl Crowd {
 }
 
 /// Something that comes no nearer than the number in front, by its bits: a node or, with
-/// [`GROUP`] for a level, a group of spheres, or with [`SPHERE`] a sphere by its place among the copies.
+/// [`GROUP`] for a level, a group of spheres, or with [`SPHERE`] a sphere by its place among those found.
 type Waiting = Reverse<(u64, u32, u32)>;
 
 const GROUP: u32 = u32::MAX - 1;
 const SPHERE: u32 = u32::MAX;
 
-/// What is open in a block. Spheres are copied as they are found: in the world they are far apart.
+/// What is open in a block.
 #[derive(Default)]
 struct Open {
     waiting: BinaryHeap<Waiting>,
-    copies: Vec<Copied>,
+    found: Vec<Found>,
 }
 
-/// A sphere of the world, its index, and the bits of what it comes no nearer than.
-struct Copied {
-    nearest: u64,
+/// A sphere that may be seen, as far as it is known without the sphere itself: in the world they are
+/// far apart, and it takes long to get at one.
+struct Found {
     index: u32,
-    sphere: Sphere,
+    /// The bits of what it comes no nearer than.
+    nearest: u64,
+    range: CellRange,
+    /// Of a sphere inside of it, in the camera's frame.
+    center: DVec3,
+    radius: f64,
 }
 
 impl Search<'_> {
@@ -132,7 +137,7 @@ impl Search<'_> {
         // What covers whatever begins behind its farthest point.
         let mut covers: Vec<Cover> = Vec::new();
         let mut pending: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
-        // The places of copies.
+        // The places of those found.
         let mut kept: Vec<u32> = Vec::new();
         // Tile and place.
         let mut listed: Vec<(u32, u32)> = Vec::new();
@@ -162,19 +167,15 @@ impl Search<'_> {
                 self.open(node, nearest, &grid, &coverage, &mut open);
                 continue;
             }
-            let sphere = &open.copies[index as usize].sphere;
-            let Some(range) = self.range(sphere, &grid) else {
-                continue;
-            };
+            let found = &open.found[index as usize];
             let place = kept.len() as u32;
             let count = listed.len();
-            self.list(range, place, (&grid, &coverage), &mut listed);
+            self.list(found.range, place, (&grid, &coverage), &mut listed);
             if listed.len() == count {
                 continue;
             }
             kept.push(index);
-            let center = self.eye.turned(self.offset(sphere));
-            if let Some(cover) = Cover::new(center, sphere.radius() * self.scale, range) {
+            if let Some(cover) = Cover::new(found.center, found.radius, found.range) {
                 pending.push(Reverse((
                     rising_bits(cover.farthest()),
                     covers.len() as u32,
@@ -185,22 +186,20 @@ impl Search<'_> {
         let viewpoint = self.view.camera.position;
         let (starts, mut places) = self.sorted(&listed);
         let kept = gathered(&mut places, &kept);
-        let kept = kept.iter().map(|&copy| &open.copies[copy as usize]);
-        let spheres = kept.clone().map(|copy| (copy.index, &copy.sphere));
+        let kept = kept.iter().map(|&found| &open.found[found as usize]);
+        // One after the other they would be waited for one by one.
+        let copies = kept.clone().map(|found| self.spheres[found.index as usize]);
+        let copies: Vec<Sphere> = copies.collect();
+        let spheres = kept.clone().map(|found| found.index).zip(&copies);
         let mut balls = Ball::all(spheres, viewpoint, self.exponent);
-        for (ball, copy) in balls.iter_mut().zip(kept) {
-            ball.nearest = of_rising_bits(copy.nearest);
+        for (ball, found) in balls.iter_mut().zip(kept) {
+            ball.nearest = of_rising_bits(found.nearest);
         }
         Block {
             balls,
             starts,
             places,
         }
-    }
-
-    /// From the eye to the center, in the lengths of the balls.
-    fn offset(&self, sphere: &Sphere) -> DVec3 {
-        self.eye.offset(sphere.center())
     }
 
     /// Puts what a node holds among what waits, as far as it may be seen.
@@ -226,36 +225,59 @@ impl Search<'_> {
         coverage: &Coverage,
         open: &mut Open,
     ) {
-        let eight = self.eye.spheres(self.hierarchy.group(group), grid);
+        /// What a sphere may be smaller by, relatively, to be taken for itself.
+        const SMALLER: f64 = 1.0 / 256.0;
+        let spheres = self.hierarchy.group(group);
+        let eight = self.eye.spheres(spheres, grid);
         let indices = self.hierarchy.indices(group);
         for place in places(eight.may) {
             let index = indices[place];
             if !is_sphere(index) || coverage.is_covered(eight.range(place)) {
                 continue;
             }
-            let nearest = rising_bits(eight.begin[place]).max(nearest);
-            let copy = open.copies.len() as u32;
-            open.waiting.push(Reverse((nearest, SPHERE, copy)));
-            // Nothing waits for the sphere itself, which is somewhere in memory, until it is its turn.
-            open.copies.push(Copied {
-                nearest,
-                index,
-                sphere: self.spheres[index as usize],
-            });
+            let (radius, excess) = (f64::from(spheres.radius[place]), spheres.excess(place));
+            let found = if excess < SMALLER * radius {
+                Found {
+                    index,
+                    nearest: rising_bits(eight.begin[place]),
+                    range: eight.range(place),
+                    center: eight.center(place),
+                    radius: (radius - excess) * self.scale,
+                }
+            } else {
+                let Some(found) = self.find(index, grid) else {
+                    continue;
+                };
+                found
+            };
+            let nearest = found.nearest.max(nearest);
+            let number = open.found.len() as u32;
+            open.waiting.push(Reverse((nearest, SPHERE, number)));
+            open.found.push(Found { nearest, ..found });
         }
     }
 
-    /// The cells that a sphere may be seen in.
-    fn range(&self, sphere: &Sphere, grid: &Grid) -> Option<CellRange> {
+    /// A sphere that single precision says too little of, if it may be seen.
+    #[cold]
+    fn find(&self, index: u32, grid: &Grid) -> Option<Found> {
+        let sphere = &self.spheres[index as usize];
+        let offset = self.eye.offset(sphere.center());
         let radius = sphere.radius() * self.scale;
-        let in_camera = InCamera::new(self.offset(sphere), radius, self.view);
+        let in_camera = InCamera::new(offset, radius, self.view);
         if in_camera.is_behind() {
             return None;
         }
-        match in_camera.outline() {
-            Some((low, high)) => grid.range(low, high),
-            None => Some(grid.all()),
-        }
+        let range = match in_camera.outline() {
+            Some((low, high)) => grid.range(low, high)?,
+            None => grid.all(),
+        };
+        Some(Found {
+            index,
+            nearest: rising_bits(Ball::nearest(offset, radius)),
+            range,
+            center: self.eye.turned(offset),
+            radius,
+        })
     }
 
     /// Lists a sphere in the tiles in which some of its cells are open.

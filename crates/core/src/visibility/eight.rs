@@ -28,6 +28,8 @@ pub(super) struct Eight {
     pub(super) may: u8,
     /// They come no nearer than this.
     pub(super) begin: [f64; WIDTH],
+    /// Their centers, in the camera's frame.
+    center: [[f64; WIDTH]; 3],
     columns: ([u32; WIDTH], [u32; WIDTH]),
     rows: ([u32; WIDTH], [u32; WIDTH]),
 }
@@ -40,6 +42,12 @@ impl Eight {
             columns: (self.columns.0[place], self.columns.1[place]),
             rows: (self.rows.0[place], self.rows.1[place]),
         }
+    }
+
+    /// The center of one of those.
+    #[inline]
+    pub(super) fn center(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.center.map(|axis| axis[place]))
     }
 }
 
@@ -114,7 +122,8 @@ impl Eye {
         }
         // Whatever single precision cannot hold may be anywhere.
         let begin = is_finite.select(begin, zero);
-        self.eight(simd, grid, begin, filled & !is_behind, (is_known, ends))
+        let may = filled & !is_behind;
+        self.eight(simd, grid, (center, begin), may, (is_known, ends))
     }
 
     /// With the bounds of [`InCamera`](super::frustum::InCamera), which are above what rounding moves
@@ -141,7 +150,7 @@ impl Eye {
         let is_known = z.simd_gt(radius * CLEAR);
         let distance_sq = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
         let begin = distance_sq.sqrt() - radius;
-        self.eight(simd, grid, begin, !is_behind, (is_known, ends))
+        self.eight(simd, grid, ([x, y, z], begin), !is_behind, (is_known, ends))
     }
 
     /// Vectors of the world in the camera's directions, or boxes of these half sizes.
@@ -165,7 +174,7 @@ impl Eye {
         &self,
         simd: S,
         grid: &Grid,
-        begin: f64x8<S>,
+        (center, begin): ([f64x8<S>; 3], f64x8<S>),
         may: mask64x8<S>,
         (is_known, ends): (mask64x8<S>, [(f64x8<S>, f64x8<S>); 2]),
     ) -> Eight {
@@ -174,6 +183,7 @@ impl Eye {
         Eight {
             may: (may & across & down).to_bitmask() as u8,
             begin: begin.into(),
+            center: [center[0].into(), center[1].into(), center[2].into()],
             columns,
             rows,
         }
