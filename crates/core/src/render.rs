@@ -90,7 +90,11 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         job: J,
     ) -> Result<J::Output, Cancelled> {
-        let seen = Seen::new(&self.visibility, view, Tile::SIDE);
+        let visibility = &self.visibility;
+        let seen = match settings.method {
+            Method::Samples(samples) => Seen::by_samples(visibility, view, Tile::SIDE, samples),
+            Method::Tolerance(_) => Seen::new(visibility, view, Tile::SIDE),
+        };
         let world = self.world;
         let alpha = settings.alpha;
         let channels = Channels::of(world, alpha);

@@ -5,6 +5,11 @@ use super::order::Entry;
 /// Children of a node.
 pub(crate) const WIDTH: usize = 8;
 
+/// What rounding moved the center of an entry by is below half of this, relatively, and below the
+/// least number that is not 0.
+const ROUNDING: f64 = f32::EPSILON as f64;
+const LEAST: f64 = f32::MIN_POSITIVE as f64;
+
 /// Eight boxes along the axes of the world, or fewer: those that are missing hold nothing.
 ///
 /// Rounded outward: whatever is in a box for its exact numbers is in it as it is stored. A box
@@ -26,10 +31,6 @@ impl Boxes {
 
     /// Makes a box hold a sphere as well.
     pub(super) fn add(&mut self, place: usize, entry: &Entry) {
-        /// What rounding moved the center by is below half of this, relatively, and below the least
-        /// number that is not 0.
-        const ROUNDING: f64 = f32::EPSILON as f64;
-        const LEAST: f64 = f32::MIN_POSITIVE as f64;
         let radius = f64::from(entry.radius);
         for axis in 0..3 {
             let center = f64::from(entry.center[axis]);
@@ -62,6 +63,48 @@ impl Boxes {
             filled |= u8::from(self.low[0][place] <= self.high[0][place]) << place;
         }
         filled
+    }
+}
+
+/// Eight spheres in single precision, as much larger as their centers are moved: they contain the
+/// true ones, if single precision holds their places, and are contained in them when they are smaller
+/// by [`Group::excess`]. Where there is none is one of radius 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(align(64))]
+pub(crate) struct Group {
+    /// By axis, then by sphere.
+    pub(crate) center: [[f32; WIDTH]; 3],
+    pub(crate) radius: [f32; WIDTH],
+}
+
+impl Group {
+    /// More than what the radius has to be smaller by for a sphere inside of the true one: twice what
+    /// the center may be moved by, and what it costs to round the radius up twice.
+    #[inline(always)]
+    pub(crate) fn excess(&self, place: usize) -> f64 {
+        let mut moved = 0.0;
+        for axis in 0..3 {
+            moved += f64::from(self.center[axis][place]).abs() * ROUNDING + LEAST;
+        }
+        2.0 * moved + 4.0 * ROUNDING * f64::from(self.radius[place])
+    }
+
+    /// Of no more than eight entries.
+    pub(super) fn new(entries: &[Entry]) -> Self {
+        let mut group = Self {
+            center: [[0.0; WIDTH]; 3],
+            radius: [0.0; WIDTH],
+        };
+        for (place, entry) in entries.iter().enumerate() {
+            let mut radius = f64::from(entry.radius);
+            for axis in 0..3 {
+                let center = entry.center[axis];
+                group.center[axis][place] = center;
+                radius += f64::from(center).abs() * ROUNDING + LEAST;
+            }
+            group.radius[place] = rounded_up(radius);
+        }
+        group
     }
 }
 

@@ -6,7 +6,7 @@
 mod boxes;
 mod order;
 
-pub(crate) use boxes::{Boxes, WIDTH};
+pub(crate) use boxes::{Boxes, Group, WIDTH};
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
@@ -17,11 +17,13 @@ use crate::Sphere;
 /// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
 /// their number alone.
 ///
-/// It takes 4 bytes a sphere for the order and 3.5 for the boxes.
+/// It takes 4 bytes a sphere for the order, 16 for what is nearly the sphere and 3.5 for the boxes.
 #[derive(Clone, Debug)]
 pub(crate) struct Hierarchy {
     /// The indices of the spheres, group by group.
     order: Vec<u32>,
+    /// The spheres of the groups, nearly.
+    groups: Vec<Group>,
     /// The boxes of the groups of spheres, then those of groups of groups; the last level has one
     /// element, unless there is no sphere.
     levels: Vec<Vec<Boxes>>,
@@ -76,7 +78,9 @@ impl Hierarchy {
                 .collect();
             levels.push(above);
         }
+        let groups = entries.par_chunks(WIDTH).with_min_len(NODES_A_TASK * WIDTH);
         Self {
+            groups: groups.map(Group::new).collect(),
             order: entries.par_iter().map(|entry| entry.index).collect(),
             levels,
         }
@@ -95,6 +99,16 @@ impl Hierarchy {
     /// The boxes of a node.
     pub(crate) fn boxes(&self, node: Node) -> &Boxes {
         &self.levels[node.level as usize][node.index as usize]
+    }
+
+    /// What is nearly the spheres of a child of a node of the lowest level.
+    pub(crate) fn group(&self, index: u32) -> &Group {
+        &self.groups[index as usize]
+    }
+
+    /// The indices of its spheres; [`is_sphere`] tells the places that hold one.
+    pub(crate) fn indices(&self, group: u32) -> &[u32] {
+        &self.order[group as usize * WIDTH..][..WIDTH]
     }
 
     /// What one of the boxes of a node holds.

@@ -80,6 +80,35 @@ fn every_sphere_is_found() {
     }
 }
 
+#[test]
+fn groups_are_around_their_spheres_and_barely() {
+    for set in sets() {
+        // What single precision cannot hold is in no group.
+        let is_held = |&(center, radius): &(DVec3, f64)| center.abs().max_element() + radius < 1e38;
+        let held = set.iter().copied().filter(is_held);
+        let spheres: Vec<Sphere> = held
+            .map(|(center, radius)| Sphere::new(center, radius).unwrap())
+            .collect();
+        let hierarchy = Hierarchy::new(&spheres);
+        for number in 0..hierarchy.groups.len() as u32 {
+            let group = hierarchy.group(number);
+            for (place, &index) in hierarchy.indices(number).iter().enumerate() {
+                if !is_sphere(index) {
+                    continue;
+                }
+                let sphere = &spheres[index as usize];
+                let center = DVec3::from_array(group.center.map(|axis| f64::from(axis[place])));
+                let moved = (center - sphere.center()).length();
+                let (radius, excess) = (f64::from(group.radius[place]), group.excess(place));
+                assert!(moved + sphere.radius() <= radius);
+                assert!(moved + radius - excess <= sphere.radius());
+                let size = center.abs().element_sum() + radius;
+                assert!(excess < 1e-6 * size, "{excess:e} of {size:e}");
+            }
+        }
+    }
+}
+
 /// Counted work: what a small box finds does not grow with all that is elsewhere.
 #[test]
 fn few_others_are_found() {

@@ -4,16 +4,18 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
+use super::Points;
 use crate::View;
 use crate::rounding::UNIT_ROUNDOFF;
 
 /// Pixels on a side of a block.
 pub(super) const BLOCK: u32 = 64;
-/// Cells on a side of a pixel: small enough to lie inside of spheres that are seen as large as one.
+/// Cells on a side of a pixel, at most: small enough to lie inside of spheres that are seen as large
+/// as one.
 const CELLS_A_PIXEL: u32 = 4;
-/// Cells on a side of a block.
-pub(super) const CELLS: u32 = BLOCK * CELLS_A_PIXEL;
-const WORDS: usize = (CELLS / u64::BITS) as usize;
+/// Cells on a side of a block, at most.
+const MOST_CELLS: u32 = BLOCK * CELLS_A_PIXEL;
+const WORDS: usize = (MOST_CELLS / u64::BITS) as usize;
 /// Lines across the retina side by side.
 const LINES: usize = 8;
 
@@ -25,11 +27,6 @@ pub(super) struct CellRange {
 }
 
 impl CellRange {
-    pub(super) const ALL: Self = Self {
-        columns: (0, CELLS - 1),
-        rows: (0, CELLS - 1),
-    };
-
     /// The cells of both, if any.
     pub(super) fn and(self, other: Self) -> Option<Self> {
         let both = |one: (u32, u32), other: (u32, u32)| (one.0.max(other.0), one.1.min(other.1));
@@ -39,17 +36,36 @@ impl CellRange {
     }
 }
 
-/// The grid of cells of a block, on the retina at distance 1.
+/// The first and the last cells of eight things along an axis.
+type Spans = ([u32; LINES], [u32; LINES]);
+
+/// The grid of cells of a block, on the retina at distance 1. Where rays go through few points, a
+/// cell stands for the point in its middle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid {
     /// The upper left corner.
     corner: DVec2,
     cell: f64,
+    /// One over that.
+    in_cells: f64,
+    /// Cells on a side.
+    pub(super) cells: u32,
+    /// Where in a cell the line of points lies that rays go through; 0 where they go anywhere.
+    middle: f64,
+    /// More than places are off by, in cells.
+    margin: DVec2,
 }
 
 impl Grid {
+    /// Far above all rounding errors, in sums of absolute values.
+    const MARGIN: f64 = 1e-10;
+
     /// The grid of the block that begins at a pixel.
-    pub(super) fn new(view: &View, col: u32, row: u32) -> Self {
+    pub(super) fn new(view: &View, points: Points, col: u32, row: u32) -> Self {
+        let (cells_a_pixel, middle) = match points {
+            Points::Midpoints(samples) if samples.get() <= CELLS_A_PIXEL => (samples.get(), 0.5),
+            _ => (CELLS_A_PIXEL, 0.0),
+        };
         let distance = view.lens.distance * view.zoom;
         let pixel = view.pixel_size();
         let from_middle = |first: u32, pixels: u32| f64::from(first) - 0.5 * f64::from(pixels);
@@ -57,33 +73,110 @@ impl Grid {
             from_middle(col, view.width) * pixel + view.lens.shift.x,
             -from_middle(row, view.height) * pixel + view.lens.shift.y,
         );
+        let corner = corner / distance;
+        let cell = pixel / distance / f64::from(cells_a_pixel);
+        let in_cells = 1.0 / cell;
         Self {
-            corner: corner / distance,
-            cell: pixel / distance / f64::from(CELLS_A_PIXEL),
+            corner,
+            cell,
+            // What is not a number reaches all cells and covers none.
+            in_cells: if in_cells.is_finite() {
+                in_cells
+            } else {
+                f64::NAN
+            },
+            cells: BLOCK * cells_a_pixel,
+            middle,
+            margin: corner.abs() * (Self::MARGIN / cell) + Self::MARGIN,
         }
     }
 
-    /// The cells that reach into a rectangle of the retina, and few others.
+    /// All cells.
+    pub(super) fn all(&self) -> CellRange {
+        CellRange {
+            columns: (0, self.cells - 1),
+            rows: (0, self.cells - 1),
+        }
+    }
+
+    /// The cells that reach into a rectangle of the retina, or have their points there, and few
+    /// others.
     pub(super) fn range(&self, low: DVec2, high: DVec2) -> Option<CellRange> {
-        /// Far above all rounding errors, in sums of absolute values.
-        const MARGIN: f64 = 1e-10;
-        let span = |a: f64, b: f64, size: f64| {
-            let margin = MARGIN * (a.abs() + b.abs() + size / self.cell) + MARGIN;
-            let (low, high) = (a.min(b) - margin, a.max(b) + margin);
-            if high < 0.0 || low >= f64::from(CELLS) {
+        let span = |a: f64, b: f64, margin: f64| {
+            let (low, high) = (a * self.in_cells, b * self.in_cells);
+            let margin = Self::MARGIN * (low.abs() + high.abs()) + margin - self.middle;
+            let (low, high) = (low.min(high) - margin, low.max(high) + margin);
+            if high < 0.0 || low >= f64::from(self.cells) {
                 return None;
             }
             // The casts saturate, and take what is not a number to the first cell.
             let high = if high.is_nan() { f64::INFINITY } else { high };
-            Some((low as u32, (high as u32).min(CELLS - 1)))
+            let (first, last) = (low as u32, (high as u32).min(self.cells - 1));
+            (first <= last).then_some((first, last))
         };
         let across = (low.x - self.corner.x, high.x - self.corner.x);
         let down = (self.corner.y - high.y, self.corner.y - low.y);
-        let size = self.corner.abs();
         Some(CellRange {
-            columns: span(across.0 / self.cell, across.1 / self.cell, size.x)?,
-            rows: span(down.0 / self.cell, down.1 / self.cell, size.y)?,
+            columns: span(across.0, across.1, self.margin.x)?,
+            rows: span(down.0, down.1, self.margin.y)?,
         })
+    }
+}
+
+impl Grid {
+    /// The columns that reach in between places on the retina, or have their points there, and few
+    /// others; where the places are not known, all. Which of the spans are any.
+    #[inline(always)]
+    pub(super) fn columns<S: Simd>(
+        &self,
+        simd: S,
+        low: f64x8<S>,
+        high: f64x8<S>,
+        is_known: mask64x8<S>,
+    ) -> (Spans, mask64x8<S>) {
+        let ends = (low - self.corner.x, high - self.corner.x);
+        self.spans(simd, ends, self.margin.x, is_known)
+    }
+
+    /// The rows in the same way.
+    #[inline(always)]
+    pub(super) fn rows<S: Simd>(
+        &self,
+        simd: S,
+        low: f64x8<S>,
+        high: f64x8<S>,
+        is_known: mask64x8<S>,
+    ) -> (Spans, mask64x8<S>) {
+        let top = f64x8::splat(simd, self.corner.y);
+        self.spans(simd, (top - high, top - low), self.margin.y, is_known)
+    }
+
+    /// As in [`Grid::range`].
+    #[inline(always)]
+    fn spans<S: Simd>(
+        &self,
+        simd: S,
+        (low, high): (f64x8<S>, f64x8<S>),
+        margin: f64,
+        is_known: mask64x8<S>,
+    ) -> (Spans, mask64x8<S>) {
+        let (zero, last) = (
+            f64x8::splat(simd, 0.0),
+            f64x8::splat(simd, f64::from(self.cells - 1)),
+        );
+        let (low, high) = (low * self.in_cells, high * self.in_cells);
+        let margin = (low.abs() + high.abs()) * Self::MARGIN + (margin - self.middle);
+        let (low, high) = ((low - margin).floor(), (high + margin).floor());
+        let is_out = high.simd_lt(zero) | low.simd_gt(last) | low.simd_gt(high);
+        // What is not a number reaches from the first cell to the last.
+        let low = (low.simd_gt(zero) & is_known).select(low, zero);
+        let high = (high.simd_lt(last) & is_known).select(high, last);
+        let (low, high): ([f64; LINES], [f64; LINES]) = (low.into(), high.into());
+        let (mut first, mut end) = ([0; LINES], [0; LINES]);
+        for lane in 0..LINES {
+            (first[lane], end[lane]) = (low[lane] as u32, high[lane] as u32);
+        }
+        ((first, end), !(is_out & is_known))
     }
 }
 
@@ -168,17 +261,20 @@ pub(super) struct Coverage {
 }
 
 impl Coverage {
-    /// Nothing is covered but what lies outside of a picture that ends after so many columns and
-    /// rows of pixels.
-    pub(super) fn new(columns: u32, rows: u32) -> Self {
+    /// Nothing of a grid is covered but what lies outside of a picture that ends after so many
+    /// columns and rows of pixels, of which no more than a block's count.
+    pub(super) fn new(grid: &Grid, columns: u32, rows: u32) -> Self {
+        let cells = grid.cells;
         let mut coverage = Self {
-            rows: vec![[0; WORDS]; CELLS as usize].into_boxed_slice(),
+            rows: vec![[0; WORDS]; cells as usize].into_boxed_slice(),
             level: Level::new(),
         };
-        let (columns, rows) = (columns * CELLS_A_PIXEL, rows * CELLS_A_PIXEL);
-        for row in 0..CELLS {
+        let cells_a_pixel = cells / BLOCK;
+        let columns = columns.min(BLOCK) * cells_a_pixel;
+        let rows = rows.min(BLOCK) * cells_a_pixel;
+        for row in 0..cells {
             let first = if row < rows { columns } else { 0 };
-            coverage.cover(row, first, CELLS);
+            coverage.cover(row, first, cells);
         }
         coverage
     }
@@ -204,26 +300,29 @@ impl Coverage {
         const MARGIN: f64 = 1e-6;
         const STEPS: [f64; LINES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         let zero = f64x8::splat(simd, 0.0);
-        let cells = f64x8::splat(simd, f64::from(CELLS));
+        let cells = f64x8::splat(simd, f64::from(grid.cells));
+        let (margin, middle) = (grid.margin.x + MARGIN, grid.middle);
+        // Of cells that stand for their points one line is met, of others both edges.
+        let edges = if middle > 0.0 { 0 } else { 1 };
         let (mut row, last) = cover.range.rows;
         while row <= last {
-            let lines = f64x8::simd_from(simd, STEPS) + f64::from(row);
+            let lines = f64x8::simd_from(simd, STEPS) + (f64::from(row) + middle);
             let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell;
             let (low, high, is_met) = cover.along(simd, height);
-            let low = (low - grid.corner.x) / grid.cell;
-            let high = (high - grid.corner.x) / grid.cell;
-            let size = (low.abs() + high.abs()) * 1e-9 + MARGIN;
+            let low = (low - grid.corner.x) * grid.in_cells;
+            let high = (high - grid.corner.x) * grid.in_cells;
+            let size = (low.abs() + high.abs()) * 1e-9 + (margin - middle);
             let is_met = is_met & size.simd_lt(f64::INFINITY);
             let first = is_met.select((low + size).ceil().max(zero).min(cells), cells);
             let end = is_met.select((high - size).floor().max(zero).min(cells), zero);
             let (first, end): ([f64; LINES], [f64; LINES]) = (first.into(), end.into());
             // The outline is convex: what is inside at both ends of an upright line is inside.
-            for line in 0..LINES - 1 {
+            for line in 0..LINES - edges {
                 if row > last {
                     break;
                 }
-                let first = first[line].max(first[line + 1]) as u32;
-                let end = end[line].min(end[line + 1]) as u32;
+                let first = first[line].max(first[line + edges]) as u32;
+                let end = end[line].min(end[line + edges]) as u32;
                 if first < end {
                     self.cover(row, first, end);
                 }

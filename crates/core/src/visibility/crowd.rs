@@ -4,12 +4,14 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use glam::{DMat3, DVec2, DVec3};
+use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-use super::coverage::{BLOCK, CELLS, CellRange, Cover, Coverage, Grid};
+use super::Points;
+use super::coverage::{BLOCK, CellRange, Cover, Coverage, Grid};
+use super::eight::Eye;
 use super::frustum::InCamera;
-use crate::hierarchy::{Boxes, Child, Hierarchy, Node, WIDTH, is_sphere};
+use crate::hierarchy::{Hierarchy, Node, WIDTH, is_sphere};
 use crate::sphere::Ball;
 use crate::{Sphere, Tile, View};
 
@@ -22,8 +24,8 @@ pub(super) struct Crowd {
     blocks: Vec<Block>,
 }
 
-/// The spheres of a block of pixels. Each tile has a list of places in the order in which they begin;
-/// odd balls, of which that is not known, come in the order of boxes around them.
+/// The spheres of a block of pixels. Each tile has a list of places in the order in which they begin,
+/// by what was known of that when they were found.
 #[derive(Clone, Debug)]
 struct Block {
     /// Those of the first tile, those that the second one has besides, and so on: what is read
@@ -43,8 +45,9 @@ struct Search<'a> {
     /// Lengths of the world times 2 to the power of minus this are those of the balls.
     exponent: i32,
     scale: f64,
-    camera_from_world: DMat3,
+    eye: Eye,
     tile_side: u32,
+    points: Points,
 }
 
 impl Crowd {
@@ -54,17 +57,19 @@ impl Crowd {
         hierarchy: &Hierarchy,
         view: &View,
         exponent: i32,
-        tile_side: u32,
+        (tile_side, points): (u32, Points),
     ) -> Self {
         assert!(BLOCK.is_multiple_of(tile_side), "tiles fill blocks");
+        let scale = libm::scalbn(1.0, -exponent);
         let search = Search {
             spheres,
             hierarchy,
             view,
             exponent,
-            scale: libm::scalbn(1.0, -exponent),
-            camera_from_world: view.camera.world_from_camera.transpose(),
+            scale,
+            eye: Eye::new(view, scale),
             tile_side,
+            points,
         };
         let (columns, rows) = (view.width.div_ceil(BLOCK), view.height.div_ceil(BLOCK));
         let blocks = (0..columns as usize * rows as usize).into_par_iter();
@@ -99,28 +104,40 @@ impl Crowd {
 }
 
 /// Something that comes no nearer than the number in front, by its bits: a node or, with
-/// [`SPHERE`] for a level, a sphere by its place among the copies.
+/// [`GROUP`] for a level, a group of spheres, or with [`SPHERE`] a sphere by its place among those found.
 type Waiting = Reverse<(u64, u32, u32)>;
 
+const GROUP: u32 = u32::MAX - 1;
 const SPHERE: u32 = u32::MAX;
 
-/// What is open in a block. Spheres are copied as they are found: in the world they are far apart.
+/// What is open in a block.
 #[derive(Default)]
 struct Open {
     waiting: BinaryHeap<Waiting>,
-    copies: Vec<(u32, Sphere)>,
+    found: Vec<Found>,
+}
+
+/// A sphere that may be seen, as far as it is known without the sphere itself: in the world they are
+/// far apart, and it takes long to get at one.
+struct Found {
+    index: u32,
+    /// The bits of what it comes no nearer than.
+    nearest: u64,
+    range: CellRange,
+    /// Of a sphere inside of it, in the camera's frame.
+    center: DVec3,
+    radius: f64,
 }
 
 impl Search<'_> {
     fn block(&self, col: u32, row: u32) -> Block {
-        let grid = Grid::new(self.view, col, row);
-        let (width, height) = (self.view.width - col, self.view.height - row);
-        let mut coverage = Coverage::new(width.min(BLOCK), height.min(BLOCK));
+        let grid = Grid::new(self.view, self.points, col, row);
+        let mut coverage = Coverage::new(&grid, self.view.width - col, self.view.height - row);
         let mut open = Open::default();
         // What covers whatever begins behind its farthest point.
         let mut covers: Vec<Cover> = Vec::new();
         let mut pending: BinaryHeap<Reverse<(u64, u32)>> = BinaryHeap::new();
-        // The places of copies.
+        // The places of those found.
         let mut kept: Vec<u32> = Vec::new();
         // Tile and place.
         let mut listed: Vec<(u32, u32)> = Vec::new();
@@ -138,27 +155,27 @@ impl Search<'_> {
                 has_grown = true;
             }
             // All that waits begins behind all that covers.
-            if has_grown && coverage.is_covered(CellRange::ALL) {
+            if has_grown && coverage.is_covered(grid.all()) {
                 break;
+            }
+            if level == GROUP {
+                self.open_group(index, nearest, &grid, &coverage, &mut open);
+                continue;
             }
             if level != SPHERE {
                 let node = Node { level, index };
                 self.open(node, nearest, &grid, &coverage, &mut open);
                 continue;
             }
-            let sphere = &open.copies[index as usize].1;
-            let Some(range) = self.range(sphere, &grid) else {
-                continue;
-            };
+            let found = &open.found[index as usize];
             let place = kept.len() as u32;
             let count = listed.len();
-            self.list(range, place, &coverage, &mut listed);
+            self.list(found.range, place, (&grid, &coverage), &mut listed);
             if listed.len() == count {
                 continue;
             }
             kept.push(index);
-            let center = self.camera_from_world * self.offset(sphere);
-            if let Some(cover) = Cover::new(center, sphere.radius() * self.scale, range) {
+            if let Some(cover) = Cover::new(found.center, found.radius, found.range) {
                 pending.push(Reverse((
                     rising_bits(cover.farthest()),
                     covers.len() as u32,
@@ -169,106 +186,98 @@ impl Search<'_> {
         let viewpoint = self.view.camera.position;
         let (starts, mut places) = self.sorted(&listed);
         let kept = gathered(&mut places, &kept);
-        let kept = kept.iter().map(|&copy| {
-            let (index, sphere) = &open.copies[copy as usize];
-            (*index, sphere)
-        });
+        let kept = kept.iter().map(|&found| &open.found[found as usize]);
+        // One after the other they would be waited for one by one.
+        let copies = kept.clone().map(|found| self.spheres[found.index as usize]);
+        let copies: Vec<Sphere> = copies.collect();
+        let spheres = kept.clone().map(|found| found.index).zip(&copies);
+        let mut balls = Ball::all(spheres, viewpoint, self.exponent);
+        for (ball, found) in balls.iter_mut().zip(kept) {
+            ball.nearest = of_rising_bits(found.nearest);
+        }
         Block {
-            balls: Ball::all(kept, viewpoint, self.exponent),
+            balls,
             starts,
             places,
         }
     }
 
-    /// From the eye to the center, in the lengths of the balls.
-    fn offset(&self, sphere: &Sphere) -> DVec3 {
-        (sphere.center() - self.view.camera.position) * self.scale
-    }
-
     /// Puts what a node holds among what waits, as far as it may be seen.
     fn open(&self, node: Node, nearest: u64, grid: &Grid, coverage: &Coverage, open: &mut Open) {
-        let boxes = self.hierarchy.boxes(node);
-        for place in 0..WIDTH {
-            let Some((begin, range)) = self.see(boxes, place, grid) else {
+        let eight = self.eye.boxes(self.hierarchy.boxes(node), grid);
+        for place in places(eight.may) {
+            if coverage.is_covered(eight.range(place)) {
                 continue;
+            }
+            let begin = rising_bits(eight.begin[place]).max(nearest);
+            let index = node.index * WIDTH as u32 + place as u32;
+            let level = node.level.checked_sub(1).unwrap_or(GROUP);
+            open.waiting.push(Reverse((begin, level, index)));
+        }
+    }
+
+    /// Puts the spheres of a group among what waits, as far as they may be seen.
+    fn open_group(
+        &self,
+        group: u32,
+        nearest: u64,
+        grid: &Grid,
+        coverage: &Coverage,
+        open: &mut Open,
+    ) {
+        /// What a sphere may be smaller by, relatively, to be taken for itself.
+        const SMALLER: f64 = 1.0 / 256.0;
+        let spheres = self.hierarchy.group(group);
+        let eight = self.eye.spheres(spheres, grid);
+        let indices = self.hierarchy.indices(group);
+        for place in places(eight.may) {
+            let index = indices[place];
+            if !is_sphere(index) || coverage.is_covered(eight.range(place)) {
+                continue;
+            }
+            let (radius, excess) = (f64::from(spheres.radius[place]), spheres.excess(place));
+            let found = if excess < SMALLER * radius {
+                Found {
+                    index,
+                    nearest: rising_bits(eight.begin[place]),
+                    range: eight.range(place),
+                    center: eight.center(place),
+                    radius: (radius - excess) * self.scale,
+                }
+            } else {
+                let Some(found) = self.find(index, grid) else {
+                    continue;
+                };
+                found
             };
-            if coverage.is_covered(range) {
-                continue;
-            }
-            match self.hierarchy.child(node, place) {
-                Child::Node(child) => {
-                    let begin = begin.max(nearest);
-                    open.waiting
-                        .push(Reverse((begin, child.level, child.index)));
-                }
-                Child::Spheres(indices) => {
-                    let first = open.copies.len();
-                    // One after the other they would be waited for one by one.
-                    for &index in indices.iter().filter(|&&index| is_sphere(index)) {
-                        open.copies.push((index, self.spheres[index as usize]));
-                    }
-                    for (copy, (_, sphere)) in (first as u32..).zip(&open.copies[first..]) {
-                        let radius = sphere.radius() * self.scale;
-                        let begin = rising_bits(Ball::nearest(self.offset(sphere), radius));
-                        open.waiting.push(Reverse((begin, SPHERE, copy)));
-                    }
-                }
-            }
+            let nearest = found.nearest.max(nearest);
+            let number = open.found.len() as u32;
+            open.waiting.push(Reverse((nearest, SPHERE, number)));
+            open.found.push(Found { nearest, ..found });
         }
     }
 
-    /// Where a box begins, and which cells it may be seen in.
-    fn see(&self, boxes: &Boxes, place: usize, grid: &Grid) -> Option<(u64, CellRange)> {
-        /// More than rounding moves the box by, and the distances to the spheres in it. (Sums of
-        /// neighbors in single precision are exact: the middle is rounded where the box is wide.)
-        const MARGIN: f64 = 1e-9;
-        let low = DVec3::from_array(boxes.low.map(|axis| f64::from(axis[place])));
-        let high = DVec3::from_array(boxes.high.map(|axis| f64::from(axis[place])));
-        if low.x > high.x {
-            return None;
-        }
-        let middle = 0.5 * (low + high) - self.view.camera.position;
-        let center = self.camera_from_world * (middle * self.scale);
-        let half = 0.5 * (high - low) * self.scale;
-        let turned = self.camera_from_world;
-        let half = turned.x_axis.abs() * half.x
-            + turned.y_axis.abs() * half.y
-            + turned.z_axis.abs() * half.z;
-        let size = center.abs().element_sum() + half.element_sum();
-        let half = half + MARGIN * size;
-        if !size.is_finite() {
-            // Whatever single precision cannot hold may be anywhere.
-            return Some((0, CellRange::ALL));
-        }
-        let beyond = (center.abs() - half).max(DVec3::ZERO);
-        let begin = rising_bits(beyond.length() - MARGIN * size);
-        let (low, high) = (center - half, center + half);
-        if high.z < 0.0 {
-            return None;
-        }
-        if low.z <= MARGIN * size {
-            return Some((begin, CellRange::ALL));
-        }
-        let least = |x: f64| x / if x < 0.0 { low.z } else { high.z };
-        let most = |x: f64| x / if x > 0.0 { low.z } else { high.z };
-        let range = grid.range(
-            DVec2::new(least(low.x), least(low.y)),
-            DVec2::new(most(high.x), most(high.y)),
-        )?;
-        Some((begin, range))
-    }
-
-    /// The cells that a sphere may be seen in.
-    fn range(&self, sphere: &Sphere, grid: &Grid) -> Option<CellRange> {
+    /// A sphere that single precision says too little of, if it may be seen.
+    #[cold]
+    fn find(&self, index: u32, grid: &Grid) -> Option<Found> {
+        let sphere = &self.spheres[index as usize];
+        let offset = self.eye.offset(sphere.center());
         let radius = sphere.radius() * self.scale;
-        let in_camera = InCamera::new(self.offset(sphere), radius, self.view);
+        let in_camera = InCamera::new(offset, radius, self.view);
         if in_camera.is_behind() {
             return None;
         }
-        match in_camera.outline() {
-            Some((low, high)) => grid.range(low, high),
-            None => Some(CellRange::ALL),
-        }
+        let range = match in_camera.outline() {
+            Some((low, high)) => grid.range(low, high)?,
+            None => grid.all(),
+        };
+        Some(Found {
+            index,
+            nearest: rising_bits(Ball::nearest(offset, radius)),
+            range,
+            center: self.eye.turned(offset),
+            radius,
+        })
     }
 
     /// Lists a sphere in the tiles in which some of its cells are open.
@@ -276,11 +285,11 @@ impl Search<'_> {
         &self,
         range: CellRange,
         place: u32,
-        coverage: &Coverage,
+        (grid, coverage): (&Grid, &Coverage),
         listed: &mut Vec<(u32, u32)>,
     ) {
         let tiles = BLOCK / self.tile_side;
-        let side = CELLS / tiles;
+        let side = grid.cells / tiles;
         for row in range.rows.0 / side..=range.rows.1 / side {
             for column in range.columns.0 / side..=range.columns.1 / side {
                 let tile = CellRange {
@@ -334,6 +343,21 @@ fn gathered(places: &mut [u32], old: &[u32]) -> Vec<u32> {
         *place = *number;
     }
     new
+}
+
+/// The number with such bits.
+fn of_rising_bits(bits: u64) -> f64 {
+    const SIGN: u64 = 1 << 63;
+    f64::from_bits(if bits & SIGN == 0 { !bits } else { bits ^ SIGN })
+}
+
+/// The places of the bits that are set.
+fn places(mut bits: u8) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let place = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (place < WIDTH).then_some(place)
+    })
 }
 
 /// Bits that rise with the number.

@@ -62,7 +62,7 @@ struct Axis {
 }
 
 /// A sphere this much nearer than its radius to the eye's plane has ends too far out.
-const CLEAR: f64 = 1.0 + 1.0 / 64.0;
+pub(super) const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
 /// First and last tile.
 type Span = (u32, u32);

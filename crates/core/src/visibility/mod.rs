@@ -9,12 +9,14 @@ mod casters;
 mod coverage;
 mod crowd;
 mod discs;
+mod eight;
 mod frustum;
 mod seen;
 
 pub(crate) use discs::Disc;
 pub(crate) use seen::{Candidate, Seen};
 
+use std::num::NonZeroU32;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
@@ -31,6 +33,15 @@ const MODERATE: Range<f64> = 1e-35..1e35;
 /// So many spheres are searched from front to back: most of them are hidden, or not in the picture.
 const CROWD: usize = 1 << 15;
 
+/// Through which points of the retina rays go.
+#[derive(Clone, Copy, Debug)]
+enum Points {
+    /// Any.
+    All,
+    /// The midpoints of an N × N division of every pixel.
+    Midpoints(NonZeroU32),
+}
+
 /// Answers whether a sphere stands between a point and a light.
 #[derive(Clone, Debug)]
 pub(crate) struct Visibility<'world> {
@@ -44,6 +55,16 @@ pub(crate) struct Visibility<'world> {
     discs: Vec<Box<[OnceLock<Remembered>]>>,
     /// Whether squares of all lengths are far from over- and underflow.
     is_moderate: bool,
+    extent: Extent,
+}
+
+/// Bounds of all spheres together.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    /// The least and the greatest coordinates of centers; infinite where there are none.
+    low: DVec3,
+    high: DVec3,
+    largest_radius: f64,
 }
 
 impl<'world> Visibility<'world> {
@@ -68,16 +89,30 @@ impl<'world> Visibility<'world> {
             0
         };
         let unasked = || (0..remembering).map(|_| OnceLock::new()).collect();
-        let is_moderate = spheres.iter().all(|sphere| {
-            let largest = sphere.center().abs().max_element();
-            MODERATE.contains(&sphere.radius()) && largest < MODERATE.end
-        });
+        let mut extent = Extent {
+            low: DVec3::INFINITY,
+            high: DVec3::NEG_INFINITY,
+            largest_radius: 0.0,
+        };
+        let mut smallest_radius = f64::INFINITY;
+        for sphere in spheres {
+            extent.low = extent.low.min(sphere.center());
+            extent.high = extent.high.max(sphere.center());
+            extent.largest_radius = extent.largest_radius.max(sphere.radius());
+            smallest_radius = smallest_radius.min(sphere.radius());
+        }
+        let largest = extent.low.abs().max(extent.high.abs()).max_element();
+        let is_moderate = spheres.is_empty()
+            || MODERATE.contains(&smallest_radius)
+                && MODERATE.contains(&extent.largest_radius)
+                && largest < MODERATE.end;
         Self {
             spheres,
             hierarchy,
             casters,
             discs: lights.iter().map(|_| unasked()).collect(),
             is_moderate,
+            extent,
         }
     }
 

@@ -1,5 +1,6 @@
 //! What a view sees of a world.
 
+use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
 use std::slice;
 
@@ -7,10 +8,10 @@ use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
-use super::Visibility;
 use super::bins::{Bins, Places};
 use super::crowd::{Crowd, rising_bits};
 use super::frustum::{Frustum, InCamera, TileRange};
+use super::{Extent, Points, Visibility};
 use crate::Tile;
 use crate::hierarchy::Hierarchy;
 use crate::sphere::{Ball, Relative};
@@ -79,23 +80,37 @@ pub(crate) struct Candidate {
 impl<'world> Seen<'world> {
     /// Finds out what a view with tiles of this side may see where.
     pub(crate) fn new(visibility: &'world Visibility<'world>, view: &View, tile_side: u32) -> Self {
-        Self::with_hierarchy(visibility, view, tile_side, visibility.crowd())
+        let tiles = (tile_side, Points::All);
+        Self::with_hierarchy(visibility, view, tiles, visibility.crowd())
+    }
+
+    /// Finds out what a view may see by no other rays than those through the midpoints of a division
+    /// of every pixel into `samples` × `samples` cells.
+    pub(crate) fn by_samples(
+        visibility: &'world Visibility<'world>,
+        view: &View,
+        tile_side: u32,
+        samples: NonZeroU32,
+    ) -> Self {
+        let tiles = (tile_side, Points::Midpoints(samples));
+        Self::with_hierarchy(visibility, view, tiles, visibility.crowd())
     }
 
     /// Finds it out by a hierarchy of the spheres, or by asking one after the other.
     pub(super) fn with_hierarchy(
         visibility: &'world Visibility<'world>,
         view: &View,
-        tile_side: u32,
+        (tile_side, points): (u32, Points),
         hierarchy: Option<&Hierarchy>,
     ) -> Self {
         let viewpoint = view.camera.position;
         let spheres = visibility.spheres;
         // The power of two and its inverse are doubles; whatever is lost makes odd balls.
-        let length_exponent = libm::ilogb(largest_size(spheres, viewpoint)).clamp(-1000, 1000);
+        let length_exponent = libm::ilogb(visibility.largest_size(viewpoint)).clamp(-1000, 1000);
         let lists = match hierarchy {
             Some(hierarchy) => {
-                let crowd = Crowd::new(spheres, hierarchy, view, length_exponent, tile_side);
+                let tiles = (tile_side, points);
+                let crowd = Crowd::new(spheres, hierarchy, view, length_exponent, tiles);
                 Lists::Many(crowd)
             }
             None => Lists::few(spheres, view, length_exponent, tile_side),
@@ -268,15 +283,25 @@ struct Visible {
     range: TileRange,
 }
 
-/// The largest finite radius or coordinate of a center as seen from the viewpoint.
-fn largest_size(spheres: &[Sphere], viewpoint: DVec3) -> f64 {
-    let size = |sphere: &Sphere| {
-        let to_center = (sphere.center() - viewpoint).abs().max_element();
-        to_center.max(sphere.radius())
-    };
-    spheres
-        .iter()
-        .map(size)
-        .filter(|size| size.is_finite())
-        .fold(0.0, f64::max)
+impl Visibility<'_> {
+    /// The largest finite radius or coordinate of a center as seen from the viewpoint.
+    fn largest_size(&self, viewpoint: DVec3) -> f64 {
+        let Extent {
+            low,
+            high,
+            largest_radius,
+        } = self.extent;
+        // Differences round in the order of the numbers: none is larger than that of a bound.
+        let farthest = (low - viewpoint).abs().max((high - viewpoint).abs());
+        let largest = farthest.max_element().max(largest_radius);
+        if largest.is_finite() {
+            return largest;
+        }
+        let size = |sphere: &Sphere| {
+            let to_center = (sphere.center() - viewpoint).abs().max_element();
+            to_center.max(sphere.radius())
+        };
+        let sizes = self.spheres.iter().map(size);
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+    }
 }

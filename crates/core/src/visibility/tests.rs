@@ -107,6 +107,44 @@ fn cells_and_edges(tile: Tile) -> Vec<(u64, u64)> {
         .collect()
 }
 
+/// Asks at the midpoints of divisions of every pixel, as a crowd that is asked nowhere else.
+fn midpoints_agree(few: &Seen<'_>, view: &View, hierarchy: Option<&Hierarchy>) {
+    for divisions in 1..=5 {
+        let samples = NonZeroU32::new(divisions).unwrap();
+        let tiles = (SIDE, Points::Midpoints(samples));
+        let crowd = Seen::with_hierarchy(few.visibility, view, tiles, hierarchy);
+        for tile in tiles_of(view) {
+            let lists = [few.candidates(tile), crowd.candidates(tile)];
+            let cells = |first: u32, count: u32| {
+                let cell = u64::from(first) * u64::from(divisions);
+                cell..cell + u64::from(count) * u64::from(divisions)
+            };
+            for row in cells(tile.row, tile.height) {
+                for col in cells(tile.col, tile.width) {
+                    let ray = view.ray(view.cell_center(col, row, divisions));
+                    let [one, other] = [(few, &lists[0]), (&crowd, &lists[1])]
+                        .map(|(seen, list)| seen.nearest(list, ray.direction));
+                    assert_eq!(one, other, "{divisions} × {divisions}");
+                }
+            }
+        }
+    }
+}
+
+/// The tiles of a picture.
+fn tiles_of(view: &View) -> impl Iterator<Item = Tile> {
+    let View { width, height, .. } = *view;
+    let corners = (0..height)
+        .step_by(SIDE as usize)
+        .flat_map(move |row| (0..width).step_by(SIDE as usize).map(move |col| (col, row)));
+    corners.map(move |(col, row)| Tile {
+        col,
+        row,
+        width: SIDE.min(width - col),
+        height: SIDE.min(height - row),
+    })
+}
+
 /// Asks for every pixel of some views, and from every point that they see for every light.
 fn agrees_with_asking_all(world: &World, random: &mut Random) {
     let spheres = world.spheres();
@@ -117,17 +155,9 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
         // Whatever their number, but for sizes whose squares are no numbers.
         let crowd = visibility.hierarchy.as_deref();
         let crowd = crowd.filter(|_| visibility.is_moderate());
-        let crowd = Seen::with_hierarchy(&visibility, &view, SIDE, crowd);
-        for (row, col) in (0..view.height)
-            .step_by(8)
-            .flat_map(|row| (0..view.width).step_by(8).map(move |col| (row, col)))
-        {
-            let tile = Tile {
-                col,
-                row,
-                width: SIDE.min(view.width - col),
-                height: SIDE.min(view.height - row),
-            };
+        midpoints_agree(&few, &view, crowd);
+        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), crowd);
+        for tile in tiles_of(&view) {
             let candidates = few.candidates(tile);
             let in_crowd = crowd.candidates(tile);
             for cell in cells_and_edges(tile) {
@@ -191,27 +221,24 @@ fn crowds_leave_out_what_is_hidden() {
         (view.width, view.height) = (150, 90);
         let few = Seen::new(&visibility, &view, SIDE);
         let hierarchy = visibility.hierarchy.as_deref();
-        let crowd = Seen::with_hierarchy(&visibility, &view, SIDE, hierarchy);
-        let (mut listed, mut left) = (0, 0);
-        for row in (0..view.height).step_by(SIDE as usize) {
-            for col in (0..view.width).step_by(SIDE as usize) {
-                let tile = Tile {
-                    col,
-                    row,
-                    width: SIDE.min(view.width - col),
-                    height: SIDE.min(view.height - row),
-                };
-                let lists = [few.candidates(tile), crowd.candidates(tile)];
-                (listed, left) = (listed + lists[0].len(), left + lists[1].len());
-                for cell in cells_and_edges(tile) {
-                    let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                    let [one, other] = [(&few, &lists[0]), (&crowd, &lists[1])]
-                        .map(|(seen, list)| seen.nearest(list, ray.direction));
-                    assert_eq!(one, other);
-                }
+        midpoints_agree(&few, &view, hierarchy);
+        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), hierarchy);
+        let once = Points::Midpoints(NonZeroU32::MIN);
+        let sampled = Seen::with_hierarchy(&visibility, &view, (SIDE, once), hierarchy);
+        let (mut listed, mut left, mut left_once) = (0, 0, 0);
+        for tile in tiles_of(&view) {
+            let lists = [few.candidates(tile), crowd.candidates(tile)];
+            (listed, left) = (listed + lists[0].len(), left + lists[1].len());
+            left_once += sampled.candidates(tile).len();
+            for cell in cells_and_edges(tile) {
+                let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
+                let [one, other] = [(&few, &lists[0]), (&crowd, &lists[1])]
+                    .map(|(seen, list)| seen.nearest(list, ray.direction));
+                assert_eq!(one, other);
             }
         }
         assert!(2 * left < listed && left > 100, "{left} of {listed}");
+        assert!(left_once < left && left_once > 100, "{left_once} of {left}");
     }
 }
 

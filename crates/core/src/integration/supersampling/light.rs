@@ -4,7 +4,6 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
 use super::lanes::{LANES, Vectors, lanes_of};
-use super::near::Near;
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
@@ -190,12 +189,12 @@ struct Look<'scene> {
 }
 
 impl<'scene> Looks<'scene> {
-    /// One look: that of the world's only material, or any.
-    pub(super) fn new(shading: &'scene Shading<'_>, near: &Near) -> Self {
-        let finish = &shading.finishes[near.material as usize];
+    /// One look: that of the world's only material, or any, where there is a sphere.
+    pub(super) fn new(shading: &'scene Shading<'_>) -> Self {
+        let finish = &shading.finishes[0];
         let look = Look {
             finish,
-            number: near.material,
+            number: 0,
             lanes: 0,
         };
         Self {
@@ -217,7 +216,7 @@ impl<'scene> Looks<'scene> {
         self.count = 0;
         self.has_highlight = false;
         for group in groups.as_slice() {
-            let number = group.near.material;
+            let number = shading.world.material_index(group.near.ball.index as usize);
             let known = &mut self.list[..self.count];
             if let Some(look) = known.iter_mut().find(|look| look.number == number) {
                 look.lanes |= group.lanes;

@@ -155,7 +155,7 @@ impl<'scene> Supersampling<'scene> {
         let world = self.shading.world;
         let bundle = self.rays.bundle(tile);
         let cells = self.rays.cells_on_unit();
-        nearby.gather(simd, (world, cells), &bundle, self.seen.balls(tile));
+        nearby.gather(simd, cells, &bundle, self.seen.balls(tile));
         let first = nearby.balls.first()?;
         let mut tracer = Tracer {
             seen: self.seen,
@@ -166,7 +166,7 @@ impl<'scene> Supersampling<'scene> {
             candidates: Vec::new(),
         };
         let mut groups = Groups::new(first);
-        let mut looks = Looks::new(&self.shading, first);
+        let mut looks = Looks::new(&self.shading);
         let mut shadows = world.shadows.then(|| {
             let length = libm::scalbn(1.0, self.seen.length_exponent());
             Shadows::new(self.seen.visibility, self.view.camera.position, length)

@@ -7,7 +7,6 @@ use fearless_simd::{Simd, f64x8};
 
 use super::lanes::{LANES, Vectors, lanes_of};
 use super::rays::{Bundle, Cone, Rows};
-use crate::World;
 use crate::sphere::Ball;
 
 /// A ball with what every ray asks of it.
@@ -22,7 +21,6 @@ pub(super) struct Near {
     pub(super) rim: f64,
     /// −1 where rays meet the outer side, at the near root; 1 where they start inside.
     pub(super) root_sign: f64,
-    pub(super) material: u32,
     /// About how many samples the ball covers, if nothing is in front of it.
     pub(super) samples: f64,
     /// The rows of the tile that the ball may be seen in, as bits.
@@ -35,7 +33,7 @@ const RIM: f64 = 1.0 / 4096.0;
 impl Near {
     /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1.
     #[inline(always)]
-    fn new(world: &World, ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
+    fn new(ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
         let radius_sq = ball.radius * ball.radius;
         let length = if ball.nearest > 0.0 {
             bundle.shortest
@@ -53,7 +51,6 @@ impl Near {
                 RIM * radius_sq
             },
             root_sign: if ball.outside < 0.0 { 1.0 } else { -1.0 },
-            material: world.material_index(ball.index as usize),
             samples: PI * (cells * cells) * (radius_sq / ball.outside.abs()),
             rows,
         }
@@ -77,7 +74,7 @@ impl Nearby {
     pub(super) fn gather<'a, S: Simd>(
         &mut self,
         simd: S,
-        (world, cells): (&World, f64),
+        cells: f64,
         bundle: &Bundle,
         mut balls: impl Iterator<Item = &'a Ball>,
     ) {
@@ -113,7 +110,7 @@ impl Nearby {
                 kept &= kept - 1;
                 let (ball, rows) = (group[lane], rows[lane]);
                 if ball.nearest <= farthest && rows != 0 {
-                    self.balls.push(Near::new(world, ball, bundle, cells, rows));
+                    self.balls.push(Near::new(ball, bundle, cells, rows));
                     blur = blur.max(ball.blur);
                 }
             }
