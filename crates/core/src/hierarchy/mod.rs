@@ -36,14 +36,6 @@ pub(crate) struct Node {
     pub(crate) index: u32,
 }
 
-/// What a box of a node holds.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Child<'tree> {
-    Node(Node),
-    /// Indices of spheres; [`is_sphere`] tells the places that hold one.
-    Spheres(&'tree [u32]),
-}
-
 impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
@@ -111,22 +103,11 @@ impl Hierarchy {
         &self.order[group as usize * WIDTH..][..WIDTH]
     }
 
-    /// What one of the boxes of a node holds.
-    pub(crate) fn child(&self, node: Node, place: usize) -> Child<'_> {
-        let index = node.index as usize * WIDTH + place;
-        if node.level == 0 {
-            Child::Spheres(&self.order[index * WIDTH..][..WIDTH])
-        } else {
-            Child::Node(Node {
-                level: node.level - 1,
-                index: index as u32,
-            })
-        }
-    }
-
-    /// Whether something `holds` for any of the spheres whose boxes, and those around them, may matter, and
-    /// of others too: `look` says of the boxes of a node which ones do. Each is asked once, and none
-    /// after one for which it holds. Of siblings those are asked first that come first by their keys.
+    /// Whether something `holds` for any of the groups of spheres whose boxes, and those around them,
+    /// may matter, and of others too: `look` says of the boxes of a node which ones do. Each is asked
+    /// once, and none after one for which it holds. Of siblings those are asked first that come first
+    /// by their keys.
+    #[inline(always)]
     pub(crate) fn any(
         &self,
         mut look: impl FnMut(&Boxes) -> Look,
@@ -161,17 +142,15 @@ impl Hierarchy {
             // What is put last among those that wait is taken first.
             let first = count;
             for &place in &places[..known] {
-                match self.child(node, place) {
-                    Child::Node(child) => {
-                        waiting[count] = child;
-                        count += 1;
-                    }
-                    Child::Spheres(indices) => {
-                        let mut spheres = indices.iter().filter(|&&index| is_sphere(index));
-                        if spheres.any(|&index| holds(index)) {
-                            return true;
-                        }
-                    }
+                let index = node.index * WIDTH as u32 + place as u32;
+                if node.level > 0 {
+                    waiting[count] = Node {
+                        level: node.level - 1,
+                        index,
+                    };
+                    count += 1;
+                } else if holds(index) {
+                    return true;
                 }
             }
             waiting[first..count].reverse();

@@ -22,8 +22,9 @@ fn found(hierarchy: &Hierarchy, low: DVec3, high: DVec3) -> Vec<u32> {
             keys: [0.0; WIDTH],
         }
     };
-    hierarchy.any(may, |index| {
-        found.push(index);
+    hierarchy.any(may, |group| {
+        let indices = hierarchy.indices(group).iter().copied();
+        found.extend(indices.filter(|&index| is_sphere(index)));
         false
     });
     let count = found.len();

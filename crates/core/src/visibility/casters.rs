@@ -6,11 +6,12 @@
 use std::sync::Arc;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
+use super::eight::doubles;
 use crate::Sphere;
-use crate::hierarchy::{Boxes, Hierarchy, Look, WIDTH};
+use crate::hierarchy::{Boxes, Group, Hierarchy, Look, is_sphere};
 use crate::rounding::UNIT_ROUNDOFF;
 
 /// Which discs a point of the plane may lie in.
@@ -64,10 +65,7 @@ impl<'world> Casters<'world> {
             high: center + around,
             lowest: self.height(point) - around,
         };
-        self.hierarchy.any(
-            |boxes| self.reaching(boxes, &shaft),
-            |index| self.reaches(index, &shaft) && holds(index as usize),
-        )
+        self.any_in(&shaft, &mut holds)
     }
 
     /// Appends the indices of all spheres that [`Self::any_within`] asks, in their order.
@@ -114,33 +112,66 @@ impl<'world> Casters<'world> {
             (shaft.low, shaft.high) = (DVec2::NEG_INFINITY, DVec2::INFINITY);
             shaft.lowest = f64::NEG_INFINITY;
         }
-        self.hierarchy.any(
-            |boxes| self.reaching(boxes, &shaft),
-            |index| self.reaches(index, &shaft) && holds(index as usize),
-        )
+        self.any_in(&shaft, &mut holds)
     }
 
-    /// Which boxes may reach into a shaft; those first that begin lowest.
-    fn reaching(&self, boxes: &Boxes, shaft: &Shaft) -> Look {
-        dispatch!(self.level, simd => self.reaching_lanes(simd, boxes, shaft))
+    /// Whether something holds for any sphere that may reach into a shaft.
+    fn any_in(&self, shaft: &Shaft, holds: &mut dyn FnMut(usize) -> bool) -> bool {
+        dispatch!(self.level, simd => self.any_lanes(simd, shaft, holds))
     }
 
     #[inline(always)]
-    fn reaching_lanes<S: Simd>(&self, simd: S, boxes: &Boxes, shaft: &Shaft) -> Look {
-        /// Four times what rounding moves the spheres inside by: also the projections of the box.
-        const SLACK: f64 = 4.0 * 32.0 * UNIT_ROUNDOFF;
+    fn any_lanes<S: Simd>(
+        &self,
+        simd: S,
+        shaft: &Shaft,
+        holds: &mut dyn FnMut(usize) -> bool,
+    ) -> bool {
+        self.hierarchy.any(
+            |boxes| self.reaching(simd, boxes, shaft),
+            |number| {
+                let mut left = self.reaching_of(simd, self.hierarchy.group(number), shaft);
+                let indices = self.hierarchy.indices(number);
+                while left != 0 {
+                    let index = indices[left.trailing_zeros() as usize];
+                    left &= left - 1;
+                    if is_sphere(index) && self.reaches(index, shaft) && holds(index as usize) {
+                        return true;
+                    }
+                }
+                false
+            },
+        )
+    }
+
+    /// Which spheres of a group may reach into a shaft; places without a sphere may seem to.
+    #[inline(always)]
+    fn reaching_of<S: Simd>(&self, simd: S, group: &Group, shaft: &Shaft) -> u8 {
+        let zero = f64x8::splat(simd, 0.0);
+        let (mut x, mut y, mut z) = (zero, zero, zero);
+        let radius = doubles(simd, &group.radius);
+        let mut size = radius;
+        for axis in 0..3 {
+            let center = doubles(simd, &group.center[axis]);
+            x += center * self.right[axis];
+            y += center * self.up[axis];
+            z += center * self.toward[axis];
+            size += center.abs();
+        }
+        let radius = radius + (size * SLACK + f64::MIN_POSITIVE);
+        !(beyond(shaft, [x, y, z], [radius; 3]).to_bitmask() as u8)
+    }
+
+    /// Which boxes may reach into a shaft; those first that begin lowest.
+    #[inline(always)]
+    fn reaching<S: Simd>(&self, simd: S, boxes: &Boxes, shaft: &Shaft) -> Look {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
         let (mut wide, mut tall, mut deep) = (zero, zero, zero);
         let mut size = zero;
         for axis in 0..3 {
-            let (mut low, mut high) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for place in 0..WIDTH {
-                low[place] = f64::from(boxes.low[axis][place]);
-                high[place] = f64::from(boxes.high[axis][place]);
-            }
-            let low = f64x8::simd_from(simd, low);
-            let high = f64x8::simd_from(simd, high);
+            let low = doubles(simd, &boxes.low[axis]);
+            let high = doubles(simd, &boxes.high[axis]);
             let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);
             let (right, up, toward) = (self.right[axis], self.up[axis], self.toward[axis]);
             x += center * right;
@@ -153,12 +184,7 @@ impl<'world> Casters<'world> {
         }
         let slack = size * SLACK + f64::MIN_POSITIVE;
         let (wide, tall, deep) = (wide + slack, tall + slack, deep + slack);
-        // What is not a number, because a box is not finite, may reach anywhere.
-        let is_beyond = (x - wide).simd_gt(shaft.high.x)
-            | (x + wide).simd_lt(shaft.low.x)
-            | (y - tall).simd_gt(shaft.high.y)
-            | (y + tall).simd_lt(shaft.low.y)
-            | (z + deep).simd_lt(shaft.lowest);
+        let is_beyond = beyond(shaft, [x, y, z], [wide, tall, deep]);
         Look {
             may: !(is_beyond.to_bitmask() as u8),
             keys: (z - deep).into(),
@@ -191,6 +217,24 @@ impl<'world> Casters<'world> {
     pub(super) fn project(&self, point: DVec3) -> DVec2 {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }
+}
+
+/// Four times what rounding moves spheres by: also the projections of a box around them.
+const SLACK: f64 = 4.0 * 32.0 * UNIT_ROUNDOFF;
+
+/// What lies outside of a shaft: across it or too low, by the middles and what they reach to either
+/// side. What is not a number, because single precision does not hold it, may reach anywhere.
+#[inline(always)]
+fn beyond<S: Simd>(
+    shaft: &Shaft,
+    [x, y, z]: [f64x8<S>; 3],
+    [wide, tall, deep]: [f64x8<S>; 3],
+) -> mask64x8<S> {
+    (x - wide).simd_gt(shaft.high.x)
+        | (x + wide).simd_lt(shaft.low.x)
+        | (y - tall).simd_gt(shaft.high.y)
+        | (y + tall).simd_lt(shaft.low.y)
+        | (z + deep).simd_lt(shaft.lowest)
 }
 
 /// More than rounding can move the projection of a sphere's center, or of a point.

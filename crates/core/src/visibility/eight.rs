@@ -191,6 +191,6 @@ impl Eye {
 }
 
 #[inline(always)]
-fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
+pub(super) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
     f64x8::simd_from(simd, numbers.map(f64::from))
 }
