@@ -175,10 +175,7 @@ fn processes_share_a_sequence() {
         rendered += written.len();
     }
     // What others are at is left for the end, and done a second time if it is not there then.
-    assert!(
-        (60..60 + PROCESSES * PROCESSES).contains(&rendered),
-        "{rendered}"
-    );
+    assert!((60..120).contains(&rendered), "{rendered}");
     let alone = contents(&folder, "alone");
     let none: [&str; 0] = [];
     assert_eq!(differences(&alone, &contents(&folder, "shared")), none);
@@ -187,7 +184,7 @@ fn processes_share_a_sequence() {
 #[test]
 fn what_a_living_process_writes_is_left_alone() {
     let folder = turntable();
-    let render = "render turn.ron -o out/#.png --frames 1-2 --samples 150 --skip-existing";
+    let render = "render turn.ron -o out/#.png --frames 1-2 --samples 60 --skip-existing";
     let mut living = start(&folder, render);
     wait_until("a start", || folder.path("out/1.png.tmp").exists());
     signal("-STOP", &living);
