@@ -7,9 +7,11 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
+use marbles_core::Window;
 
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
+use crate::region;
 
 /// Sides of pictures, as in scene files.
 const LONGEST_SIDE: u32 = 65_536;
@@ -33,6 +35,7 @@ pub(crate) enum Command {
     Render(RenderArguments),
     Check(CheckArguments),
     Compare(CompareArguments),
+    Merge(MergeArguments),
     Report(ReportArguments),
 }
 
@@ -69,6 +72,18 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
+    /// Frames per second, in place of the scene's
+    #[arg(long, value_name = "FPS", value_parser = above_zero)]
+    pub(crate) fps: Option<f64>,
+
+    /// Leave out frames whose files are complete and made from the same scene and settings
+    #[arg(long)]
+    pub(crate) skip_existing: bool,
+
+    /// End at the first frame that cannot be rendered or written, instead of going on to the next
+    #[arg(long)]
+    pub(crate) fail_fast: bool,
+
     /// Bring every channel of every pixel within E of its exact value, the average over the
     /// pixel's square in linear light; E is absolute, and a white surface facing a light of
     /// intensity 1 has the value 1
@@ -86,6 +101,11 @@ pub(crate) struct RenderArguments {
     /// Size of the picture in pixels, in place of the scene's
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
+
+    /// Render only a part of the picture, from column X and row Y on; `marbles merge` puts parts
+    /// together
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region::window_of)]
+    pub(crate) region: Option<Window>,
 
     /// Leave the background out, and store how much of each pixel the spheres cover
     #[arg(long)]
@@ -175,6 +195,37 @@ pub(crate) struct CompareArguments {
     pub(crate) quiet: bool,
 }
 
+const MERGE_EXAMPLES: &str = "\
+Examples:
+  marbles render huge.ron -o left.exr --region 0,0,4096,8192
+  marbles render huge.ron -o right.exr --region 4096,0,4096,8192
+  marbles merge huge.exr left.exr right.exr
+
+The picture is the one that would have been rendered as a whole, to the byte.
+
+Exit codes:
+  0  the picture is written
+  1  something failed
+  2  the command line is wrong, or the parts do not make a picture: there is a gap, two overlap, or
+     they are of different scenes, frames or settings";
+
+/// Put parts together that were rendered with --region
+#[derive(Debug, Args)]
+#[command(after_help = MERGE_EXAMPLES)]
+pub(crate) struct MergeArguments {
+    /// Picture to write, of the same format as the parts
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// Parts of the picture, in any order
+    #[arg(value_name = "PARTS", required = true)]
+    pub(crate) parts: Vec<PathBuf>,
+
+    /// Print nothing but errors and warnings
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
 /// Columns and rows of a picture.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Size {
@@ -237,6 +288,13 @@ fn tolerance(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|tolerance: &f64| tolerance.is_finite() && *tolerance >= 0.0)
         .ok_or_else(|| "expected a number from 0".to_owned())
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number > 0.0)
+        .ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 fn worst(text: &str) -> Result<usize, String> {

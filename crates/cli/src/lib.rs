@@ -1,6 +1,6 @@
 //! The command line of marbles.
 //!
-//! Every command is a file, `render`, `check`, `compare` and `report`. Frames follow each other in `sequence`
+//! Every command is a file, `render`, `check`, `compare`, `merge` and `report`. Frames follow each other in `sequence`
 //! and become files in `output`; `input` reads pictures back.
 
 mod args;
@@ -8,6 +8,7 @@ mod belt;
 mod check;
 mod compare;
 mod console;
+mod digest;
 mod failure;
 mod film;
 mod frames;
@@ -15,16 +16,19 @@ mod input;
 mod interrupt;
 mod loading;
 mod memory;
+mod merge;
 mod messages;
 mod numbers;
 mod output;
 mod pattern;
 mod progress;
 mod rational;
+mod region;
 mod render;
 mod report;
 mod sequence;
 mod status;
+mod tally;
 mod threads;
 
 use std::ffi::OsString;
@@ -73,6 +77,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Render(arguments) => render::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
+        Command::Merge(arguments) => merge::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {

@@ -74,17 +74,19 @@ impl<'a> Progress<'a> {
         prepare()
     }
 
-    /// The frame with this index begins, and the others are supposed to be as large.
+    /// A frame begins, the one with this index of those that are not left out; the others are
+    /// supposed to be as large.
     pub(crate) fn begin(&self, index: u64, pixels: u64) {
         if let Display::Bar(bar) = &self.display {
-            let frames = self.frames - self.left_out.load(Ordering::Relaxed);
+            let left_out = self.left_out.load(Ordering::Relaxed);
+            let frames = self.frames - left_out;
             bar.set_length(frames.saturating_mul(pixels));
             bar.set_style(style(self.frames > 1));
             if index == 0 {
                 // What came before tells nothing about the frames.
                 bar.reset_eta();
             }
-            bar.set_message(format!("frame {} of {}", index + 1, self.frames));
+            bar.set_message(format!("frame {} of {}", left_out + index + 1, self.frames));
         }
     }
 
@@ -100,17 +102,18 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame's file is complete, `done` are now.
-    pub(crate) fn written(&self, frame: i32, done: u64) {
+    /// A frame's file is complete; how many were written until now, and how many skipped.
+    pub(crate) fn written(&self, frame: i32, written: u64, skipped: u64) {
         if let Display::Lines { started } = &self.display {
             let frames = self.frames;
             if frames == 1 {
                 // The line of results says it all.
                 return;
             }
+            let done = written + skipped;
             let mut line = format!("frame {frame}: {done} of {frames} done");
             if done < frames {
-                let per_frame = started.elapsed().as_secs_f64() / done as f64;
+                let per_frame = started.elapsed().as_secs_f64() / written as f64;
                 let seconds = per_frame * (frames - done) as f64;
                 let left = Duration::try_from_secs_f64(seconds).unwrap_or_default();
                 line.push_str(&format!(", {} left", numbers::wait(left)));
