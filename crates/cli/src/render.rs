@@ -2,9 +2,10 @@
 
 use marbles_core::{Method, Settings};
 use marbles_scene::Scene;
+use rayon::ThreadPool;
 
-use crate::args::RenderArguments;
-use crate::console::Console;
+use crate::args::{ProgressForm, RenderArguments};
+use crate::console::{Console, Reader};
 use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
@@ -20,28 +21,64 @@ use crate::threads;
 /// The frame that a scene without animation is rendered as.
 pub(crate) const FRAME_OF_A_STILL: i32 = 1;
 
-pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
-    let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
-    let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
-    let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
-    let encoding = encoding(arguments, format)?;
+/// What is rendered, and where it goes.
+pub(crate) struct Plan {
+    pub(crate) scene: Scene,
+    pub(crate) frames: FrameList,
+    pattern: Pattern,
+    encoding: Encoding,
+}
 
-    let threads = threads::start(arguments.threads)?;
-    let scene = threads.install(|| loading::scene(&arguments.scene, console, arguments.quiet))?;
-    let frames = frames(arguments, &scene);
-    let pattern = pattern.unwrap_or_else(|| {
-        let numbered = arguments.frames.is_some() || scene.frames().is_some();
-        Pattern::named_after(&arguments.scene, numbered)
-    });
-    if frames.is_sequence() && !pattern.is_numbered() {
-        return Err(Failure::Usage(format!(
-            "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
-            pattern.path(FRAME_OF_A_STILL).display(),
-            frames.count()
-        )));
+impl Plan {
+    /// Reads the scene and checks what can be before anything is rendered.
+    pub(crate) fn new(
+        arguments: &RenderArguments,
+        threads: &ThreadPool,
+        console: &Console,
+    ) -> Result<Self, Failure> {
+        let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
+        let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
+        let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
+        let encoding = encoding(arguments, format)?;
+
+        let silent = arguments.quiet || arguments.progress.is_some();
+        let scene = threads.install(|| loading::scene(&arguments.scene, console, silent))?;
+        let frames = frames(arguments, &scene);
+        let pattern = pattern.unwrap_or_else(|| {
+            let numbered = arguments.frames.is_some() || scene.frames().is_some();
+            Pattern::named_after(&arguments.scene, numbered)
+        });
+        if frames.is_sequence() && !pattern.is_numbered() {
+            return Err(Failure::Usage(format!(
+                "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
+                pattern.path(FRAME_OF_A_STILL).display(),
+                frames.count()
+            )));
+        }
+        Ok(Self {
+            scene,
+            frames,
+            pattern,
+            encoding,
+        })
     }
+}
 
-    interrupt::listen();
+pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
+    match arguments.progress {
+        Some(ProgressForm::Json) => console.speak_to(Reader::Json),
+        Some(ProgressForm::OpenJd) => console.speak_to(Reader::OpenJd),
+        Some(ProgressForm::Plain | ProgressForm::None) | None => {}
+    }
+    let threads = threads::start(arguments.threads)?;
+    let Plan {
+        scene,
+        frames,
+        pattern,
+        encoding,
+    } = Plan::new(arguments, &threads, console)?;
+
+    interrupt::listen(console.farewell());
     if let Some(first) = frames.iter().next() {
         output::prepare(&pattern.path(first))?;
     }
@@ -60,7 +97,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         pattern: &pattern,
         encoding,
     };
-    let progress = Progress::new(console, arguments.quiet, frames.count());
+    let progress = Progress::new(console, arguments.progress, arguments.quiet, frames.count());
     let tally = sequence.render(&threads, &progress);
     progress.finish();
     if tally.frames > 1
@@ -116,6 +153,9 @@ fn conclusion(tally: &Tally, console: &Console) -> u8 {
     } else if tally.failed || tally.is_over_tolerance() {
         if tally.failed && *frames > 1 {
             console.warn(&format!("{written} of {frames} frames written"));
+        }
+        if !tally.failed {
+            console.reason("some pixels are over the tolerance");
         }
         status::FAILURE
     } else {
