@@ -1,5 +1,6 @@
 //! The command line, as clap reads it.
 
+mod farm;
 mod report;
 
 use std::num::NonZeroU32;
@@ -8,6 +9,7 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
 
@@ -34,6 +36,7 @@ pub(crate) enum Command {
     Check(CheckArguments),
     Compare(CompareArguments),
     Report(ReportArguments),
+    Farm(FarmArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\

@@ -1,6 +1,6 @@
 //! The command line of marbles.
 //!
-//! Every command is a file: `render`, `check`, `compare` and `report`. Frames follow each
+//! Every command is a file: `render`, `check`, `compare`, `report` and `farm`. Frames follow each
 //! other in `sequence` and become files in `output`; `input` reads pictures back.
 
 mod args;
@@ -9,6 +9,7 @@ mod check;
 mod compare;
 mod console;
 mod failure;
+mod farm;
 mod film;
 mod frames;
 mod input;
@@ -74,6 +75,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
+        Command::Farm(arguments) => farm::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);

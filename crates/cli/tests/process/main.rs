@@ -5,6 +5,8 @@
     reason = "tests that this machine cannot run say so"
 )]
 
+#[cfg(unix)]
+mod farm;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
