@@ -7,17 +7,25 @@ use crate::failure::Failure;
 /// The most tasks that Slurm's largest `MaxArraySize` has room for.
 const MOST_TASKS: usize = 4_000_000;
 
-/// What a task does once it knows its frames.
+/// What a task does with signals, before the renderer starts beside the shell, which gets them.
 ///
-/// The renderer runs beside the shell, which gets the signals: `wait` ends as soon as one comes. At
-/// the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often as
-/// it has frames, as then one of them takes longer than the limit. All else that ends tasks from
+/// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
+/// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
 /// outside sends SIGTERM, or kills them.
-const TAIL: &str = r#"renderer=$!
-
+const SIGNALS: &str = r#"renderer=
+ended=
 again=
-trap 'kill -TERM "$renderer"' TERM INT
-trap 'again=1; kill -TERM "$renderer"' USR1
+end() {
+    ended=1
+    [ -z "$renderer" ] || kill -TERM "$renderer"
+}
+trap end TERM INT
+trap 'again=1; end' USR1
+"#;
+
+/// What it does while the renderer runs: `wait` returns whenever a signal comes.
+const WAIT: &str = r#"renderer=$!
+[ -z "$ended" ] || kill -TERM "$renderer"
 wait "$renderer"
 code=$?
 while kill -0 "$renderer" 2>/dev/null; do
@@ -25,7 +33,9 @@ while kill -0 "$renderer" 2>/dev/null; do
     code=$?
 done
 
-if [ -n "$again" ] && [ "$code" -eq 130 ] && [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
+# Interrupted, or ended by the signal before it listened.
+if [ -n "$again" ] && { [ "$code" -eq 130 ] || [ "$code" -eq 143 ]; } &&
+    [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
 fi
 exit "$code"
@@ -71,11 +81,12 @@ chunk={chunk}
 chunks=(
 {chunks})
 
+{SIGNALS}
 marbles render --skip-existing{progress}{threads} \
     --frames="${{chunks[$SLURM_ARRAY_TASK_ID]}}" \
     {options} \
     -- {scene} &
-{TAIL}"#,
+{WAIT}"#,
         name = job.name,
         last = tasks.saturating_sub(1),
         chunks = chunks.concat(),

@@ -14,11 +14,11 @@ use crate::folder::{BALL, Folder, code, text};
 const ODD: &str = "it's \"one\" $HOME `id` \\n !x *;& #1 {é} ";
 /// Prints the words of its command line.
 const ECHO: &str = "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
-/// Renders until somebody asks it to end.
+/// Renders until somebody asks it to end, but not for ever.
 const ENDLESS: &str = "#!/bin/sh
 trap 'exit 130' TERM
 touch started
-while :; do sleep 0.02; done
+for second in $(seq 60); do sleep 1 & wait $!; done
 ";
 
 /// A program by this name that jobs find.
@@ -75,7 +75,7 @@ fn every_task_of_an_array_renders_its_frames() {
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "#-=_. ".contains(letter);
     assert!(name.unwrap().chars().all(plain), "{name:?}");
 
-    for (index, frames) in ["5-2:-1", "1,10-14:2", "16,18,20"].iter().enumerate() {
+    for (index, frames) in ["5-2:-1", "1,10-14:2", "16-20:2"].iter().enumerate() {
         let index = index as u32;
         let environment = [("SLURM_CPUS_PER_TASK", "3"), ("SLURM_CPUS_ON_NODE", "9")];
         let output = task(&folder, index, &environment).output().unwrap();
