@@ -72,6 +72,18 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
+    /// Frames per second, in place of the scene's
+    #[arg(long, value_name = "FPS", value_parser = above_zero)]
+    pub(crate) fps: Option<f64>,
+
+    /// Leave out frames whose files are complete and made from the same scene and settings
+    #[arg(long)]
+    pub(crate) skip_existing: bool,
+
+    /// End at the first frame that cannot be rendered or written, instead of going on to the next
+    #[arg(long)]
+    pub(crate) fail_fast: bool,
+
     /// Bring every channel of every pixel within E of its exact value, the average over the
     /// pixel's square in linear light; E is absolute, and a white surface facing a light of
     /// intensity 1 has the value 1
@@ -258,6 +270,13 @@ fn tolerance(text: &str) -> Result<f64, String> {
         .ok()
         .filter(|tolerance: &f64| tolerance.is_finite() && *tolerance >= 0.0)
         .ok_or_else(|| "expected a number from 0".to_owned())
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|number: &f64| number.is_finite() && *number > 0.0)
+        .ok_or_else(|| "expected a number above 0".to_owned())
 }
 
 fn worst(text: &str) -> Result<usize, String> {

@@ -80,6 +80,35 @@ impl Belt {
         }
     }
 
+    /// Takes the pieces with smaller numbers as they come, for nobody; ends early when they will not
+    /// come.
+    pub(crate) fn discard_until(&self, number: u64) {
+        let mut state = self.lock();
+        while state.taken < number {
+            let next = state.taken;
+            match state.waiting.remove(&next) {
+                Some(piece) => {
+                    state.taken += 1;
+                    if let Piece::Samples(samples) = piece {
+                        state.spent.push(samples);
+                    }
+                    self.moved.notify_all();
+                }
+                None if state.is_closed => return,
+                None => state = wait(&self.arrived, state),
+            }
+        }
+    }
+
+    /// Opens the belt again for the piece with this number and those that follow, where the ones
+    /// before were given up.
+    pub(crate) fn resume(&self, number: u64) {
+        let mut state = self.lock();
+        state.waiting.clear();
+        state.taken = number;
+        state.is_closed = false;
+    }
+
     /// Takes memory that is to be used again.
     pub(crate) fn give_back(&self, spent: Vec<u8>) {
         self.lock().spent.push(spent);
@@ -165,6 +194,28 @@ mod tests {
             closing.keep_open();
         });
         assert!(belt.admit(300).is_some_and(|spent| !spent.is_empty()));
+    }
+
+    #[test]
+    fn pieces_that_nobody_wants_make_room() {
+        let belt = Belt::new(2);
+        thread::scope(|scope| {
+            let closing = belt.closing();
+            let discarding = scope.spawn(|| belt.discard_until(5));
+            for number in 0..5 {
+                assert!(belt.admit(number).is_some());
+                belt.put(number, piece(number));
+            }
+            discarding.join().unwrap();
+            closing.keep_open();
+        });
+        belt.put(6, piece(6));
+        belt.close();
+        belt.discard_until(7);
+        belt.resume(9);
+        assert!(belt.admit(10).is_some());
+        belt.put(9, piece(9));
+        assert_eq!(bytes(belt.take()), Some(vec![9]));
     }
 
     #[test]

@@ -36,6 +36,14 @@ impl Failure {
         Self::at(path, &format!("{what}: {}", reason(error)))
     }
 
+    /// What is wrong, in words without colors.
+    pub(crate) fn into_message(self) -> String {
+        match self {
+            Self::Usage(message) | Self::Frames(message) | Self::Work(message) => message,
+            Self::Scene(error) => error.to_string(),
+        }
+    }
+
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) | Self::Scene(_) | Self::Frames(_) => status::REFUSED,

@@ -80,6 +80,28 @@ impl FrameList {
     }
 }
 
+/// Frames as users write them, in order: `3-7,9`, and no more than one can look at.
+pub(crate) fn listed(frames: &[i32]) -> String {
+    const MOST_RANGES: usize = 20;
+    let mut sorted = frames.to_vec();
+    sorted.sort_unstable();
+    sorted.dedup();
+    let mut ranges = sorted.chunk_by(|one, next| one + 1 == *next);
+    let shown: Vec<String> = ranges
+        .by_ref()
+        .take(MOST_RANGES)
+        .map(|range| match range {
+            [first, .., last] => format!("{first}-{last}"),
+            _ => range.iter().map(i32::to_string).collect(),
+        })
+        .collect();
+    let others: usize = ranges.map(<[i32]>::len).sum();
+    match others {
+        0 => shown.join(","),
+        _ => format!("{} and {others} more", shown.join(",")),
+    }
+}
+
 impl From<RangeInclusive<i32>> for FrameList {
     fn from(frames: RangeInclusive<i32>) -> Self {
         let range = Range {
@@ -240,6 +262,16 @@ mod tests {
         assert_eq!(frames("9-1x-2,1-5"), [9, 7, 5, 3, 1, 2, 4]);
         assert_eq!(frames("5,1-6x2,2-5,5,0"), [5, 1, 3, 2, 4, 0]);
         assert_eq!(frames("1-3,2-4,3-9x2,1-9x4").len(), 7);
+    }
+
+    #[test]
+    fn frames_are_listed_as_users_write_them() {
+        assert_eq!(listed(&[5]), "5");
+        assert_eq!(listed(&[4, -2, 9, 3, -1, 5, 4]), "-2--1,3-5,9");
+        let frames = FrameList::from_str(&listed(&[-3, -2, 7, 8, 9])).unwrap();
+        assert_eq!(frames.iter().collect::<Vec<_>>(), [-3, -2, 7, 8, 9]);
+        let odd: Vec<i32> = (0..1000).map(|index| 2 * index + 1).collect();
+        assert!(listed(&odd).ends_with(",37,39 and 980 more"));
     }
 
     #[test]

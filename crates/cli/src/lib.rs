@@ -8,6 +8,7 @@ mod belt;
 mod check;
 mod compare;
 mod console;
+mod digest;
 mod failure;
 mod farm;
 mod film;
@@ -26,6 +27,7 @@ mod render;
 mod report;
 mod sequence;
 mod status;
+mod tally;
 mod threads;
 
 use std::ffi::OsString;

@@ -1,12 +1,15 @@
 //! What is said about files that were written.
 
+use std::path::Path;
 use std::time::Duration;
 
 use marbles_core::{Evidence, Summary};
 
 use crate::film::Worst;
+use crate::frames;
 use crate::numbers::bound;
 use crate::output::Encoding;
+use crate::tally::Tally;
 
 /// The line of results; `time` is the rendering's alone.
 pub(crate) fn result(path: &str, summary: &Summary, time: Duration) -> String {
@@ -23,6 +26,30 @@ pub(crate) fn result(path: &str, summary: &Summary, time: Duration) -> String {
 pub(crate) fn total(files: u64, summary: &Summary, time: Duration) -> String {
     let noun = if files == 1 { "frame" } else { "frames" };
     result(&format!("{files} {noun}"), summary, time)
+}
+
+/// The line of results of a file that was there.
+pub(crate) fn skipped(path: &Path) -> String {
+    format!("{}: skipped, complete and of this scene", path.display())
+}
+
+/// How many frames were written, and which failed, in the form that `--frames` reads.
+pub(crate) fn counts(tally: &Tally) -> String {
+    let Tally {
+        frames,
+        written,
+        skipped,
+        failed,
+        ..
+    } = tally;
+    let mut counts = format!("{written} of {frames} frames written");
+    if *skipped > 0 {
+        counts.push_str(&format!(", {skipped} skipped"));
+    }
+    if !failed.is_empty() {
+        counts.push_str(&format!(", failed: {}", frames::listed(failed)));
+    }
+    counts
 }
 
 /// How large the errors are, and what that is worth: `error <= 8.3e-04 (bound)`.

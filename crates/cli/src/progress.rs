@@ -88,18 +88,20 @@ impl<'a> Progress<'a> {
         prepare()
     }
 
-    /// The frame with this index begins, and the others are supposed to be as large.
+    /// A frame begins, the one with this index of those that are not left out; the others are
+    /// supposed to be as large.
     pub(crate) fn begin(&self, index: u64, pixels: u64) {
         match &self.display {
             Display::Bar(bar) => {
-                let frames = self.frames - self.left_out.load(Ordering::Relaxed);
+                let left_out = self.left_out.load(Ordering::Relaxed);
+                let frames = self.frames - left_out;
                 bar.set_length(frames.saturating_mul(pixels));
                 bar.set_style(style(self.frames > 1));
                 if index == 0 {
                     // What came before tells nothing about the frames.
                     bar.reset_eta();
                 }
-                bar.set_message(format!("frame {} of {}", index + 1, self.frames));
+                bar.set_message(format!("frame {} of {}", left_out + index + 1, self.frames));
             }
             Display::Lines(lines) => lines.begin(pixels),
             Display::Nothing => {}
@@ -123,10 +125,10 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame's file is complete, `done` are now.
-    pub(crate) fn written(&self, frame: i32, done: u64) {
+    /// A frame's file is complete; how many were written until now, and how many skipped.
+    pub(crate) fn written(&self, frame: i32, written: u64, skipped: u64) {
         if let Display::Lines(lines) = &self.display {
-            lines.written(frame, done);
+            lines.written(frame, written, skipped);
         }
     }
 

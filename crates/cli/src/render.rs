@@ -14,8 +14,9 @@ use crate::messages;
 use crate::output::{self, Encoding, ExrOptions, PngOptions};
 use crate::pattern::{Format, Pattern};
 use crate::progress::Progress;
-use crate::sequence::{Sequence, Tally};
+use crate::sequence::{Persistence, Sequence};
 use crate::status;
+use crate::tally::Tally;
 use crate::threads;
 
 /// The frame that a scene without animation is rendered as.
@@ -94,12 +95,18 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
             },
             alpha: arguments.alpha,
         },
+        frames_per_second: arguments.fps.or(scene.frames_per_second()),
         pattern: &pattern,
         encoding,
+        persistence: Persistence {
+            skip_existing: arguments.skip_existing,
+            fail_fast: arguments.fail_fast,
+        },
     };
     let progress = Progress::new(console, arguments.progress, arguments.quiet, frames.count());
     let tally = sequence.render(&threads, &progress);
     progress.finish();
+    let tally = tally?;
     if tally.frames > 1
         && !arguments.quiet
         && let Some(total) = &tally.total
@@ -142,21 +149,16 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
 
 /// The last word of a run, and its exit code.
 fn conclusion(tally: &Tally, console: &Console) -> u8 {
-    let Tally {
-        frames, written, ..
-    } = tally;
     if tally.interrupted {
-        console.warn(&format!(
-            "interrupted: {written} of {frames} frames written"
-        ));
+        console.warn(&format!("interrupted: {}", messages::counts(tally)));
         status::INTERRUPTED
-    } else if tally.failed || tally.is_over_tolerance() {
-        if tally.failed && *frames > 1 {
-            console.warn(&format!("{written} of {frames} frames written"));
+    } else if !tally.failed.is_empty() {
+        if tally.frames > 1 {
+            console.warn(&messages::counts(tally));
         }
-        if !tally.failed {
-            console.reason("some pixels are over the tolerance");
-        }
+        status::FAILURE
+    } else if tally.is_over_tolerance() {
+        console.reason("some pixels are over the tolerance");
         status::FAILURE
     } else {
         status::SUCCESS

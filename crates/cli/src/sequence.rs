@@ -1,28 +1,35 @@
 //! Frames one after the other: while one is rendered, the one before is encoded and written.
 
+use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::panic;
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use marbles_core::{Renderer, Settings, Summary, View};
+use blake3::Hash;
+use marbles_core::{Renderer, Settings, Summary, View, Window};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
 use crate::args::Size;
 use crate::belt::Belt;
+use crate::digest::{Digests, Shot};
 use crate::failure::Failure;
 use crate::film::{Film, Gathered};
 use crate::frames::FrameList;
+use crate::input::finished;
 use crate::interrupt;
 use crate::memory::{self, Form};
 use crate::messages;
-use crate::output::{Coder, Encoding, Facts, Piece, Pieces, Unwritten};
+use crate::output::temporary::{LeftOver, TemporaryFile};
+use crate::output::{self, Coder, Encoding, Facts, Piece, Pieces, Unwritten};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
+use crate::tally::{Failures, Tally};
 
 /// Pictures that wait to be written while another one is. If more waited, it would not help: in the
 /// long run the slower of rendering and writing sets the pace.
@@ -35,48 +42,33 @@ pub(crate) struct Sequence<'a> {
     pub(crate) frames: &'a FrameList,
     /// In place of the scene's.
     pub(crate) size: Option<Size>,
+    pub(crate) frames_per_second: Option<f64>,
     pub(crate) settings: Settings,
     pub(crate) pattern: &'a Pattern,
     pub(crate) encoding: Encoding,
+    pub(crate) persistence: Persistence,
 }
 
-/// What became of a sequence.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Tally {
-    /// Frames that were asked for.
-    pub(crate) frames: u64,
-    /// Frames whose files are complete.
-    pub(crate) written: u64,
-    /// Whether some frame could not be rendered or written.
-    pub(crate) failed: bool,
-    /// What the written frames together achieved.
-    pub(crate) total: Option<Summary>,
-    /// What rendering the written frames took.
-    pub(crate) time: Duration,
-    /// Whether the user ended the work.
-    pub(crate) interrupted: bool,
-}
-
-impl Tally {
-    /// Counts a frame that was written.
-    fn add(&mut self, summary: Summary, time: Duration) {
-        self.written += 1;
-        self.time += time;
-        self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
-    }
-
-    /// Whether some pixel of a written frame did not meet the tolerance.
-    pub(crate) fn is_over_tolerance(&self) -> bool {
-        self.total.is_some_and(|total| total.over_tolerance > 0)
-    }
+/// What is done about files that are there, and about frames that fail.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Persistence {
+    /// Whether frames are left out whose files are there.
+    pub(crate) skip_existing: bool,
+    /// Whether the first failure ends the work.
+    pub(crate) fail_fast: bool,
 }
 
 /// A picture that is on its way to its file.
 struct Order {
     facts: Facts,
     path: PathBuf,
+    file: TemporaryFile,
+    /// The number of the first piece on the belt that belongs to the next picture.
+    end: u64,
     /// What became of it; nothing where it was not finished.
     ending: Receiver<Ending>,
+    /// Set by the writer when the rest of the picture is not wanted.
+    is_lost: Arc<AtomicBool>,
 }
 
 /// A picture all of whose strips were rendered.
@@ -89,122 +81,203 @@ struct Ending {
 struct Ways {
     coder: Coder,
     belt: Belt,
-    write_failed: AtomicBool,
+    failures: Failures,
+    /// Frames whose files were there.
+    skipped: AtomicU64,
+}
+
+/// What is done about a frame.
+enum Turn {
+    Render(TemporaryFile),
+    /// Its file is there.
+    Skip,
+    /// Somebody else is writing its file.
+    Wait,
 }
 
 impl Sequence<'_> {
-    /// Renders and writes all frames in order.
+    /// Renders and writes all frames in order, but for those that somebody else is at: they come
+    /// last, if they are not there then.
     ///
-    /// A frame that cannot be rendered is reported and left out; a file that cannot be written
-    /// ends the work, as the next would fare no better.
-    pub(crate) fn render(&self, threads: &ThreadPool, progress: &Progress) -> Tally {
+    /// A frame that cannot be rendered or written is reported and left out.
+    pub(crate) fn render(
+        &self,
+        threads: &ThreadPool,
+        progress: &Progress,
+    ) -> Result<Tally, Failure> {
         let frames = self.frames.count();
-        let ways = match self.ways(threads) {
-            Ok(ways) => ways,
-            Err(failure) => {
-                progress.failure(&failure);
-                return Tally {
-                    frames,
-                    failed: true,
-                    ..Tally::default()
-                };
-            }
-        };
+        let ways = self.ways(threads)?;
         let (sender, receiver) = sync_channel(WAITING_PICTURES);
-        let (left_out, written) = thread::scope(|scope| {
+        let written = thread::scope(|scope| {
             let writer = scope.spawn(|| self.write_all(receiver, &ways, progress));
-            let left_out = threads.install(|| self.render_all(sender, &ways, progress));
+            threads.install(|| self.render_all(sender, &ways, progress));
             let written = writer.join();
-            (
-                left_out,
-                written.unwrap_or_else(|panic| panic::resume_unwind(panic)),
-            )
+            written.unwrap_or_else(|panic| panic::resume_unwind(panic))
         });
-        Tally {
+        let skipped = ways.skipped.into_inner();
+        Ok(Tally {
             frames,
-            failed: left_out || ways.write_failed.into_inner(),
-            interrupted: interrupt::requested() && written.written < frames,
+            skipped,
+            failed: ways.failures.into_frames(),
+            interrupted: interrupt::requested() && written.written + skipped < frames,
             ..written
-        }
+        })
     }
 
-    /// Sends pictures to the writer until there are no more, or somebody wants to stop. Whether
-    /// some frame was left out.
-    fn render_all(&self, writer: SyncSender<Order>, ways: &Ways, progress: &Progress) -> bool {
+    /// Sends pictures to the writer until there are no more, or somebody wants to stop.
+    fn render_all(&self, writer: SyncSender<Order>, ways: &Ways, progress: &Progress) {
         let _closing = ways.belt.closing();
-        let stop = || interrupt::requested() || ways.write_failed.load(Ordering::Relaxed);
+        let stop = || interrupt::requested() || ways.failures.stop();
         let world = self.scene.world();
-        let prepare = || Renderer::new(world);
-        let renderer = progress.while_preparing(world.spheres().len(), prepare);
-        let mut left_out = false;
+        let mut renderer = None;
+        let digests = Digests::new(world, &self.settings, self.encoding);
+        let mut left_over = LeftOver::default();
         let mut first_piece = 0;
-        for (index, frame) in self.frames.iter().enumerate() {
-            if stop() {
+        let mut frames = self.frames.iter();
+        let mut postponed = VecDeque::new();
+        let mut index = 0;
+        while !stop() {
+            let next = frames.next();
+            let is_postponed = next.is_none();
+            let Some(frame) = next.or_else(|| postponed.pop_front()) else {
                 break;
-            }
+            };
+            let path = self.pattern.path(frame);
+            let failed = |message| {
+                ways.failures.add(frame, &path, message, progress);
+                progress.leave_out();
+            };
             let view = match self.scene.view(frame) {
                 Ok(view) => self.resized(view),
                 Err(error) => {
-                    progress.failure(&Failure::Work(error.to_string()));
-                    progress.leave_out();
-                    left_out = true;
+                    failed(error.to_string());
                     continue;
                 }
             };
-            progress.begin(index as u64, u64::from(view.width) * u64::from(view.height));
-            let (finish, ending) = channel();
-            let order = Order {
-                facts: Facts {
-                    camera: view.camera,
+            let facts = Facts {
+                camera: view.camera,
+                frame,
+                frames_per_second: self.frames_per_second,
+                method: self.settings.method,
+                digest: digests.of(&Shot {
+                    view: &view,
                     frame,
-                    frames_per_second: self.scene.frames_per_second(),
-                    method: self.settings.method,
-                },
-                path: self.pattern.path(frame),
+                    // A PNG does not tell it.
+                    frames_per_second: match self.encoding {
+                        Encoding::Png(_) => None,
+                        Encoding::Exr(_) => self.frames_per_second,
+                    },
+                }),
+            };
+            output::clean(&path, &mut left_over);
+            let file = match self.turn(&path, &facts.digest, is_postponed) {
+                Ok(Turn::Render(file)) => file,
+                Ok(Turn::Skip) => {
+                    ways.skipped.fetch_add(1, Ordering::Relaxed);
+                    progress.result(&messages::skipped(&path));
+                    progress.leave_out();
+                    continue;
+                }
+                Ok(Turn::Wait) => {
+                    postponed.push_back(frame);
+                    continue;
+                }
+                Err(failure) => {
+                    failed(failure.into_message());
+                    continue;
+                }
+            };
+            let prepare = || Renderer::new(world);
+            let prepare = || progress.while_preparing(world.spheres().len(), prepare);
+            let renderer = renderer.get_or_insert_with(prepare);
+            progress.begin(index, u64::from(view.width) * u64::from(view.height));
+            index += 1;
+            let film = Film::new(&ways.coder, &ways.belt, first_piece);
+            first_piece += u64::from(ways.coder.pieces());
+            let (finish, ending) = channel();
+            let is_lost = Arc::new(AtomicBool::new(false));
+            let order = Order {
+                facts,
+                path,
+                file,
+                end: first_piece,
                 ending,
+                is_lost: Arc::clone(&is_lost),
             };
             if writer.send(order).is_err() {
                 break;
             }
-            let film = Film::new(&ways.coder, &ways.belt, first_piece);
-            first_piece += u64::from(ways.coder.pieces());
             let started = Instant::now();
-            let rendered = renderer.render_strips(&view, &self.settings, &film, &|pixels| {
+            let window = Window::whole(&view);
+            let settings = &self.settings;
+            let rendered = renderer.render_strips(&view, window, settings, &film, &|pixels| {
                 progress.advance(pixels);
-                if stop() {
+                if stop() || is_lost.load(Ordering::Relaxed) {
                     ControlFlow::Break(())
                 } else {
                     ControlFlow::Continue(())
                 }
             });
             if rendered.is_err() {
-                break;
+                if stop() || !is_lost.load(Ordering::Relaxed) {
+                    break;
+                }
+                // The writer wants nothing more of this picture, and nothing of others is on its way.
+                ways.belt.resume(first_piece);
+                continue;
             }
             let elapsed = started.elapsed();
             let (gathered, aside) = film.finish(rayon::current_num_threads());
             let time = elapsed.saturating_sub(aside);
-            // The writer has gone if it could not write.
+            // The writer has gone on if it could not write.
             let _ = finish.send(Ending { gathered, time });
         }
-        left_out
     }
 
-    /// Writes pictures as they come, until one cannot be written.
+    /// Begins the file of a frame, unless it is there or somebody else writes it.
+    ///
+    /// Who has waited once begins it all the same: somebody who stands still would else keep
+    /// everybody from the end, and both write the same.
+    fn turn(&self, path: &Path, digest: &Hash, has_waited: bool) -> Result<Turn, Failure> {
+        if !self.persistence.skip_existing {
+            return Ok(Turn::Render(output::begin(path)?));
+        }
+        let is_there = || finished::digest(path) == Some(*digest);
+        if is_there() {
+            return Ok(Turn::Skip);
+        }
+        let file = match output::claim(path)? {
+            None if !has_waited => return Ok(Turn::Wait),
+            None => output::begin(path)?,
+            Some(file) => file,
+        };
+        // Somebody may have finished it just before it was ours.
+        Ok(if is_there() {
+            Turn::Skip
+        } else {
+            Turn::Render(file)
+        })
+    }
+
+    /// Writes pictures as they come.
     fn write_all(&self, orders: Receiver<Order>, ways: &Ways, progress: &Progress) -> Tally {
         let _closing = ways.belt.closing();
         let mut tally = Tally::default();
         for order in orders {
-            let frame = order.facts.frame;
+            let (frame, end) = (order.facts.frame, order.end);
+            let (path, is_lost) = (order.path.clone(), Arc::clone(&order.is_lost));
             match self.write(order, ways, progress) {
                 Ok((summary, time)) => {
                     tally.add(summary, time);
-                    progress.written(frame, tally.written);
+                    let skipped = ways.skipped.load(Ordering::Relaxed);
+                    progress.written(frame, tally.written, skipped);
                 }
                 Err(Unwritten::Stopped) => break,
                 Err(Unwritten::Failed(failure)) => {
-                    ways.write_failed.store(true, Ordering::Relaxed);
-                    progress.failure(&failure);
-                    break;
+                    let message = failure.into_message();
+                    ways.failures.add(frame, &path, message, progress);
+                    is_lost.store(true, Ordering::Relaxed);
+                    ways.belt.discard_until(end);
                 }
             }
         }
@@ -221,9 +294,11 @@ impl Sequence<'_> {
         let Order {
             facts,
             path,
+            file,
             ending,
+            ..
         } = order;
-        ways.coder.write(&facts, &path, &mut &ways.belt)?;
+        ways.coder.write(&facts, &path, file, &mut &ways.belt)?;
         let Ending { gathered, time } = ending.recv().map_err(|_| Unwritten::Stopped)?;
         let summary = gathered.summary.ok_or(Unwritten::Stopped)?;
         let shown = path.display().to_string();
@@ -263,7 +338,8 @@ impl Sequence<'_> {
         Ok(Ways {
             coder,
             belt: Belt::new(strips),
-            write_failed: AtomicBool::new(false),
+            failures: Failures::new(self.persistence.fail_fast),
+            skipped: AtomicU64::new(0),
         })
     }
 }
@@ -275,37 +351,5 @@ impl Pieces for &Belt {
 
     fn give_back(&mut self, samples: Vec<u8>) {
         Belt::give_back(self, samples);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use marbles_core::Evidence;
-
-    use super::*;
-
-    #[test]
-    fn a_sequence_is_as_good_as_its_worst_frame() {
-        let summary = |largest_error, evidence, over_tolerance| Summary {
-            pixels: 100,
-            largest_error,
-            evidence,
-            over_tolerance,
-        };
-        let mut tally = Tally::default();
-        assert!(!tally.is_over_tolerance());
-        let time = Duration::from_millis(5);
-        tally.add(summary(1e-4, Evidence::Bound, 0), time);
-        assert_eq!(tally.total, Some(summary(1e-4, Evidence::Bound, 0)));
-        assert!(!tally.is_over_tolerance());
-        tally.add(summary(3e-4, Evidence::Estimate, 2), time);
-        tally.add(summary(2e-4, Evidence::Bound, 1), time);
-        let total = Summary {
-            pixels: 300,
-            ..summary(3e-4, Evidence::Estimate, 3)
-        };
-        assert_eq!(tally.total, Some(total));
-        assert_eq!((tally.written, tally.time), (3, 3 * time));
-        assert!(tally.is_over_tolerance());
     }
 }

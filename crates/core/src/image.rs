@@ -7,7 +7,7 @@ use rayon::slice::ParallelSliceMut;
 
 use crate::integration::Pixel;
 use crate::plane::{Plane, PlaneBand};
-use crate::{Color, Evidence, Radiance, Status, Tile, TileLight, Work, World};
+use crate::{Color, Evidence, Radiance, Status, Tile, TileLight, Window, Work, World};
 
 /// Which numbers a picture holds for each pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -236,6 +236,32 @@ impl Image {
                     statuses.iter().filter(|&status| is_over(status)).count() as u64
                 }
             },
+        }
+    }
+
+    /// A part of the picture.
+    pub(crate) fn cut(&self, window: Window) -> Self {
+        let stride = self.channels.count() + usize::from(self.alpha);
+        let rows = (window.row..window.row + window.height).map(|row| {
+            let first = self.index(window.col, row);
+            first..first + window.width as usize
+        });
+        let rows: Vec<Range<usize>> = rows.collect();
+        let values = rows.iter().flat_map(|row| {
+            let row = row.start * stride..row.end * stride;
+            self.values[row].iter().copied()
+        });
+        Self {
+            width: window.width,
+            height: window.height,
+            channels: self.channels,
+            alpha: self.alpha,
+            values: values.collect(),
+            errors: self.errors.cut(&rows),
+            evidence: self.evidence.cut(&rows),
+            statuses: self.statuses.cut(&rows),
+            is_blank: false,
+            work: Work::default(),
         }
     }
 

@@ -48,7 +48,7 @@ pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
 pub use render::{Cancelled, Method, Renderer, Settings};
 pub use sphere::{Floor, Hit, Sphere, SphereError};
-pub use strips::{BAND_ROWS, Sink, Strip};
+pub use strips::{BAND_ROWS, Sink, Strip, Window};
 pub use view::View;
 pub use world::{MaterialId, World};
 

@@ -43,6 +43,17 @@ impl<T: Copy + Send + Sync> Plane<T> {
         }
     }
 
+    /// A plane of some pixels, run by run.
+    pub(crate) fn cut(&self, runs: &[Range<usize>]) -> Self {
+        match self {
+            Self::Same(value) => Self::Same(*value),
+            Self::Each(values) => {
+                let runs = runs.iter().flat_map(|run| &values[run.clone()]);
+                Self::Each(runs.copied().collect())
+            }
+        }
+    }
+
     /// Some pixels of the plane.
     pub(crate) fn band_mut(&mut self, pixels: Range<usize>) -> PlaneBand<'_, T> {
         match self {

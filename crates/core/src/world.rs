@@ -134,7 +134,7 @@ impl World {
     }
 
     /// Whether some spheres have albedos of their own.
-    pub(crate) fn has_own_albedos(&self) -> bool {
+    pub fn has_own_albedos(&self) -> bool {
         !self.painted.is_empty()
     }
 
@@ -146,12 +146,12 @@ impl World {
     }
 
     /// The materials in the order in which they were added.
-    pub(crate) fn materials(&self) -> &[Material] {
+    pub fn materials(&self) -> &[Material] {
         &self.materials
     }
 
     /// The place of a sphere's material among the materials.
-    pub(crate) fn material_index(&self, sphere: usize) -> u32 {
+    pub fn material_index(&self, sphere: usize) -> u32 {
         self.material_ids[sphere].0
     }
 

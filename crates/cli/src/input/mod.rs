@@ -5,6 +5,7 @@
 //! file may have been before it was rounded is known as well.
 
 mod exr;
+pub(crate) mod finished;
 mod png;
 
 use std::fs;

@@ -13,7 +13,7 @@ use exr::prelude::{AttributeValue, Compression, Error, SmallVec, Text, Vec2};
 use glam::DVec3;
 use marbles_core::{Camera, Image, Method};
 
-use super::{Facts, Fault, SOFTWARE, half, header};
+use super::{DIGEST_ATTRIBUTE, Facts, Fault, SOFTWARE, half, header};
 use crate::memory::Form;
 use crate::rational;
 
@@ -318,6 +318,8 @@ fn attributes(facts: &Facts) -> LayerAttributes {
     };
     let mut custom = |name: &str, value| attributes.other.insert(Text::from(name), value);
     custom("frame", AttributeValue::I32(facts.frame));
+    let digest = Text::from(&*facts.digest.to_hex());
+    custom(DIGEST_ATTRIBUTE, AttributeValue::Text(digest));
     match facts.method {
         // The command line keeps the number far below this limit.
         Method::Tolerance(tolerance) => custom("tolerance", AttributeValue::F32(tolerance as f32)),

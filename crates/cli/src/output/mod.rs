@@ -16,18 +16,23 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use ::exr::block::chunk::Chunk;
+use blake3::Hash;
 use marbles_core::{BAND_ROWS, Camera, Image, Method};
 
 use self::exr::Blocks;
 pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
 use self::png::Shape;
-use self::temporary::TemporaryFile;
+use self::temporary::{LeftOver, TemporaryFile};
 use crate::failure::{Failure, lower};
 use crate::memory::Form;
 
 /// What files say about who wrote them.
 const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
+/// The keyword under which a PNG keeps the digest of its picture.
+pub(crate) const DIGEST_KEYWORD: &str = "Digest";
+/// The attribute in which an EXR does.
+pub(crate) const DIGEST_ATTRIBUTE: &str = "digest";
 
 /// How pictures are turned into bytes.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -132,15 +137,16 @@ impl Coder {
         }
     }
 
-    /// Writes the file of a picture to `path`, whole or not at all.
+    /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
     pub(crate) fn write(
         &self,
         facts: &Facts,
         path: &Path,
+        file: TemporaryFile,
         pieces: &mut impl Pieces,
     ) -> Result<(), Unwritten> {
         match &self.format {
-            Format::Png(shape) => write_png(path, *shape, |stream| {
+            Format::Png(shape) => write_png(path, Ok(file), *shape, &facts.texts(), |stream| {
                 for _ in 0..self.pieces() {
                     // The others are never made.
                     if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
@@ -150,7 +156,7 @@ impl Coder {
                 }
                 Ok(())
             }),
-            Format::Exr(blocks) => save(path, |mut file| {
+            Format::Exr(blocks) => finish(path, Ok(file), |mut file| {
                 blocks.write(file.file(), facts, || match pieces.next() {
                     Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
                     _ => Err(Fault::Stopped),
@@ -200,17 +206,44 @@ pub(crate) struct Facts {
     pub(crate) frame: i32,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) method: Method,
+    /// What the picture is made from.
+    pub(crate) digest: Hash,
 }
 
-/// Makes sure that a file can be created at `path`, folders included, and leaves none.
+impl Facts {
+    /// What a PNG says: keywords and texts.
+    fn texts(&self) -> Vec<(&'static str, String)> {
+        vec![(DIGEST_KEYWORD, self.digest.to_string())]
+    }
+}
+
+/// Makes sure that there is a folder for the file at `path`.
 pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
     let destination = destination(path)?;
     let folder = folder(&destination);
     std::fs::create_dir_all(folder)
-        .map_err(|error| Failure::io(folder, "cannot create the folder", &error))?;
-    TemporaryFile::beside(&destination)
-        .map(drop)
-        .map_err(|error| Failure::io(path, "cannot create the file", &error))
+        .map_err(|error| Failure::io(folder, "cannot create the folder", &error))
+}
+
+/// Begins a file for `path`.
+pub(crate) fn begin(path: &Path) -> Result<TemporaryFile, Failure> {
+    TemporaryFile::beside(&destination(path)?).map_err(|error| uncreated(path, &error))
+}
+
+/// Begins a file for `path` unless another process that lives is writing it.
+pub(crate) fn claim(path: &Path) -> Result<Option<TemporaryFile>, Failure> {
+    TemporaryFile::claim(&destination(path)?).map_err(|error| uncreated(path, &error))
+}
+
+/// Removes what killed processes left of a file for `path`.
+pub(crate) fn clean(path: &Path, left_over: &mut LeftOver) {
+    if let Ok(destination) = destination(path) {
+        left_over.remove(&destination);
+    }
+}
+
+fn uncreated(path: &Path, error: &io::Error) -> Failure {
+    Failure::io(path, "cannot create the file", error)
 }
 
 /// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
@@ -221,7 +254,7 @@ pub(crate) fn write_codes(
     path: &Path,
 ) -> Result<(), Failure> {
     let shape = Shape::of_codes(width, height, true);
-    write_png(path, shape, |stream| Ok(stream.write_all(codes)?)).map_err(Unwritten::into_failure)
+    save_png(path, shape, codes)
 }
 
 /// Writes a PNG of 8 bit codes of red, green and blue, row by row, whole or not at all.
@@ -232,7 +265,7 @@ pub(crate) fn write_rgb_codes(
     path: &Path,
 ) -> Result<(), Failure> {
     let shape = Shape::of_codes(width, height, false);
-    write_png(path, shape, |stream| Ok(stream.write_all(codes)?)).map_err(Unwritten::into_failure)
+    save_png(path, shape, codes)
 }
 
 /// Writes a file that is no picture, or already encoded, whole or not at all.
@@ -268,19 +301,34 @@ impl Unwritten {
     }
 }
 
+/// Writes a PNG of 8 bit codes.
+fn save_png(path: &Path, shape: Shape, codes: &[u8]) -> Result<(), Failure> {
+    let file = TemporaryFile::beside(&destination(path)?);
+    let written = write_png(
+        path,
+        file,
+        shape,
+        &[],
+        |stream| Ok(stream.write_all(codes)?),
+    );
+    written.map_err(Unwritten::into_failure)
+}
+
 /// Writes a PNG, whose samples `samples` writes.
 fn write_png(
     path: &Path,
+    file: io::Result<TemporaryFile>,
     shape: Shape,
+    texts: &[(&str, String)],
     samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
 ) -> Result<(), Unwritten> {
-    save(path, |mut file| {
-        let has_grown = png::write(file.file(), shape, samples)?;
+    finish(path, file, |mut file| {
+        let has_grown = png::write(file.file(), shape, texts, samples)?;
         if !has_grown {
             return Ok(file);
         }
         let mut stored = file.another()?;
-        png::store(file.file(), stored.file(), shape)?;
+        png::store(file.file(), stored.file(), shape, texts)?;
         Ok(stored)
     })
 }
@@ -288,10 +336,19 @@ fn write_png(
 /// Puts the file that `write` has written where it belongs.
 fn save(
     path: &Path,
-    write: impl FnOnce(TemporaryFile<'_>) -> Result<TemporaryFile<'_>, Fault>,
+    write: impl FnOnce(TemporaryFile) -> Result<TemporaryFile, Fault>,
 ) -> Result<(), Unwritten> {
     let destination = destination(path).map_err(Unwritten::Failed)?;
-    let file = TemporaryFile::beside(&destination).map_err(Fault::Io);
+    finish(path, TemporaryFile::beside(&destination), write)
+}
+
+/// As [`save`], by way of `file`.
+fn finish(
+    path: &Path,
+    file: io::Result<TemporaryFile>,
+    write: impl FnOnce(TemporaryFile) -> Result<TemporaryFile, Fault>,
+) -> Result<(), Unwritten> {
+    let file = file.map_err(Fault::Io);
     let written = file.and_then(write).and_then(|file| Ok(file.persist()?));
     written.map_err(|fault| match fault {
         Fault::Io(error) => Unwritten::Failed(Failure::io(path, "cannot write the file", &error)),

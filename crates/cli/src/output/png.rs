@@ -145,9 +145,10 @@ fn put(sample: &mut [u8], code_8: fn(f64) -> u8, code_16: fn(f64) -> u16, value:
 pub(super) fn write(
     file: &mut (impl Write + Seek),
     shape: Shape,
+    texts: &[(&str, String)],
     samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
 ) -> Result<bool, Fault> {
-    let length = write_compressed(file, shape, Compression::Fast, samples)?;
+    let length = write_compressed(file, shape, texts, Compression::Fast, samples)?;
     Ok(length > shape.file_bytes())
 }
 
@@ -156,13 +157,14 @@ pub(super) fn store(
     from: &mut (impl Read + Seek),
     to: &mut (impl Write + Seek),
     shape: Shape,
+    texts: &[(&str, String)],
 ) -> Result<(), Fault> {
     // What was written here is no danger to the memory.
     let limits = Limits { bytes: usize::MAX };
     from.seek(SeekFrom::Start(0))?;
     let decoder = Decoder::new_with_limits(BufReader::with_capacity(CHUNK_BYTES, from), limits);
     let mut reader = decoder.read_info()?;
-    write_compressed(to, shape, Compression::NoCompression, |stream| {
+    write_compressed(to, shape, texts, Compression::NoCompression, |stream| {
         while let Some(row) = reader.next_row()? {
             stream.write_all(row.data())?;
         }
@@ -175,6 +177,7 @@ pub(super) fn store(
 fn write_compressed(
     file: &mut (impl Write + Seek),
     shape: Shape,
+    texts: &[(&str, String)],
     compression: Compression,
     samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
 ) -> Result<u64, Fault> {
@@ -185,6 +188,9 @@ fn write_compressed(
     encoder.set_compression(compression);
     encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
     encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    for (keyword, text) in texts {
+        encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
+    }
     let mut writer = encoder.write_header()?;
     let mut stream = writer.stream_writer_with_size(CHUNK_BYTES)?;
     samples(&mut stream)?;

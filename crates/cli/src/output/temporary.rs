@@ -1,63 +1,78 @@
 //! Files that exist under a temporary name until they are complete.
+//!
+//! `a.png` is written as `a.png.tmp`, and by a second process at the same time as `a.png.1.tmp`.
+//! Whoever writes a file holds a lock on it, which ends with the process however that ends: what
+//! is not locked was left by one that was killed, and may be removed. Only who has the lock
+//! removes or moves a file, so that its name cannot come to mean another one meanwhile.
 
-use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io;
+use std::collections::HashMap;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
+use same_file::Handle;
+
 /// The longest names, in bytes, that common file systems take.
 const LONGEST_NAME: usize = 255;
-/// How many left-over files of killed processes with the same id are stepped over.
-const ATTEMPTS: u32 = 1000;
+/// What is kept free for endings.
+const LONGEST_ENDING: usize = 16;
+const ENDING: &str = ".tmp";
+/// How many others may be writing the same file.
+const MOST_OTHERS: u32 = 1000;
 
 /// The temporary files of this process; whoever holds the lock knows that none appears or moves.
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file beside the place where it belongs, removed when it is dropped before its time.
-pub(super) struct TemporaryFile<'path> {
+#[derive(Debug)]
+pub(crate) struct TemporaryFile {
+    /// Locked, where the file system knows locks.
     file: File,
     path: PathBuf,
-    destination: &'path Path,
+    destination: PathBuf,
 }
 
-impl<'path> TemporaryFile<'path> {
+impl TemporaryFile {
     /// Creates the file, named after its destination, with a shorter stem where there is no room.
-    ///
-    /// A file that is already there belongs to a process that was killed, or to one on another
-    /// machine that has the same id and still writes: it is left alone.
-    pub(super) fn beside(destination: &'path Path) -> io::Result<Self> {
-        let process = std::process::id();
-        let mut open = lock();
-        for attempt in 0..ATTEMPTS {
-            let ending = match attempt {
-                0 => format!(".{process}.tmp"),
-                _ => format!(".{process}-{attempt}.tmp"),
-            };
-            let path = with_ending(destination, &ending);
-            let mut options = File::options();
-            match options.read(true).write(true).create_new(true).open(&path) {
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(error),
-                Ok(file) => {
-                    open.push(path.clone());
-                    return Ok(Self {
-                        file,
-                        path,
-                        destination,
-                    });
-                }
+    pub(super) fn beside(destination: &Path) -> io::Result<Self> {
+        for number in 0..MOST_OTHERS {
+            if let Some(file) = Self::numbered(destination, number)? {
+                return Ok(file);
             }
         }
-        Err(io::Error::new(
-            io::ErrorKind::AlreadyExists,
-            "too many temporary files are in the way",
-        ))
+        let message = "too many temporary files are in the way";
+        Err(io::Error::new(ErrorKind::AlreadyExists, message))
+    }
+
+    /// Creates the file unless somebody else is writing what belongs there.
+    pub(super) fn claim(destination: &Path) -> io::Result<Option<Self>> {
+        Self::numbered(destination, 0)
+    }
+
+    fn numbered(destination: &Path, number: u32) -> io::Result<Option<Self>> {
+        let mut name = stem(destination);
+        if number > 0 {
+            name.push(format!(".{number}"));
+        }
+        name.push(ENDING);
+        let path = destination.with_file_name(name);
+        let mut open = lock();
+        let Some(file) = create(&path)? else {
+            return Ok(None);
+        };
+        open.push(path.clone());
+        Ok(Some(Self {
+            file,
+            path,
+            destination: destination.to_owned(),
+        }))
     }
 
     /// Another file for the same place.
     pub(super) fn another(&self) -> io::Result<Self> {
-        Self::beside(self.destination)
+        Self::beside(&self.destination)
     }
 
     /// What is to be read from and written to.
@@ -70,13 +85,13 @@ impl<'path> TemporaryFile<'path> {
         // Without this a crash of the machine could leave the name without the bytes.
         self.file.sync_all()?;
         let mut open = lock();
-        fs::rename(&self.path, self.destination)?;
+        fs::rename(&self.path, &self.destination)?;
         open.retain(|path| *path != self.path);
         Ok(())
     }
 }
 
-impl Drop for TemporaryFile<'_> {
+impl Drop for TemporaryFile {
     fn drop(&mut self) {
         let mut open = lock();
         if let Some(index) = open.iter().position(|path| *path == self.path) {
@@ -87,22 +102,102 @@ impl Drop for TemporaryFile<'_> {
     }
 }
 
-/// The path with an ending added to its name, which is cut at the end of a character where the
-/// whole would be too long.
-fn with_ending(path: &Path, ending: &str) -> PathBuf {
+/// Creates a file and locks it; `None` where there is one that is not left over.
+fn create(path: &Path) -> io::Result<Option<File>> {
+    /// Each time that somebody comes in between, somebody else gets on.
+    const ATTEMPTS: u32 = 10;
+    for _ in 0..ATTEMPTS {
+        let mut options = File::options();
+        match options.read(true).write(true).create_new(true).open(path) {
+            Ok(file) => match file.try_lock() {
+                // Somebody took it for left over.
+                Err(TryLockError::WouldBlock) => {}
+                Ok(()) if !is_at(&file, path) => {}
+                // Without locks nobody will take it for left over.
+                Ok(()) | Err(TryLockError::Error(_)) => return Ok(Some(file)),
+            },
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                if !remove_left_over(path) {
+                    return Ok(None);
+                }
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(None)
+}
+
+/// Removes a file that nobody writes any more; whether it is gone.
+fn remove_left_over(path: &Path) -> bool {
+    match File::options().read(true).write(true).open(path) {
+        Ok(file) => match file.try_lock() {
+            Ok(()) => !is_at(&file, path) || fs::remove_file(path).is_ok(),
+            Err(_) => false,
+        },
+        Err(error) => error.kind() == ErrorKind::NotFound,
+    }
+}
+
+/// Whether this is the file that has that name now.
+fn is_at(file: &File, path: &Path) -> bool {
+    let ours = file.try_clone().and_then(Handle::from_file);
+    matches!((ours, Handle::from_path(path)), (Ok(ours), Ok(found)) if ours == found)
+}
+
+/// The name of a file, cut at the end of a character where endings would make it too long.
+fn stem(path: &Path) -> OsString {
     let name = path.file_name().unwrap_or_default();
-    let room = LONGEST_NAME.saturating_sub(ending.len());
-    let mut name = if name.len() <= room {
-        name.to_owned()
-    } else {
-        let name = name.to_string_lossy();
-        let characters = name.char_indices();
-        let ends = characters.map(|(start, character)| start + character.len_utf8());
-        let end = ends.take_while(|&end| end <= room).last().unwrap_or(0);
-        OsString::from(&name[..end])
-    };
-    name.push(ending);
-    path.with_file_name(name)
+    let room = LONGEST_NAME - LONGEST_ENDING;
+    if name.len() <= room {
+        return name.to_owned();
+    }
+    let name = name.to_string_lossy();
+    let characters = name.char_indices();
+    let ends = characters.map(|(start, character)| start + character.len_utf8());
+    let end = ends.take_while(|&end| end <= room).last().unwrap_or(0);
+    OsString::from(&name[..end])
+}
+
+/// What a temporary file's name begins with: the name of its destination, or the start of it.
+fn stem_of_temporary(name: &OsStr) -> Option<&str> {
+    let name = name.to_str()?.strip_suffix(ENDING)?;
+    Some(match name.rsplit_once('.') {
+        Some((stem, number)) if number.parse::<u32>().is_ok() => stem,
+        _ => name,
+    })
+}
+
+/// Temporary files that were there at the start, folder by folder.
+#[derive(Debug, Default)]
+pub(crate) struct LeftOver {
+    folders: HashMap<PathBuf, HashMap<OsString, Vec<PathBuf>>>,
+}
+
+impl LeftOver {
+    /// Removes those for one place that nobody writes any more.
+    pub(super) fn remove(&mut self, destination: &Path) {
+        let folder = super::folder(destination);
+        if !self.folders.contains_key(folder) {
+            self.folders.insert(folder.to_owned(), temporaries(folder));
+        }
+        let found = self.folders.get_mut(folder);
+        let found = found.and_then(|found| found.remove(&stem(destination)));
+        for path in found.into_iter().flatten() {
+            remove_left_over(&path);
+        }
+    }
+}
+
+/// The temporary files in a folder, by what their names begin with.
+fn temporaries(folder: &Path) -> HashMap<OsString, Vec<PathBuf>> {
+    let mut found: HashMap<OsString, Vec<PathBuf>> = HashMap::new();
+    // What cannot be looked at cannot be written to either, which others will say.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if let Some(stem) = stem_of_temporary(&entry.file_name()) {
+            found.entry(stem.into()).or_default().push(entry.path());
+        }
+    }
+    found
 }
 
 /// Removes all temporary files; as long as the answer lives, no file appears or moves.
@@ -121,59 +216,4 @@ fn lock() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::io::Write;
-
-    use super::*;
-
-    /// A file name in the tests' own folder that no other test uses.
-    fn destination(name: &str) -> PathBuf {
-        let process = std::process::id();
-        std::env::temp_dir().join(format!("marbles-{process}-{name}"))
-    }
-
-    #[test]
-    fn files_appear_when_they_are_complete() {
-        let destination = destination("complete");
-        let mut file = TemporaryFile::beside(&destination).unwrap();
-        let path = file.path.clone();
-        file.file().write_all(b"marbles").unwrap();
-        assert!(path.exists() && !destination.exists());
-        file.persist().unwrap();
-        assert!(!path.exists());
-        assert_eq!(fs::read(&destination).unwrap(), b"marbles");
-        fs::remove_file(destination).unwrap();
-    }
-
-    #[test]
-    fn unfinished_files_are_removed() {
-        let destination = destination("unfinished");
-        let file = TemporaryFile::beside(&destination).unwrap();
-        let path = file.path.clone();
-        assert!(path.exists());
-        drop(file);
-        assert!(!path.exists() && !destination.exists());
-    }
-
-    #[test]
-    fn names_are_cut_between_characters() {
-        let long = "ö".repeat(LONGEST_NAME / 2);
-        let path = with_ending(&Path::new("folder").join(&long), ".7.tmp");
-        // 249 bytes are left, and 248 are filled.
-        let expected = format!("{}.7.tmp", &long[..248]);
-        assert_eq!(path, Path::new("folder").join(expected));
-        assert_eq!(
-            with_ending(Path::new("a.png"), ".7.tmp"),
-            Path::new("a.png.7.tmp")
-        );
-    }
-
-    #[test]
-    fn files_of_others_are_stepped_over() {
-        let destination = destination("others");
-        let first = TemporaryFile::beside(&destination).unwrap();
-        let second = TemporaryFile::beside(&destination).unwrap();
-        assert_ne!(first.path, second.path);
-        assert!(first.path.exists() && second.path.exists());
-    }
-}
+mod tests;

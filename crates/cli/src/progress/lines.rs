@@ -106,16 +106,17 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A frame's file is complete, `done` are now.
-    pub(super) fn written(&self, frame: i32, done: u64) {
+    /// A frame's file is complete; how many were written until now, and how many skipped.
+    pub(super) fn written(&self, frame: i32, written: u64, skipped: u64) {
         let frames = self.frames;
+        let done = written + skipped;
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         match self.reader {
             // The line of results says it all.
             Reader::People if frames == 1 => {}
-            Reader::People => self.console.note(&self.story(frame, done)),
+            Reader::People => self.console.note(&self.story(frame, written, done)),
             Reader::OpenJd => {
-                let story = self.story(frame, done);
+                let story = self.story(frame, written, done);
                 self.console.result(&format!("openjd_status: {story}"));
             }
             Reader::Json => self.console.event(&Event::Frame {
@@ -127,11 +128,11 @@ impl<'a> Lines<'a> {
         told.at = Instant::now();
     }
 
-    fn story(&self, frame: i32, done: u64) -> String {
+    fn story(&self, frame: i32, written: u64, done: u64) -> String {
         let frames = self.frames;
         let mut line = format!("frame {frame}: {done} of {frames} done");
         if done < frames {
-            let per_frame = self.started.elapsed().as_secs_f64() / done as f64;
+            let per_frame = self.started.elapsed().as_secs_f64() / written as f64;
             let seconds = per_frame * (frames - done) as f64;
             let left = Duration::try_from_secs_f64(seconds).unwrap_or_default();
             line.push_str(&format!(", {} left", numbers::wait(left)));
@@ -188,15 +189,15 @@ mod tests {
         lines.begin(50);
         lines.advance(1);
         lines.advance(49);
-        lines.written(7, 1);
+        lines.written(7, 1, 0);
         lines.leave_out();
         lines.begin(50);
         lines.advance(50);
         lines.begin(50);
-        lines.written(9, 2);
+        lines.written(9, 1, 1);
         lines.advance(49);
         lines.advance(1);
-        lines.written(-10, 3);
+        lines.written(-10, 2, 1);
         (out.read(), err.read())
     }
 

@@ -18,7 +18,7 @@ const ECHO: &str = "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
 const ENDLESS: &str = "#!/bin/sh
 trap 'exit 130' TERM
 touch started
-for second in $(seq 60); do sleep 1 & wait $!; done
+for turn in $(seq 1200); do sleep 0.05; done
 ";
 
 /// A program by this name that jobs find.

@@ -11,6 +11,7 @@ mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+mod sequences;
 mod signals;
 #[cfg(target_os = "linux")]
 mod terminal;
@@ -82,9 +83,15 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
     let errors = text(&output.stderr);
     assert!(errors.starts_with("marbles: frame 2: "), "{errors}");
     assert!(
-        errors.ends_with("marbles: 2 of 3 frames written\n"),
+        errors.ends_with("marbles: 2 of 3 frames written, failed: 2\n"),
         "{errors}"
     );
+    let output = folder.run("render through.ron --fail-fast --skip-existing");
+    assert_eq!(code(&output), 1);
+    assert_eq!(text(&output.stdout).lines().count(), 1);
+    let errors = text(&output.stderr);
+    let last = "marbles: 0 of 3 frames written, 1 skipped, failed: 2\n";
+    assert!(errors.ends_with(last), "{errors}");
 
     let output = folder.run("check through.ron");
     assert_eq!(code(&output), 2);

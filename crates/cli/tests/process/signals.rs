@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use crate::folder::{Folder, assert_complete, is_picture};
 
-fn wait_until(what: &str, condition: impl Fn() -> bool) {
+pub(crate) fn wait_until(what: &str, condition: impl Fn() -> bool) {
     let started = Instant::now();
     while !condition() {
         assert!(

@@ -136,7 +136,13 @@ fn strips_are_the_picture_whatever_their_height() {
                         done.fetch_add(pixels, Ordering::Relaxed);
                         ControlFlow::Continue(())
                     };
-                    let work = renderer.render_strips(&view, &settings, &sink, &count);
+                    let work = renderer.render_strips(
+                        &view,
+                        Window::whole(&view),
+                        &settings,
+                        &sink,
+                        &count,
+                    );
                     assert_eq!(work, Ok(image.work()));
                     assert_eq!(done.into_inner(), u64::from(width) * u64::from(height));
                     assert_eq!(sink.ended.into_inner(), height.div_ceil(bands * BAND_ROWS));
@@ -145,6 +151,50 @@ fn strips_are_the_picture_whatever_their_height() {
                         "{bands} bands"
                     );
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn windows_show_what_the_picture_does() {
+    let (width, height) = (PART_COLUMNS + 21, 45);
+    let (mut world, view) = ball(width, height);
+    world.background = Color::new(0.5, 0.25, 0.125);
+    let renderer = Renderer::new(&world);
+    let go = |_| ControlFlow::Continue(());
+    for settings in settings() {
+        let image = renderer.render(&view, &settings, &go).unwrap();
+        for (col, row, width, height) in [
+            (0, 0, width, height),
+            (8, 16, 16, 8),
+            (3, 5, 1, 1),
+            (5, 7, width - 7, 30),
+            (width - 1, height - 1, 1, 1),
+            (PART_COLUMNS - 1, 1, 3, height - 1),
+        ] {
+            let window = Window {
+                col,
+                row,
+                width,
+                height,
+            };
+            let places =
+                (row..row + height).flat_map(|row| (col..col + width).map(move |c| (c, row)));
+            let expected: Vec<String> = places.map(|(col, row)| pixel(&image, col, row)).collect();
+            for bands in 1..=2 {
+                let size = View {
+                    width,
+                    height,
+                    ..view
+                };
+                let sink = Collector::new(size, bands);
+                let ended = renderer.render_strips(&view, window, &settings, &sink, &go);
+                assert!(ended.is_ok());
+                assert!(
+                    sink.pixels.into_inner().unwrap() == expected,
+                    "{window:?}, {bands} bands"
+                );
             }
         }
     }
@@ -175,7 +225,7 @@ fn a_sink_and_progress_can_end_the_rendering() {
         ..Collector::new(view, 1)
     };
     let go = |_| ControlFlow::Continue(());
-    let ended = renderer.render_strips(&view, &settings()[0], &sink, &go);
+    let ended = renderer.render_strips(&view, Window::whole(&view), &settings()[0], &sink, &go);
     assert_eq!(ended, Err(Cancelled));
     // Each thread asks once more at most.
     let threads = rayon::current_num_threads() as u32;
@@ -183,7 +233,7 @@ fn a_sink_and_progress_can_end_the_rendering() {
 
     let sink = Collector::new(view, 1);
     let stop = |_| ControlFlow::Break(());
-    let ended = renderer.render_strips(&view, &settings()[0], &sink, &stop);
+    let ended = renderer.render_strips(&view, Window::whole(&view), &settings()[0], &sink, &stop);
     assert_eq!(ended, Err(Cancelled));
     assert!(sink.begun.into_inner() <= threads);
 }

@@ -8,7 +8,7 @@ use glam::DVec4;
 use marbles_core::Angle;
 
 use super::*;
-use crate::output::tests::{Scene, encode, render};
+use crate::output::tests::{DIGEST, Scene, encode, render};
 use crate::output::{Encoding, Facts};
 
 const HALF: ExrOptions = ExrOptions {
@@ -27,6 +27,7 @@ fn facts() -> Facts {
         frame: -7,
         frames_per_second: Some(23.976),
         method: Method::Samples(NonZeroU32::MIN),
+        digest: DIGEST,
     }
 }
 

@@ -138,10 +138,8 @@ fn noise_does_not_grow() {
     assert!(decoded == samples);
     // In a hurry it would have grown.
     let mut hurried = Cursor::new(Vec::new());
-    let has_grown = write(
-        &mut hurried,
-        shape,
-        |stream| Ok(stream.write_all(&samples)?),
-    );
+    let has_grown = write(&mut hurried, shape, &[], |stream| {
+        Ok(stream.write_all(&samples)?)
+    });
     assert!(has_grown.unwrap());
 }

@@ -1,0 +1,159 @@
+use std::num::NonZeroU32;
+use std::path::Path;
+
+use marbles_scene::Scene;
+
+use super::*;
+
+const SCENE: &str = "(
+    image: (width: 60, height: 40),
+    lens: Retina(width: 60, distance: 100, shift: (1, 2)),
+    camera: Free(position: (0, 1, 2), pan: 3),
+    zoom: 1.5,
+    background: 0.25,
+    ambient: 0.125,
+    shadows: true,
+    lights: [Directional(toward: (-1, 1, -1), intensity: 0.5)],
+    materials: {
+        \"candy\": (albedo: 0.5, exponent: 2, highlight: (strength: 0.6, shininess: 40),
+                  rough: (amplitude: 0.5, grain: Surface(12), seed: 1)),
+    },
+    spheres: [(center: (0, 0, 400), radius: 300, material: \"candy\"),
+              (center: (9, 0, 400), radius: 30)],
+    animation: Keyframes(frames: (1, 9), fps: 24, keys: [(frame: 1, tilt: 0), (frame: 9, tilt: 5)]),
+)";
+
+const SETTINGS: Settings = Settings {
+    method: Method::Tolerance(1e-3),
+    alpha: false,
+};
+const PNG: Encoding = Encoding::Png(PngOptions {
+    deep: false,
+    rgb: false,
+});
+
+fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Hash {
+    let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
+    let digests = Digests::new(scene.world(), settings, encoding);
+    digests.of(&Shot {
+        view: &scene.view(frame).unwrap(),
+        frame,
+        frames_per_second: scene.frames_per_second(),
+    })
+}
+
+#[test]
+fn whatever_changes_a_picture_changes_its_digest() {
+    let mut seen = vec![digest(SCENE, &SETTINGS, PNG, 2)];
+    let mut add = |what: &str, digest: Hash| {
+        assert!(!seen.contains(&digest), "{what}");
+        seen.push(digest);
+    };
+    for (old, new) in [
+        ("width: 60, height", "width: 61, height"),
+        ("height: 40", "height: 41"),
+        ("width: 60, d", "width: 61, d"),
+        ("distance: 100", "distance: 101"),
+        ("(1, 2)", "(0, 2)"),
+        ("(1, 2)", "(1, 3)"),
+        ("(0, 1, 2)", "(0, 1, 3)"),
+        ("pan: 3", "pan: 4"),
+        ("zoom: 1.5", "zoom: 1.25"),
+        ("background: 0.25", "background: 0.5"),
+        ("ambient: 0.125", "ambient: 0.5"),
+        ("shadows: true", "shadows: false"),
+        ("toward: (-1", "toward: (-2"),
+        ("intensity: 0.5", "intensity: 0.25"),
+        ("albedo: 0.5", "albedo: (0.5, 0.5, 0.25)"),
+        ("exponent: 2", "exponent: 3"),
+        ("strength: 0.6", "strength: 0.7"),
+        ("shininess: 40", "shininess: 41"),
+        ("highlight: (strength: 0.6, shininess: 40),", ""),
+        ("amplitude: 0.5", "amplitude: 0.25"),
+        ("Surface(12)", "Surface(13)"),
+        ("Surface(12)", "Pixel"),
+        ("seed: 1", "seed: 2"),
+        ("radius: 300", "radius: 301"),
+        ("(0, 0, 400)", "(0, 0, 401)"),
+        (", material: \"candy\"", ""),
+        ("radius: 30)", "radius: 30, material: \"candy\")"),
+        (", (frame: 9, tilt: 5)", ", (frame: 9, tilt: 6)"),
+        ("fps: 24", "fps: 25"),
+    ] {
+        assert!(SCENE.contains(old), "{old}");
+        let scene = SCENE.replacen(old, new, 1);
+        add(new, digest(&scene, &SETTINGS, PNG, 2));
+    }
+    add("frame", digest(SCENE, &SETTINGS, PNG, 3));
+    for (method, alpha) in [
+        (Method::Tolerance(1e-3), true),
+        (Method::Tolerance(1e-4), false),
+        (Method::Samples(NonZeroU32::MIN), false),
+        (Method::Samples(NonZeroU32::MAX), false),
+    ] {
+        let settings = Settings { method, alpha };
+        add("settings", digest(SCENE, &settings, PNG, 2));
+    }
+    for (one, other) in [(false, true), (true, false), (true, true)] {
+        let (deep, rgb) = (one, other);
+        let encoding = Encoding::Png(PngOptions { deep, rgb });
+        add("PNG", digest(SCENE, &SETTINGS, encoding, 2));
+    }
+    for (float, error) in [(false, false), (false, true), (true, false), (true, true)] {
+        let encoding = Encoding::Exr(ExrOptions { float, error });
+        add("EXR", digest(SCENE, &SETTINGS, encoding, 2));
+    }
+}
+
+#[test]
+fn how_a_scene_is_written_does_not_matter() {
+    let reference = digest(SCENE, &SETTINGS, PNG, 2);
+    for (old, new) in [
+        ("(\n    image", "// A comment.\n(image"),
+        ("candy", "sweets"),
+        ("    shadows: true,\n", ""),
+        ("0.125", "(0.125, 0.125, 0.125)"),
+    ] {
+        let scene = SCENE.replace(old, new);
+        assert_ne!(scene, SCENE, "{old}");
+        assert_eq!(digest(&scene, &SETTINGS, PNG, 2), reference, "{new}");
+    }
+    let pool = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        pool.install(|| digest(SCENE, &SETTINGS, PNG, 2))
+    };
+    assert_eq!([pool(1), pool(3)], [reference; 2]);
+}
+
+#[test]
+fn every_sphere_of_many_counts() {
+    let world = |changed: Option<usize>, palette: Option<usize>| {
+        let mut world = World::new();
+        let white = world.add_material(Material::MATTE_WHITE);
+        let count = 2 * SPHERES + 5;
+        let sphere = |index| {
+            let x = if changed == Some(index) {
+                -1.0
+            } else {
+                index as f64
+            };
+            Sphere::new(DVec3::new(x, 0.0, 0.0), 1.0).unwrap()
+        };
+        let albedos = palette.map(|colored| marbles_core::Albedos::Palette {
+            colors: vec![DVec3::ONE, DVec3::X],
+            indices: (0..count).map(|index| u8::from(index == colored)).collect(),
+        });
+        world.add_spheres((0..count).map(sphere).collect(), white, albedos);
+        hashes_of_spheres(&world)
+    };
+    let last = 2 * SPHERES + 4;
+    let mut all = vec![world(None, None)];
+    for place in [0, SPHERES - 1, SPHERES, last] {
+        all.push(world(Some(place), None));
+        all.push(world(None, Some(place)));
+    }
+    for (index, one) in all.iter().enumerate() {
+        assert!(!all[..index].contains(one), "{index}");
+    }
+}
