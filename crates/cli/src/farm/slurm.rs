@@ -11,15 +11,16 @@ const MOST_TASKS: usize = 4_000_000;
 ///
 /// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
 /// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
-/// outside sends SIGTERM, or kills them.
+/// outside kills them, or sends SIGTERM.
 const SIGNALS: &str = r#"renderer=
 ended=
 again=
 end() {
     ended=1
-    [ -z "$renderer" ] || kill -TERM "$renderer"
+    [ -z "$renderer" ] || kill -TERM "$renderer" 2>/dev/null
 }
-trap end TERM INT
+# Slurm tells the renderer as well, which ends within a second; a second signal would hurry it.
+trap 'sleep 1; end' TERM INT
 trap 'again=1; end' USR1
 "#;
 
