@@ -8,10 +8,12 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use marbles_core::Window;
 
 pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
+use crate::region;
 
 /// Sides of pictures, as in scene files.
 const LONGEST_SIDE: u32 = 65_536;
@@ -35,6 +37,7 @@ pub(crate) enum Command {
     Render(RenderArguments),
     Check(CheckArguments),
     Compare(CompareArguments),
+    Merge(MergeArguments),
     Report(ReportArguments),
     Farm(FarmArguments),
 }
@@ -101,6 +104,11 @@ pub(crate) struct RenderArguments {
     /// Size of the picture in pixels, in place of the scene's
     #[arg(long, value_name = "WxH")]
     pub(crate) size: Option<Size>,
+
+    /// Render only a part of the picture, from column X and row Y on; `marbles merge` puts parts
+    /// together
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region::window_of)]
+    pub(crate) region: Option<Window>,
 
     /// Leave the background out, and store how much of each pixel the spheres cover
     #[arg(long)]
@@ -202,6 +210,37 @@ pub(crate) struct CompareArguments {
     /// in the middle (else 1e-3); .exr as they are
     #[arg(long, value_name = "FILE")]
     pub(crate) diff: Option<PathBuf>,
+
+    /// Print nothing but errors and warnings
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+const MERGE_EXAMPLES: &str = "\
+Examples:
+  marbles render huge.ron -o left.exr --region 0,0,4096,8192
+  marbles render huge.ron -o right.exr --region 4096,0,4096,8192
+  marbles merge huge.exr left.exr right.exr
+
+The picture is the one that would have been rendered as a whole, to the byte.
+
+Exit codes:
+  0  the picture is written
+  1  something failed
+  2  the command line is wrong, or the parts do not make a picture: there is a gap, two overlap, or
+     they are of different scenes, frames or settings";
+
+/// Put parts together that were rendered with --region
+#[derive(Debug, Args)]
+#[command(after_help = MERGE_EXAMPLES)]
+pub(crate) struct MergeArguments {
+    /// Picture to write, of the same format as the parts
+    #[arg(value_name = "OUT")]
+    pub(crate) output: PathBuf,
+
+    /// Parts of the picture, in any order
+    #[arg(value_name = "PARTS", required = true)]
+    pub(crate) parts: Vec<PathBuf>,
 
     /// Print nothing but errors and warnings
     #[arg(short, long)]

@@ -106,7 +106,8 @@ impl Strip for FilmStrip<'_> {
         self.film.apart(|| {
             let rows = 0..part.height();
             let clipped = coder.encode(&mut self.samples, col, part, rows);
-            let place = (col, self.index * coder.rows());
+            let (first_col, first_row) = coder.origin();
+            let place = (first_col + col, first_row + self.index * coder.rows());
             self.gathered.add(&Gathered::of(part, place, clipped));
         });
     }
@@ -188,6 +189,7 @@ mod tests {
             height: 90,
             channels: Channels::Grey,
             alpha: false,
+            part: None,
         };
         let (deep, rgb) = (false, false);
         let coder = Coder::new(Encoding::Png(PngOptions { deep, rgb }), form);

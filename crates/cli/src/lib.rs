@@ -1,7 +1,7 @@
 //! The command line of marbles.
 //!
-//! Every command is a file: `render`, `check`, `compare`, `report` and `farm`. Frames follow each
-//! other in `sequence` and become files in `output`; `input` reads pictures back.
+//! Every command is a file: `render`, `check`, `compare`, `merge`, `report` and `farm`. Frames follow
+//! each other in `sequence` and become files in `output`; `input` reads pictures back.
 
 mod args;
 mod belt;
@@ -17,12 +17,14 @@ mod input;
 mod interrupt;
 mod loading;
 mod memory;
+mod merge;
 mod messages;
 mod numbers;
 mod output;
 mod pattern;
 mod progress;
 mod rational;
+mod region;
 mod render;
 mod report;
 mod sequence;
@@ -76,6 +78,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Render(arguments) => render::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
+        Command::Merge(arguments) => merge::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
         Command::Farm(arguments) => farm::run(&arguments, console),
     };

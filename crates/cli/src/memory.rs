@@ -3,8 +3,10 @@
 
 use marbles_core::{BAND_ROWS, Channels, View, World};
 
+use crate::args::Size;
 use crate::failure::Failure;
 use crate::output::Coder;
+use crate::region::Region;
 
 /// What threads and all that is small may take: glibc reserves this many addresses for a thread
 /// that allocates, though it uses few of them.
@@ -24,6 +26,8 @@ pub(crate) struct Form {
     pub(crate) height: u32,
     pub(crate) channels: Channels,
     pub(crate) alpha: bool,
+    /// Where this lies in a larger picture; `None` for a whole one.
+    pub(crate) part: Option<Region>,
 }
 
 impl Form {
@@ -33,6 +37,7 @@ impl Form {
         height: 1,
         channels: Channels::Grey,
         alpha: false,
+        part: None,
     };
 
     /// What `view` of a world is rendered as.
@@ -42,7 +47,24 @@ impl Form {
             height: view.height,
             channels: Channels::of(world, alpha),
             alpha,
+            part: None,
         }
+    }
+
+    /// A part of such a picture.
+    pub(crate) fn cut(self, region: Region) -> Self {
+        Self {
+            width: region.window.width,
+            height: region.window.height,
+            part: (!region.is_all()).then_some(region),
+            ..self
+        }
+    }
+
+    /// Where the first pixel lies in the whole picture: its column and row.
+    pub(crate) fn origin(&self) -> (u32, u32) {
+        let window = self.part.map(|part| part.window);
+        window.map_or((0, 0), |window| (window.col, window.row))
     }
 
     /// Bytes of one of core's pictures as a whole: the channels and the error in double precision,
@@ -59,7 +81,14 @@ impl Form {
     /// Bytes of the lists of what is seen in which tile, where few spheres are.
     fn list_bytes(&self) -> u64 {
         let tiles = |pixels: u32| u64::from(pixels.div_ceil(BAND_ROWS));
-        4 * tiles(self.width) * tiles(self.height)
+        let Size { width, height } = self.part.map_or(
+            Size {
+                width: self.width,
+                height: self.height,
+            },
+            |part| part.whole,
+        );
+        4 * tiles(width) * tiles(height)
     }
 }
 
@@ -128,6 +157,7 @@ mod tests {
             height,
             channels: Channels::Rgb,
             alpha: true,
+            part: None,
         }
     }
 

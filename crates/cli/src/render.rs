@@ -88,6 +88,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         scene: &scene,
         frames: &frames,
         size: arguments.size,
+        window: arguments.region,
         settings: Settings {
             method: match arguments.samples {
                 Some(samples) => Method::Samples(samples),

@@ -10,7 +10,6 @@ use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use blake3::Hash;
 use marbles_core::{Renderer, Settings, Summary, View, Window};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
@@ -21,7 +20,7 @@ use crate::digest::{Digests, Shot};
 use crate::failure::Failure;
 use crate::film::{Film, Gathered};
 use crate::frames::FrameList;
-use crate::input::finished;
+use crate::input::finished::{self, Content};
 use crate::interrupt;
 use crate::memory::{self, Form};
 use crate::messages;
@@ -29,6 +28,7 @@ use crate::output::temporary::{LeftOver, TemporaryFile};
 use crate::output::{self, Coder, Encoding, Facts, Piece, Pieces, Unwritten};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
+use crate::region::{self, Region};
 use crate::tally::{Failures, Tally};
 
 /// Pictures that wait to be written while another one is. If more waited, it would not help: in the
@@ -42,6 +42,8 @@ pub(crate) struct Sequence<'a> {
     pub(crate) frames: &'a FrameList,
     /// In place of the scene's.
     pub(crate) size: Option<Size>,
+    /// The part of the picture that is wanted, if not all of it.
+    pub(crate) window: Option<Window>,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) settings: Settings,
     pub(crate) pattern: &'a Pattern,
@@ -79,6 +81,7 @@ struct Ending {
 
 /// What the thread that renders and the one that writes have in common.
 struct Ways {
+    form: Form,
     coder: Coder,
     belt: Belt,
     failures: Failures,
@@ -170,7 +173,7 @@ impl Sequence<'_> {
                 }),
             };
             output::clean(&path, &mut left_over);
-            let file = match self.turn(&path, &facts.digest, is_postponed) {
+            let file = match self.turn(&path, (facts.digest, ways.form.part), is_postponed) {
                 Ok(Turn::Render(file)) => file,
                 Ok(Turn::Skip) => {
                     ways.skipped.fetch_add(1, Ordering::Relaxed);
@@ -190,7 +193,8 @@ impl Sequence<'_> {
             let prepare = || Renderer::new(world);
             let prepare = || progress.while_preparing(world.spheres().len(), prepare);
             let renderer = renderer.get_or_insert_with(prepare);
-            progress.begin(index, u64::from(view.width) * u64::from(view.height));
+            let Form { width, height, .. } = ways.form;
+            progress.begin(index, u64::from(width) * u64::from(height));
             index += 1;
             let film = Film::new(&ways.coder, &ways.belt, first_piece);
             first_piece += u64::from(ways.coder.pieces());
@@ -208,7 +212,8 @@ impl Sequence<'_> {
                 break;
             }
             let started = Instant::now();
-            let window = Window::whole(&view);
+            let part = ways.form.part.map(|part| part.window);
+            let window = part.unwrap_or(Window::whole(&view));
             let settings = &self.settings;
             let rendered = renderer.render_strips(&view, window, settings, &film, &|pixels| {
                 progress.advance(pixels);
@@ -238,11 +243,11 @@ impl Sequence<'_> {
     ///
     /// Who has waited once begins it all the same: somebody who stands still would else keep
     /// everybody from the end, and both write the same.
-    fn turn(&self, path: &Path, digest: &Hash, has_waited: bool) -> Result<Turn, Failure> {
+    fn turn(&self, path: &Path, content: Content, has_waited: bool) -> Result<Turn, Failure> {
         if !self.persistence.skip_existing {
             return Ok(Turn::Render(output::begin(path)?));
         }
-        let is_there = || finished::digest(path) == Some(*digest);
+        let is_there = || finished::content(path) == Some(content);
         if is_there() {
             return Ok(Turn::Skip);
         }
@@ -324,18 +329,38 @@ impl Sequence<'_> {
         }
     }
 
+    /// What is rendered of a picture.
+    fn region(&self, view: &View) -> Result<Region, Failure> {
+        let (width, height) = (view.width, view.height);
+        let whole = Size { width, height };
+        let Some(window) = self.window else {
+            return Ok(Region::all(whole));
+        };
+        Region::new(window, whole).ok_or_else(|| {
+            let window = region::shown(&window);
+            let message =
+                format!("expected a region inside {width} x {height} pixels, found {window}");
+            Failure::Usage(message)
+        })
+    }
+
     /// Makes ready what all frames share, if there is memory for it.
     fn ways(&self, threads: &ThreadPool) -> Result<Ways, Failure> {
         // All frames have the same size.
         let view = self.frames.iter();
         let view = view.filter_map(|frame| self.scene.view(frame).ok()).next();
         let view = view.map(|view| self.resized(view));
-        let form = view.map_or(Form::EMPTY, |view| {
-            Form::of(&view, self.scene.world(), self.settings.alpha)
-        });
+        let form = match view {
+            None => Form::EMPTY,
+            Some(view) => {
+                let form = Form::of(&view, self.scene.world(), self.settings.alpha);
+                form.cut(self.region(&view)?)
+            }
+        };
         let coder = Coder::new(self.encoding, form);
         let strips = memory::strips_at_a_time(&form, &coder, threads.current_num_threads())?;
         Ok(Ways {
+            form,
             coder,
             belt: Belt::new(strips),
             failures: Failures::new(self.persistence.fail_fast),

@@ -10,16 +10,23 @@ use std::path::Path;
 use blake3::Hash;
 use crc32fast::Hasher;
 use exr::meta::MetaData;
+use exr::meta::header::Header;
 use exr::prelude::AttributeValue;
+use marbles_core::Window;
 
 use super::{EXR_MAGIC, PNG_MAGIC};
-use crate::output::{DIGEST_ATTRIBUTE, DIGEST_KEYWORD};
+use crate::args::Size;
+use crate::output::{DIGEST_ATTRIBUTE, DIGEST_KEYWORD, REGION_KEYWORD};
+use crate::region::Region;
 
 /// Longer texts are no digests.
 const LONGEST_TEXT: u32 = 256;
 
-/// The digest in the file at `path`; `None` where that is not a whole picture, or has none.
-pub(crate) fn digest(path: &Path) -> Option<Hash> {
+/// What a file holds: the digest of a picture, and the part of it where that is not all.
+pub(crate) type Content = (Hash, Option<Region>);
+
+/// What the file at `path` says it holds; `None` where it is not complete, or says nothing.
+pub(crate) fn content(path: &Path) -> Option<Content> {
     if !path.is_file() {
         return None;
     }
@@ -35,24 +42,31 @@ pub(crate) fn digest(path: &Path) -> Option<Hash> {
 }
 
 /// Of a PNG.
-fn of_png(file: &mut impl Read) -> Option<Hash> {
+fn of_png(file: &mut impl Read) -> Option<Content> {
     let mut magic = [0; PNG_MAGIC.len()];
     file.read_exact(&mut magic).ok()?;
     if magic != PNG_MAGIC {
         return None;
     }
-    let mut digest = None;
+    let (mut digest, mut region) = (None, None);
     loop {
         let chunk = Chunk::read(file).ok()?;
         match &chunk.kind {
-            b"tEXt" => digest = digest.or(digest_in_text(&chunk.text)),
+            b"tEXt" => {
+                if let Some(text) = text_behind(DIGEST_KEYWORD, &chunk.text) {
+                    digest = Some(Hash::from_hex(text).ok()?);
+                }
+                if let Some(text) = text_behind(REGION_KEYWORD, &chunk.text) {
+                    region = Some(text.parse().ok()?);
+                }
+            }
             b"IEND" => break,
             _ => {}
         }
     }
     // Nothing may follow.
     match file.read(&mut [0]) {
-        Ok(0) => digest,
+        Ok(0) => Some((digest?, region)),
         _ => None,
     }
 }
@@ -100,14 +114,14 @@ impl Chunk {
     }
 }
 
-/// The digest in a keyword and a text, which a zero byte divides.
-fn digest_in_text(text: &[u8]) -> Option<Hash> {
-    let digest = text.strip_prefix(DIGEST_KEYWORD.as_bytes())?;
-    Hash::from_hex(digest.strip_prefix(b"\0")?).ok()
+/// What stands behind this keyword, from which a zero byte divides it.
+fn text_behind<'chunk>(keyword: &str, chunk: &'chunk [u8]) -> Option<&'chunk str> {
+    let text = chunk.strip_prefix(keyword.as_bytes())?;
+    str::from_utf8(text.strip_prefix(b"\0")?).ok()
 }
 
 /// Of an EXR of one part whose blocks are rows, as they are written here.
-fn of_exr(file: &mut (impl Read + Seek)) -> Option<Hash> {
+fn of_exr(file: &mut (impl Read + Seek)) -> Option<Content> {
     let end = file.seek(SeekFrom::End(0)).ok()?;
     file.rewind().ok()?;
     let meta = MetaData::read_from_buffered(&mut *file, false).ok()?;
@@ -144,7 +158,27 @@ fn of_exr(file: &mut (impl Read + Seek)) -> Option<Hash> {
         }
         place += start.len() as u64 + u64::try_from(bytes).ok()?;
     }
-    (place == end).then_some(digest)
+    let region = region_of(header)?;
+    (place == end).then_some((digest, (!region.is_all()).then_some(region)))
+}
+
+/// Where the data window lies in the display window.
+fn region_of(header: &Header) -> Option<Region> {
+    let display = header.shared_attributes.display_window;
+    let position = header.own_attributes.layer_position;
+    let number = |number: usize| u32::try_from(number).ok();
+    let offset = |data: i32, display: i32| u32::try_from(data.checked_sub(display)?).ok();
+    let window = Window {
+        col: offset(position.x(), display.position.x())?,
+        row: offset(position.y(), display.position.y())?,
+        width: number(header.layer_size.width())?,
+        height: number(header.layer_size.height())?,
+    };
+    let whole = Size {
+        width: number(display.size.width())?,
+        height: number(display.size.height())?,
+    };
+    Region::new(window, whole)
 }
 
 #[cfg(test)]

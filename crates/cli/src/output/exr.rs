@@ -9,13 +9,15 @@ use exr::block::{BlockIndex, UncompressedBlock};
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, SampleType};
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
-use exr::prelude::{AttributeValue, Compression, Error, SmallVec, Text, Vec2};
+use exr::prelude::{AttributeValue, Compression, Error, IntegerBounds, SmallVec, Text, Vec2};
 use glam::DVec3;
 use marbles_core::{Camera, Image, Method};
 
 use super::{DIGEST_ATTRIBUTE, Facts, Fault, SOFTWARE, half, header};
+use crate::args::Size;
 use crate::memory::Form;
 use crate::rational;
+use crate::region::Region;
 
 /// CIE xy of the primaries and the white of Rec. 709.
 const REC_709: Chromaticities = Chromaticities {
@@ -96,7 +98,14 @@ impl ExrOptions {
             _ => SampleType::F32,
         };
         let names = channels.iter().map(|channel| (channel.name, kind(channel)));
-        let header = header_of(form.width, form.height, names.collect());
+        let size = (form.width, form.height);
+        let mut header = header_of(size, names.collect());
+        if let Some(Region { window, whole }) = form.part {
+            let position = Vec2(window.col as i32, window.row as i32);
+            header.own_attributes.layer_position = position;
+            let size = (whole.width as usize, whole.height as usize);
+            header.shared_attributes.display_window = IntegerBounds::from_dimensions(size);
+        }
         Blocks {
             options: self,
             channels,
@@ -169,7 +178,11 @@ impl Blocks {
         facts: &Facts,
         next: impl FnMut() -> Result<Chunk, Fault>,
     ) -> Result<(), Fault> {
-        let header = self.header.clone().with_attributes(attributes(facts));
+        let attributes = LayerAttributes {
+            layer_position: self.header.own_attributes.layer_position,
+            ..attributes(facts)
+        };
+        let header = self.header.clone().with_attributes(attributes);
         write(file, header, next)
     }
 }
@@ -182,7 +195,7 @@ pub(super) fn write_floats(
 ) -> Result<(), Fault> {
     channels.sort_unstable_by_key(|(name, _)| *name);
     let names = channels.iter().map(|(name, _)| (*name, SampleType::F32));
-    let header = header_of(width, height, names.collect());
+    let header = header_of((width, height), names.collect());
     let attributes = LayerAttributes {
         software_name: Some(Text::from(SOFTWARE)),
         ..LayerAttributes::default()
@@ -202,8 +215,38 @@ pub(super) fn write_floats(
     })
 }
 
+/// Writes a picture of this size with the channels and attributes of another; `samples` are those
+/// of some rows at a time.
+pub(super) fn write_like(
+    file: &mut (impl Read + Write + Seek),
+    like: &Header,
+    size: Size,
+    mut samples: impl FnMut(Range<u32>) -> Option<Vec<u8>>,
+) -> Result<(), Fault> {
+    let Size { width, height } = size;
+    let header = header_of((width, height), Vec::new());
+    let header = Header {
+        channels: like.channels.clone(),
+        own_attributes: LayerAttributes {
+            layer_position: Vec2(0, 0),
+            ..like.own_attributes.clone()
+        },
+        shared_attributes: like.shared_attributes.clone(),
+        ..header
+    };
+    let of_blocks = header.clone();
+    let mut rows = (0..height).step_by(ROWS_OF_A_BLOCK as usize);
+    write(file, header, || {
+        let first = rows.next().ok_or(Fault::Stopped)?;
+        let rows = first..height.min(first + ROWS_OF_A_BLOCK);
+        let samples = samples(rows).ok_or(Fault::Stopped)?;
+        let index = (first / ROWS_OF_A_BLOCK) as usize;
+        compress(&of_blocks, index, samples).map_err(Fault::Encoding)
+    })
+}
+
 /// The header of a file with these channels, in the order of their names.
-fn header_of(width: u32, height: u32, channels: Vec<(&str, SampleType)>) -> Header {
+fn header_of((width, height): (u32, u32), channels: Vec<(&str, SampleType)>) -> Header {
     let channel = |(name, kind)| ChannelDescription::named(name, kind);
     let size = Vec2(width as usize, height as usize);
     let shared = ImageAttributes {

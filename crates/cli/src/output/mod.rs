@@ -24,14 +24,18 @@ pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
 use self::png::Shape;
 use self::temporary::{LeftOver, TemporaryFile};
+use crate::args::Size;
 use crate::failure::{Failure, lower};
 use crate::memory::Form;
+use crate::region::Region;
 
 /// What files say about who wrote them.
 const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
 /// The keyword under which a PNG keeps the digest of its picture.
 pub(crate) const DIGEST_KEYWORD: &str = "Digest";
-/// The attribute in which an EXR does.
+/// The keyword under which one that holds a part of a picture keeps which.
+pub(crate) const REGION_KEYWORD: &str = "Region";
+/// The attribute in which an EXR keeps the digest.
 pub(crate) const DIGEST_ATTRIBUTE: &str = "digest";
 
 /// How pictures are turned into bytes.
@@ -75,9 +79,16 @@ impl Coder {
     /// Bands of a strip: what becomes one piece.
     pub(crate) fn bands(&self) -> u32 {
         match self.format {
-            Format::Png(_) => 1,
+            Format::Png(_) if self.origin().1.is_multiple_of(BAND_ROWS) => 1,
+            // What begins within a band renders all of it, so that few should.
+            Format::Png(_) => 4,
             Format::Exr(_) => exr::ROWS_OF_A_BLOCK / BAND_ROWS,
         }
+    }
+
+    /// Where the first pixel lies in the whole picture: its column and row.
+    pub(crate) fn origin(&self) -> (u32, u32) {
+        self.form.origin()
     }
 
     /// Rows of a strip.
@@ -146,16 +157,22 @@ impl Coder {
         pieces: &mut impl Pieces,
     ) -> Result<(), Unwritten> {
         match &self.format {
-            Format::Png(shape) => write_png(path, Ok(file), *shape, &facts.texts(), |stream| {
-                for _ in 0..self.pieces() {
-                    // The others are never made.
-                    if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
-                        stream.write_all(&samples)?;
-                        pieces.give_back(samples);
+            Format::Png(shape) => write_png(
+                path,
+                Ok(file),
+                *shape,
+                &facts.texts(self.form.part),
+                |stream| {
+                    for _ in 0..self.pieces() {
+                        // The others are never made.
+                        if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
+                            stream.write_all(&samples)?;
+                            pieces.give_back(samples);
+                        }
                     }
-                }
-                Ok(())
-            }),
+                    Ok(())
+                },
+            ),
             Format::Exr(blocks) => finish(path, Ok(file), |mut file| {
                 blocks.write(file.file(), facts, || match pieces.next() {
                     Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
@@ -165,6 +182,37 @@ impl Coder {
             }),
         }
     }
+}
+
+/// Writes a PNG with the digest `digest` and of the kind that `like` is, whole or not at all; its
+/// rows are `samples`'.
+pub(crate) fn write_png_like(
+    path: &Path,
+    like: &::png::Info<'_>,
+    size: Size,
+    digest: &Hash,
+    samples: impl FnOnce(&mut dyn FnMut(&[u8]) -> io::Result<()>) -> Option<io::Result<()>>,
+) -> Result<(), Unwritten> {
+    let file = TemporaryFile::beside(&destination(path).map_err(Unwritten::Failed)?);
+    let texts = [(DIGEST_KEYWORD, digest.to_string())];
+    write_png(path, file, Shape::like(like, size), &texts, |stream| {
+        let written = samples(&mut |rows| stream.write_all(rows));
+        Ok(written.ok_or(Fault::Stopped)??)
+    })
+}
+
+/// Writes an EXR of the kind that `like` is, with its attributes, whole or not at all; `samples` are
+/// those of some rows at a time.
+pub(crate) fn write_exr_like(
+    path: &Path,
+    like: &::exr::meta::header::Header,
+    size: Size,
+    samples: impl FnMut(Range<u32>) -> Option<Vec<u8>>,
+) -> Result<(), Unwritten> {
+    save(path, |mut file| {
+        exr::write_like(file.file(), like, size, samples)?;
+        Ok(file)
+    })
 }
 
 /// The pieces of a picture, from the top downward.
@@ -206,14 +254,16 @@ pub(crate) struct Facts {
     pub(crate) frame: i32,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) method: Method,
-    /// What the picture is made from.
+    /// What the whole picture is made from.
     pub(crate) digest: Hash,
 }
 
 impl Facts {
     /// What a PNG says: keywords and texts.
-    fn texts(&self) -> Vec<(&'static str, String)> {
-        vec![(DIGEST_KEYWORD, self.digest.to_string())]
+    fn texts(&self, part: Option<Region>) -> Vec<(&'static str, String)> {
+        let digest = (DIGEST_KEYWORD, self.digest.to_string());
+        let part = part.map(|part| (REGION_KEYWORD, part.to_string()));
+        [digest].into_iter().chain(part).collect()
     }
 }
 

@@ -5,10 +5,12 @@ use std::ops::Range;
 
 use marbles_core::{Channels, Image};
 use png::{
-    BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Limits, SrgbRenderingIntent,
+    BitDepth, ColorType, Compression, Decoder, Encoder, EncodingError, Info, Limits,
+    SrgbRenderingIntent,
 };
 
 use super::{Fault, SOFTWARE, srgb};
+use crate::args::Size;
 use crate::memory::Form;
 
 /// Bytes of the samples' parts in a file.
@@ -66,6 +68,16 @@ impl Shape {
                 ColorType::Rgb
             },
             depth: BitDepth::Eight,
+        }
+    }
+
+    /// Of a picture of this size, of the kind of another.
+    pub(super) fn like(info: &Info<'_>, size: Size) -> Self {
+        Self {
+            width: size.width,
+            height: size.height,
+            color_type: info.color_type,
+            depth: info.bit_depth,
         }
     }
 

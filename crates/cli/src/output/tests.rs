@@ -43,6 +43,7 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
         height: image.height(),
         channels: image.channels(),
         alpha: image.has_alpha(),
+        part: None,
     };
     let coder = Coder::new(encoding, form);
     let mut clipped = 0;
@@ -56,7 +57,7 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
     let mut file = Cursor::new(Vec::new());
     match &coder.format {
         Format::Png(shape) => {
-            let has_grown = png::write(&mut file, *shape, &facts.texts(), |stream| {
+            let has_grown = png::write(&mut file, *shape, &facts.texts(None), |stream| {
                 for piece in pieces {
                     let Piece::Samples(samples) = piece else {
                         return Err(Fault::Stopped);

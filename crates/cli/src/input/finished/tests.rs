@@ -4,7 +4,7 @@ use super::*;
 use crate::output::tests::{DIGEST, Scene, exr, png, render};
 use crate::output::{ExrOptions, PngOptions};
 
-fn of(bytes: &[u8]) -> Option<Hash> {
+fn of(bytes: &[u8]) -> Option<Content> {
     let mut file = Cursor::new(bytes);
     if bytes.starts_with(EXR_MAGIC) {
         of_exr(&mut file)
@@ -24,15 +24,15 @@ fn files() -> Vec<Vec<u8>> {
 #[test]
 fn whole_pictures_tell_their_digest() {
     for file in files() {
-        assert_eq!(of(&file), Some(DIGEST));
+        assert_eq!(of(&file), Some((DIGEST, None)));
     }
     let name = format!("marbles-{}-undigested.png", std::process::id());
     let path = std::env::temp_dir().join(name);
     crate::output::write_codes(2, 1, &[0, 1], &path).unwrap();
-    assert_eq!(digest(&path), None);
+    assert_eq!(content(&path), None);
     std::fs::remove_file(&path).unwrap();
-    assert_eq!(digest(&path), None);
-    assert_eq!(digest(&std::env::temp_dir()), None);
+    assert_eq!(content(&path), None);
+    assert_eq!(content(&std::env::temp_dir()), None);
 }
 
 #[test]
