@@ -84,11 +84,9 @@ impl Job {
     ) -> Result<Self, Failure> {
         let render = &arguments.render.parsed;
         let plan = Plan::new(render, &threads::start(None)?, console)?;
+        let sequence = plan.sequence(render);
         for frame in plan.frames.iter().take(FRAMES_LOOKED_AT) {
-            if let Err(error) = plan.scene.view(frame) {
-                let scene = render.scene.display();
-                return Err(Failure::Frames(format!("{scene}: {error}")));
-            }
+            sequence.check(frame)?;
         }
         if !is_slurm && arguments.render.has("progress") {
             return Err(Failure::Usage(

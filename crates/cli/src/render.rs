@@ -24,7 +24,7 @@ pub(crate) const FRAME_OF_A_STILL: i32 = 1;
 
 /// What is rendered, and where it goes.
 pub(crate) struct Plan {
-    pub(crate) scene: Scene,
+    scene: Scene,
     pub(crate) frames: FrameList,
     pattern: Pattern,
     encoding: Encoding,
@@ -63,6 +63,30 @@ impl Plan {
             encoding,
         })
     }
+
+    /// The frames, as they are asked for.
+    pub(crate) fn sequence(&self, arguments: &RenderArguments) -> Sequence<'_> {
+        Sequence {
+            scene: &self.scene,
+            frames: &self.frames,
+            size: arguments.size,
+            window: arguments.region,
+            settings: Settings {
+                method: match arguments.samples {
+                    Some(samples) => Method::Samples(samples),
+                    None => Method::Tolerance(arguments.tolerance),
+                },
+                alpha: arguments.alpha,
+            },
+            frames_per_second: arguments.fps.or(self.scene.frames_per_second()),
+            pattern: &self.pattern,
+            encoding: self.encoding,
+            persistence: Persistence {
+                skip_existing: arguments.skip_existing,
+                fail_fast: arguments.fail_fast,
+            },
+        }
+    }
 }
 
 pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
@@ -72,39 +96,20 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         Some(ProgressForm::Plain | ProgressForm::None) | None => {}
     }
     let threads = threads::start(arguments.threads)?;
-    let Plan {
-        scene,
-        frames,
-        pattern,
-        encoding,
-    } = Plan::new(arguments, &threads, console)?;
+    let plan = Plan::new(arguments, &threads, console)?;
 
     interrupt::listen(console.farewell());
-    if let Some(first) = frames.iter().next() {
-        output::prepare(&pattern.path(first))?;
+    if let Some(first) = plan.frames.iter().next() {
+        output::prepare(&plan.pattern.path(first))?;
     }
 
-    let sequence = Sequence {
-        scene: &scene,
-        frames: &frames,
-        size: arguments.size,
-        window: arguments.region,
-        settings: Settings {
-            method: match arguments.samples {
-                Some(samples) => Method::Samples(samples),
-                None => Method::Tolerance(arguments.tolerance),
-            },
-            alpha: arguments.alpha,
-        },
-        frames_per_second: arguments.fps.or(scene.frames_per_second()),
-        pattern: &pattern,
-        encoding,
-        persistence: Persistence {
-            skip_existing: arguments.skip_existing,
-            fail_fast: arguments.fail_fast,
-        },
-    };
-    let progress = Progress::new(console, arguments.progress, arguments.quiet, frames.count());
+    let sequence = plan.sequence(arguments);
+    let progress = Progress::new(
+        console,
+        arguments.progress,
+        arguments.quiet,
+        plan.frames.count(),
+    );
     let tally = sequence.render(&threads, &progress);
     progress.finish();
     let tally = tally?;

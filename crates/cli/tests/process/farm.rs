@@ -213,6 +213,12 @@ fn a_template_hands_words_over_as_they_are() {
 fn what_cannot_be_rendered_is_no_job() {
     let folder = Folder::new();
     fs::write(folder.path("bad.ron"), BALL.replace("300)]", "-300)]")).unwrap();
+    let lost = BALL.replace(
+        "camera: Free()",
+        "camera: LookAt(position: (0, 0, -2), target: (0, 0, 0)),
+    animation: Keyframes(frames: (1, 2), keys: [(frame: 1, position: (0, 0, -2)), (frame: 2, position: (0, 0, 0))])",
+    );
+    fs::write(folder.path("lost.ron"), lost).unwrap();
     let refusal = |arguments: &str, odd: &[&str]| {
         let output = farm(&folder, arguments, odd);
         assert_eq!(code(&output), 2, "{arguments}");
@@ -228,6 +234,11 @@ fn what_cannot_be_rendered_is_no_job() {
             ("ball.ron -o #.png --float", "--float is for EXR files"),
             ("ball.ron -o #.png --tolerance 0", "tolerance"),
             ("ball.ron -o #.png --chunk 0", "--chunk"),
+            (
+                "ball.ron -o #.png --region 599,0,2,1",
+                "region inside 600 x 600",
+            ),
+            ("lost.ron -o #.png", "frame 2: "),
             ("ball.ron -o #.png --frames 9-1", "smaller frame first"),
         ] {
             let message = refusal(&format!("{engine} {arguments} --job job"), &[]);
