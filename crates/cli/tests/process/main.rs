@@ -11,6 +11,7 @@ mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+mod progress;
 mod sequences;
 mod signals;
 #[cfg(target_os = "linux")]
