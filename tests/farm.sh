@@ -22,6 +22,15 @@ export PATH="$work/bin:$PATH:/usr/sbin:/sbin"
 cleanup() {
     local code=$?
     trap - EXIT
+    if [ -n "${SLURM_CONF:-}" ]; then
+        # Tasks outlive the daemons of their node.
+        timeout 10 scancel --user="$(id -un)" || true
+        within 10 none_is_left || true
+        local node
+        for node in n1 n2 n3 n4; do
+            end_task_on "$node" || true
+        done
+    fi
     for pid in "${daemons[@]}"; do
         kill -TERM "$pid" 2>/dev/null || true
     done
@@ -205,18 +214,26 @@ script_on() {
     return 1
 }
 
-# The node is gone at once, with all that runs on it; but not before its task has written a frame, and
-# only while others are missing. Leaves the task's number in `killed`.
+# Ends what runs on a node of ours at once: the script, the renderer, and the shepherd of both.
+end_task_on() {
+    local shell step
+    shell=$(script_on "$1") || return 1
+    step=$(ps -o ppid= -p "$shell" | tr -d ' ')
+    [ "$(ps -o comm= -p "$step")" = slurmstepd ] || return 1
+    # shellcheck disable=SC2046 # one word for each process
+    kill -KILL "$step" "$shell" $(ps -o pid= --ppid "$shell") || true
+}
+
+# The node is gone, with all that runs on it; but not before its task has written a frame, and only
+# while others are missing. Leaves the task's number in `killed`.
 kill_node() {
-    local shell step frames
+    local shell frames
     shell=$(script_on "$1") || return 1
     killed=$(variable "$shell" SLURM_ARRAY_TASK_ID)
     frames=$(grep -c ' pixels, ' "$work/log/task-$killed" 2>/dev/null) || return 1
     [ "$frames" -lt 4 ] || return 1
-    step=$(ps -o ppid= -p "$shell" | tr -d ' ')
-    [ "$(ps -o comm= -p "$step")" = slurmstepd ] || return 1
-    # shellcheck disable=SC2046 # one word for each process
-    kill -KILL "$(cat "$work/spool/$1.pid")" "$step" "$shell" $(ps -o pid= --ppid "$shell") || true
+    kill -KILL "$(cat "$work/spool/$1.pid")"
+    end_task_on "$1"
 }
 
 none_is_left() {
