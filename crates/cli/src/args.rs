@@ -1,14 +1,16 @@
 //! The command line, as clap reads it.
 
+mod farm;
 mod report;
 
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use marbles_core::Window;
 
+pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
 use crate::region;
@@ -37,6 +39,7 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     Merge(MergeArguments),
     Report(ReportArguments),
+    Farm(FarmArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -67,8 +70,8 @@ pub(crate) struct RenderArguments {
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Frames in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every other), and several
-    /// of these with commas [default: all of the scene's]
+    /// Frames in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every other), 9-1:-1
+    /// (backward), and several of these with commas [default: all of the scene's]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
@@ -127,9 +130,27 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) error_channel: bool,
 
-    /// Print nothing but errors and warnings
+    /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
+    #[arg(long, value_name = "FORM")]
+    pub(crate) progress: Option<ProgressForm>,
+
+    /// Print nothing but errors and warnings, and progress only where --progress asks for it
     #[arg(short, long)]
     pub(crate) quiet: bool,
+}
+
+/// A form of progress, for people or programs.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum ProgressForm {
+    /// Lines on stdout that a runner of Open Job Description reads
+    #[value(name = "openjd")]
+    OpenJd,
+    /// Lines on stderr, each an object in JSON
+    Json,
+    /// A line on stderr for each frame, or now and then
+    Plain,
+    /// Nothing
+    None,
 }
 
 /// Validate a scene file and tell what it contains

@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::builder::StyledStr;
+use serde::Serialize;
 
 use crate::failure::{Failure, reason};
 
@@ -18,6 +19,25 @@ const RESET: &str = "\x1b[0m";
 pub(crate) struct Console {
     out: Stream,
     err: Stream,
+    /// The program that reads, where one is known.
+    reader: OnceLock<Reader>,
+}
+
+/// A program that has its own form of messages.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Reader {
+    /// Reads objects of JSON, one a line, on stderr.
+    Json,
+    /// Runs jobs of Open Job Description, and reads what went wrong on stdout.
+    OpenJd,
+}
+
+/// A message in JSON.
+#[derive(Serialize)]
+#[serde(tag = "event", rename_all = "snake_case")]
+enum Message<'a> {
+    Warning { message: &'a str },
+    Error { message: &'a str },
 }
 
 struct Stream {
@@ -46,6 +66,7 @@ impl Console {
                 terminal: io::stderr().is_terminal(),
                 styled: colors && io::stderr().is_terminal(),
             },
+            reader: OnceLock::new(),
         }
     }
 
@@ -61,7 +82,13 @@ impl Console {
         Self {
             out: plain(Box::new(out)),
             err: plain(Box::new(err)),
+            reader: OnceLock::new(),
         }
+    }
+
+    /// Speaks to a program from now on.
+    pub(crate) fn speak_to(&self, reader: Reader) {
+        self.reader.get_or_init(|| reader);
     }
 
     /// Whether messages go to a terminal.
@@ -86,8 +113,19 @@ impl Console {
         self.err.print(&format!("{line}\n"));
     }
 
+    /// A line of JSON about how things go.
+    pub(crate) fn event(&self, event: &impl Serialize) {
+        // Events are plain numbers and texts, which always have a form in JSON.
+        if let Ok(line) = serde_json::to_string(event) {
+            self.note(&line);
+        }
+    }
+
     /// Something that the user should know, though the work goes on.
     pub(crate) fn warn(&self, message: &str) {
+        if self.reader.get() == Some(&Reader::Json) {
+            return self.event(&Message::Warning { message });
+        }
         self.note(&format!(
             "{} {message}",
             self.err.paint("marbles:", BOLD_YELLOW)
@@ -96,15 +134,37 @@ impl Console {
 
     /// Why something was not done.
     pub(crate) fn failure(&self, failure: &Failure) {
+        let text = failure.to_string();
+        let message = text.trim_end();
+        match self.reader.get() {
+            Some(Reader::Json) => return self.event(&Message::Error { message }),
+            Some(Reader::OpenJd) => self.reason(message),
+            None => {}
+        }
         match failure {
-            Failure::Usage(message) | Failure::Frames(message) | Failure::Work(message) => {
-                self.note(&format!(
-                    "{} {message}",
-                    self.err.paint("marbles:", BOLD_RED)
-                ));
-            }
             Failure::Scene(error) if self.err.styled => self.note(error.styled().trim_end()),
-            Failure::Scene(error) => self.note(error.to_string().trim_end()),
+            Failure::Scene(_) => self.note(message),
+            Failure::Usage(_) | Failure::Frames(_) | Failure::Work(_) => self.note(&format!(
+                "{} {message}",
+                self.err.paint("marbles:", BOLD_RED)
+            )),
+        }
+    }
+
+    /// The last line on stderr of a process that has to end at once.
+    pub(crate) fn farewell(&self) -> &'static str {
+        match self.reader.get() {
+            Some(Reader::Json) => r#"{"event":"warning","message":"interrupted"}"#,
+            // Below the bar that may be there.
+            Some(Reader::OpenJd) | None => "\nmarbles: interrupted",
+        }
+    }
+
+    /// Why the exit code will not be 0, for runners of jobs, which show only this of a log.
+    pub(crate) fn reason(&self, message: &str) {
+        if self.reader.get() == Some(&Reader::OpenJd) {
+            let first = message.lines().next().unwrap_or_default();
+            self.result(&format!("openjd_fail: {first}"));
         }
     }
 
@@ -140,5 +200,62 @@ impl Stream {
         } else {
             text.to_owned()
         }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::sync::Arc;
+
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    /// What was printed.
+    #[derive(Clone, Default)]
+    pub(crate) struct Text(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Text {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Text {
+        pub(crate) fn read(&self) -> String {
+            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+        }
+    }
+
+    /// What goes to stdout and to stderr about a warning and a failure.
+    fn say(reader: Option<Reader>) -> (String, String) {
+        let (out, err) = (Text::default(), Text::default());
+        let console = Console::to(out.clone(), err.clone());
+        if let Some(reader) = reader {
+            console.speak_to(reader);
+        }
+        console.warn("two \"words\"");
+        console.failure(&Failure::Work("one line\nand another\n".to_owned()));
+        (out.read(), err.read())
+    }
+
+    #[test]
+    fn programs_get_messages_in_their_form() {
+        let plain = "marbles: two \"words\"\nmarbles: one line\nand another\n";
+        assert_eq!(say(None), (String::new(), plain.to_owned()));
+        let fail = "openjd_fail: one line\n".to_owned();
+        assert_eq!(say(Some(Reader::OpenJd)), (fail, plain.to_owned()));
+        let (out, err) = say(Some(Reader::Json));
+        assert_eq!(out, "");
+        let lines = err.lines().map(|line| serde_json::from_str(line).unwrap());
+        let expected = [
+            json!({ "event": "warning", "message": "two \"words\"" }),
+            json!({ "event": "error", "message": "one line\nand another" }),
+        ];
+        assert_eq!(lines.collect::<Vec<Value>>(), expected);
     }
 }

@@ -4,19 +4,24 @@ use std::io;
 use std::path::Path;
 
 use marbles_scene::SceneError;
+use thiserror::Error;
 
 use crate::status;
 
 /// A message for the user, and with it the exit code.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub(crate) enum Failure {
     /// The command line asks for what cannot be.
+    #[error("{0}")]
     Usage(String),
     /// The scene file was refused.
+    #[error("{0}")]
     Scene(Box<SceneError>),
     /// Frames of the scene have no view.
+    #[error("{0}")]
     Frames(String),
     /// Something else went wrong.
+    #[error("{0}")]
     Work(String),
 }
 

@@ -1,4 +1,7 @@
 //! Lists of frame numbers, as the user writes them: `7`, `1-100`, `1-100x2`, `1-9:2,50,-5`.
+//!
+//! Range expressions of Open Job Description are such lists, where `10-1:-1` counts down and there
+//! may be spaces around numbers.
 
 use std::ops::RangeInclusive;
 use std::str::FromStr;
@@ -17,7 +20,7 @@ pub(crate) struct FrameList {
     ranges: Vec<Range>,
 }
 
-/// The frames `first`, `first + step`, … up to `last`.
+/// The frames `first`, `first + step`, … up to `last`, or down to it where `step` is negative.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Range {
     first: i64,
@@ -34,10 +37,15 @@ pub(crate) enum FrameListError {
     Syntax(String),
     #[error("expected frame numbers from {min} to {max}, found {0}", min = i32::MIN, max = i32::MAX)]
     Number(String),
-    #[error("expected a step from 1 to {max}, found {0}", max = u32::MAX)]
+    #[error("expected a step from 1 to {max}, or from -{max} to -1, found {0}", max = u32::MAX)]
     Step(String),
     #[error("expected the smaller frame first, from {last} to {first}, found `{first}-{last}`")]
     Backward { first: i32, last: i32 },
+    #[error(
+        "expected the larger frame first where the step is negative, from {last} to {first}, \
+         found `{first}-{last}`"
+    )]
+    Forward { first: i32, last: i32 },
     #[error("expected a list of at most {MOST_FRAMES} frames, found one of {0}")]
     TooMany(u64),
 }
@@ -130,7 +138,8 @@ impl Range {
     }
 
     fn contains(self, frame: i64) -> bool {
-        (self.first..=self.last).contains(&frame) && (frame - self.first) % self.step == 0
+        let (least, most) = (self.first.min(self.last), self.first.max(self.last));
+        (least..=most).contains(&frame) && (frame - self.first) % self.step == 0
     }
 }
 
@@ -166,12 +175,15 @@ impl FromStr for Range {
             None if rest.is_empty() => "1",
             None => return Err(syntax()),
         };
-        let step = match step.parse::<u32>() {
-            Ok(step) if step > 0 => i64::from(step),
+        let step = match step.parse::<i64>() {
+            Ok(step) if (1..=u64::from(u32::MAX)).contains(&step.unsigned_abs()) => step,
             _ => return Err(FrameListError::Step(step.to_owned())),
         };
-        if last < first {
+        if step > 0 && last < first {
             return Err(FrameListError::Backward { first, last });
+        }
+        if step < 0 && last > first {
+            return Err(FrameListError::Forward { first, last });
         }
         Ok(Self {
             first: i64::from(first),
@@ -181,11 +193,13 @@ impl FromStr for Range {
     }
 }
 
-/// Splits an optional sign and at least one digit off.
+/// Splits an optional sign and at least one digit off, with the spaces around them.
 fn leading_number(text: &str) -> Option<(&str, &str)> {
+    let text = text.trim_start();
     let digits = text.strip_prefix('-').unwrap_or(text);
     let rest = digits.trim_start_matches(|letter: char| letter.is_ascii_digit());
-    (rest.len() < digits.len()).then(|| text.split_at(text.len() - rest.len()))
+    let (number, rest) = text.split_at(text.len() - rest.len());
+    (number.len() > text.len() - digits.len()).then(|| (number, rest.trim_start()))
 }
 
 fn frame_number(text: &str) -> Result<i32, FrameListError> {
@@ -230,7 +244,22 @@ mod tests {
     }
 
     #[test]
+    fn range_expressions_of_open_job_description_are_read() {
+        // What its model 0.13 makes of each.
+        assert_eq!(frames("1-3,7,9-15:2"), [1, 2, 3, 7, 9, 11, 13, 15]);
+        assert_eq!(frames("1,2,4-8:2"), [1, 2, 4, 6, 8]);
+        assert_eq!(frames("-5--1:2,0-2"), [-5, -3, -1, 0, 1, 2]);
+        assert_eq!(frames("-5-5:5"), [-5, 0, 5]);
+        assert_eq!(frames("1-10:20"), [1]);
+        assert_eq!(frames("10-1:-3"), [10, 7, 4, 1]);
+        assert_eq!(frames("-1--8:-3"), [-1, -4, -7]);
+        assert_eq!(frames("5-5:-1"), [5]);
+        assert_eq!(frames(" 1 - 5 : 2 ,\t7 "), [1, 3, 5, 7]);
+    }
+
+    #[test]
     fn order_is_kept_and_a_frame_comes_once() {
+        assert_eq!(frames("9-1x-2,1-5"), [9, 7, 5, 3, 1, 2, 4]);
         assert_eq!(frames("5,1-6x2,2-5,5,0"), [5, 1, 3, 2, 4, 0]);
         assert_eq!(frames("1-3,2-4,3-9x2,1-9x4").len(), 7);
     }
@@ -279,12 +308,23 @@ mod tests {
         assert!(refusal("").ends_with("found nothing"));
         assert!(refusal("1,,2").ends_with("found nothing"));
         assert!(refusal("1,").ends_with("found nothing"));
-        for step in ["0", "-2", "99999999999"] {
+        for step in [
+            "0",
+            "-0",
+            "4294967296",
+            "-4294967296",
+            "99999999999999999999",
+        ] {
+            let expected = "expected a step from 1 to 4294967295, or from -4294967295 to -1";
             assert_eq!(
                 refusal(&format!("1-5x{step}")),
-                format!("expected a step from 1 to 4294967295, found {step}")
+                format!("{expected}, found {step}")
             );
         }
+        assert_eq!(
+            refusal("1-5:-2"),
+            "expected the larger frame first where the step is negative, from 5 to 1, found `1-5`"
+        );
         assert_eq!(
             refusal("1--3"),
             "expected the smaller frame first, from -3 to 1, found `1--3`"
@@ -294,7 +334,8 @@ mod tests {
             "expected frame numbers from -2147483648 to 2147483647, found 2147483648"
         );
         for text in [
-            "a", "1-", "-", "--5", "1-5x", "1-5y2", "1x2", "1-5x2x2", "1 - 5", "+3", "1.5",
+            "a", "1-", "-", "--5", "1-5x", "1-5y2", "1x2", "1-5x2x2", "1 5", "- 5", "+3", "1.5",
+            "1-5 2", "1-5:", "1-5::2",
         ] {
             assert!(
                 refusal(text).contains(&format!("found `{text}`")),

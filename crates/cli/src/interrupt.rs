@@ -25,33 +25,34 @@ pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
 }
 
-/// Listens from now on, for as long as the process lives.
-pub(crate) fn listen() {
+/// Listens from now on, for as long as the process lives; `farewell` is the last line of a process
+/// that has to end at once.
+pub(crate) fn listen(farewell: &'static str) {
     static LISTENING: OnceLock<()> = OnceLock::new();
     LISTENING.get_or_init(|| {
         // Where no handler can be installed, the signals end the process as they always do.
-        let _ = ctrlc::set_handler(|| {
+        let _ = ctrlc::set_handler(move || {
             if REQUESTED.swap(true, Ordering::Relaxed) {
-                end();
+                end(farewell);
             }
-            let deadline = thread::Builder::new().spawn(|| {
+            let deadline = thread::Builder::new().spawn(move || {
                 thread::sleep(GRACE);
-                end();
+                end(farewell);
             });
             if deadline.is_err() {
-                end();
+                end(farewell);
             }
         });
     });
 }
 
-fn end() -> ! {
+fn end(farewell: &'static str) -> ! {
     let _no_more_files = temporary::abandon_all();
     // Another thread may hold the lock of stderr for as long as nobody reads from it.
-    let farewell = thread::Builder::new().spawn(|| {
-        let _ = writeln!(std::io::stderr(), "\nmarbles: interrupted");
+    let said = thread::Builder::new().spawn(move || {
+        let _ = writeln!(std::io::stderr(), "{farewell}");
     });
-    if farewell.is_ok() {
+    if said.is_ok() {
         thread::sleep(FAREWELL);
     }
     std::process::exit(i32::from(INTERRUPTED));

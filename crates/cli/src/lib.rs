@@ -1,7 +1,7 @@
 //! The command line of marbles.
 //!
-//! Every command is a file, `render`, `check`, `compare`, `merge` and `report`. Frames follow each other in `sequence`
-//! and become files in `output`; `input` reads pictures back.
+//! Every command is a file: `render`, `check`, `compare`, `merge`, `report` and `farm`. Frames follow
+//! each other in `sequence` and become files in `output`; `input` reads pictures back.
 
 mod args;
 mod belt;
@@ -10,6 +10,7 @@ mod compare;
 mod console;
 mod digest;
 mod failure;
+mod farm;
 mod film;
 mod frames;
 mod input;
@@ -79,6 +80,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Compare(arguments) => compare::run(&arguments, console),
         Command::Merge(arguments) => merge::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
+        Command::Farm(arguments) => farm::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);
@@ -88,10 +90,8 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use std::io::{self, Write};
-    use std::sync::{Arc, Mutex};
-
     use super::*;
+    use crate::console::tests::Text;
 
     const SCENE: &str = "(
     image: (width: 600, height: 600),
@@ -101,25 +101,6 @@ mod tests {
     spheres: [(center: (0, 0, 400), radius: 300)],
 )
 ";
-
-    #[derive(Clone, Default)]
-    struct Text(Arc<Mutex<Vec<u8>>>);
-
-    impl Write for Text {
-        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-            self.0.lock().unwrap().write(bytes)
-        }
-
-        fn flush(&mut self) -> io::Result<()> {
-            Ok(())
-        }
-    }
-
-    impl Text {
-        fn read(&self) -> String {
-            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
-        }
-    }
 
     /// The exit code, and what is on stdout and stderr.
     fn run_here(args: &[&str]) -> (u8, String, String) {

@@ -1,12 +1,14 @@
-//! How far the work is: a bar on a terminal, a line for each frame of a sequence elsewhere,
-//! or nothing.
+//! How far the work is: a bar on a terminal, lines elsewhere, or nothing.
+
+mod lines;
 
 use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
+use self::lines::{Lines, Reader};
+use crate::args::ProgressForm;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::loading::LINE;
@@ -18,38 +20,50 @@ const SHADES: &str = "█▉▊▋▌▍▎▏ ";
 /// The progress of a sequence, and the way by which lines reach the user without disturbing it.
 pub(crate) struct Progress<'a> {
     console: &'a Console,
+    quiet: bool,
     frames: u64,
     left_out: AtomicU64,
-    display: Display,
+    display: Display<'a>,
 }
 
-enum Display {
-    Quiet,
+enum Display<'a> {
+    Nothing,
     Bar(ProgressBar),
-    Lines { started: Instant },
+    Lines(Lines<'a>),
 }
 
 impl<'a> Progress<'a> {
     /// Begins with none of `frames` frames done.
-    pub(crate) fn new(console: &'a Console, quiet: bool, frames: u64) -> Self {
-        let lines = || Display::Lines {
-            started: Instant::now(),
-        };
-        let display = if quiet {
-            Display::Quiet
-        } else if console.is_interactive() {
-            let bar = ProgressBar::new(0).with_style(style(frames > 1));
-            // Terminals that cannot go back to the start of a line have no bars.
-            if bar.is_hidden() {
-                lines()
-            } else {
-                Display::Bar(bar)
+    ///
+    /// In the form that is asked for; else where the user wants it `quiet` there is nothing, on a
+    /// terminal a bar, and lines elsewhere.
+    pub(crate) fn new(
+        console: &'a Console,
+        form: Option<ProgressForm>,
+        quiet: bool,
+        frames: u64,
+    ) -> Self {
+        let lines = |reader| Display::Lines(Lines::new(console, reader, frames));
+        let display = match form {
+            Some(ProgressForm::OpenJd) => lines(Reader::OpenJd),
+            Some(ProgressForm::Json) => lines(Reader::Json),
+            Some(ProgressForm::Plain) => lines(Reader::People),
+            Some(ProgressForm::None) => Display::Nothing,
+            None if quiet => Display::Nothing,
+            None if console.is_interactive() => {
+                let bar = ProgressBar::new(0).with_style(style(frames > 1));
+                // Terminals that cannot go back to the start of a line have no bars.
+                if bar.is_hidden() {
+                    lines(Reader::People)
+                } else {
+                    Display::Bar(bar)
+                }
             }
-        } else {
-            lines()
+            None => lines(Reader::People),
         };
         Self {
             console,
+            quiet,
             frames,
             left_out: AtomicU64::new(0),
             display,
@@ -77,54 +91,50 @@ impl<'a> Progress<'a> {
     /// A frame begins, the one with this index of those that are not left out; the others are
     /// supposed to be as large.
     pub(crate) fn begin(&self, index: u64, pixels: u64) {
-        if let Display::Bar(bar) = &self.display {
-            let left_out = self.left_out.load(Ordering::Relaxed);
-            let frames = self.frames - left_out;
-            bar.set_length(frames.saturating_mul(pixels));
-            bar.set_style(style(self.frames > 1));
-            if index == 0 {
-                // What came before tells nothing about the frames.
-                bar.reset_eta();
+        match &self.display {
+            Display::Bar(bar) => {
+                let left_out = self.left_out.load(Ordering::Relaxed);
+                let frames = self.frames - left_out;
+                bar.set_length(frames.saturating_mul(pixels));
+                bar.set_style(style(self.frames > 1));
+                if index == 0 {
+                    // What came before tells nothing about the frames.
+                    bar.reset_eta();
+                }
+                bar.set_message(format!("frame {} of {}", left_out + index + 1, self.frames));
             }
-            bar.set_message(format!("frame {} of {}", left_out + index + 1, self.frames));
+            Display::Lines(lines) => lines.begin(pixels),
+            Display::Nothing => {}
         }
     }
 
     /// A frame will not be rendered.
     pub(crate) fn leave_out(&self) {
         self.left_out.fetch_add(1, Ordering::Relaxed);
+        if let Display::Lines(lines) = &self.display {
+            lines.leave_out();
+        }
     }
 
     /// Some pixels are done.
     pub(crate) fn advance(&self, pixels: u64) {
-        if let Display::Bar(bar) = &self.display {
-            bar.inc(pixels);
+        match &self.display {
+            Display::Bar(bar) => bar.inc(pixels),
+            Display::Lines(lines) => lines.advance(pixels),
+            Display::Nothing => {}
         }
     }
 
     /// A frame's file is complete; how many were written until now, and how many skipped.
     pub(crate) fn written(&self, frame: i32, written: u64, skipped: u64) {
-        if let Display::Lines { started } = &self.display {
-            let frames = self.frames;
-            if frames == 1 {
-                // The line of results says it all.
-                return;
-            }
-            let done = written + skipped;
-            let mut line = format!("frame {frame}: {done} of {frames} done");
-            if done < frames {
-                let per_frame = started.elapsed().as_secs_f64() / written as f64;
-                let seconds = per_frame * (frames - done) as f64;
-                let left = Duration::try_from_secs_f64(seconds).unwrap_or_default();
-                line.push_str(&format!(", {} left", numbers::wait(left)));
-            }
-            self.console.note(&line);
+        if let Display::Lines(lines) = &self.display {
+            lines.written(frame, written, skipped);
         }
     }
 
     /// A line of results.
     pub(crate) fn result(&self, line: &str) {
-        if !matches!(self.display, Display::Quiet) {
+        if !self.quiet {
             self.aside(|| self.console.result(line));
         }
     }
@@ -150,7 +160,7 @@ impl<'a> Progress<'a> {
     fn aside(&self, print: impl FnOnce()) {
         match &self.display {
             Display::Bar(bar) => bar.suspend(print),
-            Display::Quiet | Display::Lines { .. } => print(),
+            Display::Nothing | Display::Lines(_) => print(),
         }
     }
 }

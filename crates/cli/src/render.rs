@@ -2,9 +2,10 @@
 
 use marbles_core::{Method, Settings};
 use marbles_scene::Scene;
+use rayon::ThreadPool;
 
-use crate::args::RenderArguments;
-use crate::console::Console;
+use crate::args::{ProgressForm, RenderArguments};
+use crate::console::{Console, Reader};
 use crate::failure::Failure;
 use crate::frames::FrameList;
 use crate::interrupt;
@@ -21,53 +22,94 @@ use crate::threads;
 /// The frame that a scene without animation is rendered as.
 pub(crate) const FRAME_OF_A_STILL: i32 = 1;
 
-pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
-    let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
-    let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
-    let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
-    let encoding = encoding(arguments, format)?;
+/// What is rendered, and where it goes.
+pub(crate) struct Plan {
+    scene: Scene,
+    pub(crate) frames: FrameList,
+    pattern: Pattern,
+    encoding: Encoding,
+}
 
-    let threads = threads::start(arguments.threads)?;
-    let scene = threads.install(|| loading::scene(&arguments.scene, console, arguments.quiet))?;
-    let frames = frames(arguments, &scene);
-    let pattern = pattern.unwrap_or_else(|| {
-        let numbered = arguments.frames.is_some() || scene.frames().is_some();
-        Pattern::named_after(&arguments.scene, numbered)
-    });
-    if frames.is_sequence() && !pattern.is_numbered() {
-        return Err(Failure::Usage(format!(
-            "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
-            pattern.path(FRAME_OF_A_STILL).display(),
-            frames.count()
-        )));
+impl Plan {
+    /// Reads the scene and checks what can be before anything is rendered.
+    pub(crate) fn new(
+        arguments: &RenderArguments,
+        threads: &ThreadPool,
+        console: &Console,
+    ) -> Result<Self, Failure> {
+        let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
+        let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
+        let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
+        let encoding = encoding(arguments, format)?;
+
+        let silent = arguments.quiet || arguments.progress.is_some();
+        let scene = threads.install(|| loading::scene(&arguments.scene, console, silent))?;
+        let frames = frames(arguments, &scene);
+        let pattern = pattern.unwrap_or_else(|| {
+            let numbered = arguments.frames.is_some() || scene.frames().is_some();
+            Pattern::named_after(&arguments.scene, numbered)
+        });
+        if frames.is_sequence() && !pattern.is_numbered() {
+            return Err(Failure::Usage(format!(
+                "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
+                pattern.path(FRAME_OF_A_STILL).display(),
+                frames.count()
+            )));
+        }
+        Ok(Self {
+            scene,
+            frames,
+            pattern,
+            encoding,
+        })
     }
 
-    interrupt::listen();
-    if let Some(first) = frames.iter().next() {
-        output::prepare(&pattern.path(first))?;
-    }
-
-    let sequence = Sequence {
-        scene: &scene,
-        frames: &frames,
-        size: arguments.size,
-        window: arguments.region,
-        settings: Settings {
-            method: match arguments.samples {
-                Some(samples) => Method::Samples(samples),
-                None => Method::Tolerance(arguments.tolerance),
+    /// The frames, as they are asked for.
+    pub(crate) fn sequence(&self, arguments: &RenderArguments) -> Sequence<'_> {
+        Sequence {
+            scene: &self.scene,
+            frames: &self.frames,
+            size: arguments.size,
+            window: arguments.region,
+            settings: Settings {
+                method: match arguments.samples {
+                    Some(samples) => Method::Samples(samples),
+                    None => Method::Tolerance(arguments.tolerance),
+                },
+                alpha: arguments.alpha,
             },
-            alpha: arguments.alpha,
-        },
-        frames_per_second: arguments.fps.or(scene.frames_per_second()),
-        pattern: &pattern,
-        encoding,
-        persistence: Persistence {
-            skip_existing: arguments.skip_existing,
-            fail_fast: arguments.fail_fast,
-        },
-    };
-    let progress = Progress::new(console, arguments.quiet, frames.count());
+            frames_per_second: arguments.fps.or(self.scene.frames_per_second()),
+            pattern: &self.pattern,
+            encoding: self.encoding,
+            persistence: Persistence {
+                skip_existing: arguments.skip_existing,
+                fail_fast: arguments.fail_fast,
+            },
+        }
+    }
+}
+
+pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
+    match arguments.progress {
+        Some(ProgressForm::Json) => console.speak_to(Reader::Json),
+        Some(ProgressForm::OpenJd) => console.speak_to(Reader::OpenJd),
+        Some(ProgressForm::Plain | ProgressForm::None) | None => {}
+    }
+    let threads = threads::start(arguments.threads)?;
+    let plan = Plan::new(arguments, &threads, console)?;
+
+    interrupt::listen(console.farewell());
+    if let Some(first) = plan.frames.iter().next() {
+        output::prepare(&plan.pattern.path(first))?;
+    }
+
+    let sequence = plan.sequence(arguments);
+    let progress = Progress::new(
+        console,
+        arguments.progress,
+        arguments.quiet,
+        plan.frames.count(),
+    );
     let tally = sequence.render(&threads, &progress);
     progress.finish();
     let tally = tally?;
@@ -122,6 +164,7 @@ fn conclusion(tally: &Tally, console: &Console) -> u8 {
         }
         status::FAILURE
     } else if tally.is_over_tolerance() {
+        console.reason("some pixels are over the tolerance");
         status::FAILURE
     } else {
         status::SUCCESS

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     // What cannot be written is refused before the long work.
     check_files(arguments)?;
     let pool = threads::start(arguments.threads)?;
-    interrupt::listen();
+    interrupt::listen(console.farewell());
     for path in arguments.csv.iter().chain(&arguments.plot) {
         output::prepare(path)?;
     }

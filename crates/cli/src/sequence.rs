@@ -318,6 +318,13 @@ impl Sequence<'_> {
         Ok((summary, time))
     }
 
+    /// Whether the frame has a view, and what is wanted of it lies inside.
+    pub(crate) fn check(&self, frame: i32) -> Result<(), Failure> {
+        let view = self.scene.view(frame);
+        let view = view.map_err(|error| Failure::Frames(error.to_string()))?;
+        self.region(&self.resized(view)).map(drop)
+    }
+
     fn resized(&self, view: View) -> View {
         match self.size {
             Some(Size { width, height }) => View {

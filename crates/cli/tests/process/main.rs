@@ -5,10 +5,13 @@
     reason = "tests that this machine cannot run say so"
 )]
 
+#[cfg(unix)]
+mod farm;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+mod progress;
 mod sequences;
 mod signals;
 #[cfg(target_os = "linux")]

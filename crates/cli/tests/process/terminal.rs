@@ -80,3 +80,17 @@ fn a_terminal_shows_what_takes_long() {
     let output = folder.run(arguments);
     assert_eq!(text(&output.stderr), "");
 }
+
+#[test]
+fn a_terminal_gets_plain_lines_where_they_are_asked_for() {
+    let folder = Folder::new();
+    let arguments = "render ball.ron -o #.png --size 9x9 --frames 1-3";
+    for (form, count) in [("plain", 7), ("none", 4)] {
+        let arguments = format!("{arguments} --progress={form}");
+        let Some(shown) = run_on_terminal(&folder, 80, &arguments) else {
+            return;
+        };
+        assert!(!shown.contains('\x1b'), "{shown:?}");
+        assert_eq!(shown.lines().count(), count, "{shown:?}");
+    }
+}
