@@ -6,10 +6,12 @@ use std::ops::ControlFlow;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use thiserror::Error;
 
-use crate::image::{Band, Form, Prospect};
-use crate::integration::{Exact, Integrator, Supersampling};
+use crate::image::{Form, Prospect};
+use crate::integration::{
+    Exact, ExactOverTime, Instants, Integrator, SampledOverTime, Supersampling,
+};
 use crate::visibility::{Seen, Visibility};
-use crate::{Channels, Color, Image, Radiance, Tile, View, Work, World};
+use crate::{Channels, Color, Exposure, Image, Motion, Radiance, Tile, View, Work, World};
 
 /// How a picture is rendered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +52,8 @@ impl<'world> Renderer<'world> {
         }
     }
 
-    /// Renders what `view` sees of the world, on the threads of the current rayon pool.
+    /// Renders what a view sees of the world, or a camera that moves while the shutter is open, on the
+    /// threads of the current rayon pool.
     ///
     /// The picture does not depend on the number of threads. `progress` is called, from any of
     /// them, with the number of pixels that were just finished; when it breaks, the rendering ends
@@ -58,13 +61,13 @@ impl<'world> Renderer<'world> {
     ///
     /// # Errors
     /// [`Cancelled`] when `progress` broke.
-    pub fn render(
+    pub fn render<'motion>(
         &self,
-        view: &View,
+        exposure: impl Into<Exposure<'motion>>,
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
-        self.render_over(None, view, settings, progress)
+        self.render_over(None, exposure, settings, progress)
     }
 
     /// Renders as [`Self::render`] does, in the memory of a picture that nobody needs any more:
@@ -72,24 +75,28 @@ impl<'world> Renderer<'world> {
     ///
     /// # Errors
     /// [`Cancelled`] when `progress` broke.
-    pub fn render_over(
+    pub fn render_over<'motion>(
         &self,
         spent: Option<Image>,
-        view: &View,
+        exposure: impl Into<Exposure<'motion>>,
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
         let job = Whole { spent, progress };
-        self.run(view, settings, job)
+        self.run(&exposure.into(), settings, job)
     }
 
     /// Prepares the integrator that `settings` ask for, and has the job done with it.
     pub(crate) fn run<J: Job>(
         &self,
-        view: &View,
+        exposure: &Exposure<'_>,
         settings: &Settings,
         job: J,
     ) -> Result<J::Output, Cancelled> {
+        let view = exposure.view();
+        if let Some(motion) = exposure.motion() {
+            return self.run_over_time(view, motion, settings, job);
+        }
         let visibility = &self.visibility;
         let seen = match settings.method {
             Method::Samples(samples) => Seen::by_samples(visibility, view, Tile::SIDE, samples),
@@ -97,33 +104,66 @@ impl<'world> Renderer<'world> {
         };
         let world = self.world;
         let alpha = settings.alpha;
-        let channels = Channels::of(world, alpha);
-        let form = |prospect| Form {
-            size: (view.width, view.height),
-            channels,
-            alpha,
-            prospect,
-        };
+        let form = self.form(view, settings);
         match settings.method {
             Method::Samples(samples) => {
-                let form = form(Supersampling::prospect(samples));
                 let integrator = Supersampling::new(world, view, &seen, samples, alpha);
-                match channels {
+                match form.channels {
                     Channels::Grey => job.run::<f64, _>(form, &integrator),
                     Channels::Rgb => job.run::<Color, _>(form, &integrator),
                 }
             }
             Method::Tolerance(tolerance) => {
-                let form = form(Prospect {
-                    error: None,
-                    ending: None,
-                });
                 let integrator = Exact::new(world, view, &seen, tolerance, alpha);
-                match channels {
+                match form.channels {
                     Channels::Grey => job.run::<f64, _>(form, &integrator),
                     Channels::Rgb => job.run::<Color, _>(form, &integrator),
                 }
             }
+        }
+    }
+
+    /// Has the job done with what a moving camera sees.
+    fn run_over_time<J: Job>(
+        &self,
+        view: &View,
+        motion: &dyn Motion,
+        settings: &Settings,
+        job: J,
+    ) -> Result<J::Output, Cancelled> {
+        let (world, alpha) = (self.world, settings.alpha);
+        let form = self.form(view, settings);
+        let instants = Instants::new(&self.visibility, view, motion, settings.method);
+        match settings.method {
+            Method::Samples(samples) => {
+                let integrator = SampledOverTime::new(world, &instants, samples, alpha);
+                match form.channels {
+                    Channels::Grey => job.run::<f64, _>(form, &integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                }
+            }
+            Method::Tolerance(tolerance) => {
+                let integrator = ExactOverTime::new(world, &instants, tolerance, alpha);
+                match form.channels {
+                    Channels::Grey => job.run::<f64, _>(form, &integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                }
+            }
+        }
+    }
+
+    fn form(&self, view: &View, settings: &Settings) -> Form {
+        Form {
+            size: (view.width, view.height),
+            channels: Channels::of(self.world, settings.alpha),
+            alpha: settings.alpha,
+            prospect: match settings.method {
+                Method::Samples(samples) => Supersampling::prospect(samples),
+                Method::Tolerance(_) => Prospect {
+                    error: None,
+                    ending: None,
+                },
+            },
         }
     }
 }
@@ -160,12 +200,7 @@ impl Job for Whole<'_> {
         // all handing over.
         let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
         let bands = bands.map(|mut band| {
-            paint(
-                &mut band,
-                integrator,
-                &mut I::Room::default(),
-                self.progress,
-            )
+            integrator.paint_band(&mut band, &mut I::Room::default(), self.progress)
         });
         let add = |mut sum: Work, work| {
             sum += work;
@@ -175,31 +210,6 @@ impl Job for Whole<'_> {
         image.set_work(work);
         Ok(image)
     }
-}
-
-/// Renders a row of tiles; what they cost.
-pub(crate) fn paint<C: Radiance, I: Integrator<C>>(
-    band: &mut Band<'_>,
-    integrator: &I,
-    room: &mut I::Room,
-    progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-) -> Result<Work, Cancelled> {
-    let mut work = Work::default();
-    let area = band.area;
-    let end = area.col + area.width;
-    for col in (area.col..end).step_by(Tile::SIDE as usize) {
-        let tile = Tile {
-            col,
-            width: Tile::SIDE.min(end - col),
-            ..area
-        };
-        work += integrator.paint(tile, room, band);
-        let pixels = u64::from(tile.width) * u64::from(tile.height);
-        if progress(pixels).is_break() {
-            return Err(Cancelled);
-        }
-    }
-    Ok(work)
 }
 
 #[cfg(test)]

@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use crate::image::Form;
 use crate::integration::Integrator;
-use crate::render::{self, paint};
-use crate::{Cancelled, Image, Radiance, Renderer, Settings, Tile, View, Work};
+use crate::render;
+use crate::{Cancelled, Exposure, Image, Radiance, Renderer, Settings, Tile, View, Work};
 
 /// Rows of a band; a strip is a number of bands.
 pub const BAND_ROWS: u32 = Tile::SIDE;
@@ -80,14 +80,16 @@ impl Renderer<'_> {
     ///
     /// # Panics
     /// When the window is not inside the picture.
-    pub fn render_strips(
+    pub fn render_strips<'motion>(
         &self,
-        view: &View,
+        exposure: impl Into<Exposure<'motion>>,
         window: Window,
         settings: &Settings,
         sink: &dyn Sink,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
+        let exposure = exposure.into();
+        let view = exposure.view();
         let is_inside = |first: u32, length: u32, all: u32| {
             first.checked_add(length).is_some_and(|end| end <= all)
         };
@@ -101,7 +103,7 @@ impl Renderer<'_> {
             sink,
             progress,
         };
-        self.run(view, settings, job)
+        self.run(&exposure, settings, job)
     }
 }
 
@@ -181,7 +183,7 @@ impl Strips<'_> {
                     let end = rows.end.min(first + BAND_ROWS);
                     let band = first - rows.start..end - rows.start;
                     let mut band = part.band_mut((col, rows.start), band);
-                    let painted = paint(&mut band, integrator, &mut room, self.job.progress);
+                    let painted = integrator.paint_band(&mut band, &mut room, self.job.progress);
                     work += painted.map_err(|_| self.cancel())?;
                 }
                 let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);

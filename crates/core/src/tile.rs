@@ -20,6 +20,22 @@ impl Tile {
     /// may be smaller.
     pub(crate) const SIDE: u32 = 8;
 
+    /// How many pixels it has.
+    pub(crate) fn count(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
+    /// The rectangle cut into tiles from the left, for one as high as a tile.
+    pub(crate) fn tiles(self) -> impl Iterator<Item = Self> {
+        let end = self.col + self.width;
+        let tile = move |col| Self {
+            col,
+            width: Self::SIDE.min(end - col),
+            ..self
+        };
+        (self.col..end).step_by(Self::SIDE as usize).map(tile)
+    }
+
     /// The pixels of the tile as (column, row), row by row.
     pub(crate) fn pixels(self) -> impl Iterator<Item = (u32, u32)> {
         (self.row..self.row + self.height)

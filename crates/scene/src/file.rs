@@ -12,7 +12,7 @@ use crate::placed::{Placed, Read, present, read_file, read_simple, read_structur
 use crate::quantity::{
     Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Fill, Frame, FrameCount,
     FramesPerSecond, GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
-    Shininess, Strength, Turns, Zoom,
+    Shininess, Shutter, Strength, Turns, Zoom,
 };
 use crate::table::{Coloring, Colormap, Radii};
 
@@ -213,6 +213,8 @@ pub(crate) enum Animation {
         frames: Option<Placed<FrameRange>>,
         #[serde(default)]
         fps: Placed<FramesPerSecond>,
+        #[serde(default, deserialize_with = "present")]
+        shutter: Option<Placed<Shutter>>,
         #[serde(default)]
         keys: Vec<Placed<Key>>,
     },
@@ -221,6 +223,8 @@ pub(crate) enum Animation {
         frames: Placed<FrameCount>,
         #[serde(default)]
         fps: Placed<FramesPerSecond>,
+        #[serde(default, deserialize_with = "present")]
+        shutter: Option<Placed<Shutter>>,
         #[serde(default)]
         turns: Placed<Turns>,
     },

@@ -27,6 +27,7 @@ mod raw;
 mod report;
 mod rig;
 mod scene;
+mod shutter;
 mod suggest;
 mod table;
 mod token;

@@ -29,6 +29,10 @@ pub(crate) struct Motion {
 pub(crate) struct Timing {
     pub(crate) frames: RangeInclusive<i32>,
     pub(crate) frames_per_second: f64,
+    /// How long the shutter is open, in frames; `None` where frames show a moment.
+    pub(crate) shutter: Option<f64>,
+    /// The frames of the keys, which increase: at no other time a motion bends or jumps.
+    pub(crate) key_frames: Vec<i32>,
 }
 
 impl Motion {
@@ -69,10 +73,11 @@ pub(crate) fn motion(file: &File, text: &str) -> Option<Motion> {
     let mut turntable = None;
     let mut timing = None;
     if let Some(animation) = &file.animation {
-        let (frames, fps) = match animation.value.as_ref()? {
+        let (frames, fps, shutter) = match animation.value.as_ref()? {
             file::Animation::Keyframes {
                 frames,
                 fps,
+                shutter,
                 keys: all_keys,
             } => {
                 check_keys(all_keys, camera, text);
@@ -81,9 +86,14 @@ pub(crate) fn motion(file: &File, text: &str) -> Option<Motion> {
                     Some(frames) => frames.get().map(|range| range.first..=range.last),
                     None => Some(frames_of(keys)),
                 };
-                (frames, fps.get())
+                (frames, fps.get(), shutter)
             }
-            file::Animation::Turntable { frames, fps, turns } => {
+            file::Animation::Turntable {
+                frames,
+                fps,
+                shutter,
+                turns,
+            } => {
                 if let Some(camera) = camera {
                     check_orbit(camera, animation, text);
                 }
@@ -94,12 +104,17 @@ pub(crate) fn motion(file: &File, text: &str) -> Option<Motion> {
                         turns: turns.0,
                     });
                 }
-                (last.map(|last| 1..=last), fps.get())
+                (last.map(|last| 1..=last), fps.get(), shutter)
             }
         };
         timing = Some(Timing {
             frames: frames?,
             frames_per_second: fps?.0,
+            shutter: match shutter {
+                Some(shutter) => Some(shutter.get()?.0),
+                None => None,
+            },
+            key_frames: keys.iter().filter_map(frame_of).collect(),
         });
     }
     let keys: Vec<&Key> = keys.iter().filter_map(|key| key.value.as_ref()).collect();
@@ -196,11 +211,15 @@ fn point_curve(rest: DVec3, keys: &[&Key], channel: impl Fn(&Key) -> Option<DVec
 
 /// From the first key to the last; frame 1 alone without keys.
 fn frames_of(keys: &[Placed<Key>]) -> RangeInclusive<i32> {
-    let frame = |key: &Placed<Key>| Some(key.value.as_ref()?.frame.get()?.0);
-    match (keys.first().and_then(frame), keys.last().and_then(frame)) {
+    let (first, last) = (keys.first(), keys.last());
+    match (first.and_then(frame_of), last.and_then(frame_of)) {
         (Some(first), Some(last)) => first..=last,
         _ => 1..=1,
     }
+}
+
+fn frame_of(key: &Placed<Key>) -> Option<i32> {
+    Some(key.value.as_ref()?.frame.get()?.0)
 }
 
 /// Refuses a camera that looks nowhere.

@@ -84,6 +84,8 @@ quantities! {
     GrainSize: "a grain size greater than 0", |x| x > 0.0;
     /// Frames per second.
     FramesPerSecond: "a number of frames per second greater than 0", |x| x > 0.0, default 24.0;
+    /// How long the shutter is open, in frames.
+    Shutter: "a shutter greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0;
     /// Turns of a turntable.
     Turns: "a number of turns", |_| true, default 1.0;
 }

@@ -6,7 +6,7 @@ use std::ops::{Range, RangeInclusive};
 use std::path::{Path, PathBuf};
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Lens, View, World};
+use marbles_core::{Exposure, Lens, Pose, View, World};
 
 use crate::assemble;
 use crate::cloud::{Cloud, CloudError};
@@ -16,6 +16,7 @@ use crate::file::{self, File};
 use crate::framing::{self, Frame, Framing, Turning};
 use crate::motion::{self, Motion};
 use crate::placed::Read;
+use crate::shutter::OpenShutter;
 use crate::token;
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
@@ -151,25 +152,58 @@ impl Scene {
     /// From where frame `frame` is rendered; any number, inside the animation or not.
     ///
     /// # Errors
-    /// Refuses frames in which the camera looks nowhere: keys may lead a `LookAt` camera to its
-    /// target.
+    /// Refuses frames in which the camera looks nowhere, in their middle or where their shutter opens
+    /// or closes: keys may lead a `LookAt` camera to its target.
     pub fn view(&self, frame: i32) -> Result<View, FrameError> {
-        let time = f64::from(frame);
+        let Pose { camera, zoom } = self.pose(frame, 0.0)?;
+        if let Some(shutter) = self.shutter() {
+            self.pose(frame, -0.5 * shutter)?;
+            self.pose(frame, 0.5 * shutter)?;
+        }
         let turntable = self.motion.turntable.as_ref();
-        let turned = turntable.map_or(0.0, |turntable| turntable.azimuth_degrees(frame));
-        let camera = self
-            .motion
-            .rig
-            .camera(time, turned)
-            .map_err(|fault| FrameError { frame, fault })?;
         Ok(View {
             camera,
             lens: self.lens,
-            zoom: self.motion.zoom.at(time),
+            zoom,
             width: self.width,
             height: self.height,
             frame: i64::from(turntable.map_or(frame, |turntable| turntable.looped(frame))),
         })
+    }
+
+    /// A view of a frame, which may have another size, with what the camera does while the frame's
+    /// shutter is open.
+    pub fn exposure(&self, view: &View) -> Exposure<'_> {
+        match (self.shutter(), i32::try_from(view.frame)) {
+            (Some(shutter), Ok(frame)) => {
+                Exposure::of_motion(*view, OpenShutter::new(self, frame, shutter))
+            }
+            _ => Exposure::from(*view),
+        }
+    }
+
+    /// How long the shutter is open in each frame, in frames: half of it before the frame's time,
+    /// half after it. `None` where a frame shows a moment.
+    pub fn shutter(&self) -> Option<f64> {
+        self.motion.timing.as_ref()?.shutter
+    }
+
+    /// Where the camera is so many frames after frame `frame`, fewer than 1.
+    pub(crate) fn pose(&self, frame: i32, later: f64) -> Result<Pose, FrameError> {
+        let time = f64::from(frame) + later;
+        let turntable = self.motion.turntable.as_ref();
+        let turned = turntable.map_or(0.0, |turntable| turntable.azimuth_degrees_at(frame, later));
+        let camera = self.motion.rig.camera(time, turned);
+        Ok(Pose {
+            camera: camera.map_err(|fault| FrameError { frame, fault })?,
+            zoom: self.motion.zoom.at(time),
+        })
+    }
+
+    /// Whether some key is at this frame.
+    pub(crate) fn has_key_at(&self, frame: i32) -> bool {
+        let timing = self.motion.timing.as_ref();
+        timing.is_some_and(|timing| timing.key_frames.binary_search(&frame).is_ok())
     }
 
     /// The frames of the animation, `None` for a still.

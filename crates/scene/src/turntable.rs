@@ -1,5 +1,8 @@
 //! The turntable: an orbit around its target in a loop.
 
+/// A turn in degrees.
+const TURN: f64 = 360.0;
+
 /// A turn of the camera around its target, in frames 1 to `frames`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Turntable {
@@ -15,7 +18,6 @@ impl Turntable {
     /// For whole turns frame `frame + frames` is the same as `frame` to the bit: the fraction of
     /// the turn is a quotient of whole numbers, and whole turns are dropped before the division.
     pub(crate) fn azimuth_degrees(&self, frame: i32) -> f64 {
-        const TURN: f64 = 360.0;
         let frames = f64::from(self.frames);
         let part_of_turn = if self.loops() {
             // Less than 2^31 each, so that the product is a whole number of 64 bits.
@@ -26,6 +28,13 @@ impl Turntable {
             libm::fmod(self.turns * (f64::from(frame) - 1.0), frames)
         };
         TURN * part_of_turn / frames
+    }
+
+    /// What is added to the azimuth in frame `frame` and so many frames later, fewer than 1 away:
+    /// for whole turns as much in frame `frame + frames`, to the bit.
+    pub(crate) fn azimuth_degrees_at(&self, frame: i32, later: f64) -> f64 {
+        let turns = libm::fmod(self.turns * later / f64::from(self.frames), 1.0);
+        self.azimuth_degrees(frame) + TURN * turns
     }
 
     /// The number of the frame by which noise is drawn: from 1 to `frames` where the last frame
@@ -63,6 +72,12 @@ mod tests {
                         turntable.azimuth_degrees(frame).to_bits(),
                         turntable.azimuth_degrees(other).to_bits()
                     );
+                    for later in [-0.5, -0.123, 0.0, 0.3, 0.5] {
+                        assert_eq!(
+                            turntable.azimuth_degrees_at(frame, later).to_bits(),
+                            turntable.azimuth_degrees_at(other, later).to_bits()
+                        );
+                    }
                     assert_eq!(turntable.looped(frame), turntable.looped(other));
                 }
             }
@@ -85,6 +100,9 @@ mod tests {
             turns: -1.0,
         };
         assert_eq!(back.azimuth_degrees(2), 315.0);
+        assert_eq!(turntable.azimuth_degrees_at(2, 0.5), 67.5);
+        assert_eq!(turntable.azimuth_degrees_at(1, -0.25), -11.25);
+        assert_eq!(back.azimuth_degrees_at(2, 0.5), 292.5);
         assert_eq!(back.looped(9), 1);
     }
 

@@ -3,16 +3,18 @@
 //! An [`Integrator`] answers for every pixel of a tile what its value is, how far that may be
 //! from the exact area average, and how its work ended.
 
+mod shutter;
 mod supersampling;
 mod tolerance;
 
+pub(crate) use shutter::{ExactOverTime, Instants, SampledOverTime};
 pub(crate) use supersampling::Supersampling;
 pub(crate) use tolerance::Exact;
 
-use std::ops::AddAssign;
+use std::ops::{AddAssign, ControlFlow};
 
 use crate::image::Band;
-use crate::{Radiance, Tile};
+use crate::{Cancelled, Radiance, Tile};
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,5 +102,23 @@ pub(crate) trait Integrator<C: Radiance>: Sync {
         let work = self.integrate(tile, room, &mut pixels);
         band.write(tile, &pixels);
         work
+    }
+
+    /// Writes all pixels of a band; what they cost. `progress` is told of pixels that are done, of none
+    /// now and then; when it breaks the work ends.
+    fn paint_band(
+        &self,
+        band: &mut Band<'_>,
+        room: &mut Self::Room,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        let mut work = Work::default();
+        for tile in band.area.tiles() {
+            work += self.paint(tile, room, band);
+            if progress(tile.count()).is_break() {
+                return Err(Cancelled);
+            }
+        }
+        Ok(work)
     }
 }

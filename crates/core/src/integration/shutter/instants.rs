@@ -1,0 +1,90 @@
+//! What a moving camera sees at single moments.
+
+use std::sync::OnceLock;
+
+use crate::exposure::view_at;
+use crate::visibility::{Seen, Visibility};
+use crate::{Method, Motion, Tile, View};
+
+/// What is seen at a moment.
+#[derive(Debug)]
+pub(super) struct Instant<'world> {
+    pub(super) view: View,
+    pub(super) seen: Seen<'world>,
+}
+
+/// What is seen at the moments at which pixels are looked at, found out when it is first needed.
+///
+/// What fits into the memory that is given to it is found out once for a picture; the rest again for
+/// each row of tiles.
+#[derive(Debug)]
+pub(crate) struct Instants<'world> {
+    pub(super) visibility: &'world Visibility<'world>,
+    pub(super) view: View,
+    pub(super) motion: &'world dyn Motion,
+    method: Method,
+    kept: Vec<OnceLock<Vec<Instant<'world>>>>,
+}
+
+/// The memory for what is kept, in bytes.
+const ROOM: usize = 1 << 28;
+
+/// No more groups of moments are kept.
+const MOST_KEPT: usize = 1 << 12;
+
+impl<'world> Instants<'world> {
+    /// For pictures of `view`, whose camera moves so, by this method.
+    pub(crate) fn new(
+        visibility: &'world Visibility<'world>,
+        view: &View,
+        motion: &'world dyn Motion,
+        method: Method,
+    ) -> Self {
+        /// About as many bytes as a sphere takes, and a tile.
+        const SPHERE: usize = 100;
+        const TILE: usize = 16;
+        let tiles = view.width.div_ceil(Tile::SIDE) as usize * view.height.div_ceil(Tile::SIDE) as usize;
+        let bytes = SPHERE * visibility.spheres().len() + TILE * tiles + 1;
+        let kept = (ROOM / (bytes * GROUP)).min(MOST_KEPT);
+        Self {
+            visibility,
+            view: *view,
+            motion,
+            method,
+            kept: (0..kept).map(|_| OnceLock::new()).collect(),
+        }
+    }
+
+    /// Has something done with what is seen at the moments of the group with this number.
+    pub(super) fn with<T>(
+        &self,
+        group: usize,
+        times: &[f64],
+        act: impl FnOnce(&[Instant<'world>]) -> T,
+    ) -> T {
+        let prepare = || -> Vec<_> { times.iter().map(|&time| self.at(time)).collect() };
+        let Some(kept) = self.kept.get(group) else {
+            return act(&prepare());
+        };
+        if let Some(instants) = kept.get() {
+            return act(instants);
+        }
+        // Nobody waits for another thread here: that may wait for this one, which takes parts of its work.
+        let instants = prepare();
+        act(kept.get_or_init(|| instants))
+    }
+
+    fn at(&self, time: f64) -> Instant<'world> {
+        let view = view_at(&self.view, self.motion, time);
+        let seen = match self.method {
+            Method::Samples(samples) => {
+                Seen::by_samples(self.visibility, &view, Tile::SIDE, samples)
+            }
+            Method::Tolerance(_) => Seen::new(self.visibility, &view, Tile::SIDE),
+        };
+        Instant { view, seen }
+    }
+}
+
+/// About as many moments are in a group.
+pub(super) const GROUP: usize = 8;

@@ -1,0 +1,270 @@
+//! How finely the time is divided before pixels are trusted that look the same at all moments.
+//!
+//! What crosses a pixel between two moments is missed. So no moments are farther apart than what is
+//! seen near a pixel moves by less than a part of one. The world stands still and the camera moves:
+//! what is seen, edges of shadows too, moves as the surfaces do on which it is.
+
+use std::sync::atomic::{AtomicU8, Ordering};
+
+use glam::DVec2;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+
+use super::panel::{DEEPEST, FASTEST, LONGEST_GAP};
+use crate::exposure::{HALVES, view_at};
+use crate::{Motion, Ray, Sphere, View};
+
+/// Levels of panels at which time is divided first, by cells of the picture.
+#[derive(Debug)]
+pub(super) struct Pace {
+    /// Pixels of a cell's side.
+    side: u32,
+    columns: u32,
+    levels: Vec<u8>,
+}
+
+/// A picture has no more cells than this along a side.
+const MOST_CELLS: u32 = 64;
+
+/// Moments of half of the time, from its start to its end: a jump between the halves moves nothing.
+const MOMENTS: usize = HALVES[0].len();
+
+/// A sphere this much nearer than its radius to the eye's plane may be seen anywhere.
+const CLEAR: f64 = 1.0 + 1.0 / 64.0;
+
+/// The level where the motion is too fast for all of them.
+const TOO_FAST: u8 = u8::MAX;
+
+impl Pace {
+    /// For a picture of these spheres to a tolerance.
+    pub(super) fn new(
+        spheres: &[Sphere],
+        view: &View,
+        motion: &dyn Motion,
+        tolerance: f64,
+    ) -> Self {
+        let side = view.width.max(view.height).div_ceil(MOST_CELLS).max(8);
+        let (columns, rows) = (view.width.div_ceil(side), view.height.div_ceil(side));
+        let slowest = u8::from(!motion.is_smooth());
+        let levels = (0..columns * rows).map(|_| AtomicU8::new(slowest));
+        let sweep = Sweep {
+            side,
+            columns,
+            tolerance,
+            levels: levels.collect(),
+        };
+        let halves = HALVES.map(|times| times.map(|time| view_at(view, motion, time)));
+        spheres.par_iter().for_each(|sphere| {
+            for views in &halves {
+                sweep.add(sphere, views);
+            }
+        });
+        let levels = sweep.levels.into_iter().map(AtomicU8::into_inner);
+        Self {
+            side,
+            columns,
+            levels: levels.collect(),
+        }
+    }
+
+    /// The level of a pixel's first panels, and whether they are as short as they should be.
+    pub(super) fn level(&self, col: u32, row: u32) -> (u32, bool) {
+        let cell = row / self.side * self.columns + col / self.side;
+        match self.levels[cell as usize] {
+            TOO_FAST => (FASTEST, false),
+            level => (u32::from(level), true),
+        }
+    }
+}
+
+/// Cells while spheres sweep over them.
+struct Sweep {
+    side: u32,
+    columns: u32,
+    tolerance: f64,
+    levels: Vec<AtomicU8>,
+}
+
+/// What is around a sphere in a picture.
+enum Outline {
+    /// The upper left and the lower right corner, in pixels.
+    Within(DVec2, DVec2),
+    Anywhere,
+    Nowhere,
+}
+
+impl Sweep {
+    /// Adds what a sphere does in half of the time.
+    fn add(&self, sphere: &Sphere, views: &[View; MOMENTS]) {
+        let outlines = views.each_ref().map(|view| outline(sphere, view));
+        if outlines.iter().all(|outline| matches!(outline, Outline::Nowhere)) {
+            return;
+        }
+        let mut corners: Option<[(DVec2, DVec2); MOMENTS]> = Some(Default::default());
+        for (place, outline) in outlines.iter().enumerate() {
+            match (outline, &mut corners) {
+                (Outline::Within(low, high), Some(corners)) => corners[place] = (*low, *high),
+                _ => corners = None,
+            }
+        }
+        let size = DVec2::new(f64::from(views[0].width), f64::from(views[0].height));
+        match corners {
+            Some(corners) => {
+                let (mut low, mut high) = corners[0];
+                let mut step: f64 = 0.0;
+                for pair in corners.windows(2) {
+                    let (before, after) = (pair[0], pair[1]);
+                    (low, high) = (low.min(after.0), high.max(after.1));
+                    step = step.max((after.0 - before.0).length());
+                    step = step.max((after.1 - before.1).length());
+                }
+                // Between moments the way is not straight.
+                let margin = 1.0 + 0.25 * step;
+                self.add_within((low - margin, high + margin), sphere, views, MOMENTS / 2);
+            }
+            None => {
+                for moment in 0..MOMENTS {
+                    self.add_within((DVec2::ZERO, size), sphere, views, moment);
+                }
+            }
+        }
+    }
+
+    /// Adds what a sphere does in cells that it sweeps over, as they see it at one of the moments.
+    fn add_within(
+        &self,
+        (low, high): (DVec2, DVec2),
+        sphere: &Sphere,
+        views: &[View; MOMENTS],
+        moment: usize,
+    ) {
+        let view = &views[moment];
+        let side = f64::from(self.side);
+        let rows = self.levels.len() as u32 / self.columns;
+        // Casts saturate.
+        let first = (low / side).floor();
+        let last = (high / side).floor();
+        if last.x < 0.0 || last.y < 0.0 {
+            return;
+        }
+        for row in first.y as u32..=(last.y as u32).min(rows - 1) {
+            for column in first.x as u32..=(last.x as u32).min(self.columns - 1) {
+                let middle = (DVec2::new(f64::from(column), f64::from(row)) + 0.5) * side;
+                let Some(travel) = self.travel(sphere, views, (view, middle)) else {
+                    continue;
+                };
+                let level = level(travel, self.tolerance);
+                let cell = row * self.columns + column;
+                self.levels[cell as usize].fetch_max(level, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// How far in pixels that point of a sphere travels in half of the time that a cell around `middle`
+    /// sees, or that comes nearest to it; nothing where it does not come near.
+    fn travel(
+        &self,
+        sphere: &Sphere,
+        views: &[View; MOMENTS],
+        (view, middle): (&View, DVec2),
+    ) -> Option<f64> {
+        let half_size = 0.5 * DVec2::new(f64::from(view.width), f64::from(view.height));
+        let from_middle = (middle - half_size) * view.pixel_size();
+        let on_retina = DVec2::new(from_middle.x, -from_middle.y) + view.lens.shift;
+        let Ray { origin, direction } = view.ray(on_retina);
+        let direction = direction.normalize();
+        let from_center = origin - sphere.center();
+        let nearest = -from_center.dot(direction);
+        let aside = from_center + direction * nearest;
+        let distance = aside.length();
+        let radius = sphere.radius();
+        let is_hit = distance <= radius;
+        let point = if is_hit {
+            let half = ((radius - distance) * (radius + distance)).sqrt();
+            let t = if nearest > half {
+                nearest - half
+            } else {
+                nearest + half
+            };
+            if t <= 0.0 {
+                return None;
+            }
+            origin + direction * t
+        } else if nearest > 0.0 {
+            sphere.center() + aside * (radius / distance)
+        } else {
+            return None;
+        };
+        let mut longest: f64 = 0.0;
+        let mut before = None;
+        for view in views {
+            let Some(place) = view.project(point) else {
+                return Some(f64::INFINITY);
+            };
+            let step = before.map_or(0.0, |before: DVec2| (place - before).length());
+            longest = longest.max(step);
+            before = Some(place);
+        }
+        let travel = longest * (MOMENTS - 1) as f64;
+        if !is_hit {
+            let half_diagonal = 0.71 * f64::from(self.side);
+            let away = (view.project(point)? - middle).length();
+            if away > half_diagonal + travel + 1.0 {
+                return None;
+            }
+        }
+        Some(travel)
+    }
+}
+
+/// Around a sphere in the picture of a view.
+fn outline(sphere: &Sphere, view: &View) -> Outline {
+    let center = sphere.center() - view.camera.position;
+    let center = view.camera.world_from_camera.transpose() * center;
+    let radius = sphere.radius();
+    if center.z < -radius {
+        return Outline::Nowhere;
+    }
+    let product = (center.z - radius) * (center.z + radius);
+    let half = |along: f64| radius * (along * along + product).sqrt();
+    let halves = DVec2::new(half(center.x), half(center.y));
+    let middle = center.truncate() * center.z;
+    let scale = view.lens.distance * view.zoom;
+    let half_size = 0.5 * DVec2::new(f64::from(view.width), f64::from(view.height));
+    let in_pixels = |slopes: DVec2| {
+        let on_retina = slopes * scale - view.lens.shift;
+        half_size + DVec2::new(on_retina.x, -on_retina.y) / view.pixel_size()
+    };
+    let one = in_pixels((middle - halves) / product);
+    let other = in_pixels((middle + halves) / product);
+    if center.z > CLEAR * radius && one.is_finite() && other.is_finite() {
+        Outline::Within(one.min(other), one.max(other))
+    } else {
+        Outline::Anywhere
+    }
+}
+
+/// The level of panels so short that nothing is missed that matters, where something travels so far
+/// in half of the time.
+///
+/// The moments of a panel in which something travels by 1 are up to [`LONGEST_GAP`] apart. What is
+/// convex, and comes into a pixel and leaves it again on a way of g, has come in by a corner, covers no
+/// more than g²/4 of the pixel, and less than a half of that on average: that is g³/8 of the light on
+/// the whole way. Within a tolerance of it twice as much is left out, and something else
+/// may be missed. With gaps shorter than a pixel nothing goes straight through.
+fn level(travel: f64, tolerance: f64) -> u8 {
+    const LOST: f64 = 2.0 * LONGEST_GAP * LONGEST_GAP * LONGEST_GAP / 8.0;
+    const LONGEST: f64 = 0.9 / LONGEST_GAP;
+    let way = 2.0 * travel;
+    let part = libm::cbrt(tolerance * way / LOST).min(LONGEST);
+    let mut level = 0;
+    while level <= FASTEST && f64::from(1_u32 << level) * part < way {
+        level += 1;
+    }
+    if level > FASTEST || !way.is_finite() {
+        TOO_FAST
+    } else {
+        level as u8
+    }
+}
+
+const _: () = assert!(FASTEST < DEEPEST && DEEPEST < 32);
