@@ -1,5 +1,8 @@
 //! The command line, as clap reads it.
 
+mod manual;
+mod new;
+mod preview;
 mod report;
 
 use std::num::NonZeroU32;
@@ -8,6 +11,9 @@ use std::str::FromStr;
 
 use clap::{Args, Parser, Subcommand};
 
+pub(crate) use self::manual::{CompletionsArguments, ManArguments};
+pub(crate) use self::new::NewArguments;
+pub(crate) use self::preview::PreviewArguments;
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
 
@@ -31,9 +37,13 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Render(RenderArguments),
+    Preview(PreviewArguments),
     Check(CheckArguments),
     Compare(CompareArguments),
     Report(ReportArguments),
+    New(NewArguments),
+    Completions(CompletionsArguments),
+    Man(ManArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\

@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::output::temporary;
+use crate::preview::screen;
 use crate::status::INTERRUPTED;
 
 /// How long pictures that are ready may take to be written: users are promised a second.
@@ -47,8 +48,9 @@ pub(crate) fn listen() {
 
 fn end() -> ! {
     let _no_more_files = temporary::abandon_all();
-    // Another thread may hold the lock of stderr for as long as nobody reads from it.
+    // Another thread may hold the lock of stdout or stderr for as long as nobody reads from it.
     let farewell = thread::Builder::new().spawn(|| {
+        screen::restore();
         let _ = writeln!(std::io::stderr(), "\nmarbles: interrupted");
     });
     if farewell.is_ok() {

@@ -7,6 +7,7 @@ mod args;
 mod belt;
 mod check;
 mod compare;
+mod completions;
 mod console;
 mod failure;
 mod film;
@@ -14,17 +15,21 @@ mod frames;
 mod input;
 mod interrupt;
 mod loading;
+mod manual;
 mod memory;
 mod messages;
+mod new;
 mod numbers;
 mod output;
 mod pattern;
+mod preview;
 mod progress;
 mod rational;
 mod render;
 mod report;
 mod sequence;
 mod status;
+mod still;
 mod threads;
 
 use std::ffi::OsString;
@@ -71,9 +76,13 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     };
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments, console),
+        Command::Preview(arguments) => preview::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
+        Command::New(arguments) => new::run(&arguments, console),
+        Command::Completions(arguments) => completions::run(&arguments, console),
+        Command::Man(arguments) => manual::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);
@@ -88,7 +97,7 @@ mod tests {
 
     use super::*;
 
-    const SCENE: &str = "(
+    pub(crate) const SCENE: &str = "(
     image: (width: 600, height: 600),
     lens: Retina(width: 600, distance: 100),
     camera: Free(),
@@ -117,7 +126,7 @@ mod tests {
     }
 
     /// The exit code, and what is on stdout and stderr.
-    fn run_here(args: &[&str]) -> (u8, String, String) {
+    pub(crate) fn run_here(args: &[&str]) -> (u8, String, String) {
         let (out, err) = (Text::default(), Text::default());
         let console = Console::to(out.clone(), err.clone());
         let args = ["marbles"].iter().chain(args).map(OsString::from);

@@ -11,7 +11,7 @@ mod png;
 pub(crate) mod srgb;
 pub(crate) mod temporary;
 
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -233,6 +233,17 @@ pub(crate) fn write_rgb_codes(
 ) -> Result<(), Failure> {
     let shape = Shape::of_codes(width, height, false);
     write_png(path, shape, |stream| Ok(stream.write_all(codes)?)).map_err(Unwritten::into_failure)
+}
+
+/// A PNG of 8 bit codes of red, green and blue, row by row.
+pub(crate) fn rgb_png(width: u32, height: u32, codes: &[u8]) -> Result<Vec<u8>, Failure> {
+    let mut file = Cursor::new(Vec::new());
+    let shape = Shape::of_codes(width, height, false);
+    let written = png::write(&mut file, shape, |stream| Ok(stream.write_all(codes)?));
+    match written {
+        Ok(_has_grown) => Ok(file.into_inner()),
+        Err(_) => Err(Failure::Work("cannot encode the picture".to_owned())),
+    }
 }
 
 /// Writes a file that is no picture, or already encoded, whole or not at all.

@@ -9,6 +9,8 @@ mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+#[cfg(target_os = "linux")]
+mod preview;
 mod signals;
 #[cfg(target_os = "linux")]
 mod terminal;
@@ -44,6 +46,16 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron --samples 2 --tolerance 1e-3", 2),
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
+        ("new ball.ron", 1),
+        ("new ball", 2),
+        ("completions fish", 0),
+        ("completions sh", 2),
+        ("man render", 0),
+        ("man paint", 2),
+        ("preview ball.ron", 0),
+        ("preview ball.ron --watch", 2),
+        ("preview ball.ron --frame 2", 2),
+        ("preview missing.ron", 2),
     ] {
         let output = folder.run(arguments);
         assert_eq!(code(&output), expected, "marbles {arguments}");
