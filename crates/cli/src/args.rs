@@ -51,6 +51,7 @@ Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
   marbles render ball.ron -o small.png --frames 7 --size 150x150
@@ -69,8 +70,8 @@ pub(crate) struct RenderArguments {
     pub(crate) scene: PathBuf,
 
     /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png or
-    /// .exr chooses the format [default: SCENE.png, or SCENE.####.png for several frames, in the
-    /// current folder]
+    /// .exr chooses the format, and .apng has all frames in one file, an animated PNG that plays in
+    /// a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 

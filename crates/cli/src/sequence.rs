@@ -1,5 +1,7 @@
 //! Frames one after the other: while one is rendered, the one before is encoded and written.
 
+mod animation;
+
 use std::ops::ControlFlow;
 use std::panic;
 use std::path::PathBuf;
@@ -112,7 +114,10 @@ impl Sequence<'_> {
         };
         let (sender, receiver) = sync_channel(WAITING_PICTURES);
         let (left_out, written) = thread::scope(|scope| {
-            let writer = scope.spawn(|| self.write_all(receiver, &ways, progress));
+            let writer = scope.spawn(|| match self.encoding {
+                Encoding::Apng(_) => self.write_loop(receiver, &ways, progress),
+                Encoding::Png(_) | Encoding::Exr(_) => self.write_all(receiver, &ways, progress),
+            });
             let left_out = threads.install(|| self.render_all(sender, &ways, progress));
             let written = writer.join();
             (
@@ -148,6 +153,10 @@ impl Sequence<'_> {
                     progress.failure(&Failure::Work(error.to_string()));
                     progress.leave_out();
                     left_out = true;
+                    if let Encoding::Apng(_) = self.encoding {
+                        // Without it there is no loop.
+                        break;
+                    }
                     continue;
                 }
             };

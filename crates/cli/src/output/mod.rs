@@ -4,6 +4,7 @@
 //! complete. Strips become samples and, where blocks are compressed on their own, blocks by
 //! a [`Coder`], in the threads that render them; another one writes what comes of it.
 
+mod animation;
 mod exr;
 mod half;
 mod header;
@@ -18,6 +19,7 @@ use std::path::{Path, PathBuf};
 use ::exr::block::chunk::Chunk;
 use marbles_core::{BAND_ROWS, Camera, Image, Method};
 
+use self::animation::{Animation, delay};
 use self::exr::Blocks;
 pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
@@ -33,6 +35,8 @@ const SOFTWARE: &str = concat!("marbles ", env!("CARGO_PKG_VERSION"));
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Encoding {
     Png(PngOptions),
+    /// The pictures of a sequence in one file.
+    Apng(PngOptions),
     Exr(ExrOptions),
 }
 
@@ -61,7 +65,7 @@ pub(crate) enum Piece {
 impl Coder {
     pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
         let format = match encoding {
-            Encoding::Png(options) => Format::Png(options.shape(&form)),
+            Encoding::Png(options) | Encoding::Apng(options) => Format::Png(options.shape(&form)),
             Encoding::Exr(options) => Format::Exr(Box::new(options.blocks(&form))),
         };
         Self { form, format }
@@ -158,6 +162,43 @@ impl Coder {
                 Ok(file)
             }),
         }
+    }
+}
+
+impl Coder {
+    /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each
+    /// of them, and ends it all with `None`.
+    ///
+    /// An animated PNG, which repeats for ever, of so many frames per second, where that is known.
+    pub(crate) fn write_loop(
+        &self,
+        path: &Path,
+        frames: u32,
+        frames_per_second: Option<f64>,
+        pieces: &mut impl Pieces,
+        mut written: impl FnMut() -> Option<()>,
+    ) -> Result<(), Unwritten> {
+        let Format::Png(shape) = &self.format else {
+            // Other formats have no loops.
+            return Err(Unwritten::Stopped);
+        };
+        save(path, |mut file| {
+            let mut animation =
+                Animation::begin(file.file(), *shape, frames, delay(frames_per_second))?;
+            for _ in 0..frames {
+                for _ in 0..self.pieces() {
+                    // The others are never made.
+                    if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
+                        animation.add_samples(&samples);
+                        pieces.give_back(samples);
+                    }
+                }
+                animation.end_frame()?;
+                written().ok_or(Fault::Stopped)?;
+            }
+            animation.finish()?;
+            Ok(file)
+        })
     }
 }
 

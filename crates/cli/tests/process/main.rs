@@ -5,6 +5,7 @@
     reason = "tests that this machine cannot run say so"
 )]
 
+mod animation;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
@@ -46,6 +47,7 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron --samples 2 --tolerance 1e-3", 2),
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
+        ("render ball.ron -o a.apng --float", 2),
         ("new ball.ron", 1),
         ("new ball", 2),
         ("completions fish", 0),
