@@ -1,7 +1,7 @@
 //! The command line of marbles.
 //!
-//! Every command is a file, `render`, `check`, `compare` and `report`. Frames follow each other in `sequence`
-//! and become files in `output`; `input` reads pictures back.
+//! Every command is a file named after it, `man` being `manual`. Frames follow each other in
+//! `sequence` and become files in `output`; `input` reads pictures back.
 
 mod args;
 mod belt;
