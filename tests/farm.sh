@@ -139,9 +139,23 @@ start() {
     disown
 }
 
+# The first of five ports that nobody listens at.
+free_ports() {
+    local first port
+    while :; do
+        first=$((RANDOM % 20000 + 10000))
+        for port in $(seq "$first" $((first + 4))); do
+            ! (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null || continue 2
+        done
+        printf '%s\n' "$first"
+        return
+    done
+}
+
 start_slurm() {
-    local host
+    local host port
     host=$(hostname -s)
+    port=$(free_ports)
     mkdir -m 700 "$work/munge" "$work/state"
     mkdir "$work/spool" "$work/log"
     (umask 077 && head -c 1024 /dev/urandom >"$work/munge/key")
@@ -159,7 +173,7 @@ AuthType=auth/munge
 AuthInfo=socket=$work/munge/socket,cred_expire=5
 CredType=cred/munge
 CommunicationParameters=NoCtldInAddrAny,NoInAddrAny
-SlurmctldPort=36817
+SlurmctldPort=$port
 StateSaveLocation=$work/state
 SlurmdSpoolDir=$work/spool/%n
 SlurmctldPidFile=$work/state/slurmctld.pid
@@ -178,7 +192,7 @@ SlurmdTimeout=6
 KillWait=5
 MessageTimeout=5
 ReturnToService=2
-NodeName=n[1-4] NodeHostname=$host NodeAddr=127.0.0.1 Port=[36821-36824] CPUs=1 State=UNKNOWN
+NodeName=n[1-4] NodeHostname=$host NodeAddr=127.0.0.1 Port=[$((port + 1))-$((port + 4))] CPUs=1 State=UNKNOWN
 PartitionName=farm Nodes=ALL Default=YES MaxTime=10 State=UP
 END
     chmod 644 "$work/slurm.conf"

@@ -1,6 +1,9 @@
 //! The command line, as clap reads it.
 
 mod farm;
+mod manual;
+mod new;
+mod preview;
 mod report;
 
 use std::num::NonZeroU32;
@@ -11,6 +14,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use marbles_core::Window;
 
 pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
+pub(crate) use self::manual::{CompletionsArguments, ManArguments};
+pub(crate) use self::new::NewArguments;
+pub(crate) use self::preview::PreviewArguments;
 pub(crate) use self::report::ReportArguments;
 use crate::frames::FrameList;
 use crate::region;
@@ -35,11 +41,15 @@ pub(crate) struct Arguments {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Render(RenderArguments),
+    Preview(PreviewArguments),
     Check(CheckArguments),
     Compare(CompareArguments),
     Merge(MergeArguments),
     Report(ReportArguments),
     Farm(FarmArguments),
+    New(NewArguments),
+    Completions(CompletionsArguments),
+    Man(ManArguments),
 }
 
 const RENDER_EXAMPLES: &str = "\
@@ -47,6 +57,7 @@ Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
   marbles render ball.ron -o small.png --frames 7 --size 150x150
@@ -65,8 +76,8 @@ pub(crate) struct RenderArguments {
     pub(crate) scene: PathBuf,
 
     /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png or
-    /// .exr chooses the format [default: SCENE.png, or SCENE.####.png for several frames, in the
-    /// current folder]
+    /// .exr chooses the format, and .apng has all frames in one file, an animated PNG that plays in
+    /// a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 

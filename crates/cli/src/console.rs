@@ -96,9 +96,19 @@ impl Console {
         self.err.terminal
     }
 
+    /// Whether results go to a terminal.
+    pub(crate) fn shows_results(&self) -> bool {
+        self.out.terminal
+    }
+
     /// A line of results.
     pub(crate) fn result(&self, line: &str) {
-        self.out.print(&format!("{line}\n"));
+        self.print(&format!("{line}\n"));
+    }
+
+    /// Results that are no line: as they are.
+    pub(crate) fn print(&self, text: &str) {
+        self.out.print(text);
     }
 
     /// That results could not be printed, where a reader still waits for them.
@@ -141,13 +151,17 @@ impl Console {
             Some(Reader::OpenJd) => self.reason(message),
             None => {}
         }
+        self.note(&self.message(failure));
+    }
+
+    /// What [`Self::failure`] prints, without the end of the last line.
+    pub(crate) fn message(&self, failure: &Failure) -> String {
         match failure {
-            Failure::Scene(error) if self.err.styled => self.note(error.styled().trim_end()),
-            Failure::Scene(_) => self.note(message),
-            Failure::Usage(_) | Failure::Frames(_) | Failure::Work(_) => self.note(&format!(
-                "{} {message}",
-                self.err.paint("marbles:", BOLD_RED)
-            )),
+            Failure::Usage(message) | Failure::Frames(message) | Failure::Work(message) => {
+                format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
+            }
+            Failure::Scene(error) if self.err.styled => error.styled().trim_end().to_owned(),
+            Failure::Scene(error) => error.to_string().trim_end().to_owned(),
         }
     }
 

@@ -164,7 +164,8 @@ impl Feed {
 
     fn encoding(&mut self, encoding: Encoding) {
         match encoding {
-            Encoding::Png(PngOptions { deep, rgb }) => {
+            // An animated one keeps no digest.
+            Encoding::Png(PngOptions { deep, rgb }) | Encoding::Apng(PngOptions { deep, rgb }) => {
                 self.integer(0);
                 self.integer(deep);
                 self.integer(rgb);

@@ -84,6 +84,11 @@ impl Job {
     ) -> Result<Self, Failure> {
         let render = &arguments.render.parsed;
         let plan = Plan::new(render, &threads::start(None)?, console)?;
+        if !plan.has_file_per_frame() {
+            return Err(Failure::Usage(
+                "tasks write a file for each frame, and the output has all of them".to_owned(),
+            ));
+        }
         let sequence = plan.sequence(render);
         for frame in plan.frames.iter().take(FRAMES_LOOKED_AT) {
             sequence.check(frame)?;

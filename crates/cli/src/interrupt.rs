@@ -11,6 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::output::temporary;
+use crate::preview::screen;
 use crate::status::INTERRUPTED;
 
 /// How long pictures that are ready may take to be written: users are promised a second.
@@ -48,8 +49,9 @@ pub(crate) fn listen(farewell: &'static str) {
 
 fn end(farewell: &'static str) -> ! {
     let _no_more_files = temporary::abandon_all();
-    // Another thread may hold the lock of stderr for as long as nobody reads from it.
+    // Another thread may hold the lock of stdout or stderr for as long as nobody reads from it.
     let said = thread::Builder::new().spawn(move || {
+        screen::restore();
         let _ = writeln!(std::io::stderr(), "{farewell}");
     });
     if said.is_ok() {

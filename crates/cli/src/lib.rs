@@ -1,12 +1,13 @@
 //! The command line of marbles.
 //!
-//! Every command is a file: `render`, `check`, `compare`, `merge`, `report` and `farm`. Frames follow
-//! each other in `sequence` and become files in `output`; `input` reads pictures back.
+//! Every command is a file named after it, `man` being `manual`. Frames follow each other in
+//! `sequence` and become files in `output`; `input` reads pictures back.
 
 mod args;
 mod belt;
 mod check;
 mod compare;
+mod completions;
 mod console;
 mod digest;
 mod failure;
@@ -16,12 +17,15 @@ mod frames;
 mod input;
 mod interrupt;
 mod loading;
+mod manual;
 mod memory;
 mod merge;
 mod messages;
+mod new;
 mod numbers;
 mod output;
 mod pattern;
+mod preview;
 mod progress;
 mod rational;
 mod region;
@@ -29,6 +33,7 @@ mod render;
 mod report;
 mod sequence;
 mod status;
+mod still;
 mod tally;
 mod threads;
 
@@ -76,11 +81,15 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     };
     let result = match arguments.command {
         Command::Render(arguments) => render::run(&arguments, console),
+        Command::Preview(arguments) => preview::run(&arguments, console),
         Command::Check(arguments) => check::run(&arguments, console),
         Command::Compare(arguments) => compare::run(&arguments, console),
         Command::Merge(arguments) => merge::run(&arguments, console),
         Command::Report(arguments) => report::run(&arguments, console),
         Command::Farm(arguments) => farm::run(&arguments, console),
+        Command::New(arguments) => new::run(&arguments, console),
+        Command::Completions(arguments) => completions::run(&arguments, console),
+        Command::Man(arguments) => manual::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);
@@ -93,7 +102,7 @@ mod tests {
     use super::*;
     use crate::console::tests::Text;
 
-    const SCENE: &str = "(
+    pub(crate) const SCENE: &str = "(
     image: (width: 600, height: 600),
     lens: Retina(width: 600, distance: 100),
     camera: Free(),
@@ -103,7 +112,7 @@ mod tests {
 ";
 
     /// The exit code, and what is on stdout and stderr.
-    fn run_here(args: &[&str]) -> (u8, String, String) {
+    pub(crate) fn run_here(args: &[&str]) -> (u8, String, String) {
         let (out, err) = (Text::default(), Text::default());
         let console = Console::to(out.clone(), err.clone());
         let args = ["marbles"].iter().chain(args).map(OsString::from);

@@ -27,6 +27,8 @@ pub(crate) struct Pattern {
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Format {
     Png,
+    /// All frames in one file.
+    Apng,
     Exr,
 }
 
@@ -39,7 +41,7 @@ struct Number {
 /// Why a text is no pattern.
 #[derive(Clone, Debug, Eq, Error, PartialEq)]
 pub(crate) enum PatternError {
-    #[error("expected a file name that ends in .png or .exr, found `{0}`")]
+    #[error("expected a file name that ends in .png, .apng or .exr, found `{0}`")]
     Ending(String),
     #[error("expected a file name in UTF-8, found `{0}`")]
     Encoding(String),
@@ -141,7 +143,7 @@ impl Format {
     /// The format that the ending of a name asks for.
     pub(crate) fn of(name: &str) -> Option<Self> {
         let (_, ending) = name.rsplit_once('.')?;
-        [("png", Self::Png), ("exr", Self::Exr)]
+        [("png", Self::Png), ("apng", Self::Apng), ("exr", Self::Exr)]
             .into_iter()
             .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
     }
@@ -248,8 +250,12 @@ mod tests {
         let format = |name: &str| Pattern::parse(Path::new(name)).unwrap().format();
         assert_eq!(format("a.PNG"), Format::Png);
         assert_eq!(format("a.b.Exr"), Format::Exr);
+        assert_eq!(format("a.png.apng"), Format::Apng);
         for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
-            assert!(refusal(wrong).contains("ends in .png or .exr"), "{wrong}");
+            assert!(
+                refusal(wrong).contains("ends in .png, .apng or .exr"),
+                "{wrong}"
+            );
         }
     }
 

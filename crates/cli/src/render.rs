@@ -1,5 +1,7 @@
 //! `marbles render`: the frames of a scene, one file each.
 
+use std::path::Path;
+
 use marbles_core::{Method, Settings};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
@@ -49,7 +51,15 @@ impl Plan {
             let numbered = arguments.frames.is_some() || scene.frames().is_some();
             Pattern::named_after(&arguments.scene, numbered)
         });
-        if frames.is_sequence() && !pattern.is_numbered() {
+        let is_loop = pattern.format() == Format::Apng;
+        if is_loop && pattern.is_numbered() {
+            let output = arguments.output.as_deref().unwrap_or(Path::new(""));
+            return Err(Failure::Usage(format!(
+                "{}: all frames are one file, whose name has no place for their number",
+                output.display()
+            )));
+        }
+        if frames.is_sequence() && !pattern.is_numbered() && !is_loop {
             return Err(Failure::Usage(format!(
                 "{}: {} frames need a place for their number in the name: ####, %04d or {{frame:04}}",
                 pattern.path(FRAME_OF_A_STILL).display(),
@@ -62,6 +72,11 @@ impl Plan {
             pattern,
             encoding,
         })
+    }
+
+    /// Whether frames are files of their own.
+    pub(crate) fn has_file_per_frame(&self) -> bool {
+        self.pattern.format() != Format::Apng
     }
 
     /// The frames, as they are asked for.
@@ -114,6 +129,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     progress.finish();
     let tally = tally?;
     if tally.frames > 1
+        && plan.pattern.is_numbered()
         && !arguments.quiet
         && let Some(total) = &tally.total
     {
@@ -138,14 +154,27 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         )))
     };
     match format {
-        Format::Png if arguments.float => refused("--float", "EXR", "PNG"),
-        Format::Png if arguments.error_channel => refused("--error-channel", "EXR", "PNG"),
+        Format::Png | Format::Apng if arguments.float => refused("--float", "EXR", "PNG"),
+        Format::Png | Format::Apng if arguments.error_channel => {
+            refused("--error-channel", "EXR", "PNG")
+        }
+        Format::Apng if arguments.skip_existing => Err(Failure::Usage(
+            "--skip-existing is for files of one frame each, and the output has all of them"
+                .to_owned(),
+        )),
         Format::Exr if arguments.rgb => refused("--rgb", "PNG", "EXR"),
         Format::Exr if arguments.bits.is_some() => refused("--bits", "PNG", "EXR"),
-        Format::Png => Ok(Encoding::Png(PngOptions {
-            deep: arguments.bits == Some(16),
-            rgb: arguments.rgb,
-        })),
+        Format::Png | Format::Apng => {
+            let options = PngOptions {
+                deep: arguments.bits == Some(16),
+                rgb: arguments.rgb,
+            };
+            Ok(if format == Format::Png {
+                Encoding::Png(options)
+            } else {
+                Encoding::Apng(options)
+            })
+        }
         Format::Exr => Ok(Encoding::Exr(ExrOptions {
             float: arguments.float,
             error: arguments.error_channel,

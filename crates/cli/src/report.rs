@@ -23,21 +23,22 @@ use self::measure::{Measurement, Plan, Reference};
 use self::plot::PlotFile;
 use self::progress::Progress;
 use self::row::Row;
-use crate::args::{ReportArguments, Size};
+use crate::args::ReportArguments;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::loading;
 use crate::memory::{self, Form};
 use crate::output;
-use crate::render::FRAME_OF_A_STILL;
 use crate::status;
+use crate::still;
 use crate::threads;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     let plot = arguments.plot.as_deref().map(PlotFile::at).transpose()?;
     let scene = loading::scene(&arguments.scene, console, arguments.quiet)?;
-    let view = view(arguments, &scene)?;
+    let view = still::view(&scene, arguments.frame)?;
+    let view = still::resized(view, arguments.size);
     // What cannot be written is refused before the long work.
     check_files(arguments)?;
     let pool = threads::start(arguments.threads)?;
@@ -103,33 +104,6 @@ impl Report {
     fn reference(&self) -> &Reference {
         &self.measurement.reference
     }
-}
-
-/// What is rendered.
-fn view(arguments: &ReportArguments, scene: &Scene) -> Result<View, Failure> {
-    let frames = scene.frames();
-    let frames = frames.unwrap_or(FRAME_OF_A_STILL..=FRAME_OF_A_STILL);
-    let frame = arguments.frame.unwrap_or(*frames.start());
-    if !frames.contains(&frame) {
-        let expected = match frames.into_inner() {
-            (first, last) if first == last => format!("{first}, the only frame of the scene"),
-            (first, last) => format!("a frame of the scene, from {first} to {last}"),
-        };
-        return Err(Failure::Usage(format!(
-            "--frame: expected {expected}, found {frame}"
-        )));
-    }
-    let view = scene
-        .view(frame)
-        .map_err(|error| Failure::Frames(error.to_string()))?;
-    Ok(match arguments.size {
-        Some(Size { width, height }) => View {
-            width,
-            height,
-            ..view
-        },
-        None => view,
-    })
 }
 
 /// Refuses files that would take the place of the scene or of each other.

@@ -1,5 +1,7 @@
 //! Frames one after the other: while one is rendered, the one before is encoded and written.
 
+mod animation;
+
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::panic;
@@ -64,7 +66,8 @@ pub(crate) struct Persistence {
 struct Order {
     facts: Facts,
     path: PathBuf,
-    file: TemporaryFile,
+    /// None where all frames are one file.
+    file: Option<TemporaryFile>,
     /// The number of the first piece on the belt that belongs to the next picture.
     end: u64,
     /// What became of it; nothing where it was not finished.
@@ -91,7 +94,7 @@ struct Ways {
 
 /// What is done about a frame.
 enum Turn {
-    Render(TemporaryFile),
+    Render(Option<TemporaryFile>),
     /// Its file is there.
     Skip,
     /// Somebody else is writing its file.
@@ -112,7 +115,10 @@ impl Sequence<'_> {
         let ways = self.ways(threads)?;
         let (sender, receiver) = sync_channel(WAITING_PICTURES);
         let written = thread::scope(|scope| {
-            let writer = scope.spawn(|| self.write_all(receiver, &ways, progress));
+            let writer = scope.spawn(|| match self.encoding {
+                Encoding::Apng(_) => self.write_loop(receiver, &ways, progress),
+                Encoding::Png(_) | Encoding::Exr(_) => self.write_all(receiver, &ways, progress),
+            });
             threads.install(|| self.render_all(sender, &ways, progress));
             let written = writer.join();
             written.unwrap_or_else(|panic| panic::resume_unwind(panic))
@@ -165,9 +171,9 @@ impl Sequence<'_> {
                 digest: digests.of(&Shot {
                     view: &view,
                     frame,
-                    // A PNG does not tell it.
+                    // A PNG does not tell it, and an animated one keeps no digest.
                     frames_per_second: match self.encoding {
-                        Encoding::Png(_) => None,
+                        Encoding::Png(_) | Encoding::Apng(_) => None,
                         Encoding::Exr(_) => self.frames_per_second,
                     },
                 }),
@@ -244,8 +250,11 @@ impl Sequence<'_> {
     /// Who has waited once begins it all the same: somebody who stands still would else keep
     /// everybody from the end, and both write the same.
     fn turn(&self, path: &Path, content: Content, has_waited: bool) -> Result<Turn, Failure> {
+        if let Encoding::Apng(_) = self.encoding {
+            return Ok(Turn::Render(None));
+        }
         if !self.persistence.skip_existing {
-            return Ok(Turn::Render(output::begin(path)?));
+            return Ok(Turn::Render(Some(output::begin(path)?)));
         }
         let is_there = || finished::content(path) == Some(content);
         if is_there() {
@@ -260,7 +269,7 @@ impl Sequence<'_> {
         Ok(if is_there() {
             Turn::Skip
         } else {
-            Turn::Render(file)
+            Turn::Render(Some(file))
         })
     }
 
@@ -303,6 +312,7 @@ impl Sequence<'_> {
             ending,
             ..
         } = order;
+        let file = file.ok_or(Unwritten::Stopped)?;
         ways.coder.write(&facts, &path, file, &mut &ways.belt)?;
         let Ending { gathered, time } = ending.recv().map_err(|_| Unwritten::Stopped)?;
         let summary = gathered.summary.ok_or(Unwritten::Stopped)?;
@@ -366,11 +376,13 @@ impl Sequence<'_> {
         };
         let coder = Coder::new(self.encoding, form);
         let strips = memory::strips_at_a_time(&form, &coder, threads.current_num_threads())?;
+        // Without all of its frames there is no loop.
+        let is_loop = matches!(self.encoding, Encoding::Apng(_));
         Ok(Ways {
             form,
             coder,
             belt: Belt::new(strips),
-            failures: Failures::new(self.persistence.fail_fast),
+            failures: Failures::new(self.persistence.fail_fast || is_loop),
             skipped: AtomicU64::new(0),
         })
     }

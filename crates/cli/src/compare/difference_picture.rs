@@ -22,22 +22,27 @@ const MIDDLE_CODE: u8 = 127;
 #[derive(Debug)]
 pub(super) struct DifferencePicture {
     path: PathBuf,
-    format: Format,
+    /// Whether it is an EXR, and no PNG.
+    holds_floats: bool,
 }
 
 impl DifferencePicture {
     /// The picture at `path`, whose ending chooses the format.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
         let name = path.file_name().and_then(|name| name.to_str());
-        let format = name.and_then(Format::of).ok_or_else(|| {
-            Failure::Usage(format!(
-                "--diff: expected a file name that ends in .png or .exr, found `{}`",
-                path.display()
-            ))
-        })?;
+        let holds_floats = match name.and_then(Format::of) {
+            Some(Format::Png) => false,
+            Some(Format::Exr) => true,
+            Some(Format::Apng) | None => {
+                return Err(Failure::Usage(format!(
+                    "--diff: expected a file name that ends in .png or .exr, found `{}`",
+                    path.display()
+                )));
+            }
+        };
         Ok(Self {
             path: path.to_owned(),
-            format,
+            holds_floats,
         })
     }
 
@@ -47,18 +52,16 @@ impl DifferencePicture {
 
     /// What its values say.
     pub(super) fn scale(&self, tolerance: Option<f64>) -> String {
-        match self.format {
-            Format::Exr => "the differences of each channel".to_owned(),
-            Format::Png => {
-                let middle = middle(tolerance);
-                let decades = libm::pow(10.0, DECADES);
-                format!(
-                    "log scale, black <= {:.1e}, middle {middle:e}, white >= {:.1e}",
-                    middle / decades,
-                    middle * decades
-                )
-            }
+        if self.holds_floats {
+            return "the differences of each channel".to_owned();
         }
+        let middle = middle(tolerance);
+        let decades = libm::pow(10.0, DECADES);
+        format!(
+            "log scale, black <= {:.1e}, middle {middle:e}, white >= {:.1e}",
+            middle / decades,
+            middle * decades
+        )
     }
 
     pub(super) fn write(
@@ -68,24 +71,20 @@ impl DifferencePicture {
         tolerance: Option<f64>,
     ) -> Result<(), Failure> {
         let (width, height) = (pair.a.width, pair.a.height);
-        match self.format {
-            Format::Png => {
-                let middle = middle(tolerance);
-                let codes = statistics.differences.iter();
-                let codes: Vec<u8> = codes.map(|&size| code(size, middle)).collect();
-                output::write_codes(width, height, &codes, &self.path)
-            }
-            Format::Exr => {
-                let channel = |&channel: &usize| {
-                    let differences = pair
-                        .pixels()
-                        .map(|(col, row)| pair.differences(col, row)[channel] as f32);
-                    (pair.name(channel), differences.collect())
-                };
-                let channels = pair.channels().iter().map(channel).collect();
-                output::write_floats(width, height, channels, &self.path)
-            }
+        if self.holds_floats {
+            let channel = |&channel: &usize| {
+                let differences = pair
+                    .pixels()
+                    .map(|(col, row)| pair.differences(col, row)[channel] as f32);
+                (pair.name(channel), differences.collect())
+            };
+            let channels = pair.channels().iter().map(channel).collect();
+            return output::write_floats(width, height, channels, &self.path);
         }
+        let middle = middle(tolerance);
+        let codes = statistics.differences.iter();
+        let codes: Vec<u8> = codes.map(|&size| code(size, middle)).collect();
+        output::write_codes(width, height, &codes, &self.path)
     }
 }
 

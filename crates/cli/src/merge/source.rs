@@ -78,7 +78,9 @@ impl Source {
         match name.and_then(Format::of) {
             Some(Format::Png) => Self::png(file).map_err(|error| lower(&error.to_string())),
             Some(Format::Exr) => Self::exr(file).map_err(|error| lower(&error.to_string())),
-            None => Err("expected a file name that ends in .png or .exr".to_owned()),
+            Some(Format::Apng) | None => {
+                Err("expected a file name that ends in .png or .exr".to_owned())
+            }
         }
     }
 

@@ -4,6 +4,7 @@
 //! complete. Strips become samples and, where blocks are compressed on their own, blocks by
 //! a [`Coder`], in the threads that render them; another one writes what comes of it.
 
+mod animation;
 mod exr;
 mod half;
 mod header;
@@ -11,7 +12,7 @@ mod png;
 pub(crate) mod srgb;
 pub(crate) mod temporary;
 
-use std::io::{self, Write};
+use std::io::{self, Cursor, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +20,7 @@ use ::exr::block::chunk::Chunk;
 use blake3::Hash;
 use marbles_core::{BAND_ROWS, Camera, Image, Method};
 
+use self::animation::{Animation, delay};
 use self::exr::Blocks;
 pub(crate) use self::exr::ExrOptions;
 pub(crate) use self::png::PngOptions;
@@ -42,6 +44,8 @@ pub(crate) const DIGEST_ATTRIBUTE: &str = "digest";
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Encoding {
     Png(PngOptions),
+    /// The pictures of a sequence in one file.
+    Apng(PngOptions),
     Exr(ExrOptions),
 }
 
@@ -70,7 +74,7 @@ pub(crate) enum Piece {
 impl Coder {
     pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
         let format = match encoding {
-            Encoding::Png(options) => Format::Png(options.shape(&form)),
+            Encoding::Png(options) | Encoding::Apng(options) => Format::Png(options.shape(&form)),
             Encoding::Exr(options) => Format::Exr(Box::new(options.blocks(&form))),
         };
         Self { form, format }
@@ -181,6 +185,43 @@ impl Coder {
                 Ok(file)
             }),
         }
+    }
+}
+
+impl Coder {
+    /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each
+    /// of them, and ends it all with `None`.
+    ///
+    /// An animated PNG, which repeats for ever, of so many frames per second, where that is known.
+    pub(crate) fn write_loop(
+        &self,
+        path: &Path,
+        frames: u32,
+        frames_per_second: Option<f64>,
+        pieces: &mut impl Pieces,
+        mut written: impl FnMut() -> Option<()>,
+    ) -> Result<(), Unwritten> {
+        let Format::Png(shape) = &self.format else {
+            // Other formats have no loops.
+            return Err(Unwritten::Stopped);
+        };
+        save(path, |mut file| {
+            let mut animation =
+                Animation::begin(file.file(), *shape, frames, delay(frames_per_second))?;
+            for _ in 0..frames {
+                for _ in 0..self.pieces() {
+                    // The others are never made.
+                    if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
+                        animation.add_samples(&samples);
+                        pieces.give_back(samples);
+                    }
+                }
+                animation.end_frame()?;
+                written().ok_or(Fault::Stopped)?;
+            }
+            animation.finish()?;
+            Ok(file)
+        })
     }
 }
 
@@ -316,6 +357,17 @@ pub(crate) fn write_rgb_codes(
 ) -> Result<(), Failure> {
     let shape = Shape::of_codes(width, height, false);
     save_png(path, shape, codes)
+}
+
+/// A PNG of 8 bit codes of red, green and blue, row by row.
+pub(crate) fn rgb_png(width: u32, height: u32, codes: &[u8]) -> Result<Vec<u8>, Failure> {
+    let mut file = Cursor::new(Vec::new());
+    let shape = Shape::of_codes(width, height, false);
+    let written = png::write(&mut file, shape, &[], |stream| Ok(stream.write_all(codes)?));
+    match written {
+        Ok(_has_grown) => Ok(file.into_inner()),
+        Err(_) => Err(Failure::Work("cannot encode the picture".to_owned())),
+    }
 }
 
 /// Writes a file that is no picture, or already encoded, whole or not at all.

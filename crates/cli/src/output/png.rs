@@ -14,7 +14,7 @@ use crate::args::Size;
 use crate::memory::Form;
 
 /// Bytes of the samples' parts in a file.
-const CHUNK_BYTES: usize = 1 << 18;
+pub(super) const CHUNK_BYTES: usize = 1 << 18;
 
 /// How a PNG file is written.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -194,12 +194,7 @@ fn write_compressed(
     samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
 ) -> Result<u64, Fault> {
     let mut file = BufWriter::with_capacity(CHUNK_BYTES, file);
-    let mut encoder = Encoder::new(&mut file, shape.width, shape.height);
-    encoder.set_color(shape.color_type);
-    encoder.set_depth(shape.depth);
-    encoder.set_compression(compression);
-    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
-    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    let mut encoder = encoder(&mut file, shape, compression)?;
     for (keyword, text) in texts {
         encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
     }
@@ -210,6 +205,21 @@ fn write_compressed(
     writer.finish()?;
     file.flush()?;
     Ok(file.stream_position()?)
+}
+
+/// What all files begin with.
+pub(super) fn encoder<W: Write>(
+    file: W,
+    shape: Shape,
+    compression: Compression,
+) -> Result<Encoder<'static, W>, Fault> {
+    let mut encoder = Encoder::new(file, shape.width, shape.height);
+    encoder.set_color(shape.color_type);
+    encoder.set_depth(shape.depth);
+    encoder.set_compression(compression);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    Ok(encoder)
 }
 
 impl From<EncodingError> for Fault {

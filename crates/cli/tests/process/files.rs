@@ -27,7 +27,11 @@ fn results_that_cannot_be_written_are_an_error() {
 
 /// Runs `marbles` while a file system with these options is mounted at `out`, which nobody else
 /// sees. The output ends with the names in `out`; `None` where nothing can be mounted.
-fn run_on_file_system(folder: &Folder, options: &str, arguments: &str) -> Option<Output> {
+pub(crate) fn run_on_file_system(
+    folder: &Folder,
+    options: &str,
+    arguments: &str,
+) -> Option<Output> {
     const CANNOT_MOUNT: i32 = 77;
     fs::create_dir_all(folder.path("out")).unwrap();
     let script = format!(

@@ -5,12 +5,15 @@
     reason = "tests that this machine cannot run say so"
 )]
 
+mod animation;
 #[cfg(unix)]
 mod farm;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+#[cfg(target_os = "linux")]
+mod preview;
 mod progress;
 mod sequences;
 mod signals;
@@ -48,6 +51,17 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron --samples 2 --tolerance 1e-3", 2),
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
+        ("render ball.ron -o a.apng --float", 2),
+        ("new ball.ron", 1),
+        ("new ball", 2),
+        ("completions fish", 0),
+        ("completions sh", 2),
+        ("man render", 0),
+        ("man paint", 2),
+        ("preview ball.ron", 0),
+        ("preview ball.ron --watch", 2),
+        ("preview ball.ron --frame 2", 2),
+        ("preview missing.ron", 2),
     ] {
         let output = folder.run(arguments);
         assert_eq!(code(&output), expected, "marbles {arguments}");

@@ -19,7 +19,7 @@ pub(crate) fn wait_until(what: &str, condition: impl Fn() -> bool) {
 }
 
 /// Asks the process to end and waits: its exit code, and how long it took.
-fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
+pub(crate) fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
     let started = Instant::now();
     let kill = Command::new("kill")
         .args(["-INT", &child.id().to_string()])

@@ -1,0 +1,131 @@
+//! Pictures in a terminal, which the program `script` plays.
+
+use std::fs;
+use std::io::{Read, Write};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::{Arc, Mutex};
+use std::thread::{self, JoinHandle};
+
+use crate::folder::{BALL, Folder};
+use crate::signals::wait_until;
+
+/// `marbles` on a terminal, and what that was told to show so far.
+struct Terminal {
+    script: Child,
+    keyboard: ChildStdin,
+    shown: Arc<Mutex<Vec<u8>>>,
+    reader: JoinHandle<()>,
+}
+
+impl Terminal {
+    /// A terminal of this size; `None` where there is no way to have one.
+    fn run(folder: &Folder, (columns, rows): (u32, u32), arguments: &str) -> Option<Self> {
+        let marbles = folder.marbles(arguments);
+        let program = marbles.get_program().to_str().unwrap();
+        let command = format!("stty cols {columns} rows {rows} && exec '{program}' {arguments}");
+        let script = Command::new("script")
+            .args(["-qec", &command, "/dev/null"])
+            .current_dir(&folder.0)
+            .env("TERM", "xterm-256color")
+            .env_remove("TERM_PROGRAM")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn();
+        let Ok(mut script) = script else {
+            eprintln!("skipped: this test needs the program `script`");
+            return None;
+        };
+        let keyboard = script.stdin.take().unwrap();
+        let mut screen = script.stdout.take().unwrap();
+        let shown = Arc::new(Mutex::new(Vec::new()));
+        let all = Arc::clone(&shown);
+        let reader = thread::spawn(move || {
+            let mut some = [0; 4096];
+            while let Ok(count @ 1..) = screen.read(&mut some) {
+                all.lock().unwrap().extend_from_slice(&some[..count]);
+            }
+        });
+        Some(Self {
+            script,
+            keyboard,
+            shown,
+            reader,
+        })
+    }
+
+    /// The screens that are complete: each ends with these words.
+    fn screens(&self) -> Vec<String> {
+        let shown = self.shown.lock().unwrap();
+        let shown = String::from_utf8_lossy(&shown);
+        let mut screens: Vec<String> = shown.split("Ctrl-C ends").map(str::to_owned).collect();
+        screens.pop();
+        screens
+    }
+
+    fn end(mut self) -> (Option<i32>, String) {
+        let code = self.script.wait().unwrap().code();
+        self.reader.join().unwrap();
+        let shown = self.shown.lock().unwrap();
+        (code, String::from_utf8_lossy(&shown).into_owned())
+    }
+}
+
+#[test]
+fn a_picture_fills_the_terminal() {
+    let folder = Folder::new();
+    for (size, expected) in [((40, 12), (20, 10)), ((7, 12), (7, 4)), ((1, 1), (1, 1))] {
+        let Some(terminal) = Terminal::run(&folder, size, "preview ball.ron") else {
+            return;
+        };
+        let (code, shown) = terminal.end();
+        assert_eq!(code, Some(0), "{shown}");
+        let lines: Vec<usize> = shown
+            .lines()
+            .map(|line| line.matches('▀').count())
+            .filter(|&blocks| blocks > 0)
+            .collect();
+        assert_eq!(lines, vec![expected.0; expected.1], "{size:?}");
+    }
+}
+
+#[test]
+fn what_is_saved_is_shown() {
+    let folder = Folder::new();
+    let Some(mut terminal) = Terminal::run(&folder, (60, 20), "preview ball.ron --watch") else {
+        return;
+    };
+    let save = |text: &str| {
+        // As editors do that never leave half a file.
+        fs::write(folder.path("ball.ron~"), text).unwrap();
+        fs::rename(folder.path("ball.ron~"), folder.path("ball.ron")).unwrap();
+    };
+    wait_until("a picture", || terminal.screens().len() == 1);
+    save(&BALL.replace("radius: 300", "radius: -300"));
+    wait_until("a message", || terminal.screens().len() == 2);
+    save(&BALL.replace("radius: 300", "radius: 350"));
+    wait_until("another picture", || terminal.screens().len() == 3);
+    fs::write(folder.path("ball.ron"), BALL).unwrap();
+    wait_until("the first picture", || terminal.screens().len() == 4);
+
+    let screens = terminal.screens();
+    let blocks = |screen: &String| screen.matches('▀').count();
+    let counts: Vec<usize> = screens.iter().map(blocks).collect();
+    assert_eq!(counts, [38 * 19, 0, 38 * 19, 38 * 19]);
+    for part in [
+        "ball.ron:6:45:",
+        " expected a radius greater than 0, found -300",
+    ] {
+        assert!(screens[1].contains(part), "{}", screens[1]);
+    }
+    // What came before the first picture is not part of it.
+    let picture = |screen: &String| screen[screen.find("\x1b[H").unwrap()..].to_owned();
+    assert_eq!(picture(&screens[0]), picture(&screens[3]));
+    assert_ne!(picture(&screens[0]), picture(&screens[2]));
+
+    let (enter, leave) = ("\x1b[?1049h\x1b[?25l", "\x1b[?25h\x1b[?1049l");
+    assert!(screens[0].contains(enter));
+    terminal.keyboard.write_all(b"\x03").unwrap();
+    let (code, shown) = terminal.end();
+    assert_eq!(code, Some(130));
+    assert!(shown.ends_with(leave), "{shown:?}");
+}
