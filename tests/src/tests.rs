@@ -12,6 +12,7 @@ mod reference;
 mod refused;
 mod repeatability;
 mod shading;
+mod shutter;
 mod studio;
 mod tolerance;
 mod truth;

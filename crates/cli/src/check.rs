@@ -190,6 +190,10 @@ fn duration(scene: &Scene) -> String {
         let seconds = short(count as f64 / rate);
         text.push_str(&format!(", {} per second, {seconds} s", short(rate)));
     }
+    if let Some(shutter) = scene.shutter() {
+        let shutter = short(shutter);
+        text.push_str(&format!(", the shutter open for {shutter} of a frame"));
+    }
     text
 }
 

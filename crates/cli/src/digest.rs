@@ -6,8 +6,8 @@
 use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
-    Camera, DirectionalLight, Grain, Highlight, Lens, Material, Method, Roughness, Settings,
-    Sphere, View, World,
+    Camera, DirectionalLight, Exposure, Grain, Highlight, Lens, Material, Method, Pose, Roughness,
+    Settings, Sphere, View, World,
 };
 use rayon::prelude::*;
 
@@ -30,7 +30,8 @@ pub(crate) struct Digests {
 /// What a picture is beside the world, the settings and the format, which a sequence shares.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shot<'a> {
-    pub(crate) view: &'a View,
+    /// Its view, and what the camera does while the shutter is open.
+    pub(crate) exposure: &'a Exposure<'a>,
     /// The number that the user knows, which may be beyond a turn of the view's.
     pub(crate) frame: i32,
     pub(crate) frames_per_second: Option<f64>,
@@ -49,14 +50,19 @@ impl Digests {
     /// Of one of them.
     pub(crate) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
-            view,
+            exposure,
             frame,
             frames_per_second,
         } = *shot;
         let mut feed = self.shared.clone();
-        feed.view(view);
+        feed.view(exposure.view());
         feed.integer(i64::from(frame));
         feed.maybe(frames_per_second, Feed::number);
+        // None where the shutter is open for a moment only.
+        for Pose { camera, zoom } in exposure.poses() {
+            feed.camera(&camera);
+            feed.number(zoom);
+        }
         feed.0.finalize()
     }
 }
@@ -178,13 +184,24 @@ impl Feed {
         }
     }
 
+    fn camera(&mut self, camera: &Camera) {
+        let Camera {
+            position,
+            world_from_camera:
+                DMat3 {
+                    x_axis,
+                    y_axis,
+                    z_axis,
+                },
+        } = *camera;
+        for vector in [position, x_axis, y_axis, z_axis] {
+            self.vector(vector);
+        }
+    }
+
     fn view(&mut self, view: &View) {
         let View {
-            camera:
-                Camera {
-                    position,
-                    world_from_camera,
-                },
+            camera,
             lens:
                 Lens {
                     width: retina_width,
@@ -196,14 +213,7 @@ impl Feed {
             height,
             frame,
         } = *view;
-        let DMat3 {
-            x_axis,
-            y_axis,
-            z_axis,
-        } = world_from_camera;
-        for vector in [position, x_axis, y_axis, z_axis] {
-            self.vector(vector);
-        }
+        self.camera(&camera);
         for number in [retina_width, distance, x, y, zoom] {
             self.number(number);
         }

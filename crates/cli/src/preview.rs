@@ -94,7 +94,7 @@ fn render(
         method: Method::Tolerance(tolerance),
         alpha: false,
     };
-    let image = renderer.render(view, &settings, &|pixels| {
+    let image = renderer.render(scene.exposure(view), &settings, &|pixels| {
         if let Some(progress) = progress {
             progress.advance(pixels);
         }

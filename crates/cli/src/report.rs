@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     let renderer = Renderer::new(scene.world());
     let plan = Plan {
         renderer: &renderer,
-        view: &view,
+        exposure: &scene.exposure(&view),
         runs: arguments.runs,
         seconds: arguments.seconds,
         progress: &progress,

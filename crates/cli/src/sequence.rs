@@ -163,13 +163,14 @@ impl Sequence<'_> {
                     continue;
                 }
             };
+            let exposure = self.scene.exposure(&view);
             let facts = Facts {
                 camera: view.camera,
                 frame,
                 frames_per_second: self.frames_per_second,
                 method: self.settings.method,
                 digest: digests.of(&Shot {
-                    view: &view,
+                    exposure: &exposure,
                     frame,
                     // A PNG does not tell it, and an animated one keeps no digest.
                     frames_per_second: match self.encoding {
@@ -221,7 +222,7 @@ impl Sequence<'_> {
             let part = ways.form.part.map(|part| part.window);
             let window = part.unwrap_or(Window::whole(&view));
             let settings = &self.settings;
-            let rendered = renderer.render_strips(&view, window, settings, &film, &|pixels| {
+            let rendered = renderer.render_strips(&exposure, window, settings, &film, &|pixels| {
                 progress.advance(pixels);
                 if stop() || is_lost.load(Ordering::Relaxed) {
                     ControlFlow::Break(())

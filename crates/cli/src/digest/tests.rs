@@ -36,7 +36,7 @@ fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Ha
     let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
     let digests = Digests::new(scene.world(), settings, encoding);
     digests.of(&Shot {
-        view: &scene.view(frame).unwrap(),
+        exposure: &scene.exposure(&scene.view(frame).unwrap()),
         frame,
         frames_per_second: scene.frames_per_second(),
     })
@@ -79,6 +79,8 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("radius: 30)", "radius: 30, material: \"candy\")"),
         (", (frame: 9, tilt: 5)", ", (frame: 9, tilt: 6)"),
         ("fps: 24", "fps: 25"),
+        ("fps: 24", "fps: 24, shutter: 0.5"),
+        ("fps: 24", "fps: 24, shutter: 0.25"),
     ] {
         assert!(SCENE.contains(old), "{old}");
         let scene = SCENE.replacen(old, new, 1);

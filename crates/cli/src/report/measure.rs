@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use marbles_core::{Cancelled, Image, Method, Renderer, Settings, Summary, View, Work};
+use marbles_core::{Cancelled, Exposure, Image, Method, Renderer, Settings, Summary, Work};
 
 use super::accuracy::{Accuracy, LARGEST_UNKNOWN, is_known, median, pixels};
 use super::progress::Progress;
@@ -29,7 +29,7 @@ const FACTOR_OF_TWICE_THE_SIDES: f64 = 4.0;
 /// What is measured, and for how long.
 pub(super) struct Plan<'a> {
     pub(super) renderer: &'a Renderer<'a>,
-    pub(super) view: &'a View,
+    pub(super) exposure: &'a Exposure<'a>,
     pub(super) runs: usize,
     /// For all runs but the reference, and for every better reference.
     pub(super) seconds: f64,
@@ -203,7 +203,8 @@ impl Plan<'_> {
         seconds: Option<f64>,
         spent: Option<Image>,
     ) -> Result<(Image, Duration), Cancelled> {
-        let pixels = u64::from(self.view.width) * u64::from(self.view.height);
+        let view = self.exposure.view();
+        let pixels = u64::from(view.width) * u64::from(view.height);
         self.progress.begin(name, pixels);
         let settings = Settings {
             method,
@@ -212,7 +213,7 @@ impl Plan<'_> {
         let started = Instant::now();
         let image = self
             .renderer
-            .render_over(spent, self.view, &settings, &|pixels| {
+            .render_over(spent, self.exposure, &settings, &|pixels| {
                 self.progress.advance(pixels);
                 let is_late = seconds.is_some_and(|most| started.elapsed().as_secs_f64() > most);
                 if is_late || interrupt::requested() {

@@ -101,10 +101,18 @@ impl<'scene, 'world> ExactOverTime<'scene, 'world> {
             wishes.sort_unstable();
             for of_panel in wishes.chunk_by(|one, other| one.0 == other.0) {
                 let panel = of_panel[0].0;
-                self.instants.with(panel.number(), &panel.times(), |instants| {
-                    self.look(panel, instants, of_panel, (&tiles, room), &mut sums, progress)
+                self.instants
+                    .with(panel.number(), &panel.times(), |instants| {
+                        self.look(
+                            panel,
+                            instants,
+                            of_panel,
+                            (&tiles, room),
+                            &mut sums,
+                            progress,
+                        )
                         .map(|cost| work += cost)
-                })?;
+                    })?;
             }
             wishes.clear();
             for (pixel, sum) in sums.iter_mut().enumerate() {

@@ -43,7 +43,8 @@ impl<'world> Instants<'world> {
         /// About as many bytes as a sphere takes, and a tile.
         const SPHERE: usize = 100;
         const TILE: usize = 16;
-        let tiles = view.width.div_ceil(Tile::SIDE) as usize * view.height.div_ceil(Tile::SIDE) as usize;
+        let tiles =
+            view.width.div_ceil(Tile::SIDE) as usize * view.height.div_ceil(Tile::SIDE) as usize;
         let bytes = SPHERE * visibility.spheres().len() + TILE * tiles + 1;
         let kept = (ROOM / (bytes * GROUP)).min(MOST_KEPT);
         Self {

@@ -96,7 +96,10 @@ impl Sweep {
     /// Adds what a sphere does in half of the time.
     fn add(&self, sphere: &Sphere, views: &[View; MOMENTS]) {
         let outlines = views.each_ref().map(|view| outline(sphere, view));
-        if outlines.iter().all(|outline| matches!(outline, Outline::Nowhere)) {
+        if outlines
+            .iter()
+            .all(|outline| matches!(outline, Outline::Nowhere))
+        {
             return;
         }
         let mut corners: Option<[(DVec2, DVec2); MOMENTS]> = Some(Default::default());

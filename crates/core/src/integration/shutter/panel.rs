@@ -196,7 +196,10 @@ mod tests {
         assert!((halves - exact).abs() < 1e-13);
         assert!((whole.value - exact).abs() < whole.time_error);
         assert!(first.time_error + second.time_error < 0.1 * whole.time_error);
-        assert_eq!([0, 1, 2], [WHOLE.number(), first.panel.number(), second.panel.number()]);
+        assert_eq!(
+            [0, 1, 2],
+            [WHOLE.number(), first.panel.number(), second.panel.number()]
+        );
     }
 
     #[test]
@@ -205,7 +208,11 @@ mod tests {
             let jump = f64::from(place) / 1000.0 - 0.5;
             let found = part(WHOLE, |time| f64::from(u8::from(time > jump)));
             let off = (found.value - (0.5 - jump)).abs();
-            assert!(off < 5.0 * found.time_error, "{place}: {off}, {}", found.time_error);
+            assert!(
+                off < 5.0 * found.time_error,
+                "{place}: {off}, {}",
+                found.time_error
+            );
         }
     }
 }
