@@ -6,7 +6,7 @@
 
 use std::sync::atomic::{AtomicU8, Ordering};
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::panel::{DEEPEST, FASTEST, LONGEST_GAP};
@@ -84,51 +84,37 @@ struct Sweep {
     levels: Vec<AtomicU8>,
 }
 
-/// What is around a sphere in a picture.
-enum Outline {
-    /// The upper left and the lower right corner, in pixels.
-    Within(DVec2, DVec2),
-    Anywhere,
-    Nowhere,
-}
-
 impl Sweep {
     /// Adds what a sphere does in half of the time.
     fn add(&self, sphere: &Sphere, views: &[View; MOMENTS]) {
-        let outlines = views.each_ref().map(|view| outline(sphere, view));
-        if outlines
-            .iter()
-            .all(|outline| matches!(outline, Outline::Nowhere))
-        {
+        let outside = views.iter().map(|view| outside(sphere, view));
+        if outside.fold(!0, |all, outside| all & outside) != 0 {
             return;
         }
-        let mut corners: Option<[(DVec2, DVec2); MOMENTS]> = Some(Default::default());
-        for (place, outline) in outlines.iter().enumerate() {
-            match (outline, &mut corners) {
-                (Outline::Within(low, high), Some(corners)) => corners[place] = (*low, *high),
-                _ => corners = None,
-            }
-        }
-        let size = DVec2::new(f64::from(views[0].width), f64::from(views[0].height));
-        match corners {
-            Some(corners) => {
-                let (mut low, mut high) = corners[0];
-                let mut step: f64 = 0.0;
-                for pair in corners.windows(2) {
-                    let (before, after) = (pair[0], pair[1]);
-                    (low, high) = (low.min(after.0), high.max(after.1));
-                    step = step.max((after.0 - before.0).length());
-                    step = step.max((after.1 - before.1).length());
-                }
-                // Between moments the way is not straight.
-                let margin = 1.0 + 0.25 * step;
-                self.add_within((low - margin, high + margin), sphere, views, MOMENTS / 2);
-            }
-            None => {
+        let mut around: Option<(DVec2, DVec2)> = None;
+        let mut before: Option<(DVec2, DVec2)> = None;
+        let mut step: f64 = 0.0;
+        for view in views {
+            let Some((low, high)) = outline(sphere, view) else {
+                // It may come from anywhere.
+                let size = DVec2::new(f64::from(view.width), f64::from(view.height));
                 for moment in 0..MOMENTS {
                     self.add_within((DVec2::ZERO, size), sphere, views, moment);
                 }
+                return;
+            };
+            if let Some(before) = before {
+                step = step.max((low - before.0).length());
+                step = step.max((high - before.1).length());
             }
+            before = Some((low, high));
+            let all = around.unwrap_or((low, high));
+            around = Some((all.0.min(low), all.1.max(high)));
+        }
+        if let Some((low, high)) = around {
+            // Between moments the way is not straight.
+            let margin = 1.0 + 0.25 * step;
+            self.add_within((low - margin, high + margin), sphere, views, MOMENTS / 2);
         }
     }
 
@@ -219,14 +205,33 @@ impl Sweep {
     }
 }
 
-/// Around a sphere in the picture of a view.
-fn outline(sphere: &Sphere, view: &View) -> Outline {
-    let center = sphere.center() - view.camera.position;
-    let center = view.camera.world_from_camera.transpose() * center;
-    let radius = sphere.radius();
-    if center.z < -radius {
-        return Outline::Nowhere;
+/// Of which planes a sphere is all on the outer side, as bits: the eye's, and those through it and the
+/// four sides of the picture.
+fn outside(sphere: &Sphere, view: &View) -> u8 {
+    let center = in_camera(sphere, view);
+    let scale = 1.0 / (view.lens.distance * view.zoom);
+    let size = DVec2::new(f64::from(view.width), f64::from(view.height)) * view.pixel_size();
+    let high = (view.lens.shift + 0.5 * size) * scale;
+    let low = (view.lens.shift - 0.5 * size) * scale;
+    let sides = [
+        (center.x - high.x * center.z, high.x),
+        (low.x * center.z - center.x, low.x),
+        (center.y - high.y * center.z, high.y),
+        (low.y * center.z - center.y, low.y),
+    ];
+    let mut bits = u8::from(center.z < -sphere.radius());
+    for (side, (beyond, slope)) in sides.into_iter().enumerate() {
+        let is_outside = beyond > sphere.radius() * (1.0 + slope * slope).sqrt();
+        bits |= u8::from(is_outside) << (side + 1);
     }
+    bits
+}
+
+/// Around a sphere in the picture of a view: the upper left and the lower right corner, in pixels;
+/// none where it may be seen anywhere.
+fn outline(sphere: &Sphere, view: &View) -> Option<(DVec2, DVec2)> {
+    let center = in_camera(sphere, view);
+    let radius = sphere.radius();
     let product = (center.z - radius) * (center.z + radius);
     let half = |along: f64| radius * (along * along + product).sqrt();
     let halves = DVec2::new(half(center.x), half(center.y));
@@ -239,11 +244,14 @@ fn outline(sphere: &Sphere, view: &View) -> Outline {
     };
     let one = in_pixels((middle - halves) / product);
     let other = in_pixels((middle + halves) / product);
-    if center.z > CLEAR * radius && one.is_finite() && other.is_finite() {
-        Outline::Within(one.min(other), one.max(other))
-    } else {
-        Outline::Anywhere
-    }
+    let is_known = center.z > CLEAR * radius && one.is_finite() && other.is_finite();
+    is_known.then(|| (one.min(other), one.max(other)))
+}
+
+/// The center of a sphere in the camera's frame.
+fn in_camera(sphere: &Sphere, view: &View) -> DVec3 {
+    let from_eye = sphere.center() - view.camera.position;
+    view.camera.world_from_camera.transpose() * from_eye
 }
 
 /// The level of panels so short that nothing is missed that matters, where something travels so far
