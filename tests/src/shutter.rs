@@ -44,7 +44,7 @@ fn open(scene: &Scene, frame: i32, method: Method) -> Image {
 /// A scene by how many frames one has been made into, and by its shutter.
 type Animated = fn(i32, &str) -> String;
 
-/// A turn of 12 degrees a frame around balls with shadows and highlights.
+/// A turn of 30 degrees a frame around balls with shadows and highlights.
 fn turntable(frames: i32, shutter: &str) -> String {
     format!(
         "(image: (width: 40, height: 30), lens: Fov(40),
@@ -60,7 +60,7 @@ fn turntable(frames: i32, shutter: &str) -> String {
             (center: (0, -1001, 0), radius: 1000),
         ],
         animation: Turntable(frames: {}{shutter}))",
-        30 * frames
+        12 * frames
     )
 }
 
@@ -164,7 +164,7 @@ fn meets_its_tolerance(animated: Animated) {
             "{tolerance}: {largest:e}, {met} met, {blurred} blurred, {:?}",
             image.work()
         );
-        assert!(blurred > 200, "{blurred} pixels are blurred");
+        assert!(blurred > 100, "{blurred} pixels are blurred");
         assert_eq!(met, 40 * 30, "at {tolerance}");
     }
 }
@@ -211,8 +211,8 @@ fn the_frame_after_the_last_is_the_first_to_the_bit() {
         Method::Samples(NonZeroU32::new(3).unwrap()),
     ] {
         let first = open(&scene, 1, method);
-        assert_eq!(first, open(&scene, 31, method));
-        assert_eq!(first.work(), open(&scene, 1 - 60, method).work());
+        assert_eq!(first, open(&scene, 13, method));
+        assert_eq!(first.work(), open(&scene, 1 - 24, method).work());
         assert_ne!(first, open(&scene, 2, method));
         assert_ne!(first, render(&scene, &scene.view(1).unwrap(), method));
     }

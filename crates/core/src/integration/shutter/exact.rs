@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 
 use super::instants::Instant;
-use super::pace::Pace;
+use super::pace::{Pace, Start};
 use super::panel::{MOMENTS, Panel, Part};
 use super::{Instants, parts};
 use crate::image::Band;
@@ -33,6 +33,8 @@ pub(crate) struct ExactOverTime<'scene, 'world> {
     instants: &'scene Instants<'world>,
     tolerance: f64,
     alpha: bool,
+    /// About the largest difference of light that something may make.
+    contrast: f64,
     pace: Pace,
 }
 
@@ -46,6 +48,8 @@ struct Sum<C> {
     area_error: f64,
     time_error: f64,
     is_lost: bool,
+    /// What may have happened between all moments, which is a part of the error over time.
+    missed: f64,
     /// Those that may be.
     open: Vec<Part<C>>,
     /// How many panels it has been looked at in, and how many it may be.
@@ -67,7 +71,6 @@ impl<'scene, 'world> ExactOverTime<'scene, 'world> {
     ) -> Self {
         let lights = world.lights.iter();
         let lights = lights.map(|light| light.intensity().max_element());
-        // About the largest difference of light that something may make.
         let brightest = world.ambient.max_element() + lights.sum::<f64>();
         let contrast = brightest.max(world.background.max_element()).max(1.0);
         let (view, motion) = (&instants.view, instants.motion);
@@ -76,6 +79,7 @@ impl<'scene, 'world> ExactOverTime<'scene, 'world> {
             instants,
             tolerance,
             alpha,
+            contrast,
             pace: Pace::new(world.spheres(), view, motion, tolerance / contrast),
         }
     }
@@ -92,8 +96,9 @@ impl<'scene, 'world> ExactOverTime<'scene, 'world> {
         let mut sums: Vec<Sum<C>> = Vec::with_capacity(area.count() as usize);
         let mut wishes: Vec<Wish> = Vec::new();
         for (pixel, (col, row)) in places.enumerate() {
-            let (level, is_paced) = self.pace.level(col, row);
-            sums.push(Sum::new(1 << level, is_paced));
+            let start = self.pace.start(col, row);
+            sums.push(Sum::new(start, self.contrast));
+            let level = start.level;
             wishes.extend((0..1 << level).map(|index| (Panel { level, index }, pixel as u32)));
         }
         let mut work = Work::default();
@@ -186,18 +191,20 @@ fn around(tile: Tile, mut pixels: impl Iterator<Item = u32>) -> Tile {
 }
 
 impl<C: Radiance> Sum<C> {
-    fn new(panels: usize, is_paced: bool) -> Self {
+    fn new(start: Start, contrast: f64) -> Self {
+        let missed = contrast * start.missed;
         Self {
             first: None,
             value: C::ZERO,
             alpha: 0.0,
             area_error: 0.0,
-            time_error: 0.0,
+            time_error: missed,
             is_lost: false,
+            missed,
             open: Vec::new(),
             panels: 0,
-            most_panels: MOST_PANELS + 4 * panels,
-            is_paced,
+            most_panels: MOST_PANELS + (4 << start.level),
+            is_paced: start.is_paced,
         }
     }
 
@@ -234,7 +241,7 @@ impl<C: Radiance> Sum<C> {
         let area: f64 = self.area_error + open.iter().map(of_area).sum::<f64>();
         let of_time = |parts: &[Part<C>]| parts.iter().map(|part| part.time_error).sum::<f64>();
         let is_done = area + self.time_error + of_time(&open) <= tolerance;
-        let is_over = self.panels >= self.most_panels;
+        let is_over = self.panels >= self.most_panels || !self.is_paced;
         if is_done || is_over || !area.is_finite() {
             for part in &open {
                 self.settle(part);
@@ -242,7 +249,8 @@ impl<C: Radiance> Sum<C> {
             return;
         }
         // Where area claims too much, time need not.
-        let allowed = SHARE_OF_REST * (tolerance - area).max(SHARE_OF_AREA * tolerance);
+        let left = (tolerance - area).max(SHARE_OF_AREA * tolerance) - self.missed;
+        let allowed = self.missed + SHARE_OF_REST * left;
         open.sort_by(|one, other| {
             let order = other.time_error.total_cmp(&one.time_error);
             order.then(one.panel.cmp(&other.panel))

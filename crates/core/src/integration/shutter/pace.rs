@@ -4,7 +4,7 @@
 //! seen near a pixel moves by less than a part of one. The world stands still and the camera moves:
 //! what is seen, edges of shadows too, moves as the surfaces do on which it is.
 
-use std::sync::atomic::{AtomicU8, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
@@ -13,13 +13,24 @@ use super::panel::{DEEPEST, FASTEST, LONGEST_GAP};
 use crate::exposure::{HALVES, view_at};
 use crate::{Motion, Ray, Sphere, View};
 
-/// Levels of panels at which time is divided first, by cells of the picture.
+/// How a pixel begins.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// The level of its first panels.
+    pub(super) level: u32,
+    /// What may be missed between their moments, as a part of the largest difference of light.
+    pub(super) missed: f64,
+    /// Whether that is little enough.
+    pub(super) is_paced: bool,
+}
+
+/// How pixels begin, by cells of the picture.
 #[derive(Debug)]
 pub(super) struct Pace {
     /// Pixels of a cell's side.
     side: u32,
     columns: u32,
-    levels: Vec<u8>,
+    starts: Vec<Start>,
 }
 
 /// A picture has no more cells than this along a side.
@@ -31,11 +42,8 @@ const MOMENTS: usize = HALVES[0].len();
 /// A sphere this much nearer than its radius to the eye's plane may be seen anywhere.
 const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
-/// The level where the motion is too fast for all of them.
-const TOO_FAST: u8 = u8::MAX;
-
 impl Pace {
-    /// For a picture of these spheres to a tolerance.
+    /// For a picture of these spheres to a tolerance, which is a part of the largest difference of light.
     pub(super) fn new(
         spheres: &[Sphere],
         view: &View,
@@ -44,13 +52,11 @@ impl Pace {
     ) -> Self {
         let side = view.width.max(view.height).div_ceil(MOST_CELLS).max(8);
         let (columns, rows) = (view.width.div_ceil(side), view.height.div_ceil(side));
-        let slowest = u8::from(!motion.is_smooth());
-        let levels = (0..columns * rows).map(|_| AtomicU8::new(slowest));
+        let ways = (0..columns * rows).map(|_| AtomicU64::new(0));
         let sweep = Sweep {
             side,
             columns,
-            tolerance,
-            levels: levels.collect(),
+            ways: ways.collect(),
         };
         let halves = HALVES.map(|times| times.map(|time| view_at(view, motion, time)));
         spheres.par_iter().for_each(|sphere| {
@@ -58,21 +64,56 @@ impl Pace {
                 sweep.add(sphere, views);
             }
         });
-        let levels = sweep.levels.into_iter().map(AtomicU8::into_inner);
+        let lowest = u32::from(!motion.is_smooth());
+        let ways = sweep.ways.into_iter().map(AtomicU64::into_inner);
+        let starts = ways.map(|way| Start::new(f64::from_bits(way), tolerance, lowest));
         Self {
             side,
             columns,
-            levels: levels.collect(),
+            starts: starts.collect(),
         }
     }
 
-    /// The level of a pixel's first panels, and whether they are as short as they should be.
-    pub(super) fn level(&self, col: u32, row: u32) -> (u32, bool) {
+    /// How a pixel begins.
+    pub(super) fn start(&self, col: u32, row: u32) -> Start {
         let cell = row / self.side * self.columns + col / self.side;
-        match self.levels[cell as usize] {
-            TOO_FAST => (FASTEST, false),
-            level => (u32::from(level), true),
+        self.starts[cell as usize]
+    }
+}
+
+impl Start {
+    /// With panels so short that nothing is missed that matters, where something goes a way of so many
+    /// pixels in the whole time.
+    fn new(way: f64, tolerance: f64, lowest: u32) -> Self {
+        /// What may be missed, of the tolerance.
+        const SHARE: f64 = 0.25;
+        let mut level = lowest;
+        while level < FASTEST && missed(way, level) > SHARE * tolerance {
+            level += 1;
         }
+        let missed = missed(way, level);
+        Self {
+            level,
+            missed,
+            is_paced: missed <= SHARE * tolerance,
+        }
+    }
+}
+
+/// What may be missed between the moments of panels of a level, of the light on a way of so many pixels.
+///
+/// What is convex, and comes into a pixel and leaves it again on a way of g, has come in by a corner,
+/// covers no more than g²/4 of the pixel, and less than a half of that on average: g³/8 in all. With
+/// gaps nearly as long as a pixel anything may be missed.
+fn missed(way: f64, level: u32) -> f64 {
+    const LONGEST: f64 = 0.9;
+    let gap = LONGEST_GAP * way / f64::from(1_u32 << level);
+    if way == 0.0 {
+        0.0
+    } else if gap < LONGEST {
+        gap * gap * gap / (8.0 * way)
+    } else {
+        1.0
     }
 }
 
@@ -80,8 +121,9 @@ impl Pace {
 struct Sweep {
     side: u32,
     columns: u32,
-    tolerance: f64,
-    levels: Vec<AtomicU8>,
+    /// How far what is seen in a cell goes in the whole time, in pixels: bits of numbers that are not
+    /// negative, which are ordered as these are.
+    ways: Vec<AtomicU64>,
 }
 
 impl Sweep {
@@ -128,7 +170,7 @@ impl Sweep {
     ) {
         let view = &views[moment];
         let side = f64::from(self.side);
-        let rows = self.levels.len() as u32 / self.columns;
+        let rows = self.ways.len() as u32 / self.columns;
         // Casts saturate.
         let first = (low / side).floor();
         let last = (high / side).floor();
@@ -141,9 +183,13 @@ impl Sweep {
                 let Some(travel) = self.travel(sphere, views, (view, middle)) else {
                     continue;
                 };
-                let level = level(travel, self.tolerance);
+                let way = if travel.is_finite() {
+                    2.0 * travel
+                } else {
+                    f64::INFINITY
+                };
                 let cell = row * self.columns + column;
-                self.levels[cell as usize].fetch_max(level, Ordering::Relaxed);
+                self.ways[cell as usize].fetch_max(way.to_bits(), Ordering::Relaxed);
             }
         }
     }
@@ -252,30 +298,6 @@ fn outline(sphere: &Sphere, view: &View) -> Option<(DVec2, DVec2)> {
 fn in_camera(sphere: &Sphere, view: &View) -> DVec3 {
     let from_eye = sphere.center() - view.camera.position;
     view.camera.world_from_camera.transpose() * from_eye
-}
-
-/// The level of panels so short that nothing is missed that matters, where something travels so far
-/// in half of the time.
-///
-/// The moments of a panel in which something travels by 1 are up to [`LONGEST_GAP`] apart. What is
-/// convex, and comes into a pixel and leaves it again on a way of g, has come in by a corner, covers no
-/// more than g²/4 of the pixel, and less than a half of that on average: that is g³/8 of the light on
-/// the whole way. Within a tolerance of it twice as much is left out, and something else
-/// may be missed. With gaps shorter than a pixel nothing goes straight through.
-fn level(travel: f64, tolerance: f64) -> u8 {
-    const LOST: f64 = 2.0 * LONGEST_GAP * LONGEST_GAP * LONGEST_GAP / 8.0;
-    const LONGEST: f64 = 0.9 / LONGEST_GAP;
-    let way = 2.0 * travel;
-    let part = libm::cbrt(tolerance * way / LOST).min(LONGEST);
-    let mut level = 0;
-    while level <= FASTEST && f64::from(1_u32 << level) * part < way {
-        level += 1;
-    }
-    if level > FASTEST || !way.is_finite() {
-        TOO_FAST
-    } else {
-        level as u8
-    }
 }
 
 const _: () = assert!(FASTEST < DEEPEST && DEEPEST < 32);
