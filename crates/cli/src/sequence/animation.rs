@@ -49,9 +49,11 @@ impl Sequence<'_> {
                 return tally;
             }
             (Err(Unwritten::Failed(failure)), _) => {
-                let first = first.unwrap_or(FRAME_OF_A_STILL);
-                ways.failures
-                    .add(first, &path, failure.into_message(), progress);
+                // The one that was being written.
+                let failed = self.frames.iter().nth(tally.written as usize).or(first);
+                let failed = failed.unwrap_or(FRAME_OF_A_STILL);
+                let message = failure.into_message();
+                ways.failures.add(failed, &path, message, progress);
             }
             (Err(Unwritten::Stopped), _) | (Ok(()), None) => {}
         }
