@@ -49,8 +49,10 @@ impl Sequence<'_> {
                 return tally;
             }
             (Err(Unwritten::Failed(failure)), _) => {
-                // The one that was being written.
-                let failed = self.frames.iter().nth(tally.written as usize).or(first);
+                // The one that was being written, if it was not the end of the file.
+                let mut frames = self.frames.iter();
+                let failed = frames.nth(tally.written as usize);
+                let failed = failed.or_else(|| self.frames.iter().last());
                 let failed = failed.unwrap_or(FRAME_OF_A_STILL);
                 let message = failure.into_message();
                 ways.failures.add(failed, &path, message, progress);
