@@ -158,7 +158,11 @@ impl Console {
     pub(crate) fn message(&self, failure: &Failure) -> String {
         match failure {
             Failure::Usage(message) | Failure::Frames(message) | Failure::Work(message) => {
-                format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
+                format!(
+                    "{} {}",
+                    self.err.paint("marbles:", BOLD_RED),
+                    message.trim_end()
+                )
             }
             Failure::Scene(error) if self.err.styled => error.styled().trim_end().to_owned(),
             Failure::Scene(error) => error.to_string().trim_end().to_owned(),

@@ -291,6 +291,10 @@ impl Sequence<'_> {
                 Err(Unwritten::Failed(failure)) => {
                     let message = failure.into_message();
                     ways.failures.add(frame, &path, message, progress);
+                    if ways.failures.stop() {
+                        // Neither are those wanted that were rendered meanwhile.
+                        break;
+                    }
                     is_lost.store(true, Ordering::Relaxed);
                     ways.belt.discard_until(end);
                 }

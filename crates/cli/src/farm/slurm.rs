@@ -17,6 +17,7 @@ ended=
 again=
 end() {
     ended=1
+    signaled=1
     [ -z "$renderer" ] || kill -TERM "$renderer" 2>/dev/null
 }
 # Slurm tells the renderer as well, which ends within a second; a second signal would hurry it.
@@ -27,9 +28,9 @@ trap 'again=1; end' USR1
 /// What it does while the renderer runs: `wait` returns whenever a signal comes.
 const WAIT: &str = r#"renderer=$!
 [ -z "$ended" ] || kill -TERM "$renderer"
-wait "$renderer"
-code=$?
-while kill -0 "$renderer" 2>/dev/null; do
+signaled=1
+while [ -n "$signaled" ]; do
+    signaled=
     wait "$renderer"
     code=$?
 done

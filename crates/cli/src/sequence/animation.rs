@@ -49,9 +49,13 @@ impl Sequence<'_> {
                 return tally;
             }
             (Err(Unwritten::Failed(failure)), _) => {
-                let first = first.unwrap_or(FRAME_OF_A_STILL);
-                ways.failures
-                    .add(first, &path, failure.into_message(), progress);
+                // The one that was being written, if it was not the end of the file.
+                let mut frames = self.frames.iter();
+                let failed = frames.nth(tally.written as usize);
+                let failed = failed.or_else(|| self.frames.iter().last());
+                let failed = failed.unwrap_or(FRAME_OF_A_STILL);
+                let message = failure.into_message();
+                ways.failures.add(failed, &path, message, progress);
             }
             (Err(Unwritten::Stopped), _) | (Ok(()), None) => {}
         }

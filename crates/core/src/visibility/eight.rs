@@ -97,8 +97,8 @@ impl Eye {
             middle[axis] = ((low + high) * 0.5 - self.position[axis]) * self.scale;
             half[axis] = (high - low) * (0.5 * self.scale);
         }
-        let center = self.turn(simd, &middle, false);
-        let mut half = self.turn(simd, &half, true);
+        let center = self.turn(&middle, false);
+        let mut half = self.turn(&half, true);
         let size =
             center[0].abs() + center[1].abs() + center[2].abs() + half[0] + half[1] + half[2];
         let mut beyond_sq = zero;
@@ -130,14 +130,16 @@ impl Eye {
     /// the distance by, too.
     #[inline(always)]
     fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> Eight {
-        let mut offset = [f64x8::splat(simd, 0.0); 3];
-        for axis in 0..3 {
-            offset[axis] = (doubles(simd, &group.center[axis]) - self.position[axis]) * self.scale;
-        }
+        let [x, y, z] = &group.center;
+        let offset = [
+            (doubles(simd, x) - self.position.x) * self.scale,
+            (doubles(simd, y) - self.position.y) * self.scale,
+            (doubles(simd, z) - self.position.z) * self.scale,
+        ];
         let radius = doubles(simd, &group.radius) * self.scale;
         let size = offset[0].abs() + offset[1].abs() + offset[2].abs() + radius;
         let radius = radius + (size * (128.0 * UNIT_ROUNDOFF) + f64::MIN_POSITIVE);
-        let [x, y, z] = self.turn(simd, &offset, false);
+        let [x, y, z] = self.turn(&offset, false);
         let product = (z - radius) * (z + radius);
         let inverse = 1.0 / product;
         let mut ends = [(x, x); 2];
@@ -155,16 +157,16 @@ impl Eye {
 
     /// Vectors of the world in the camera's directions, or boxes of these half sizes.
     #[inline(always)]
-    fn turn<S: Simd>(&self, simd: S, vectors: &[f64x8<S>; 3], are_sizes: bool) -> [f64x8<S>; 3] {
-        let mut turned = [f64x8::splat(simd, 0.0); 3];
-        for axis in 0..3 {
-            let mut row = self.camera_from_world.row(axis);
-            if are_sizes {
-                row = row.abs();
-            }
-            turned[axis] = vectors[0] * row.x + vectors[1] * row.y + vectors[2] * row.z;
-        }
-        turned
+    fn turn<S: Simd>(&self, vectors: &[f64x8<S>; 3], are_sizes: bool) -> [f64x8<S>; 3] {
+        let row = |axis| {
+            let row = self.camera_from_world.row(axis);
+            if are_sizes { row.abs() } else { row }
+        };
+        [
+            along(vectors, row(0)),
+            along(vectors, row(1)),
+            along(vectors, row(2)),
+        ]
     }
 
     /// What is seen between these ends, low and high, on the retina at distance 1, or, where they are
@@ -176,7 +178,7 @@ impl Eye {
         grid: &Grid,
         (center, begin): ([f64x8<S>; 3], f64x8<S>),
         may: mask64x8<S>,
-        (is_known, ends): (mask64x8<S>, [(f64x8<S>, f64x8<S>); 2]),
+        (is_known, ends): (mask64x8<S>, Ends<S>),
     ) -> Eight {
         let (columns, across) = grid.columns(simd, ends[0].0, ends[0].1, is_known);
         let (rows, down) = grid.rows(simd, ends[1].0, ends[1].1, is_known);
@@ -188,6 +190,14 @@ impl Eye {
             rows,
         }
     }
+}
+
+/// Where eight things begin and end on the retina, along both axes.
+type Ends<S> = [(f64x8<S>, f64x8<S>); 2];
+
+#[inline(always)]
+fn along<S: Simd>([x, y, z]: &[f64x8<S>; 3], row: DVec3) -> f64x8<S> {
+    *x * row.x + *y * row.y + *z * row.z
 }
 
 #[inline(always)]
