@@ -96,15 +96,13 @@ pub(crate) fn view_at(view: &View, motion: &dyn Motion, time: f64) -> View {
     }
 }
 
-impl From<View> for Exposure<'_> {
-    fn from(view: View) -> Self {
-        Self { view, motion: None }
-    }
-}
-
+/// An exposure of a moment.
 impl From<&View> for Exposure<'_> {
     fn from(view: &View) -> Self {
-        Self::from(*view)
+        Self {
+            view: *view,
+            motion: None,
+        }
     }
 }
 

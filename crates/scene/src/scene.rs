@@ -178,7 +178,7 @@ impl Scene {
             (Some(shutter), Ok(frame)) => {
                 Exposure::of_motion(*view, OpenShutter::new(self, frame, shutter))
             }
-            _ => Exposure::from(*view),
+            _ => Exposure::from(view),
         }
     }
 

@@ -202,17 +202,16 @@ mod tests {
         );
     }
 
+    /// But for one before the first moment or after the last.
     #[test]
-    fn a_jump_claims_more_than_it_costs() {
+    fn a_jump_claims_about_what_it_costs() {
+        let outside = 0.5 - 0.5 * NODES[MOMENTS - 1];
         for place in 0..1000 {
             let jump = f64::from(place) / 1000.0 - 0.5;
             let found = part(WHOLE, |time| f64::from(u8::from(time > jump)));
             let off = (found.value - (0.5 - jump)).abs();
-            assert!(
-                off < 5.0 * found.time_error,
-                "{place}: {off}, {}",
-                found.time_error
-            );
+            let claimed = found.time_error;
+            assert!(off <= 2.0 * claimed + outside, "{place}: {off}, {claimed}");
         }
     }
 }

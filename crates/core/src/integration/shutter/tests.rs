@@ -129,7 +129,7 @@ fn what_passes_quickly_is_seen() {
         let part = light(&moving) / light(&still);
         assert!(larger.contains(&part), "{place}: {part}");
         let touched = moving.iter().filter(|pixel| pixel.alpha > 0.0).count();
-        assert!(touched > 20, "{touched} pixels");
+        assert!(touched > 14, "{touched} pixels");
     }
 }
 
