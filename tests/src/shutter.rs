@@ -38,7 +38,7 @@ fn render<'a>(scene: &Scene, exposure: impl Into<Exposure<'a>>, method: Method) 
 
 fn open(scene: &Scene, frame: i32, method: Method) -> Image {
     let view = scene.view(frame).unwrap();
-    render(scene, &scene.exposure(&view), method)
+    render(scene, scene.exposure(&view), method)
 }
 
 /// A scene by how many frames one has been made into, and by its shutter.
