@@ -82,8 +82,18 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Image, Cancelled> {
-        let job = Whole { spent, progress };
-        self.run(&exposure.into(), settings, job)
+        self.picture(spent, &exposure.into(), settings, progress)
+    }
+
+    /// What [`Self::render_over`] does: not generic, so that integrators are compiled here, once.
+    fn picture(
+        &self,
+        spent: Option<Image>,
+        exposure: &Exposure<'_>,
+        settings: &Settings,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Image, Cancelled> {
+        self.run(exposure, settings, Whole { spent, progress })
     }
 
     /// Prepares the integrator that `settings` ask for, and has the job done with it.

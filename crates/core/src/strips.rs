@@ -88,7 +88,18 @@ impl Renderer<'_> {
         sink: &dyn Sink,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        let exposure = exposure.into();
+        self.strips(&exposure.into(), window, settings, sink, progress)
+    }
+
+    /// What [`Self::render_strips`] does: not generic, so that integrators are compiled here, once.
+    fn strips(
+        &self,
+        exposure: &Exposure<'_>,
+        window: Window,
+        settings: &Settings,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
         let view = exposure.view();
         let is_inside = |first: u32, length: u32, all: u32| {
             first.checked_add(length).is_some_and(|end| end <= all)
@@ -103,7 +114,7 @@ impl Renderer<'_> {
             sink,
             progress,
         };
-        self.run(&exposure, settings, job)
+        self.run(exposure, settings, job)
     }
 }
 
