@@ -114,6 +114,27 @@ fn frames_are_chosen_as_for_files() {
 }
 
 #[test]
+fn loops_are_neither_resumed_nor_shared_by_tasks() {
+    let folder = Folder::new();
+    for (arguments, message) in [
+        (
+            "render ball.ron -o turn.apng --skip-existing",
+            "--skip-existing is for files of one frame each, and the output has all of them",
+        ),
+        (
+            "farm slurm ball.ron -o turn.apng",
+            "tasks write a file for each frame, and the output has all of them",
+        ),
+    ] {
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), 2, "{arguments}");
+        assert_eq!(text(&output.stdout), "");
+        assert_eq!(text(&output.stderr), format!("marbles: {message}\n"));
+    }
+    assert_eq!(folder.names("."), ["ball.ron"]);
+}
+
+#[test]
 fn without_all_frames_there_is_no_loop() {
     let folder = Folder::new();
     // In frame 3 the camera stands at its target.
