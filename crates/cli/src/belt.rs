@@ -30,6 +30,12 @@ struct State {
 /// Closes the belt when it goes out of scope, so that nobody waits for a thread that has ended.
 pub(crate) struct Closing<'belt>(&'belt Belt);
 
+/// Where a piece will be put; closes the belt when that does not happen though somebody wants it.
+pub(crate) struct Place<'belt> {
+    belt: &'belt Belt,
+    number: u64,
+}
+
 impl Belt {
     /// An empty belt for `most` pieces at a time, at least 1.
     pub(crate) fn new(most: u64) -> Self {
@@ -41,26 +47,18 @@ impl Belt {
         }
     }
 
-    /// Waits until the piece with this number may be made, and gives memory of others where there is
-    /// some; `None` when the belt is closed.
-    pub(crate) fn admit(&self, number: u64) -> Option<Vec<u8>> {
+    /// Waits until the piece with this number may be made; its place, and memory of others where there
+    /// is some. `None` when the belt is closed, or nobody wants the piece.
+    pub(crate) fn admit(&self, number: u64) -> Option<(Place<'_>, Vec<u8>)> {
         let mut state = self.lock();
         while number >= state.taken + self.most && !state.is_closed {
             state = wait(&self.moved, state);
         }
-        if state.is_closed {
+        if state.is_closed || number < state.taken {
             return None;
         }
-        Some(state.spent.pop().unwrap_or_default())
-    }
-
-    /// Puts the piece with this number on the belt.
-    pub(crate) fn put(&self, number: u64, piece: Piece) {
-        let mut state = self.lock();
-        state.waiting.insert(number, piece);
-        if number == state.taken {
-            self.arrived.notify_one();
-        }
+        let place = Place { belt: self, number };
+        Some((place, state.spent.pop().unwrap_or_default()))
     }
 
     /// Waits for the next piece and takes it; `None` when it will not come.
@@ -80,33 +78,17 @@ impl Belt {
         }
     }
 
-    /// Takes the pieces with smaller numbers as they come, for nobody; ends early when they will not
-    /// come.
-    pub(crate) fn discard_until(&self, number: u64) {
+    /// Leaves out the pieces with smaller numbers, those that are still to come among them.
+    pub(crate) fn skip_to(&self, number: u64) {
         let mut state = self.lock();
-        while state.taken < number {
-            let next = state.taken;
-            match state.waiting.remove(&next) {
-                Some(piece) => {
-                    state.taken += 1;
-                    if let Piece::Samples(samples) = piece {
-                        state.spent.push(samples);
-                    }
-                    self.moved.notify_all();
-                }
-                None if state.is_closed => return,
-                None => state = wait(&self.arrived, state),
+        let wanted = state.waiting.split_off(&number);
+        for piece in std::mem::replace(&mut state.waiting, wanted).into_values() {
+            if let Piece::Samples(samples) = piece {
+                state.spent.push(samples);
             }
         }
-    }
-
-    /// Opens the belt again for the piece with this number and those that follow, where the ones
-    /// before were given up.
-    pub(crate) fn resume(&self, number: u64) {
-        let mut state = self.lock();
-        state.waiting.clear();
-        state.taken = number;
-        state.is_closed = false;
+        state.taken = state.taken.max(number);
+        self.moved.notify_all();
     }
 
     /// Takes memory that is to be used again.
@@ -121,6 +103,11 @@ impl Belt {
         self.moved.notify_all();
     }
 
+    /// Whether nothing more will come.
+    pub(crate) fn is_closed(&self) -> bool {
+        self.lock().is_closed
+    }
+
     /// Closes the belt later.
     pub(crate) fn closing(&self) -> Closing<'_> {
         Closing(self)
@@ -132,16 +119,35 @@ impl Belt {
     }
 }
 
-impl Closing<'_> {
-    /// Leaves the belt as it is.
-    pub(crate) fn keep_open(self) {
+impl Drop for Closing<'_> {
+    fn drop(&mut self) {
+        self.0.close();
+    }
+}
+
+impl Place<'_> {
+    /// Puts the piece there.
+    pub(crate) fn put(self, piece: Piece) {
+        let mut state = self.belt.lock();
+        if self.number >= state.taken {
+            state.waiting.insert(self.number, piece);
+            if self.number == state.taken {
+                self.belt.arrived.notify_one();
+            }
+        } else if let Piece::Samples(samples) = piece {
+            state.spent.push(samples);
+        }
+        drop(state);
         std::mem::forget(self);
     }
 }
 
-impl Drop for Closing<'_> {
+impl Drop for Place<'_> {
     fn drop(&mut self) {
-        self.0.close();
+        let is_wanted = self.number >= self.belt.lock().taken;
+        if is_wanted {
+            self.belt.close();
+        }
     }
 }
 
@@ -166,6 +172,10 @@ mod tests {
         }
     }
 
+    fn put(belt: &Belt, number: u64) {
+        belt.admit(number).unwrap().0.put(piece(number));
+    }
+
     #[test]
     fn pieces_come_in_order_and_never_too_many() {
         const MOST: u64 = 3;
@@ -176,13 +186,11 @@ mod tests {
                 let belt = &belt;
                 // Each of them is late for another reason, and none may wait for ever.
                 scope.spawn(move || {
-                    let closing = belt.closing();
                     for number in (remainder..300).step_by(MOST as usize) {
-                        assert!(belt.admit(number).is_some());
+                        let (place, _) = belt.admit(number).unwrap();
                         assert!(belt.lock().waiting.len() < MOST as usize);
-                        belt.put(number, piece(number));
+                        place.put(piece(number));
                     }
-                    closing.keep_open();
                 });
             }
             let closing = belt.closing();
@@ -191,42 +199,47 @@ mod tests {
                 assert_eq!(taken, [number as u8]);
                 belt.give_back(taken);
             }
-            closing.keep_open();
+            std::mem::forget(closing);
         });
-        assert!(belt.admit(300).is_some_and(|spent| !spent.is_empty()));
+        assert!(belt.admit(300).is_some_and(|(_, spent)| !spent.is_empty()));
     }
 
     #[test]
     fn pieces_that_nobody_wants_make_room() {
-        let belt = Belt::new(2);
+        let belt = Belt::new(3);
+        put(&belt, 0);
+        let (late, _) = belt.admit(1).unwrap();
+        let (never, _) = belt.admit(2).unwrap();
         thread::scope(|scope| {
-            let closing = belt.closing();
-            let discarding = scope.spawn(|| belt.discard_until(5));
-            for number in 0..5 {
-                assert!(belt.admit(number).is_some());
-                belt.put(number, piece(number));
-            }
-            discarding.join().unwrap();
-            closing.keep_open();
+            let waiting = scope.spawn(|| {
+                let (place, spent) = belt.admit(7).unwrap();
+                place.put(piece(7));
+                spent
+            });
+            belt.skip_to(5);
+            assert_eq!(waiting.join().unwrap(), [0]);
         });
-        belt.put(6, piece(6));
-        belt.close();
-        belt.discard_until(7);
-        belt.resume(9);
-        assert!(belt.admit(10).is_some());
-        belt.put(9, piece(9));
-        assert_eq!(bytes(belt.take()), Some(vec![9]));
+        // What is unwanted does no harm, whether it comes or not.
+        late.put(piece(1));
+        drop(never);
+        assert!(belt.admit(4).is_none());
+        put(&belt, 5);
+        put(&belt, 6);
+        belt.skip_to(2);
+        for number in 5..=7 {
+            assert_eq!(bytes(belt.take()), Some(vec![number]));
+        }
+        assert!(!belt.is_closed());
     }
 
     #[test]
     fn a_closed_belt_gives_what_it_has_and_admits_nothing() {
         let belt = Belt::new(2);
-        for number in [0, 2] {
-            belt.put(number, piece(number));
-        }
+        put(&belt, 0);
+        let (second, _) = belt.admit(1).unwrap();
         thread::scope(|scope| {
             let waiting = scope.spawn(|| belt.admit(7).is_none());
-            drop(belt.closing());
+            drop(second);
             assert!(waiting.join().unwrap());
         });
         assert_eq!(bytes(belt.take()), Some(vec![0]));

@@ -1,13 +1,14 @@
 //! What a picture goes through while it is rendered: strips become pieces of a file, and what they
 //! achieved is gathered.
 
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
+use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use marbles_core::{Image, Sink, Strip, Summary};
 
-use crate::belt::{Belt, Closing};
+use crate::belt::{Belt, Place};
 use crate::output::Coder;
 
 /// A picture that is being rendered.
@@ -17,8 +18,30 @@ pub(crate) struct Film<'a> {
     /// The number of the picture's first piece on the belt.
     first: u64,
     gathered: Mutex<Gathered>,
+    /// Strips that have not ended.
+    left: AtomicU32,
+    started: Instant,
     /// How long threads did something else than rendering, in nanoseconds, all together.
     aside: AtomicU64,
+    clock: &'a Clock,
+    ending: Sender<Ending>,
+}
+
+/// Tells how long each picture of a sequence took, though one begins while others end: the sum is
+/// the time that went by.
+#[derive(Debug)]
+pub(crate) struct Clock {
+    threads: usize,
+    /// When a picture ended last.
+    last: Mutex<Option<Instant>>,
+}
+
+/// A picture all of whose strips were rendered.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ending {
+    pub(crate) gathered: Gathered,
+    /// What rendering it took.
+    pub(crate) time: Duration,
 }
 
 /// What a picture, or a part of one, achieved.
@@ -46,28 +69,59 @@ struct FilmStrip<'a> {
     index: u32,
     samples: Vec<u8>,
     gathered: Gathered,
-    /// Without this strip nobody need wait for those below.
-    closing: Closing<'a>,
+    place: Place<'a>,
+}
+
+impl Clock {
+    /// For pictures on so many threads.
+    pub(crate) fn new(threads: usize) -> Self {
+        Self {
+            threads,
+            last: Mutex::default(),
+        }
+    }
+
+    /// A picture ends that was begun at some time: how long it took, after those that ended before.
+    fn stop(&self, started: Instant, aside: Duration) -> Duration {
+        let now = Instant::now();
+        let last = self.last.lock();
+        let last = last.unwrap_or_else(PoisonError::into_inner).replace(now);
+        let since = last.map_or(started, |last| last.max(started));
+        let each = aside / u32::try_from(self.threads).unwrap_or(u32::MAX);
+        now.saturating_duration_since(since).saturating_sub(each)
+    }
 }
 
 impl<'a> Film<'a> {
-    pub(crate) fn new(coder: &'a Coder, belt: &'a Belt, first: u64) -> Self {
+    /// A picture whose pieces go to the belt, from the number `first` on; how it ended goes to
+    /// `ending`.
+    pub(crate) fn new(
+        coder: &'a Coder,
+        belt: &'a Belt,
+        first: u64,
+        clock: &'a Clock,
+        ending: Sender<Ending>,
+    ) -> Self {
         Self {
             coder,
             belt,
             first,
             gathered: Mutex::default(),
+            left: AtomicU32::new(coder.pieces()),
+            started: Instant::now(),
             aside: AtomicU64::new(0),
+            clock,
+            ending,
         }
     }
 
-    /// What the whole achieved, and how long each of so many threads did something else than
-    /// rendering, on average.
-    pub(crate) fn finish(self, threads: usize) -> (Gathered, Duration) {
-        let gathered = self.gathered.into_inner();
-        let aside = self.aside.into_inner() / threads as u64;
-        let gathered = gathered.unwrap_or_else(PoisonError::into_inner);
-        (gathered, Duration::from_nanos(aside))
+    /// All strips have ended.
+    fn end(&self) {
+        let gathered = *self.gathered.lock().unwrap_or_else(PoisonError::into_inner);
+        let aside = Duration::from_nanos(self.aside.load(Ordering::Relaxed));
+        let time = self.clock.stop(self.started, aside);
+        // The writer has gone on if it could not write.
+        let _ = self.ending.send(Ending { gathered, time });
     }
 
     /// Does what is no rendering.
@@ -81,20 +135,16 @@ impl<'a> Film<'a> {
 }
 
 impl Sink for Film<'_> {
-    fn bands(&self) -> u32 {
-        self.coder.bands()
-    }
-
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
         self.apart(|| {
-            let mut samples = self.belt.admit(self.first + u64::from(index))?;
+            let (place, mut samples) = self.belt.admit(self.first + u64::from(index))?;
             samples.resize(self.coder.sample_bytes(index), 0);
             Some(Box::new(FilmStrip {
                 film: self,
                 index,
                 samples,
                 gathered: Gathered::default(),
-                closing: self.belt.closing(),
+                place,
             }) as Box<dyn Strip>)
         })
     }
@@ -118,15 +168,16 @@ impl Strip for FilmStrip<'_> {
             index,
             samples,
             gathered,
-            closing,
+            place,
         } = *self;
         film.apart(|| {
-            let piece = film.coder.piece(index, samples);
-            film.belt.put(film.first + u64::from(index), piece);
-            closing.keep_open();
+            place.put(film.coder.piece(index, samples));
             let whole = film.gathered.lock();
             whole.unwrap_or_else(PoisonError::into_inner).add(&gathered);
         });
+        if film.left.fetch_sub(1, Ordering::AcqRel) == 1 {
+            film.end();
+        }
     }
 }
 
@@ -176,6 +227,8 @@ impl Worst {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::mpsc::channel;
+
     use marbles_core::Channels;
 
     use super::*;
@@ -194,7 +247,9 @@ mod tests {
         let (deep, rgb) = (false, false);
         let coder = Coder::new(Encoding::Png(PngOptions { deep, rgb }), form);
         let belt = Belt::new(2);
-        let film = Film::new(&coder, &belt, 0);
+        let (sender, ending) = channel();
+        let clock = Clock::new(1);
+        let film = Film::new(&coder, &belt, 0, &clock, sender);
         let [first, second] = [0, 1].map(|index| film.begin(index).unwrap());
         second.end();
         std::thread::scope(|scope| {
@@ -203,6 +258,22 @@ mod tests {
             assert!(waiting.join().unwrap());
         });
         assert!(belt.take().is_none());
+        assert!(ending.try_recv().is_err());
+    }
+
+    #[test]
+    fn times_of_pictures_that_overlap_add_up() {
+        let clock = Clock::new(2);
+        let hour = Duration::from_secs(3600);
+        let Some(started) = Instant::now().checked_sub(2 * hour) else {
+            return;
+        };
+        // Two that began together: the second took what was left.
+        assert!(clock.stop(started, Duration::ZERO) >= 2 * hour);
+        assert!(clock.stop(started + hour, Duration::ZERO) < hour);
+        let clock = Clock::new(2);
+        let found = clock.stop(started, hour);
+        assert!(found >= hour + hour / 2 && found < 2 * hour);
     }
 
     #[test]

@@ -67,6 +67,11 @@ impl Form {
         window.map_or((0, 0), |window| (window.col, window.row))
     }
 
+    /// Number of pixels.
+    pub(crate) fn pixels(&self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+
     /// Bytes of one of core's pictures as a whole: the channels and the error in double precision,
     /// what stands behind it, and the status.
     fn picture_bytes(&self) -> u64 {
@@ -74,8 +79,7 @@ impl Form {
             Channels::Grey => 1,
             Channels::Rgb => 3,
         };
-        let pixels = u64::from(self.width) * u64::from(self.height);
-        pixels * (8 * (colors + u64::from(self.alpha) + 1) + 2)
+        self.pixels() * (8 * (colors + u64::from(self.alpha) + 1) + 2)
     }
 
     /// Bytes of the lists of what is seen in which tile, where few spheres are.

@@ -1,33 +1,33 @@
-//! Frames one after the other: while one is rendered, the one before is encoded and written.
+//! Frames one after the other: while one is rendered, the one before is encoded and written, and the
+//! next one begins as soon as threads have nothing else to do.
 
 mod animation;
+mod flow;
+mod source;
 
-use std::collections::VecDeque;
-use std::ops::ControlFlow;
 use std::panic;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, SyncSender, channel, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, OnceLock};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use marbles_core::{Renderer, Settings, Summary, View, Window};
+use marbles_core::{Settings, Summary, View, Window};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
+use self::source::Source;
 use crate::args::Size;
 use crate::belt::Belt;
-use crate::digest::{Digests, Shot};
 use crate::failure::Failure;
-use crate::film::{Film, Gathered};
+use crate::film::{Clock, Ending};
 use crate::frames::FrameList;
-use crate::input::finished::{self, Content};
 use crate::interrupt;
 use crate::memory::{self, Form};
 use crate::messages;
-use crate::output::temporary::{LeftOver, TemporaryFile};
-use crate::output::{self, Coder, Encoding, Facts, Piece, Pieces, Unwritten};
+use crate::output::temporary::TemporaryFile;
+use crate::output::{Coder, Encoding, Facts, Piece, Pieces, Unwritten};
 use crate::pattern::Pattern;
 use crate::progress::Progress;
 use crate::region::{self, Region};
@@ -76,29 +76,22 @@ struct Order {
     is_lost: Arc<AtomicBool>,
 }
 
-/// A picture all of whose strips were rendered.
-struct Ending {
-    gathered: Gathered,
-    time: Duration,
-}
-
-/// What the thread that renders and the one that writes have in common.
+/// What the threads that render and the one that writes have in common.
 struct Ways {
     form: Form,
     coder: Coder,
     belt: Belt,
+    clock: Clock,
     failures: Failures,
     /// Frames whose files were there.
     skipped: AtomicU64,
 }
 
-/// What is done about a frame.
-enum Turn {
-    Render(Option<TemporaryFile>),
-    /// Its file is there.
-    Skip,
-    /// Somebody else is writing its file.
-    Wait,
+impl Ways {
+    /// Whether nothing more is wanted.
+    fn stop(&self) -> bool {
+        interrupt::requested() || self.failures.stop()
+    }
 }
 
 impl Sequence<'_> {
@@ -136,142 +129,9 @@ impl Sequence<'_> {
     /// Sends pictures to the writer until there are no more, or somebody wants to stop.
     fn render_all(&self, writer: SyncSender<Order>, ways: &Ways, progress: &Progress) {
         let _closing = ways.belt.closing();
-        let stop = || interrupt::requested() || ways.failures.stop();
-        let world = self.scene.world();
-        let mut renderer = None;
-        let digests = Digests::new(world, &self.settings, self.encoding);
-        let mut left_over = LeftOver::default();
-        let mut first_piece = 0;
-        let mut frames = self.frames.iter();
-        let mut postponed = VecDeque::new();
-        let mut index = 0;
-        while !stop() {
-            let next = frames.next();
-            let is_postponed = next.is_none();
-            let Some(frame) = next.or_else(|| postponed.pop_front()) else {
-                break;
-            };
-            let path = self.pattern.path(frame);
-            let failed = |message| {
-                ways.failures.add(frame, &path, message, progress);
-                progress.leave_out();
-            };
-            let view = match self.scene.view(frame) {
-                Ok(view) => self.resized(view),
-                Err(error) => {
-                    failed(error.to_string());
-                    continue;
-                }
-            };
-            let exposure = self.scene.exposure(&view);
-            let facts = Facts {
-                camera: view.camera,
-                frame,
-                frames_per_second: self.frames_per_second,
-                method: self.settings.method,
-                digest: digests.of(&Shot {
-                    exposure: &exposure,
-                    frame,
-                    // A PNG does not tell it, and an animated one keeps no digest.
-                    frames_per_second: match self.encoding {
-                        Encoding::Png(_) | Encoding::Apng(_) => None,
-                        Encoding::Exr(_) => self.frames_per_second,
-                    },
-                }),
-            };
-            output::clean(&path, &mut left_over);
-            let file = match self.turn(&path, (facts.digest, ways.form.part), is_postponed) {
-                Ok(Turn::Render(file)) => file,
-                Ok(Turn::Skip) => {
-                    ways.skipped.fetch_add(1, Ordering::Relaxed);
-                    progress.result(&messages::skipped(&path));
-                    progress.leave_out();
-                    continue;
-                }
-                Ok(Turn::Wait) => {
-                    postponed.push_back(frame);
-                    continue;
-                }
-                Err(failure) => {
-                    failed(failure.into_message());
-                    continue;
-                }
-            };
-            let prepare = || Renderer::new(world);
-            let prepare = || progress.while_preparing(world.spheres().len(), prepare);
-            let renderer = renderer.get_or_insert_with(prepare);
-            let Form { width, height, .. } = ways.form;
-            progress.begin(index, u64::from(width) * u64::from(height));
-            index += 1;
-            let film = Film::new(&ways.coder, &ways.belt, first_piece);
-            first_piece += u64::from(ways.coder.pieces());
-            let (finish, ending) = channel();
-            let is_lost = Arc::new(AtomicBool::new(false));
-            let order = Order {
-                facts,
-                path,
-                file,
-                end: first_piece,
-                ending,
-                is_lost: Arc::clone(&is_lost),
-            };
-            if writer.send(order).is_err() {
-                break;
-            }
-            let started = Instant::now();
-            let part = ways.form.part.map(|part| part.window);
-            let window = part.unwrap_or(Window::whole(&view));
-            let settings = &self.settings;
-            let rendered = renderer.render_strips(&exposure, window, settings, &film, &|pixels| {
-                progress.advance(pixels);
-                if stop() || is_lost.load(Ordering::Relaxed) {
-                    ControlFlow::Break(())
-                } else {
-                    ControlFlow::Continue(())
-                }
-            });
-            if rendered.is_err() {
-                if stop() || !is_lost.load(Ordering::Relaxed) {
-                    break;
-                }
-                // The writer wants nothing more of this picture, and nothing of others is on its way.
-                ways.belt.resume(first_piece);
-                continue;
-            }
-            let elapsed = started.elapsed();
-            let (gathered, aside) = film.finish(rayon::current_num_threads());
-            let time = elapsed.saturating_sub(aside);
-            // The writer has gone on if it could not write.
-            let _ = finish.send(Ending { gathered, time });
-        }
-    }
-
-    /// Begins the file of a frame, unless it is there or somebody else writes it.
-    ///
-    /// Who has waited once begins it all the same: somebody who stands still would else keep
-    /// everybody from the end, and both write the same.
-    fn turn(&self, path: &Path, content: Content, has_waited: bool) -> Result<Turn, Failure> {
-        if let Encoding::Apng(_) = self.encoding {
-            return Ok(Turn::Render(None));
-        }
-        if !self.persistence.skip_existing {
-            return Ok(Turn::Render(Some(output::begin(path)?)));
-        }
-        let is_there = || finished::content(path) == Some(content);
-        if is_there() {
-            return Ok(Turn::Skip);
-        }
-        let file = match output::claim(path)? {
-            None if !has_waited => return Ok(Turn::Wait),
-            None => output::begin(path)?,
-            Some(file) => file,
-        };
-        // Somebody may have finished it just before it was ours.
-        Ok(if is_there() {
-            Turn::Skip
-        } else {
-            Turn::Render(Some(file))
-        })
+        let renderer = OnceLock::new();
+        let mut source = Source::new(self, &renderer, ways, progress, writer);
+        flow::run(|| source.next());
     }
 
     /// Writes pictures as they come.
@@ -295,8 +155,9 @@ impl Sequence<'_> {
                         // Neither are those wanted that were rendered meanwhile.
                         break;
                     }
-                    is_lost.store(true, Ordering::Relaxed);
-                    ways.belt.discard_until(end);
+                    // In this order: who gives up a piece may not be missed.
+                    ways.belt.skip_to(end);
+                    is_lost.store(true, Ordering::Release);
                 }
             }
         }
@@ -387,6 +248,7 @@ impl Sequence<'_> {
             form,
             coder,
             belt: Belt::new(strips),
+            clock: Clock::new(threads.current_num_threads()),
             failures: Failures::new(self.persistence.fail_fast || is_loop),
             skipped: AtomicU64::new(0),
         })

@@ -57,11 +57,11 @@ impl<'motion> Exposure<'motion> {
     }
 
     /// The motion, where the camera moves at all.
-    pub(crate) fn motion(&self) -> Option<&(dyn Motion + 'motion)> {
-        let motion = self.motion.as_deref()?;
+    pub(crate) fn motion(&self) -> Option<Arc<dyn Motion + 'motion>> {
+        let motion = self.motion.as_ref()?;
         let rest = Pose::of(&self.view);
         let moves = self.poses().iter().any(|pose| *pose != rest);
-        moves.then_some(motion)
+        moves.then(|| Arc::clone(motion))
     }
 }
 

@@ -50,7 +50,7 @@ pub use material::{Grain, Highlight, Material, Roughness};
 pub use ray::Ray;
 pub use render::{Cancelled, Method, Renderer, Settings};
 pub use sphere::{Floor, Hit, Sphere, SphereError};
-pub use strips::{BAND_ROWS, Sink, Strip, Window};
+pub use strips::{BAND_ROWS, Rendering, Sink, Strip, Window};
 pub use view::View;
 pub use world::{MaterialId, World};
 

@@ -2,6 +2,7 @@
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use thiserror::Error;
@@ -97,12 +98,12 @@ impl<'world> Renderer<'world> {
     }
 
     /// Prepares the integrator that `settings` ask for, and has the job done with it.
-    pub(crate) fn run<J: Job>(
-        &self,
-        exposure: &Exposure<'_>,
+    pub(crate) fn run<'a, J: Job<'a>>(
+        &'a self,
+        exposure: &Exposure<'a>,
         settings: &Settings,
         job: J,
-    ) -> Result<J::Output, Cancelled> {
+    ) -> J::Output {
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {
             return self.run_over_time(view, motion, settings, job);
@@ -119,44 +120,44 @@ impl<'world> Renderer<'world> {
             Method::Samples(samples) => {
                 let integrator = Supersampling::new(world, view, &seen, samples, alpha);
                 match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, &integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                    Channels::Grey => job.run::<f64, _>(form, integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, integrator),
                 }
             }
             Method::Tolerance(tolerance) => {
                 let integrator = Exact::new(world, view, &seen, tolerance, alpha);
                 match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, &integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                    Channels::Grey => job.run::<f64, _>(form, integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, integrator),
                 }
             }
         }
     }
 
     /// Has the job done with what a moving camera sees.
-    fn run_over_time<J: Job>(
-        &self,
+    fn run_over_time<'a, J: Job<'a>>(
+        &'a self,
         view: &View,
-        motion: &dyn Motion,
+        motion: Arc<dyn Motion + 'a>,
         settings: &Settings,
         job: J,
-    ) -> Result<J::Output, Cancelled> {
+    ) -> J::Output {
         let (world, alpha) = (self.world, settings.alpha);
         let form = self.form(view, settings);
         let instants = Instants::new(&self.visibility, view, motion, settings.method);
         match settings.method {
             Method::Samples(samples) => {
-                let integrator = SampledOverTime::new(world, &instants, samples, alpha);
+                let integrator = SampledOverTime::new(world, instants, samples, alpha);
                 match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, &integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                    Channels::Grey => job.run::<f64, _>(form, integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, integrator),
                 }
             }
             Method::Tolerance(tolerance) => {
-                let integrator = ExactOverTime::new(world, &instants, tolerance, alpha);
+                let integrator = ExactOverTime::new(world, instants, tolerance, alpha);
                 match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, &integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, &integrator),
+                    Channels::Grey => job.run::<f64, _>(form, integrator),
+                    Channels::Rgb => job.run::<Color, _>(form, integrator),
                 }
             }
         }
@@ -179,15 +180,15 @@ impl<'world> Renderer<'world> {
 }
 
 /// What is done with an integrator.
-pub(crate) trait Job {
+pub(crate) trait Job<'a> {
     type Output;
 
     /// Renders a picture of this form.
-    fn run<C: Radiance, I: Integrator<C>>(
+    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
         self,
         form: Form,
-        integrator: &I,
-    ) -> Result<Self::Output, Cancelled>;
+        integrator: I,
+    ) -> Self::Output;
 }
 
 /// A picture in one piece.
@@ -197,14 +198,14 @@ struct Whole<'a> {
     progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
 }
 
-impl Job for Whole<'_> {
-    type Output = Image;
+impl<'a> Job<'a> for Whole<'_> {
+    type Output = Result<Image, Cancelled>;
 
-    fn run<C: Radiance, I: Integrator<C>>(
+    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
         self,
         form: Form,
-        integrator: &I,
-    ) -> Result<Image, Cancelled> {
+        integrator: I,
+    ) -> Self::Output {
         let mut image = Image::new(form, self.spent);
         // One by one: bands differ in what they cost, and threads that wait for the last take longer than
         // all handing over.

@@ -1,7 +1,8 @@
 //! A picture strip by strip, for those that need not have it as a whole.
 
+use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
-use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use crate::image::Form;
 use crate::integration::Integrator;
@@ -45,9 +46,6 @@ impl Window {
 /// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
 /// of its own. Columns and strips are counted from the window's first.
 pub trait Sink: Sync {
-    /// How many bands of [`BAND_ROWS`] rows a strip has, at least 1; the last one may have fewer rows.
-    fn bands(&self) -> u32;
-
     /// The strip with this index, counted from the top, is about to be rendered. `None` ends the
     /// rendering.
     ///
@@ -65,41 +63,36 @@ pub trait Strip {
     fn end(self: Box<Self>);
 }
 
+/// A window of a picture that any number of threads render together, strip by strip, so that
+/// a picture of any height needs little memory.
+///
+/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may go on
+/// with the next picture while others still end theirs.
+pub struct Rendering<'a> {
+    strips: Box<dyn Strips + 'a>,
+    window: Window,
+    /// Rows of a strip, but the last.
+    rows: u32,
+    /// The index of the strip that nobody has begun.
+    next: AtomicU32,
+}
+
 impl Renderer<'_> {
-    /// Renders a window of a picture strip by strip, each of which goes to `sink` as soon as a thread
-    /// has rendered it, so that a picture of any height needs little memory; what it cost.
+    /// Prepares the rendering of a window of a picture in strips of so many bands of [`BAND_ROWS`]
+    /// rows, at least 1; the last one may have fewer rows.
     ///
-    /// The pixels are those of [`Self::render`], and so is `progress`, but that it counts all pixels
-    /// of the tiles that the window cuts through: tiles stay where they are and are rendered as
-    /// a whole, since it is in a tile that pixels find out what they may see. Strips are begun from
-    /// the top downward, each by one of the threads of the current rayon pool, and end as they come.
-    /// Where they begin in the middle of a band, that is rendered for each of the two.
-    ///
-    /// # Errors
-    /// [`Cancelled`] when `progress` broke or `sink` wants no more.
+    /// Works on the threads of the current rayon pool.
     ///
     /// # Panics
     /// When the window is not inside the picture.
-    pub fn render_strips<'motion>(
-        &self,
-        exposure: impl Into<Exposure<'motion>>,
+    pub fn begin<'a>(
+        &'a self,
+        exposure: impl Into<Exposure<'a>>,
         window: Window,
         settings: &Settings,
-        sink: &dyn Sink,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled> {
-        self.strips(&exposure.into(), window, settings, sink, progress)
-    }
-
-    /// What [`Self::render_strips`] does: not generic, so that integrators are compiled here, once.
-    fn strips(
-        &self,
-        exposure: &Exposure<'_>,
-        window: Window,
-        settings: &Settings,
-        sink: &dyn Sink,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled> {
+        bands: u32,
+    ) -> Rendering<'a> {
+        let exposure = exposure.into();
         let view = exposure.view();
         let is_inside = |first: u32, length: u32, all: u32| {
             first.checked_add(length).is_some_and(|end| end <= all)
@@ -109,80 +102,125 @@ impl Renderer<'_> {
                 && is_inside(window.row, window.height, view.height),
             "{window:?} is outside"
         );
-        let job = Job {
+        Rendering {
+            strips: self.strips(&exposure, settings),
             window,
-            sink,
-            progress,
-        };
-        self.run(exposure, settings, job)
+            rows: bands.max(1).saturating_mul(BAND_ROWS),
+            next: AtomicU32::new(0),
+        }
+    }
+
+    /// Prepares what paints strips: not generic, so that integrators are compiled here, once.
+    fn strips<'a>(&'a self, exposure: &Exposure<'a>, settings: &Settings) -> Box<dyn Strips + 'a> {
+        self.run(exposure, settings, Preparation)
     }
 }
 
-/// All strips of a window.
-struct Job<'a> {
-    window: Window,
-    // Not generic, so that integrators are compiled here, once.
-    sink: &'a dyn Sink,
-    progress: &'a (dyn Fn(u64) -> ControlFlow<()> + Sync),
+impl Rendering<'_> {
+    /// How many strips nobody has begun.
+    pub fn strips_left(&self) -> u32 {
+        let next = self.next.load(Ordering::Relaxed);
+        self.count().saturating_sub(next)
+    }
+
+    /// Renders strips until there is none that nobody has begun, and what they cost.
+    ///
+    /// Each goes to `sink` as soon as it is rendered; they are begun from the top downward and end as
+    /// they come. `progress` is called with the number of pixels that were just finished, those around
+    /// the window among them that are in its tiles: tiles stay where they are and are rendered as
+    /// a whole, since it is in a tile that pixels find out what they may see. Where strips begin in
+    /// the middle of a band, that is rendered for each of the two. When `progress` breaks or `sink` wants
+    /// no more, the work of all threads ends soon.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the work of this thread has ended so.
+    pub fn help(
+        &self,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        let work = self.strips.render(self, sink, progress);
+        work.inspect_err(|Cancelled| self.begin_no_more())
+    }
+
+    fn begin_no_more(&self) {
+        self.next.store(self.count(), Ordering::Relaxed);
+    }
+
+    /// How many strips there are.
+    fn count(&self) -> u32 {
+        self.window.height.div_ceil(self.rows)
+    }
+
+    /// The index of a strip that is to be begun, and where it lies.
+    fn next(&self) -> Option<(u32, Window)> {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.count() {
+            // However often it is asked, it does not begin anew.
+            self.begin_no_more();
+            return None;
+        }
+        let first = index * self.rows;
+        let strip = Window {
+            row: self.window.row + first,
+            height: self.rows.min(self.window.height - first),
+            ..self.window
+        };
+        Some((index, strip))
+    }
 }
 
-impl render::Job for Job<'_> {
-    type Output = Work;
+/// What paints strips, whatever the integrator.
+trait Strips: Send + Sync {
+    fn render(
+        &self,
+        rendering: &Rendering<'_>,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled>;
+}
 
-    fn run<C: Radiance, I: Integrator<C>>(
+struct Preparation;
+
+impl<'a> render::Job<'a> for Preparation {
+    type Output = Box<dyn Strips + 'a>;
+
+    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
         self,
         form: Form,
-        integrator: &I,
-    ) -> Result<Work, Cancelled> {
-        let strips = Strips {
-            job: self,
+        integrator: I,
+    ) -> Self::Output {
+        Box::new(Painter {
             form,
-            next: AtomicU32::new(0),
-            is_cancelled: AtomicBool::new(false),
-        };
-        let mut sum = Work::default();
-        for work in rayon::broadcast(|_| strips.render_some(integrator)) {
-            sum += work?;
-        }
-        Ok(sum)
+            integrator,
+            radiance: PhantomData::<C>,
+        })
     }
 }
 
-/// What the threads share.
-struct Strips<'a> {
-    job: Job<'a>,
+/// An integrator, and what it makes.
+struct Painter<C, I> {
     form: Form,
-    /// The index of the strip that nobody has begun.
-    next: AtomicU32,
-    is_cancelled: AtomicBool,
+    integrator: I,
+    radiance: PhantomData<C>,
 }
 
-impl Strips<'_> {
-    /// Renders strips that nobody else does until there are no more.
-    fn render_some<C: Radiance, I: Integrator<C>>(
+impl<C: Radiance, I: Integrator<C>> Strips for Painter<C, I> {
+    fn render(
         &self,
-        integrator: &I,
+        rendering: &Rendering<'_>,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
         let (picture_width, picture_height) = self.form.size;
-        let window = self.job.window;
-        let rows = self.job.sink.bands().max(1).saturating_mul(BAND_ROWS);
+        let window = rendering.window;
         let columns = whole_tiles(window.col, window.width, picture_width);
         let mut room = I::Room::default();
         let mut image = None;
         let mut work = Work::default();
-        loop {
-            let index = self.next.fetch_add(1, Ordering::Relaxed);
-            if index >= window.height.div_ceil(rows) || self.is_cancelled.load(Ordering::Relaxed) {
-                return Ok(work);
-            }
-            let strip = Window {
-                row: window.row + index * rows,
-                height: rows.min(window.height - index * rows),
-                ..window
-            };
+        while let Some((index, strip)) = rendering.next() {
             let rows = whole_tiles(strip.row, strip.height, picture_height);
-            let sink = self.job.sink.begin(index);
-            let mut sink = sink.ok_or_else(|| self.cancel())?;
+            let mut sink = sink.begin(index).ok_or(Cancelled)?;
             for col in columns.clone().step_by(PART_COLUMNS as usize) {
                 let width = PART_COLUMNS.min(columns.end - col);
                 let form = Form {
@@ -194,8 +232,7 @@ impl Strips<'_> {
                     let end = rows.end.min(first + BAND_ROWS);
                     let band = first - rows.start..end - rows.start;
                     let mut band = part.band_mut((col, rows.start), band);
-                    let painted = integrator.paint_band(&mut band, &mut room, self.job.progress);
-                    work += painted.map_err(|_| self.cancel())?;
+                    work += self.integrator.paint_band(&mut band, &mut room, progress)?;
                 }
                 let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);
                 let in_part = Window {
@@ -214,12 +251,7 @@ impl Strips<'_> {
             }
             sink.end();
         }
-    }
-
-    /// Has the others stop, too.
-    fn cancel(&self) -> Cancelled {
-        self.is_cancelled.store(true, Ordering::Relaxed);
-        Cancelled
+        Ok(work)
     }
 }
 

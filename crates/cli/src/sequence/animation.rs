@@ -2,7 +2,8 @@
 
 use std::sync::mpsc::Receiver;
 
-use super::{Ending, Order, Sequence, Tally, Ways};
+use super::{Order, Sequence, Tally, Ways};
+use crate::film::Ending;
 use crate::messages;
 use crate::output::Unwritten;
 use crate::progress::Progress;

@@ -89,7 +89,7 @@ impl Status {
 }
 
 /// A way to average light over pixels.
-pub(crate) trait Integrator<C: Radiance>: Sync {
+pub(crate) trait Integrator<C: Radiance>: Send + Sync {
     /// Memory to work in, used again for tile after tile.
     type Room: Default;
 

@@ -1,6 +1,6 @@
 use std::num::NonZeroU32;
-use std::sync::Mutex;
 use std::sync::atomic::AtomicU64;
+use std::sync::{Barrier, Mutex};
 
 use glam::{DVec2, DVec3};
 
@@ -39,6 +39,23 @@ fn pixel(image: &Image, col: u32, row: u32) -> String {
     format!("{rgba:?} {error:?} {ending:?}")
 }
 
+/// Renders a window on all threads.
+fn render(
+    renderer: &Renderer<'_>,
+    (view, window): (&View, Window),
+    settings: &Settings,
+    sink: &Collector,
+    progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+) -> Result<Work, Cancelled> {
+    let rendering = renderer.begin(view, window, settings, sink.bands);
+    let mut sum = Work::default();
+    for work in rayon::broadcast(|_| rendering.help(sink, progress)) {
+        sum += work?;
+    }
+    assert_eq!(rendering.strips_left(), 0);
+    Ok(sum)
+}
+
 /// Keeps what is known of all pixels.
 struct Collector {
     view: View,
@@ -65,10 +82,6 @@ impl Collector {
 }
 
 impl Sink for Collector {
-    fn bands(&self) -> u32 {
-        self.bands
-    }
-
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
         let begun = self.begun.fetch_add(1, Ordering::Relaxed);
         let row = index * self.bands * BAND_ROWS;
@@ -136,13 +149,8 @@ fn strips_are_the_picture_whatever_their_height() {
                         done.fetch_add(pixels, Ordering::Relaxed);
                         ControlFlow::Continue(())
                     };
-                    let work = renderer.render_strips(
-                        &view,
-                        Window::whole(&view),
-                        &settings,
-                        &sink,
-                        &count,
-                    );
+                    let whole = (&view, Window::whole(&view));
+                    let work = render(&renderer, whole, &settings, &sink, &count);
                     assert_eq!(work, Ok(image.work()));
                     assert_eq!(done.into_inner(), u64::from(width) * u64::from(height));
                     assert_eq!(sink.ended.into_inner(), height.div_ceil(bands * BAND_ROWS));
@@ -189,7 +197,7 @@ fn windows_show_what_the_picture_does() {
                     ..view
                 };
                 let sink = Collector::new(size, bands);
-                let ended = renderer.render_strips(&view, window, &settings, &sink, &go);
+                let ended = render(&renderer, (&view, window), &settings, &sink, &go);
                 assert!(ended.is_ok());
                 assert!(
                     sink.pixels.into_inner().unwrap() == expected,
@@ -225,7 +233,8 @@ fn a_sink_and_progress_can_end_the_rendering() {
         ..Collector::new(view, 1)
     };
     let go = |_| ControlFlow::Continue(());
-    let ended = renderer.render_strips(&view, Window::whole(&view), &settings()[0], &sink, &go);
+    let whole = (&view, Window::whole(&view));
+    let ended = render(&renderer, whole, &settings()[0], &sink, &go);
     assert_eq!(ended, Err(Cancelled));
     // Each thread asks once more at most.
     let threads = rayon::current_num_threads() as u32;
@@ -233,7 +242,61 @@ fn a_sink_and_progress_can_end_the_rendering() {
 
     let sink = Collector::new(view, 1);
     let stop = |_| ControlFlow::Break(());
-    let ended = renderer.render_strips(&view, Window::whole(&view), &settings()[0], &sink, &stop);
+    let ended = render(&renderer, whole, &settings()[0], &sink, &stop);
     assert_eq!(ended, Err(Cancelled));
     assert!(sink.begun.into_inner() <= threads);
+}
+
+/// One strip of whose picture comes late.
+struct Late<'a> {
+    collector: &'a Collector,
+    strip: u32,
+    until: Barrier,
+}
+
+impl Sink for Late<'_> {
+    fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
+        if index == self.strip {
+            self.until.wait();
+        }
+        self.collector.begin(index)
+    }
+}
+
+#[test]
+fn a_thread_goes_on_while_another_ends_the_picture_before() {
+    let (world, view) = ball(37, 60);
+    let zoomed = View { zoom: 1.5, ..view };
+    let renderer = Renderer::new(&world);
+    let settings = settings()[2];
+    let go = |_| ControlFlow::Continue(());
+    let [first, second] = [view, zoomed].map(|view| Collector::new(view, 1));
+    let late = Late {
+        collector: &first,
+        strip: 5,
+        until: Barrier::new(2),
+    };
+    let begin = |view| renderer.begin(view, Window::whole(view), &settings, 1);
+    let [one, other] = [begin(&view), begin(&zoomed)];
+    assert_eq!(one.strips_left(), 8);
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                one.help(&late, &go).unwrap();
+                assert_eq!(one.strips_left(), 0);
+                other.help(&second, &go).unwrap();
+                // Whoever has the late strip is still at it when the second picture is done.
+                if first.ended.load(Ordering::Relaxed) < 8 {
+                    assert_eq!(second.ended.load(Ordering::Relaxed), 8);
+                    late.until.wait();
+                }
+            });
+        }
+    });
+    for (view, sink) in [(view, first), (zoomed, second)] {
+        let image = renderer.render(&view, &settings, &go).unwrap();
+        let places = (0..60).flat_map(|row| (0..37).map(move |col| (col, row)));
+        let expected: Vec<String> = places.map(|(col, row)| pixel(&image, col, row)).collect();
+        assert!(sink.pixels.into_inner().unwrap() == expected);
+    }
 }

@@ -3,6 +3,7 @@
 use std::num::NonZeroU32;
 use std::ops::RangeInclusive;
 use std::slice;
+use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -20,7 +21,7 @@ use crate::{Hit, Ray, Sphere, View};
 /// Sums of squares that have neither overflowed nor lost digits to underflow.
 const TRUSTED_SQUARES: RangeInclusive<f64> = 1e-280..=f64::MAX;
 
-/// A world as one view sees it, ready to be asked tile by tile.
+/// A world as one view sees it, ready to be asked tile by tile; copies share what was found out.
 #[derive(Clone, Debug)]
 pub(crate) struct Seen<'world> {
     pub(crate) visibility: &'world Visibility<'world>,
@@ -28,7 +29,7 @@ pub(crate) struct Seen<'world> {
     tile_side: u32,
     /// Lengths of the balls are those of the world times 2 to the power of minus this.
     length_exponent: i32,
-    lists: Lists,
+    lists: Arc<Lists>,
 }
 
 /// Which spheres may be seen in which tile.
@@ -120,7 +121,7 @@ impl<'world> Seen<'world> {
             viewpoint,
             tile_side,
             length_exponent,
-            lists,
+            lists: Arc::new(lists),
         }
     }
 
@@ -132,7 +133,7 @@ impl<'world> Seen<'world> {
     /// The balls that may be seen in a tile, those that come nearest first.
     #[inline]
     pub(crate) fn balls(&self, tile: Tile) -> Balls<'_> {
-        let (balls, places): (&[Ball], _) = match &self.lists {
+        let (balls, places): (&[Ball], _) = match self.lists.as_ref() {
             Lists::Few { balls, bins } => {
                 let (column, row) = (tile.col / self.tile_side, tile.row / self.tile_side);
                 (balls, Listed::Few(bins.at(column, row)))

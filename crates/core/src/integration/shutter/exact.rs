@@ -28,9 +28,9 @@ const MOST_PANELS: usize = 256;
 /// An estimate: by Kronrod's rule against two others on each panel, what is smooth there is known well.
 /// What happens only between two moments is missed; `pace` cuts time so that it does not matter.
 #[derive(Debug)]
-pub(crate) struct ExactOverTime<'scene, 'world> {
+pub(crate) struct ExactOverTime<'scene> {
     world: &'scene World,
-    instants: &'scene Instants<'world>,
+    instants: Instants<'scene>,
     tolerance: f64,
     alpha: bool,
     /// About the largest difference of light that something may make.
@@ -62,10 +62,10 @@ struct Sum<C> {
 /// A panel that a pixel is to be looked at in.
 type Wish = (Panel, u32);
 
-impl<'scene, 'world> ExactOverTime<'scene, 'world> {
+impl<'scene> ExactOverTime<'scene> {
     pub(crate) fn new(
         world: &'scene World,
-        instants: &'scene Instants<'world>,
+        instants: Instants<'scene>,
         tolerance: f64,
         alpha: bool,
     ) -> Self {
@@ -73,14 +73,15 @@ impl<'scene, 'world> ExactOverTime<'scene, 'world> {
         let lights = lights.map(|light| light.intensity().max_element());
         let brightest = world.ambient.max_element() + lights.sum::<f64>();
         let contrast = brightest.max(world.background.max_element()).max(1.0);
-        let (view, motion) = (&instants.view, instants.motion);
+        let (view, motion) = (&instants.view, instants.motion.as_ref());
+        let pace = Pace::new(world.spheres(), view, motion, tolerance / contrast);
         Self {
             world,
             instants,
             tolerance,
             alpha,
             contrast,
-            pace: Pace::new(world.spheres(), view, motion, tolerance / contrast),
+            pace,
         }
     }
 
@@ -297,7 +298,7 @@ impl<C: Radiance> Sum<C> {
     }
 }
 
-impl<C: Radiance> Integrator<C> for ExactOverTime<'_, '_> {
+impl<C: Radiance> Integrator<C> for ExactOverTime<'_> {
     type Room = Room;
 
     fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {

@@ -1,6 +1,6 @@
 //! What a moving camera sees at single moments.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use crate::exposure::view_at;
 use crate::visibility::{Seen, Visibility};
@@ -21,7 +21,7 @@ pub(super) struct Instant<'world> {
 pub(crate) struct Instants<'world> {
     pub(super) visibility: &'world Visibility<'world>,
     pub(super) view: View,
-    pub(super) motion: &'world dyn Motion,
+    pub(super) motion: Arc<dyn Motion + 'world>,
     method: Method,
     kept: Vec<OnceLock<Vec<Instant<'world>>>>,
 }
@@ -37,7 +37,7 @@ impl<'world> Instants<'world> {
     pub(crate) fn new(
         visibility: &'world Visibility<'world>,
         view: &View,
-        motion: &'world dyn Motion,
+        motion: Arc<dyn Motion + 'world>,
         method: Method,
     ) -> Self {
         /// About as many bytes as a sphere takes, and a tile.
@@ -76,7 +76,7 @@ impl<'world> Instants<'world> {
     }
 
     fn at(&self, time: f64) -> Instant<'world> {
-        let view = view_at(&self.view, self.motion, time);
+        let view = view_at(&self.view, self.motion.as_ref(), time);
         let seen = match self.method {
             Method::Samples(samples) => {
                 Seen::by_samples(self.visibility, &view, Tile::SIDE, samples)

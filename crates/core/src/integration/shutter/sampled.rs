@@ -15,9 +15,9 @@ use crate::{Cancelled, Radiance, Tile, World};
 /// # Accuracy
 /// An estimate: the mean of the moments' own, and the spread of the moments over 2N.
 #[derive(Debug)]
-pub(crate) struct SampledOverTime<'scene, 'world> {
+pub(crate) struct SampledOverTime<'scene> {
     world: &'scene World,
-    instants: &'scene Instants<'world>,
+    instants: Instants<'scene>,
     samples: NonZeroU32,
     alpha: bool,
 }
@@ -36,10 +36,10 @@ struct Sum<C> {
     greatest_alpha: f64,
 }
 
-impl<'scene, 'world> SampledOverTime<'scene, 'world> {
+impl<'scene> SampledOverTime<'scene> {
     pub(crate) fn new(
         world: &'scene World,
-        instants: &'scene Instants<'world>,
+        instants: Instants<'scene>,
         samples: NonZeroU32,
         alpha: bool,
     ) -> Self {
@@ -136,7 +136,7 @@ impl<C: Radiance> Sum<C> {
     }
 }
 
-impl<C: Radiance> Integrator<C> for SampledOverTime<'_, '_> {
+impl<C: Radiance> Integrator<C> for SampledOverTime<'_> {
     type Room = ();
 
     fn integrate(&self, tile: Tile, _: &mut (), pixels: &mut Vec<Pixel<C>>) -> Work {

@@ -1,6 +1,7 @@
 //! The same bits however the picture is cut, and nothing missed between moments.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
@@ -62,9 +63,20 @@ fn world(balls: &[(DVec3, f64)]) -> World {
 }
 
 /// All pixels of the picture, in tiles of this side.
-fn pixels(world: &World, motion: &dyn Motion, method: Method, side: u32) -> Vec<Pixel<f64>> {
+fn pixels(world: &World, pan: f64, method: Method, side: u32) -> Vec<Pixel<f64>> {
     let visibility = Visibility::new(world);
-    let instants = Instants::new(&visibility, &VIEW, motion, method);
+    let instants = Instants::new(&visibility, &VIEW, Arc::new(Pan(pan)), method);
+    match method {
+        Method::Tolerance(tolerance) => {
+            in_tiles(&ExactOverTime::new(world, instants, tolerance, false), side)
+        }
+        Method::Samples(samples) => {
+            in_tiles(&SampledOverTime::new(world, instants, samples, false), side)
+        }
+    }
+}
+
+fn in_tiles<I: Integrator<f64>>(integrator: &I, side: u32) -> Vec<Pixel<f64>> {
     let mut found = vec![None; (VIEW.width * VIEW.height) as usize];
     for row in (0..VIEW.height).step_by(side as usize) {
         for col in (0..VIEW.width).step_by(side as usize) {
@@ -75,16 +87,7 @@ fn pixels(world: &World, motion: &dyn Motion, method: Method, side: u32) -> Vec<
                 height: side.min(VIEW.height - row),
             };
             let mut pixels = Vec::new();
-            match method {
-                Method::Tolerance(tolerance) => {
-                    let integrator = ExactOverTime::new(world, &instants, tolerance, false);
-                    integrator.integrate(tile, &mut Default::default(), &mut pixels);
-                }
-                Method::Samples(samples) => {
-                    let integrator = SampledOverTime::new(world, &instants, samples, false);
-                    integrator.integrate(tile, &mut (), &mut pixels);
-                }
-            }
+            integrator.integrate(tile, &mut I::Room::default(), &mut pixels);
             for ((col, row), pixel) in tile.pixels().zip(pixels) {
                 found[(row * VIEW.width + col) as usize] = Some(pixel);
             }
@@ -103,9 +106,9 @@ fn tiles_do_not_change_a_bit() {
     let world = world(&balls);
     let three = std::num::NonZeroU32::new(3).unwrap();
     for method in [Method::Tolerance(1e-3), Method::Samples(three)] {
-        let expected = pixels(&world, &Pan(10.0), method, Tile::SIDE);
+        let expected = pixels(&world, 10.0, method, Tile::SIDE);
         for side in [1, 2, 4] {
-            let found = pixels(&world, &Pan(10.0), method, side);
+            let found = pixels(&world, 10.0, method, side);
             assert!(expected == found, "tiles of {side}, {method:?}");
         }
     }
@@ -118,8 +121,8 @@ fn what_passes_quickly_is_seen() {
     for place in 0..7 {
         let x = 0.11 * f64::from(place) - 0.3;
         let world = world(&[(DVec3::new(x, 0.0, 10.0), 0.1)]);
-        let moving = pixels(&world, &Pan(30.0), Method::Tolerance(1e-3), Tile::SIDE);
-        let still = pixels(&world, &Pan(0.0), Method::Tolerance(1e-4), Tile::SIDE);
+        let moving = pixels(&world, 30.0, Method::Tolerance(1e-3), Tile::SIDE);
+        let still = pixels(&world, 0.0, Method::Tolerance(1e-4), Tile::SIDE);
         // Off the axis of view pictures are larger: no more than this.
         let larger = 1.0..1.25;
         let light = |pixels: &[Pixel<f64>]| -> f64 {

@@ -42,12 +42,12 @@ use crate::{Color, Radiance, Tile, TileLight, View, World};
 /// sample alone says nothing: its error is infinite.
 #[derive(Clone, Debug)]
 pub(crate) struct Supersampling<'scene> {
-    seen: &'scene Seen<'scene>,
+    seen: Seen<'scene>,
     samples: NonZeroU32,
     alpha: bool,
-    rays: Rays<'scene>,
+    rays: Rays,
     shading: Shading<'scene>,
-    view: &'scene View,
+    view: View,
     /// What the processor can do.
     level: Level,
 }
@@ -57,18 +57,18 @@ impl<'scene> Supersampling<'scene> {
     /// no light.
     pub(crate) fn new(
         world: &'scene World,
-        view: &'scene View,
-        seen: &'scene Seen<'scene>,
+        view: &View,
+        seen: &Seen<'scene>,
         samples: NonZeroU32,
         alpha: bool,
     ) -> Self {
         Self {
-            seen,
+            seen: seen.clone(),
             samples,
             alpha,
             rays: Rays::new(view, samples.get()),
             shading: Shading::new(world, view.frame),
-            view,
+            view: *view,
             level: Level::new(),
         }
     }
@@ -158,7 +158,7 @@ impl<'scene> Supersampling<'scene> {
         nearby.gather(simd, cells, &bundle, self.seen.balls(tile));
         let first = nearby.balls.first()?;
         let mut tracer = Tracer {
-            seen: self.seen,
+            seen: &self.seen,
             rays: &self.rays,
             nearby,
             tile,

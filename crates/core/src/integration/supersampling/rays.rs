@@ -9,8 +9,8 @@ use crate::{Ray, Tile, View};
 
 /// Where the samples of a view lie: those of [`View::cell_center`] to the bit.
 #[derive(Clone, Debug)]
-pub(super) struct Rays<'scene> {
-    view: &'scene View,
+pub(super) struct Rays {
+    view: View,
     /// Samples on a side of a pixel.
     side: u32,
     /// Half the side of a cell.
@@ -35,15 +35,15 @@ pub(super) struct Place {
     pub(super) cell_row: u32,
 }
 
-impl<'scene> Rays<'scene> {
-    pub(super) fn new(view: &'scene View, side: u32) -> Self {
+impl Rays {
+    pub(super) fn new(view: &View, side: u32) -> Self {
         let cell = view.lens.width / (f64::from(view.width) * f64::from(side));
         let distance = view.lens.distance * view.zoom;
         let size = DVec2::new(f64::from(view.width), f64::from(view.height));
         let edges = 0.5 * view.pixel_size() * size + view.lens.shift.abs();
         let exponent = libm::ilogb(edges.max_element().max(distance)).clamp(-1000, 1000);
         Self {
-            view,
+            view: *view,
             side,
             half_cell: 0.5 * cell,
             distance,

@@ -19,7 +19,7 @@ const ALL_LANES: u64 = (1 << LANES) - 1;
 /// The rays of a tile and all that they may meet.
 pub(super) struct Tracer<'tile> {
     pub(super) seen: &'tile Seen<'tile>,
-    pub(super) rays: &'tile Rays<'tile>,
+    pub(super) rays: &'tile Rays,
     pub(super) nearby: &'tile Nearby,
     pub(super) tile: Tile,
     /// Balls that were asked whether eight rays meet them.

@@ -43,8 +43,8 @@ use crate::{Radiance, Tile, View, World};
 #[derive(Clone, Debug)]
 pub(crate) struct Exact<'scene> {
     scene: InCamera<'scene>,
-    view: &'scene View,
-    seen: &'scene Seen<'scene>,
+    view: View,
+    seen: Seen<'scene>,
     /// Whether doubles can be trusted with the view.
     is_trusted: bool,
     /// For pixels that cannot be integrated.
@@ -67,8 +67,8 @@ const FALLBACK_SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
 impl<'scene> Exact<'scene> {
     pub(crate) fn new(
         world: &'scene World,
-        view: &'scene View,
-        seen: &'scene Seen<'scene>,
+        view: &View,
+        seen: &Seen<'scene>,
         tolerance: f64,
         alpha: bool,
     ) -> Self {
@@ -83,8 +83,8 @@ impl<'scene> Exact<'scene> {
 
     fn of_group(
         world: &'scene World,
-        view: &'scene View,
-        seen: &'scene Seen<'scene>,
+        view: &View,
+        seen: &Seen<'scene>,
         tolerance: f64,
         alpha: bool,
         group: usize,
@@ -101,8 +101,8 @@ impl<'scene> Exact<'scene> {
         Self {
             is_trusted: trusts_view(view),
             scene,
-            view,
-            seen,
+            view: *view,
+            seen: seen.clone(),
             fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
             tolerance,
             group,
