@@ -11,7 +11,7 @@ use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, Sample
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use exr::prelude::{AttributeValue, Compression, Error, IntegerBounds, SmallVec, Text, Vec2};
 use glam::DVec3;
-use marbles_core::{Camera, Image, Method};
+use marbles_core::{Camera, Channels, Image, Method};
 
 use super::{DIGEST_ATTRIBUTE, Facts, Fault, SOFTWARE, half, header};
 use crate::args::Size;
@@ -112,6 +112,25 @@ impl ExrOptions {
             header,
         }
     }
+
+    /// Puts numbers into the samples of a channel of light; how many were too large.
+    fn light(self, samples: &mut [u8], light: impl Iterator<Item = f64>) -> u64 {
+        let mut clipped = 0;
+        if self.float {
+            let (floats, _) = samples.as_chunks_mut();
+            for (sample, value) in floats.iter_mut().zip(light) {
+                let value = clip(value, f32::MAX.into(), &mut clipped);
+                *sample = float(value).to_ne_bytes();
+            }
+        } else {
+            let (halves, _) = samples.as_chunks_mut();
+            for (sample, value) in halves.iter_mut().zip(light) {
+                let value = clip(value, half::LARGEST, &mut clipped);
+                *sample = half::nearest(value).to_ne_bytes();
+            }
+        }
+        clipped
+    }
 }
 
 impl Blocks {
@@ -131,36 +150,39 @@ impl Blocks {
         rows: Range<u32>,
     ) -> u64 {
         let mut clipped = 0;
-        for (mut rest, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+        let columns = self.header.layer_size.x();
+        let is_grey = image.channels() == Channels::Grey;
+        for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+            let mut end = 0;
+            // Where the first color of a grey picture is, and how many numbers of it were too large.
+            let mut grey = None;
             for channel in &self.channels {
-                let (own, others) = rest.split_at_mut(self.header.layer_size.x() * channel.bytes);
-                rest = others;
-                let own = &mut own[col as usize * channel.bytes..];
-                let columns = 0..image.width();
-                match channel.source {
+                let start = end + col as usize * channel.bytes;
+                let own = start..start + image.width() as usize * channel.bytes;
+                end += columns * channel.bytes;
+                clipped += match channel.source {
                     Source::Error => {
-                        let (floats, _) = own.as_chunks_mut();
-                        for (float, col) in floats.iter_mut().zip(columns) {
+                        let (floats, _) = samples[own].as_chunks_mut();
+                        for (float, col) in floats.iter_mut().zip(0..) {
                             *float = float_above(image.error(col, row)).to_ne_bytes();
                         }
+                        0
                     }
-                    Source::Light(source) if self.options.float => {
-                        let (floats, _) = own.as_chunks_mut();
-                        for (sample, col) in floats.iter_mut().zip(columns) {
-                            let value = image.rgba(col, row)[source];
-                            let value = clip(value, f32::MAX.into(), &mut clipped);
-                            *sample = float(value).to_ne_bytes();
+                    Source::Light(source) => match &grey {
+                        Some((first, clipped)) if source < 3 => {
+                            samples.copy_within(Range::clone(first), start);
+                            *clipped
                         }
-                    }
-                    Source::Light(source) => {
-                        let (halves, _) = own.as_chunks_mut();
-                        for (sample, col) in halves.iter_mut().zip(columns) {
-                            let value = image.rgba(col, row)[source];
-                            let value = clip(value, half::LARGEST, &mut clipped);
-                            *sample = half::nearest(value).to_ne_bytes();
+                        _ => {
+                            let light = (0..image.width()).map(|col| image.rgba(col, row)[source]);
+                            let clipped = self.options.light(&mut samples[own.clone()], light);
+                            if is_grey && source < 3 {
+                                grey = Some((own, clipped));
+                            }
+                            clipped
                         }
-                    }
-                }
+                    },
+                };
             }
         }
         clipped
