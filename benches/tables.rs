@@ -1,10 +1,10 @@
 //! How long does it take to read a table, in each format and on one thread and two?
 
 use std::fmt::Write as _;
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::{env, fs, process};
 
-use marbles_benches::{Case, main as run, table};
+use marbles_benches::{Case, Folder, main as run, table};
 use marbles_core::Sphere;
 use marbles_scene::Scene;
 
@@ -110,22 +110,4 @@ fn ply(format: &str, count: usize) -> String {
     let properties = ["x", "y", "z", "radius"].map(|name| format!("property float {name}\n"));
     let properties = properties.concat();
     format!("ply\nformat {format} 1.0\nelement vertex {count}\n{properties}end_header\n")
-}
-
-/// A folder that is gone afterwards.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new() -> Self {
-        let path = env::temp_dir().join(format!("marbles-tables-{}", process::id()));
-        fs::create_dir_all(&path).expect("a folder can be made");
-        Self(path)
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        // What cannot be removed is left to the system.
-        let _ = fs::remove_dir_all(&self.0);
-    }
 }

@@ -90,6 +90,30 @@ pub fn medians<T>(least: usize, seconds: u64, cases: &[Case<'_, T>]) -> (usize, 
     (rounds, times.into_iter().zip(results).map(timed).collect())
 }
 
+/// A folder for a benchmark's files, gone afterwards.
+pub struct Folder(pub PathBuf);
+
+impl Folder {
+    /// An empty one.
+    ///
+    /// # Panics
+    /// When there can be none.
+    #[expect(clippy::new_without_default, reason = "it is made on a disk")]
+    pub fn new() -> Self {
+        let name = format!("marbles-bench-{}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path).expect("a folder can be made");
+        Self(path)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        // What cannot be removed is left to the system.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
 /// A scene of the repository, by its path there without the ending.
 ///
 /// # Panics
