@@ -176,7 +176,7 @@ pub(crate) struct LeftOver {
 impl LeftOver {
     /// Removes those for one place that nobody writes any more.
     pub(super) fn remove(&mut self, destination: &Path) {
-        let folder = super::folder(destination);
+        let folder = super::place::folder(destination);
         if !self.folders.contains_key(folder) {
             self.folders.insert(folder.to_owned(), temporaries(folder));
         }

@@ -10,7 +10,8 @@ use marbles_core::{
     Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View, World,
 };
 
-use super::{Coder, Encoding, ExrOptions, Facts, Fault, Format, Piece, PngOptions, png};
+use super::coder::Format;
+use super::{Coder, Encoding, ExrOptions, Facts, Fault, Piece, PngOptions, png};
 use crate::memory::Form;
 
 /// What the pictures say that they are made from.
