@@ -14,6 +14,10 @@ use crate::failure::Failure;
 use crate::loading::LINE;
 use crate::numbers;
 
+/// Two columns at the end of the line, and the way back before them: there terminals show `^C`, which
+/// would else begin another line, and the bar would stay where it was.
+const ROOM: &str = "  \x1b[2D";
+
 /// Shades of the bar, from full to empty.
 const SHADES: &str = "█▉▊▋▌▍▎▏ ";
 
@@ -167,12 +171,9 @@ impl<'a> Progress<'a> {
 
 /// A bar in pixels, after a message where there is one.
 pub(crate) fn style(has_message: bool) -> ProgressStyle {
-    let template = if has_message {
-        "{msg} {wide_bar} {percent:>3}% of {total}{left}"
-    } else {
-        "{wide_bar} {percent:>3}% of {total}{left}"
-    };
-    ProgressStyle::with_template(template)
+    let message = if has_message { "{msg} " } else { "" };
+    let template = format!("{message}{{wide_bar}} {{percent:>3}}% of {{total}}{{left}}{ROOM}");
+    ProgressStyle::with_template(&template)
         // Without its template the bar is plainer, no reason to stop.
         .unwrap_or_else(|_| ProgressStyle::default_bar())
         .progress_chars(SHADES)

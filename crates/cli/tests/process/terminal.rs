@@ -94,3 +94,22 @@ fn a_terminal_gets_plain_lines_where_they_are_asked_for() {
         assert_eq!(shown.lines().count(), count, "{shown:?}");
     }
 }
+
+/// Terminals show `^C` where the cursor is; at the end of a line that would begin another one, and the
+/// bar would stay.
+#[test]
+fn a_bar_has_room_for_the_key_that_ends_it() {
+    let folder = Folder::new();
+    let arguments = "render ball.ron -o #.png --size 400x400 --frames 1-4";
+    for columns in [80, 46] {
+        let Some(shown) = run_on_terminal(&folder, columns, arguments) else {
+            return;
+        };
+        let lines = shown.split(['\r', '\n']);
+        let bars: Vec<&str> = lines.filter(|line| line.contains("% of")).collect();
+        assert!(!bars.is_empty(), "{shown:?}");
+        for bar in bars {
+            assert!(bar.ends_with("  \x1b[2D"), "{bar:?}");
+        }
+    }
+}
