@@ -23,8 +23,6 @@ const MOST_SIDES: u32 = 512;
 /// The part of the time that is planned; the rest is for runs that take longer than the first.
 const PLANNED: f64 = 0.75;
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
-/// Twice the samples a side are four times as many.
-const FACTOR_OF_TWICE_THE_SIDES: f64 = 4.0;
 
 /// What is measured, and for how long.
 pub(super) struct Plan<'a> {
@@ -160,11 +158,17 @@ impl Plan<'_> {
 
     /// The sample counts of which all runs together fit into so many seconds, run once.
     fn samples(&self, reference: &Reference, seconds: f64) -> Result<Vec<Setting>, Cancelled> {
+        // Of twice the samples a side: as many moments are averaged where a shutter is open.
+        let factor = if self.exposure.poses().is_empty() {
+            4.0
+        } else {
+            8.0
+        };
         let mut settings = Vec::new();
         let mut sides = NonZeroU32::MIN;
         loop {
             let setting = self.first_run(Method::Samples(sides), reference)?;
-            let next = FACTOR_OF_TWICE_THE_SIDES * setting.seconds();
+            let next = factor * setting.seconds();
             settings.push(setting);
             let round = next + seconds_of_a_round(&settings);
             let is_affordable = self.runs as f64 * round <= seconds;
