@@ -10,8 +10,9 @@ use glam::{DVec2, DVec3};
 
 use self::hidden::Hiding;
 use super::casters::CasterCache;
+use super::points::Points;
 use super::scene::InCamera;
-use super::surface::{Finish, Points};
+use super::surface::Finish;
 use crate::edges::{Ball, Caster, Cell, Linear, Quadratic, Vectors, seam, silhouette, terminator};
 use crate::roughness::PixelKey;
 use crate::rounding::UNIT_ROUNDOFF;

@@ -4,8 +4,8 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::contents::{Contents, Kind, Reach};
+use super::points::Points;
 use super::scene::InCamera;
-use super::surface::Points;
 use crate::edges::{Arcs, Cell, Vectors};
 
 /// Changes on a line that can be told apart.

@@ -3,6 +3,7 @@
 //! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
 //! known as curves, between whose events the light is smooth.
 
+mod across;
 mod boundary;
 mod breaks;
 mod casters;
@@ -12,9 +13,12 @@ mod cut;
 mod facings;
 mod fill;
 mod glimpse;
+mod interval;
 mod parts;
 mod piece;
 mod pixel;
+mod points;
+mod relief;
 mod rule;
 mod samples;
 mod scene;

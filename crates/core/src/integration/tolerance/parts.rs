@@ -4,10 +4,10 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::facings::Facings;
+use super::points::Points;
 use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::smooth::{Filled, Stage};
-use super::surface::Points;
 use crate::edges::Vectors;
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance};

@@ -5,11 +5,12 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::facings::{Extremes, Facings};
 use super::parts::SIZE_OF_PARTS;
+use super::points::Points;
 use super::samples::{
     FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, SAMPLES, STAR_SAMPLES, Sample, WEIGHTS,
 };
 use super::scene::{InCamera, MOST_LIGHTS};
-use super::surface::{Finish, Points};
+use super::surface::Finish;
 use crate::edges::{Ball, Vectors};
 use crate::roughness::NoiseCells;
 use crate::{Color, Radiance};

@@ -1,88 +1,16 @@
-//! Points of spheres and their light, eight at a time.
+//! The light of points of spheres, eight at a time.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
-use glam::{DMat3, DVec3};
 
 use super::facings::Facings;
+use super::points::Points;
+use super::relief::Relief;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
-use crate::edges::{Ball, Vectors};
+use crate::edges::Vectors;
 use crate::power::Power;
-use crate::roughness::{Bumps, NoiseCells, PixelKey, unit};
+use crate::roughness::{NoiseCells, PixelKey};
 use crate::{Color, Material, Radiance};
-
-/// Points of a sphere that the eye sees from outside.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Points<S: Simd> {
-    pub(super) ray: Vectors<S>,
-    pub(super) ray_sq: f64x8<S>,
-    /// In multiples of the ray.
-    pub(super) t: f64x8<S>,
-    /// Unit outward normals.
-    pub(super) normal: Vectors<S>,
-}
-
-impl<S: Simd> Points<S> {
-    /// None that anything is known of.
-    #[inline(always)]
-    pub(super) fn nowhere(simd: S) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        let nothing = Vectors {
-            x: zero,
-            y: zero,
-            z: zero,
-        };
-        Self {
-            ray: nothing,
-            ray_sq: zero,
-            t: zero,
-            normal: nothing,
-        }
-    }
-
-    /// The points in the directions `ray`; a ray that misses counts as grazing.
-    #[inline(always)]
-    pub(super) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        let one = f64x8::splat(simd, 1.0);
-        let ray_sq = ray.length_squared();
-        let along = ray.dot_one(ball.center);
-        if ball.is_apart() {
-            let across = ray.cross(&Vectors::splat(simd, ball.center));
-            let discriminant = ray_sq * (ball.radius * ball.radius) - across.length_squared();
-            let root = discriminant.max(zero).sqrt();
-            let t = one * ball.outside / (along + root);
-            // From the center to the foot of the perpendicular, times d·d, and back to the eye.
-            let foot = ray.cross(&across);
-            let normal = foot
-                .minus(&ray.times(root))
-                .times(one / (ray_sq * ball.radius));
-            Self {
-                ray,
-                ray_sq,
-                t,
-                normal,
-            }
-        } else {
-            let discriminant = along * along - ray_sq * ball.outside;
-            let root = discriminant.max(zero).sqrt();
-            let t = one * ball.outside / (along + root);
-            let from_center = ray.times(t).minus(&Vectors::splat(simd, ball.center));
-            Self {
-                ray,
-                ray_sq,
-                t,
-                normal: from_center.times(one * (1.0 / ball.radius)),
-            }
-        }
-    }
-
-    /// The points, from the eye.
-    #[inline(always)]
-    pub(super) fn place(&self) -> Vectors<S> {
-        self.ray.times(self.t)
-    }
-}
 
 /// What the light of a sphere's outer side depends on.
 #[derive(Clone, Copy, Debug)]
@@ -92,15 +20,6 @@ pub(super) struct Finish<'scene> {
     diffuse: Power,
     specular: Option<(f64, Power)>,
     bumps: Relief,
-}
-
-/// What turns the normals of a surface.
-#[derive(Clone, Copy, Debug)]
-enum Relief {
-    Smooth,
-    Bumpy(Bumps),
-    /// Factors of the components, in the world's frame.
-    Factors(DVec3),
 }
 
 impl<'scene> Finish<'scene> {
@@ -490,50 +409,6 @@ impl<'scene> Finish<'scene> {
     }
 }
 
-impl Relief {
-    /// Turns normals of a rough surface.
-    #[inline(never)]
-    fn turn<S: Simd>(
-        &self,
-        simd: S,
-        scene: &InCamera<'_>,
-        normals: &mut [Vectors<S>],
-        noise: &mut Option<Box<NoiseCells>>,
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let to_world = &scene.world_from_camera;
-                let from_world = &to_world.transpose();
-                match self {
-                    Self::Smooth => {}
-                    Self::Bumpy(bumps) => {
-                        let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
-                        for normal in &mut *normals {
-                            let Vectors { x, y, z } = turned(normal, to_world);
-                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
-                            *normal = Vectors { x, y, z };
-                        }
-                    }
-                    Self::Factors(factors) => {
-                        for normal in &mut *normals {
-                            let mut rough = turned(normal, to_world);
-                            rough.x *= factors.x;
-                            rough.y *= factors.y;
-                            rough.z *= factors.z;
-                            *normal = rough;
-                        }
-                    }
-                }
-                for normal in normals {
-                    let [x, y, z] = unit([normal.x, normal.y, normal.z]);
-                    *normal = turned(&Vectors { x, y, z }, from_world);
-                }
-            },
-        )
-    }
-}
-
 /// More than the error of Gauss's rule with three points for max(0, x − a) to a power, wherever a is;
 /// below 1, that of a step.
 fn cost_of_kink(power: f64) -> f64 {
@@ -556,17 +431,6 @@ fn highest_cosine<S: Simd>(cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
     let sine = (one - cosine * cosine).max(zero).sqrt();
     let nearer = (cosine + turn * sine).min(one).max(zero);
     turn.simd_ge(sine).select(one, nearer)
-}
-
-/// The vectors in another frame.
-#[inline(always)]
-fn turned<S: Simd>(vectors: &Vectors<S>, matrix: &DMat3) -> Vectors<S> {
-    let rows = matrix.transpose();
-    Vectors {
-        x: vectors.dot_one(rows.x_axis),
-        y: vectors.dot_one(rows.y_axis),
-        z: vectors.dot_one(rows.z_axis),
-    }
 }
 
 #[cfg(test)]

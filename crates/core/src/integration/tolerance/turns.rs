@@ -7,8 +7,9 @@ use glam::DVec3;
 use super::contents::Active;
 use super::cut;
 use super::piece::Surroundings;
+use super::points::Points;
 use super::rule::NODES;
-use super::surface::{Finish, Points};
+use super::surface::Finish;
 use crate::edges::Vectors;
 use crate::roughness::NoiseCells;
 

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::super::cut::ray;
-use super::super::surface::Points;
+use super::super::points::Points;
 use super::curve::{Piece, Trace, trace};
 use super::{Curve, Setting};
 use crate::edges::{Quadratic, Vectors};

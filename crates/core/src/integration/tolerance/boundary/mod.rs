@@ -8,6 +8,7 @@ mod arcs;
 mod clip;
 mod curve;
 mod events;
+mod lit;
 mod primitive;
 mod quadrature;
 

@@ -4,8 +4,9 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::super::contents::Active;
+use super::super::points::Points;
 use super::super::scene::InCamera;
-use super::super::surface::{Finish, Points};
+use super::super::surface::Finish;
 use crate::Radiance;
 use crate::edges::{Cell, Vectors};
 
