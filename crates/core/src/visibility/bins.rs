@@ -63,6 +63,13 @@ impl Bins {
         }
     }
 
+    /// The memory that they take, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let wide = self.wide.iter().map(|row| size_of_val(&row[..]));
+        let listed = self.starts.len() + self.places.len();
+        listed * size_of::<u32>() + size_of_val(&self.wide[..]) + wide.sum::<usize>()
+    }
+
     /// The places of the ranges that cover a tile, in rising order.
     #[inline]
     pub(super) fn at(&self, column: u32, row: u32) -> Places<'_> {

@@ -87,6 +87,15 @@ impl Crowd {
         }
     }
 
+    /// The memory that it takes, in bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let of_block = |block: &Block| {
+            let listed = block.starts.len() + block.places.len();
+            size_of_val(&block.balls[..]) + listed * size_of::<u32>() + size_of::<Block>()
+        };
+        self.blocks.iter().map(of_block).sum()
+    }
+
     /// The balls of a tile's surroundings, and the places of those that may be seen in it, those that
     /// come nearest first.
     #[inline]

@@ -125,6 +125,15 @@ impl<'world> Seen<'world> {
         }
     }
 
+    /// The memory that it takes, in bytes.
+    pub(crate) fn bytes(&self) -> usize {
+        let of_lists = match self.lists.as_ref() {
+            Lists::Few { balls, bins } => size_of_val(&balls[..]) + bins.bytes(),
+            Lists::Many(crowd) => crowd.bytes(),
+        };
+        size_of::<Self>() + of_lists
+    }
+
     /// The exponent of the power of two that lengths of the world were divided by.
     pub(crate) fn length_exponent(&self) -> i32 {
         self.length_exponent

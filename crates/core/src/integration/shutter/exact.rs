@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use super::instants::Instant;
 use super::pace::{Pace, Start};
 use super::panel::{MOMENTS, Panel, Part};
-use super::{Instants, parts};
+use super::{Instants, paint_band};
 use crate::image::Band;
 use crate::integration::tolerance::Room;
 use crate::integration::{Evidence, Exact, Integrator, Pixel, Status, Work};
@@ -74,7 +74,7 @@ impl<'scene> ExactOverTime<'scene> {
         let brightest = world.ambient.max_element() + lights.sum::<f64>();
         let contrast = brightest.max(world.background.max_element()).max(1.0);
         let (view, motion) = (&instants.view, instants.motion.as_ref());
-        let pace = Pace::new(world.spheres(), view, motion, tolerance / contrast);
+        let pace = Pace::new(world, view, motion, tolerance / contrast);
         Self {
             world,
             instants,
@@ -316,20 +316,39 @@ impl<C: Radiance> Integrator<C> for ExactOverTime<'_> {
         room: &mut Room,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        let mut work = Work::default();
-        for part in parts(band.area) {
-            let (pixels, cost) = self.pixels::<C>(part, room, progress)?;
-            work += cost;
-            let mut pixels = &pixels[..];
-            for tile in part.tiles() {
-                let (of_tile, rest) = pixels.split_at(tile.count() as usize);
-                band.write(tile, of_tile);
-                pixels = rest;
-                if progress(tile.count()).is_break() {
-                    return Err(Cancelled);
-                }
-            }
+        paint_band(band, progress, |part| {
+            self.pixels::<C>(part, room, progress)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::pace::Start;
+    use super::*;
+
+    #[test]
+    fn what_is_claimed_is_of_area_and_of_time() {
+        let panel = Panel { level: 0, index: 0 };
+        let start = Start {
+            level: 0,
+            missed: 2e-4,
+            is_paced: true,
+        };
+        for (is_paced, expected) in [(true, Status::Met), (false, Status::OutOfBudget)] {
+            let mut sum = Sum::<f64>::new(Start { is_paced, ..start }, 1.5);
+            let pixel = Pixel {
+                value: 0.5,
+                alpha: 1.0,
+                error: 1e-4,
+                evidence: Evidence::Estimate,
+                status: Status::Met,
+            };
+            sum.add(Part::new(panel, &[pixel; MOMENTS]));
+            sum.halve(1e-3, |panel| panic!("{panel:?} is not needed"));
+            let found = sum.pixel(1e-3);
+            assert_eq!((found.value, found.status), (0.5, expected));
+            assert!((found.error - 4e-4).abs() < 1e-15, "{:e}", found.error);
         }
-        Ok(work)
     }
 }

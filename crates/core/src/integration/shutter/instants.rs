@@ -1,5 +1,6 @@
 //! What a moving camera sees at single moments.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
 use crate::exposure::view_at;
@@ -15,8 +16,7 @@ pub(super) struct Instant<'world> {
 
 /// What is seen at the moments at which pixels are looked at, found out when it is first needed.
 ///
-/// What fits into the memory that is given to it is found out once for a picture; the rest again for
-/// each row of tiles.
+/// As much as there is memory for is kept; the rest is found out again for each row of tiles.
 #[derive(Debug)]
 pub(crate) struct Instants<'world> {
     pub(super) visibility: &'world Visibility<'world>,
@@ -24,10 +24,12 @@ pub(crate) struct Instants<'world> {
     pub(super) motion: Arc<dyn Motion + 'world>,
     method: Method,
     kept: Vec<OnceLock<Vec<Instant<'world>>>>,
+    /// The memory that these take, in bytes.
+    bytes: AtomicUsize,
 }
 
 /// The memory for what is kept, in bytes.
-const ROOM: usize = 1 << 28;
+const ROOM: usize = 1 << 29;
 
 /// No more groups of moments are kept.
 const MOST_KEPT: usize = 1 << 12;
@@ -40,19 +42,13 @@ impl<'world> Instants<'world> {
         motion: Arc<dyn Motion + 'world>,
         method: Method,
     ) -> Self {
-        /// About as many bytes as a sphere takes, and a tile.
-        const SPHERE: usize = 100;
-        const TILE: usize = 16;
-        let tiles =
-            view.width.div_ceil(Tile::SIDE) as usize * view.height.div_ceil(Tile::SIDE) as usize;
-        let bytes = SPHERE * visibility.spheres().len() + TILE * tiles + 1;
-        let kept = (ROOM / (bytes * GROUP)).min(MOST_KEPT);
         Self {
             visibility,
             view: *view,
             motion,
             method,
-            kept: (0..kept).map(|_| OnceLock::new()).collect(),
+            kept: (0..MOST_KEPT).map(|_| OnceLock::new()).collect(),
+            bytes: AtomicUsize::new(0),
         }
     }
 
@@ -72,7 +68,13 @@ impl<'world> Instants<'world> {
         }
         // Nobody waits for another thread here: that may wait for this one, which takes parts of its work.
         let instants = prepare();
-        act(kept.get_or_init(|| instants))
+        let bytes = instants.iter().map(|instant| instant.seen.bytes()).sum();
+        let there_were = self.bytes.fetch_add(bytes, Ordering::Relaxed);
+        if there_were + bytes <= ROOM && kept.get().is_none() {
+            return act(kept.get_or_init(|| instants));
+        }
+        self.bytes.fetch_sub(bytes, Ordering::Relaxed);
+        act(&instants)
     }
 
     fn at(&self, time: f64) -> Instant<'world> {

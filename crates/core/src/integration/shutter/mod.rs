@@ -10,7 +10,11 @@ pub(crate) use exact::ExactOverTime;
 pub(crate) use instants::Instants;
 pub(crate) use sampled::SampledOverTime;
 
-use crate::Tile;
+use std::ops::ControlFlow;
+
+use super::{Pixel, Work};
+use crate::image::Band;
+use crate::{Cancelled, Radiance, Tile};
 
 /// Columns that are worked on together: what is seen at a moment may have to be found out for each
 /// of these anew.
@@ -25,6 +29,29 @@ fn parts(area: Tile) -> impl Iterator<Item = Tile> {
         ..area
     };
     (area.col..end).step_by(COLUMNS as usize).map(part)
+}
+
+/// Writes a band, of whose parts `pixels` finds the pixels, tile by tile.
+fn paint_band<C: Radiance>(
+    band: &mut Band<'_>,
+    progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    mut pixels: impl FnMut(Tile) -> Result<(Vec<Pixel<C>>, Work), Cancelled>,
+) -> Result<Work, Cancelled> {
+    let mut work = Work::default();
+    for part in parts(band.area) {
+        let (pixels, cost) = pixels(part)?;
+        work += cost;
+        let mut pixels = &pixels[..];
+        for tile in part.tiles() {
+            let (of_tile, rest) = pixels.split_at(tile.count() as usize);
+            band.write(tile, of_tile);
+            pixels = rest;
+            if progress(tile.count()).is_break() {
+                return Err(Cancelled);
+            }
+        }
+    }
+    Ok(work)
 }
 
 #[cfg(test)]

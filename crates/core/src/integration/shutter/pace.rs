@@ -2,16 +2,17 @@
 //!
 //! What crosses a pixel between two moments is missed. So no moments are farther apart than what is
 //! seen near a pixel moves by less than a part of one. The world stands still and the camera moves:
-//! what is seen, edges of shadows too, moves as the surfaces do on which it is.
+//! what is seen, edges of shadows too, moves as the surfaces do on which it is; but highlights do as
+//! mirror images behind them.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{DVec2, DVec3};
-use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::panel::{DEEPEST, FASTEST, LONGEST_GAP};
 use crate::exposure::{HALVES, view_at};
-use crate::{Motion, Ray, Sphere, View};
+use crate::{Motion, Ray, Sphere, View, World};
 
 /// How a pixel begins.
 #[derive(Clone, Copy, Debug)]
@@ -43,13 +44,8 @@ const MOMENTS: usize = HALVES[0].len();
 const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
 impl Pace {
-    /// For a picture of these spheres to a tolerance, which is a part of the largest difference of light.
-    pub(super) fn new(
-        spheres: &[Sphere],
-        view: &View,
-        motion: &dyn Motion,
-        tolerance: f64,
-    ) -> Self {
+    /// For a picture of a world to a tolerance, which is a part of the largest difference of light.
+    pub(super) fn new(world: &World, view: &View, motion: &dyn Motion, tolerance: f64) -> Self {
         let side = view.width.max(view.height).div_ceil(MOST_CELLS).max(8);
         let (columns, rows) = (view.width.div_ceil(side), view.height.div_ceil(side));
         let ways = (0..columns * rows).map(|_| AtomicU64::new(0));
@@ -59,9 +55,14 @@ impl Pace {
             ways: ways.collect(),
         };
         let halves = HALVES.map(|times| times.map(|time| view_at(view, motion, time)));
-        spheres.par_iter().for_each(|sphere| {
+        let spheres = world.spheres().par_iter().enumerate();
+        spheres.for_each(|(index, sphere)| {
+            let body = Body {
+                sphere,
+                is_shiny: world.material(index).highlight.is_some(),
+            };
             for views in &halves {
-                sweep.add(sphere, views);
+                sweep.add(&body, views);
             }
         });
         let lowest = u32::from(!motion.is_smooth());
@@ -126,9 +127,16 @@ struct Sweep {
     ways: Vec<AtomicU64>,
 }
 
+/// A sphere, and whether it has a highlight.
+struct Body<'world> {
+    sphere: &'world Sphere,
+    is_shiny: bool,
+}
+
 impl Sweep {
     /// Adds what a sphere does in half of the time.
-    fn add(&self, sphere: &Sphere, views: &[View; MOMENTS]) {
+    fn add(&self, body: &Body<'_>, views: &[View; MOMENTS]) {
+        let sphere = body.sphere;
         let outside = views.iter().map(|view| outside(sphere, view));
         if outside.fold(!0, |all, outside| all & outside) != 0 {
             return;
@@ -141,7 +149,7 @@ impl Sweep {
                 // It may come from anywhere.
                 let size = DVec2::new(f64::from(view.width), f64::from(view.height));
                 for moment in 0..MOMENTS {
-                    self.add_within((DVec2::ZERO, size), sphere, views, moment);
+                    self.add_within((DVec2::ZERO, size), body, views, moment);
                 }
                 return;
             };
@@ -156,7 +164,7 @@ impl Sweep {
         if let Some((low, high)) = around {
             // Between moments the way is not straight.
             let margin = 1.0 + 0.25 * step;
-            self.add_within((low - margin, high + margin), sphere, views, MOMENTS / 2);
+            self.add_within((low - margin, high + margin), body, views, MOMENTS / 2);
         }
     }
 
@@ -164,7 +172,7 @@ impl Sweep {
     fn add_within(
         &self,
         (low, high): (DVec2, DVec2),
-        sphere: &Sphere,
+        body: &Body<'_>,
         views: &[View; MOMENTS],
         moment: usize,
     ) {
@@ -180,7 +188,7 @@ impl Sweep {
         for row in first.y as u32..=(last.y as u32).min(rows - 1) {
             for column in first.x as u32..=(last.x as u32).min(self.columns - 1) {
                 let middle = (DVec2::new(f64::from(column), f64::from(row)) + 0.5) * side;
-                let Some(travel) = self.travel(sphere, views, (view, middle)) else {
+                let Some(travel) = self.travel(body, views, (view, middle)) else {
                     continue;
                 };
                 let way = if travel.is_finite() {
@@ -196,9 +204,12 @@ impl Sweep {
 
     /// How far in pixels that point of a sphere travels in half of the time that a cell around `middle`
     /// sees, or that comes nearest to it; nothing where it does not come near.
+    ///
+    /// A highlight is a mirror image of a light that is far away: it moves as something does that lies
+    /// up to half of the radius behind the surface, farther where the surface turns away.
     fn travel(
         &self,
-        sphere: &Sphere,
+        body: &Body<'_>,
         views: &[View; MOMENTS],
         (view, middle): (&View, DVec2),
     ) -> Option<f64> {
@@ -207,14 +218,15 @@ impl Sweep {
         let on_retina = DVec2::new(from_middle.x, -from_middle.y) + view.lens.shift;
         let Ray { origin, direction } = view.ray(on_retina);
         let direction = direction.normalize();
+        let sphere = body.sphere;
         let from_center = origin - sphere.center();
         let nearest = -from_center.dot(direction);
         let aside = from_center + direction * nearest;
         let distance = aside.length();
         let radius = sphere.radius();
         let is_hit = distance <= radius;
+        let half = ((radius - distance) * (radius + distance)).max(0.0).sqrt();
         let point = if is_hit {
-            let half = ((radius - distance) * (radius + distance)).sqrt();
             let t = if nearest > half {
                 nearest - half
             } else {
@@ -229,15 +241,22 @@ impl Sweep {
         } else {
             return None;
         };
+        /// Of the cosine of the angle at which a surface is seen: nearer to its outline images are
+        /// lines.
+        const LEAST_COSINE: f64 = 0.1;
+        let depth = 0.5 * radius * radius / half.max(LEAST_COSINE * radius);
+        let image = body.is_shiny.then(|| point + direction * depth);
         let mut longest: f64 = 0.0;
-        let mut before = None;
-        for view in views {
-            let Some(place) = view.project(point) else {
-                return Some(f64::INFINITY);
-            };
-            let step = before.map_or(0.0, |before: DVec2| (place - before).length());
-            longest = longest.max(step);
-            before = Some(place);
+        for point in [Some(point), image].into_iter().flatten() {
+            let mut before = None;
+            for view in views {
+                let Some(place) = view.project(point) else {
+                    return Some(f64::INFINITY);
+                };
+                let step = before.map_or(0.0, |before: DVec2| (place - before).length());
+                longest = longest.max(step);
+                before = Some(place);
+            }
         }
         let travel = longest * (MOMENTS - 1) as f64;
         if !is_hit {
@@ -301,3 +320,74 @@ fn in_camera(sphere: &Sphere, view: &View) -> DVec3 {
 }
 
 const _: () = assert!(FASTEST < DEEPEST && DEEPEST < 32);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Angle, Camera, Highlight, Lens, Material, Pose};
+
+    /// A camera that goes around a point which it looks at, by so many degrees.
+    #[derive(Debug)]
+    struct Around(f64);
+
+    impl Motion for Around {
+        fn pose(&self, time: f64) -> Option<Pose> {
+            let pan = Angle::from_degrees(self.0 * time);
+            let ahead = Camera::free(DVec3::ZERO, pan, Angle::ZERO, Angle::ZERO);
+            let position = ahead.world_from_camera * DVec3::new(0.0, 0.0, -10.0);
+            Some(Pose {
+                camera: Camera { position, ..ahead },
+                zoom: 1.0,
+            })
+        }
+
+        fn is_smooth(&self) -> bool {
+            true
+        }
+    }
+
+    /// In the middle of the picture the surface stands still, and what is behind it does not.
+    #[test]
+    fn highlights_move_unlike_the_surface() {
+        let motion = Around(6.0);
+        let view = View {
+            camera: motion.pose(0.0).unwrap().camera,
+            lens: Lens {
+                width: 1.0,
+                distance: 1.0,
+                shift: DVec2::ZERO,
+            },
+            zoom: 1.0,
+            width: 320,
+            height: 240,
+            frame: 1,
+        };
+        let missed = [None, Some(0.5)].map(|strength| {
+            let mut world = World::new();
+            let material = world.add_material(Material {
+                highlight: strength.map(|strength| Highlight {
+                    strength,
+                    shininess: 20.0,
+                }),
+                ..Material::MATTE_WHITE
+            });
+            let sphere = Sphere::new(DVec3::new(0.0, 0.0, 40.0), 40.0);
+            world.add_sphere(sphere.unwrap(), material);
+            let pace = Pace::new(&world, &view, &motion, 1e-3);
+            pace.start(160, 120).level
+        });
+        assert!(missed[1] > missed[0] + 1, "{missed:?}");
+    }
+
+    #[test]
+    fn panels_are_as_short_as_they_have_to_be() {
+        for (way, lowest) in [(0.0, 0), (0.4, 0), (7.0, 0), (7.0, 1), (30.0, 0), (30.0, 1)] {
+            let start = Start::new(way, 1e-3, lowest);
+            assert!(start.is_paced && start.missed <= 0.25e-3);
+            let is_least = start.level == lowest || missed(way, start.level - 1) > 0.25e-3;
+            assert!(start.level >= lowest && is_least, "{start:?}");
+        }
+        let lost = Start::new(1e5, 1e-3, 0);
+        assert!(!lost.is_paced && lost.missed == 1.0);
+    }
+}

@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 
 use super::instants::{GROUP, Instant};
-use super::{Instants, parts};
+use super::{Instants, paint_band};
 use crate::image::Band;
 use crate::integration::{Evidence, Integrator, Pixel, Status, Supersampling, Work};
 use crate::{Cancelled, Radiance, Tile, World};
@@ -154,20 +154,6 @@ impl<C: Radiance> Integrator<C> for SampledOverTime<'_> {
         (): &mut (),
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        let mut work = Work::default();
-        for part in parts(band.area) {
-            let (pixels, cost) = self.pixels::<C>(part, progress)?;
-            work += cost;
-            let mut pixels = &pixels[..];
-            for tile in part.tiles() {
-                let (of_tile, rest) = pixels.split_at(tile.count() as usize);
-                band.write(tile, of_tile);
-                pixels = rest;
-                if progress(tile.count()).is_break() {
-                    return Err(Cancelled);
-                }
-            }
-        }
-        Ok(work)
+        paint_band(band, progress, |part| self.pixels::<C>(part, progress))
     }
 }
