@@ -40,6 +40,9 @@ const MOST_CELLS: u32 = 64;
 /// Moments of half of the time, from its start to its end: a jump between the halves moves nothing.
 const MOMENTS: usize = HALVES[0].len();
 
+/// What may be missed, of the tolerance.
+const SHARE: f64 = 0.4;
+
 /// A sphere this much nearer than its radius to the eye's plane may be seen anywhere.
 const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
@@ -86,8 +89,6 @@ impl Start {
     /// With panels so short that nothing is missed that matters, where something goes a way of so many
     /// pixels in the whole time.
     fn new(way: f64, tolerance: f64, lowest: u32) -> Self {
-        /// What may be missed, of the tolerance.
-        const SHARE: f64 = 0.25;
         let mut level = lowest;
         while level < FASTEST && missed(way, level) > SHARE * tolerance {
             level += 1;
@@ -383,8 +384,8 @@ mod tests {
     fn panels_are_as_short_as_they_have_to_be() {
         for (way, lowest) in [(0.0, 0), (0.4, 0), (7.0, 0), (7.0, 1), (30.0, 0), (30.0, 1)] {
             let start = Start::new(way, 1e-3, lowest);
-            assert!(start.is_paced && start.missed <= 0.25e-3);
-            let is_least = start.level == lowest || missed(way, start.level - 1) > 0.25e-3;
+            assert!(start.is_paced && start.missed <= SHARE * 1e-3);
+            let is_least = start.level == lowest || missed(way, start.level - 1) > SHARE * 1e-3;
             assert!(start.level >= lowest && is_least, "{start:?}");
         }
         let lost = Start::new(1e5, 1e-3, 0);
