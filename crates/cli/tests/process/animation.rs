@@ -105,6 +105,12 @@ fn frames_are_chosen_as_for_files() {
     let ball = decode(&folder.path("ball.apng"));
     assert_eq!(ball.animation, Some((1, 0, (1, 24))));
 
+    // The rate that is asked for comes before the scene's.
+    let output = folder.run("render turn.ron -o fast.apng --fps 12.5 --frames 1-2 --size 9x9");
+    assert_eq!(code(&output), 0);
+    let fast = decode(&folder.path("fast.apng"));
+    assert_eq!(fast.animation, Some((2, 0, (2, 25))));
+
     let output = folder.run("render turn.ron -o turn.##.apng");
     assert_eq!(code(&output), 2);
     assert_eq!(

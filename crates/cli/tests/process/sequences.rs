@@ -5,6 +5,8 @@ use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use exr::meta::MetaData;
+
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
 use crate::signals::wait_until;
 
@@ -149,6 +151,14 @@ fn another_rate_matters_where_files_tell_it() {
         let lines = text(&output.stdout);
         assert_eq!(lines.matches("skipped").count(), expected, "{lines}");
     }
+    let told = |more: &str| {
+        let render = format!("render turn.ron -o told.exr --frames 1 --size 9x9 {more}");
+        assert_eq!(code(&folder.run(&render)), 0);
+        let meta = MetaData::read_from_file(folder.path("told.exr"), true).unwrap();
+        meta.headers[0].own_attributes.frames_per_second
+    };
+    assert_eq!(told(""), Some((24, 1)));
+    assert_eq!(told("--fps 29.97"), Some((30_000, 1001)));
     for refused in ["0", "-1", "NaN", "fast"] {
         let output = folder.run(&format!("render turn.ron --fps={refused}"));
         assert_eq!(code(&output), 2, "{refused}");
