@@ -161,6 +161,11 @@ fn without_all_frames_there_is_no_loop() {
     assert_eq!(text(&output.stdout), "");
     let errors = text(&output.stderr);
     assert!(errors.contains("marbles: frame 3: "), "{errors}");
+    // What comes after it is not rendered for nothing.
+    for frame in [4, 5] {
+        let line = format!("frame {frame}: ");
+        assert!(!errors.contains(&line), "{errors}");
+    }
     assert!(
         errors.ends_with("marbles: 0 of 5 frames written, failed: 3\n"),
         "{errors}"
