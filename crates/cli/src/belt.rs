@@ -157,7 +157,9 @@ fn wait<'state>(change: &Condvar, state: MutexGuard<'state, State>) -> MutexGuar
 
 #[cfg(test)]
 mod tests {
+    use std::sync::mpsc::channel;
     use std::thread;
+    use std::time::Duration;
 
     use super::*;
 
@@ -206,26 +208,42 @@ mod tests {
 
     #[test]
     fn pieces_that_nobody_wants_make_room() {
+        /// Far longer than it should take.
+        const PATIENCE: Duration = Duration::from_secs(60);
         let belt = Belt::new(3);
         put(&belt, 0);
         let (late, _) = belt.admit(1).unwrap();
         let (never, _) = belt.admit(2).unwrap();
         thread::scope(|scope| {
-            let waiting = scope.spawn(|| {
-                let (place, spent) = belt.admit(7).unwrap();
-                place.put(piece(7));
-                spent
+            let (sender, admitted) = channel();
+            let belt = &belt;
+            scope.spawn(move || {
+                sender.send(Vec::new()).unwrap();
+                if let Some((place, spent)) = belt.admit(7) {
+                    place.put(piece(7));
+                    sender.send(spent).unwrap();
+                }
             });
+            // It has begun, and waits soon.
+            admitted.recv().unwrap();
+            thread::sleep(Duration::from_millis(50));
             belt.skip_to(5);
-            assert_eq!(waiting.join().unwrap(), [0]);
+            let admitted = admitted.recv_timeout(PATIENCE);
+            if admitted.is_err() {
+                // So that the test ends.
+                belt.close();
+            }
+            assert_eq!(admitted.unwrap(), [0]);
         });
         // What is unwanted does no harm, whether it comes or not.
         late.put(piece(1));
+        assert_eq!(belt.lock().spent, [[1]]);
         drop(never);
         assert!(belt.admit(4).is_none());
         put(&belt, 5);
         put(&belt, 6);
         belt.skip_to(2);
+        assert_eq!(belt.lock().taken, 5);
         for number in 5..=7 {
             assert_eq!(bytes(belt.take()), Some(vec![number]));
         }
@@ -239,7 +257,10 @@ mod tests {
         let (second, _) = belt.admit(1).unwrap();
         thread::scope(|scope| {
             let waiting = scope.spawn(|| belt.admit(7).is_none());
+            let closing = belt.closing();
             drop(second);
+            assert!(belt.is_closed());
+            std::mem::forget(closing);
             assert!(waiting.join().unwrap());
         });
         assert_eq!(bytes(belt.take()), Some(vec![0]));

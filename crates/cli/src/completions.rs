@@ -25,9 +25,13 @@ mod tests {
 
     #[test]
     fn every_shell_learns_every_command_and_option() {
+        let mut scripts = Vec::new();
         for shell in Shell::value_variants() {
             let (code, script, err) = run_here(&["completions", &shell.to_string()]);
             assert_eq!((code, &*err), (0, ""));
+            // Each in its own language.
+            assert!(!scripts.contains(&script), "{shell}");
+            scripts.push(script.clone());
             // Fish leaves the dashes out.
             for word in ["marbles", "render", "compare", "error-channel", "tolerance"] {
                 assert!(script.contains(word), "{shell}: {word}");

@@ -254,7 +254,10 @@ mod tests {
         second.end();
         std::thread::scope(|scope| {
             let waiting = scope.spawn(|| film.begin(2).is_none());
+            let closing = belt.closing();
             drop(first);
+            assert!(belt.is_closed());
+            std::mem::forget(closing);
             assert!(waiting.join().unwrap());
         });
         assert!(belt.take().is_none());

@@ -43,12 +43,18 @@ struct Page {
     end: String,
 }
 
-/// All pages, that of marbles first.
+/// All pages, that of marbles first, and those of commands before those of their commands.
 fn pages() -> Vec<Page> {
     let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
-    let commands: Vec<Command> = command.get_subcommands().cloned().collect();
-    std::iter::once(command).chain(commands).map(page).collect()
+    let mut commands = vec![command];
+    let mut index = 0;
+    while let Some(command) = commands.get(index) {
+        let its: Vec<Command> = command.get_subcommands().cloned().collect();
+        commands.extend(its);
+        index += 1;
+    }
+    commands.into_iter().map(page).collect()
 }
 
 fn page(command: Command) -> Page {
@@ -110,6 +116,8 @@ mod tests {
                 assert!(page.contains(&option), "{name} {option}");
             }
         }
+        let (_, page, _) = run_here(&["man", "farm-slurm"]);
+        assert!(page.replace("\\-", "-").contains("--chunk"), "{page}");
         let (_, page, _) = run_here(&["man", "render"]);
         let example = ".SH EXAMPLES\n.nf\n  marbles render ball.ron   ";
         assert!(page.contains(example), "{page}");
@@ -123,6 +131,27 @@ mod tests {
             page.replace("\\-", "-").contains("marbles-render(1)"),
             "{page}"
         );
+    }
+
+    #[test]
+    fn pages_name_no_page_that_is_not_there() {
+        let mut seen = 0;
+        for page in pages() {
+            let name = page.man.get_filename();
+            let command = name.strip_suffix(".1").unwrap();
+            let command = command.strip_prefix("marbles").unwrap();
+            let command = command.strip_prefix('-');
+            let (_, text, _) = run_here(&[&["man"], command.as_slice()].concat());
+            let text = text.replace("\\-", "-");
+            let start = format!(".TH {} 1 ", name.trim_end_matches(".1"));
+            assert!(text.contains(&start), "{name}");
+            for other in text.lines().filter_map(|line| line.strip_suffix("(1)")) {
+                let other = other.strip_prefix("marbles-").unwrap();
+                assert_eq!(run_here(&["man", other]).0, 0, "{name} names {other}");
+                seen += 1;
+            }
+        }
+        assert_eq!(seen + 1, pages().len());
     }
 
     #[test]
@@ -140,7 +169,7 @@ mod tests {
         assert_eq!((code, &*err), (0, ""));
         let pages = fs::read_dir(&folder).unwrap().count();
         fs::remove_dir_all(&folder).unwrap();
-        assert_eq!(pages, 1 + Arguments::command().get_subcommands().count());
+        assert_eq!(pages, super::pages().len());
         assert_eq!(out.lines().count(), pages);
     }
 }

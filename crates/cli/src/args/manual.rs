@@ -28,7 +28,8 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = MAN_EXAMPLES)]
 pub(crate) struct ManArguments {
-    /// Command that the page is about [default: the page of marbles, which names them all]
+    /// Command that the page is about, farm-slurm for `marbles farm slurm` [default: the page of
+    /// marbles, which names them all]
     pub(crate) command: Option<String>,
 
     /// Write the pages of marbles and of all its commands into this folder

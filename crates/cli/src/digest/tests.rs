@@ -108,6 +108,53 @@ fn whatever_changes_a_picture_changes_its_digest() {
 }
 
 #[test]
+fn what_the_camera_does_around_the_frame_counts() {
+    let digest = |tilts: [f64; 2], zooms: [f64; 2]| {
+        let keys = format!(
+            "(frame: 1, tilt: {}, zoom: {}, ease: Linear), (frame: 3, tilt: {}, zoom: {})",
+            tilts[0], zooms[0], tilts[1], zooms[1]
+        );
+        let scene = SCENE
+            .replace("(frame: 1, tilt: 0), (frame: 9, tilt: 5)", &keys)
+            .replace("fps: 24", "fps: 24, shutter: 0.5");
+        let view = Scene::parse(&scene, Path::new("a.ron")).unwrap();
+        let view = view.view(2).unwrap();
+        (view, digest(&scene, &SETTINGS, PNG, 2))
+    };
+    // The same in the middle of the frame.
+    let (view, reference) = digest([0.0, 4.0], [1.0, 2.0]);
+    for (tilts, zooms) in [([1.0, 3.0], [1.0, 2.0]), ([0.0, 4.0], [0.5, 2.5])] {
+        let (same_view, other) = digest(tilts, zooms);
+        assert_eq!(same_view, view);
+        assert_ne!(other, reference, "{tilts:?} {zooms:?}");
+    }
+}
+
+#[test]
+fn frames_that_are_seen_from_the_same_place_differ() {
+    let scene = |animation: &str| {
+        let (start, _) = SCENE.split_once("    animation").unwrap();
+        let start = start.replace(
+            "Free(position: (0, 1, 2), pan: 3)",
+            "Orbit(target: (0, 0, 400), radius: 400)",
+        );
+        format!("{start}    animation: {animation},\n)")
+    };
+    let digest = |scene: &str, frame| digest(scene, &SETTINGS, PNG, frame);
+    // A turn later it is the same picture, and an EXR tells another number.
+    let once = scene("Turntable(frames: 9)");
+    assert_ne!(digest(&once, 1), digest(&once, 10));
+    // In the middle of a loop of two turns grains of pixels are other ones than at the start.
+    let twice = scene("Turntable(frames: 18, turns: 2)");
+    let [one, two] = [&once, &twice].map(|scene| {
+        let scene = Scene::parse(scene, Path::new("a.ron")).unwrap();
+        scene.view(10).unwrap()
+    });
+    assert_eq!((one.camera, one.frame, two.frame), (two.camera, 1, 10));
+    assert_ne!(digest(&once, 10), digest(&twice, 10));
+}
+
+#[test]
 fn how_a_scene_is_written_does_not_matter() {
     let reference = digest(SCENE, &SETTINGS, PNG, 2);
     for (old, new) in [

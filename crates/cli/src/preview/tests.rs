@@ -66,6 +66,25 @@ fn without_a_terminal_the_picture_is_a_text() {
 }
 
 #[test]
+fn the_frame_that_is_asked_for_is_shown() {
+    let name = format!("marbles-{}-preview-frames.ron", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let away = "camera: Free(),
+    animation: Keyframes(frames: (1, 2), keys: [(frame: 1, pan: 0), (frame: 2, pan: 180)])";
+    fs::write(&path, SCENE.replace("camera: Free()", away)).unwrap();
+    let scene = path.to_str().unwrap();
+    let shown = |more: &[&str]| {
+        let (code, out, err) = run_here(&[&["preview", scene], more].concat());
+        assert_eq!((code, &*err), (0, ""));
+        out
+    };
+    let [first, second] = ["1", "2"].map(|frame| shown(&["--frame", frame]));
+    assert_eq!(shown(&[]), first);
+    assert_ne!(first, second);
+    fs::remove_file(path).unwrap();
+}
+
+#[test]
 fn pixels_are_those_of_a_file() {
     let folder = std::env::temp_dir().join(format!("marbles-{}-preview", std::process::id()));
     fs::create_dir_all(&folder).unwrap();

@@ -259,6 +259,18 @@ mod tests {
         assert_eq!(events.collect::<Vec<Value>>(), expected);
     }
 
+    /// Parts of pictures may be rendered from more pixels than they have.
+    #[test]
+    fn nothing_is_more_than_done() {
+        let out = Text::default();
+        let console = Console::to(out.clone(), Text::default());
+        let lines = Lines::new(&console, Reader::OpenJd, 1);
+        lines.begin(50);
+        lines.advance(60);
+        lines.advance(60);
+        assert_eq!(out.read(), "openjd_progress: 100\n");
+    }
+
     #[test]
     fn frames_that_are_all_left_out_are_done() {
         let out = Text::default();

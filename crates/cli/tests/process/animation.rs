@@ -105,6 +105,12 @@ fn frames_are_chosen_as_for_files() {
     let ball = decode(&folder.path("ball.apng"));
     assert_eq!(ball.animation, Some((1, 0, (1, 24))));
 
+    // The rate that is asked for comes before the scene's.
+    let output = folder.run("render turn.ron -o fast.apng --fps 12.5 --frames 1-2 --size 9x9");
+    assert_eq!(code(&output), 0);
+    let fast = decode(&folder.path("fast.apng"));
+    assert_eq!(fast.animation, Some((2, 0, (2, 25))));
+
     let output = folder.run("render turn.ron -o turn.##.apng");
     assert_eq!(code(&output), 2);
     assert_eq!(
@@ -155,6 +161,11 @@ fn without_all_frames_there_is_no_loop() {
     assert_eq!(text(&output.stdout), "");
     let errors = text(&output.stderr);
     assert!(errors.contains("marbles: frame 3: "), "{errors}");
+    // What comes after it is not rendered for nothing.
+    for frame in [4, 5] {
+        let line = format!("frame {frame}: ");
+        assert!(!errors.contains(&line), "{errors}");
+    }
     assert!(
         errors.ends_with("marbles: 0 of 5 frames written, failed: 3\n"),
         "{errors}"

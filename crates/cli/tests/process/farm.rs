@@ -69,8 +69,17 @@ fn every_task_of_an_array_renders_its_frames() {
     assert_eq!((code(&output), lines(&output.stderr)), (0, vec![]));
 
     let script = text(&folder.read("job.sh"));
-    assert!(script.contains("\n#SBATCH --array=0-2\n"), "{script}");
-    assert!(script.contains("\n#SBATCH --requeue\n"), "{script}");
+    for option in [
+        "--array=0-2",
+        "--requeue",
+        // A task that is queued again goes on with its log.
+        "--open-mode=append",
+        // To the shell, in time for the renderer to end.
+        "--signal=B:USR1@60",
+    ] {
+        let directive = format!("\n#SBATCH {option}\n");
+        assert!(script.contains(&directive), "{script}");
+    }
     let name = script.lines().find(|line| line.contains("--job-name"));
     let plain = |letter: char| letter.is_ascii_alphanumeric() || "#-=_. ".contains(letter);
     assert!(name.unwrap().chars().all(plain), "{name:?}");
@@ -121,6 +130,19 @@ fn what_is_asked_for_comes_before_what_slurm_says() {
 }
 
 #[test]
+fn words_without_spaces_are_quoted_as_well() {
+    let folder = Folder::new();
+    program(&folder, "marbles", ECHO);
+    for name in ["$HOME.png", "`id`.png", "a;b&c.png", "*.png", "it's.png"] {
+        let output = farm(&folder, "slurm ball.ron --job job.sh -o", &[name]);
+        assert_eq!((code(&output), lines(&output.stderr)), (0, vec![]));
+        let output = task(&folder, 0, &[]).output().unwrap();
+        let expected = format!("--output={}", folder.path(name).display());
+        assert_eq!(lines(&output.stdout)[5], expected);
+    }
+}
+
+#[test]
 fn scripts_end_as_the_renderer_does() {
     let folder = Folder::new();
     program(&folder, "marbles", "#!/bin/sh\nexit 1\n");
@@ -145,6 +167,7 @@ fn tasks_are_queued_again_at_the_time_limit() {
         ("USR1", "2", "requeue 7_1\n"),
         ("USR1", "3", ""),
         ("TERM", "0", ""),
+        ("INT", "0", ""),
     ] {
         let _ = fs::remove_file(folder.path("started"));
         let child = task(&folder, 1, &[("SLURM_RESTART_COUNT", restarts)])
@@ -156,6 +179,27 @@ fn tasks_are_queued_again_at_the_time_limit() {
         assert_eq!(code(&output), 130, "{signal}");
         assert_eq!(text(&output.stdout), requeued, "{signal} {restarts}");
     }
+}
+
+/// A renderer that does not listen to signals yet is ended by them.
+#[test]
+fn tasks_are_queued_again_though_the_renderer_has_just_started() {
+    let folder = Folder::new();
+    let deaf = ENDLESS.replace("trap 'exit 130' TERM\n", "");
+    program(&folder, "marbles", &deaf);
+    program(&folder, "scontrol", "#!/bin/sh\necho \"$@\"\n");
+    let output = farm(&folder, "slurm ball.ron -o a.png --job job.sh", &[]);
+    assert_eq!(code(&output), 0);
+    let child = task(&folder, 0, &[])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    let output = ended_by("USR1", child, &folder);
+    assert_eq!(
+        (code(&output), text(&output.stdout)),
+        (143, "requeue 7_0\n".to_owned())
+    );
 }
 
 /// What a task says that gets a signal as soon as it renders.
@@ -207,6 +251,25 @@ fn a_template_hands_words_over_as_they_are() {
         folder.path(&scene).display().to_string(),
     ]);
     assert_eq!(action["args"], expected);
+    // Who is told to end has more time than the renderer promises to need.
+    let cancelation = &action["cancelation"];
+    assert_eq!(cancelation["mode"], "NOTIFY_THEN_TERMINATE");
+    assert!(cancelation["notifyPeriodInSeconds"].as_u64() > Some(1));
+    let name = template["name"].as_str().unwrap();
+    assert!(name.starts_with("marbles-it_s__one"), "{name}");
+}
+
+/// The specification has room for 128 characters.
+#[test]
+fn long_names_are_cut_in_names_of_jobs() {
+    let folder = Folder::new();
+    let scene = format!("{}.ron", "n".repeat(200));
+    fs::write(folder.path(&scene), BALL).unwrap();
+    let output = farm(&folder, "openjd -o a.png", &[&scene]);
+    assert_eq!((code(&output), lines(&output.stderr)), (0, vec![]));
+    let template: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let name = format!("marbles-{}", "n".repeat(120));
+    assert_eq!(template["name"], name);
 }
 
 #[test]

@@ -108,6 +108,26 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
     let last = "marbles: 0 of 3 frames written, 1 skipped, failed: 2\n";
     assert!(errors.ends_with(last), "{errors}");
 
+    // Another reason is told as well, and a frame alone needs no summary.
+    fs::remove_file(folder.path("through.0003.png")).unwrap();
+    fs::create_dir(folder.path("through.0003.png")).unwrap();
+    let output = folder.run("render through.ron");
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    for part in [
+        "marbles: frame 2: ",
+        "marbles: through.0003.png: cannot write the file: there is a folder\n",
+    ] {
+        assert_eq!(errors.matches(part).count(), 1, "{errors}");
+    }
+    let last = "marbles: 1 of 3 frames written, failed: 2-3\n";
+    assert!(errors.ends_with(last), "{errors}");
+    let output = folder.run("render through.ron --frames 2 -o alone.png");
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    assert!(errors.starts_with("marbles: frame 2: "), "{errors}");
+    assert!(!errors.contains(" frames written"), "{errors}");
+
     let output = folder.run("check through.ron");
     assert_eq!(code(&output), 2);
     let errors = text(&output.stderr);
@@ -253,7 +273,21 @@ fn a_tolerance_that_is_not_met_ends_with_1() {
     assert_eq!(code(&missed), 1);
     assert!(!text(&missed.stdout).contains(" 0 over the tolerance"));
     assert!(folder.path("missed.png").exists());
-    assert!(text(&missed.stderr).contains("tolerance"));
+    let errors = text(&missed.stderr);
+    let (_, worst) = errors
+        .split_once(" over the tolerance, the worst in ")
+        .unwrap();
+    let numbers = worst.split(|letter: char| !letter.is_ascii_digit());
+    let numbers: Vec<&str> = numbers.filter(|number| !number.is_empty()).collect();
+    // The same pixel alone is found where it is in the whole picture.
+    let (col, row) = (numbers[0], numbers[1]);
+    assert!((col, row) != ("0", "0"), "{errors}");
+    let region = format!("--region {col},{row},1,1");
+    let render = "render huge.ron --tolerance 1e-3 --size 30x30 -o worst.png";
+    let errors = text(&folder.run(&format!("{render} {region}")).stderr);
+    let expected =
+        format!("worst.png: 1 pixel over the tolerance, the worst in column {col}, row {row} ");
+    assert!(errors.contains(&expected), "{errors}");
     for refused in ["0", "-1", "1e-10", "NaN", "much"] {
         let output = folder.run(&format!("render ball.ron --tolerance={refused}"));
         assert_eq!(code(&output), 2, "{refused}");

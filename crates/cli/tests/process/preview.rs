@@ -14,15 +14,26 @@ struct Terminal {
     script: Child,
     keyboard: ChildStdin,
     shown: Arc<Mutex<Vec<u8>>>,
-    reader: JoinHandle<()>,
+    reader: Option<JoinHandle<()>>,
 }
 
 impl Terminal {
     /// A terminal of this size; `None` where there is no way to have one.
-    fn run(folder: &Folder, (columns, rows): (u32, u32), arguments: &str) -> Option<Self> {
+    fn run(folder: &Folder, size: (u32, u32), arguments: &str) -> Option<Self> {
+        Self::run_beside(folder, size, ":", arguments)
+    }
+
+    /// The same, with something else running on it.
+    fn run_beside(
+        folder: &Folder,
+        (columns, rows): (u32, u32),
+        other: &str,
+        arguments: &str,
+    ) -> Option<Self> {
         let marbles = folder.marbles(arguments);
         let program = marbles.get_program().to_str().unwrap();
-        let command = format!("stty cols {columns} rows {rows} && exec '{program}' {arguments}");
+        let size = format!("stty cols {columns} rows {rows}");
+        let command = format!("{size} && {{ {{ {other}; }} & exec '{program}' {arguments}; }}");
         let script = Command::new("script")
             .args(["-qec", &command, "/dev/null"])
             .current_dir(&folder.0)
@@ -49,7 +60,7 @@ impl Terminal {
             script,
             keyboard,
             shown,
-            reader,
+            reader: Some(reader),
         })
     }
 
@@ -64,9 +75,18 @@ impl Terminal {
 
     fn end(mut self) -> (Option<i32>, String) {
         let code = self.script.wait().unwrap().code();
-        self.reader.join().unwrap();
+        self.reader.take().unwrap().join().unwrap();
         let shown = self.shown.lock().unwrap();
         (code, String::from_utf8_lossy(&shown).into_owned())
+    }
+}
+
+/// A test that fails leaves no process behind.
+impl Drop for Terminal {
+    fn drop(&mut self) {
+        // It may have ended.
+        let _ = self.script.kill();
+        let _ = self.script.wait();
     }
 }
 
@@ -128,4 +148,71 @@ fn what_is_saved_is_shown() {
     let (code, shown) = terminal.end();
     assert_eq!(code, Some(130));
     assert!(shown.ends_with(leave), "{shown:?}");
+}
+
+#[test]
+fn a_terminal_of_another_size_is_filled_again() {
+    let folder = Folder::new();
+    let resize = "until [ -e smaller ]; do sleep 0.05; done; stty -F /dev/tty cols 80 rows 10";
+    let arguments = "preview ball.ron --watch";
+    let Some(mut terminal) = Terminal::run_beside(&folder, (60, 20), resize, arguments) else {
+        return;
+    };
+    wait_until("a picture", || terminal.screens().len() == 1);
+    fs::write(folder.path("smaller"), "").unwrap();
+    wait_until("a smaller one", || terminal.screens().len() == 2);
+    let screens = terminal.screens();
+    let blocks: Vec<usize> = screens.iter().map(|s| s.matches('▀').count()).collect();
+    assert_eq!(blocks, [38 * 19, 18 * 9]);
+    terminal.keyboard.write_all(b"\x03").unwrap();
+    assert_eq!(terminal.end().0, Some(130));
+}
+
+#[test]
+fn tables_are_watched_as_well() {
+    const CLOUD: &str = "(
+    image: (width: 60, height: 60),
+    lens: Fov(40),
+    camera: Free(),
+    lights: [Directional(toward: (-1, 1, -1))],
+    clouds: [(file: \"table.csv\", radius: 1)],
+    animation: Keyframes(frames: (1, 2), keys: [(frame: 1, pan: 180), (frame: 2, pan: 0)]),
+)
+";
+    let folder = Folder::new();
+    fs::write(folder.path("cloud.ron"), CLOUD).unwrap();
+    let save = |row: &str| {
+        fs::write(folder.path("table.csv~"), format!("x,y,z\n{row}\n")).unwrap();
+        fs::rename(folder.path("table.csv~"), folder.path("table.csv")).unwrap();
+    };
+    // It is wrong at first, so that nothing is known of the scene but this table.
+    save("0,0");
+    let arguments = "preview cloud.ron --watch --frame 2";
+    let Some(mut terminal) = Terminal::run(&folder, (60, 20), arguments) else {
+        return;
+    };
+    wait_until("a message", || terminal.screens().len() == 1);
+    save("0,0,5");
+    wait_until("a picture", || terminal.screens().len() == 2);
+    save("0,1,5");
+    wait_until("another picture", || terminal.screens().len() == 3);
+    save("0,0,five");
+    wait_until("another message", || terminal.screens().len() == 4);
+    let screens = terminal.screens();
+    for (index, message) in [(0, "found the end of the line"), (3, "table.csv:2:5:")] {
+        assert!(screens[index].contains(message), "{}", screens[index]);
+    }
+    // Where the camera looks away there is one color.
+    let colors = |screen: &String| screen.matches("\x1b[38;2;").count();
+    assert!(colors(&screens[1]) > 2 * 19, "{}", screens[1]);
+    assert_ne!(screens[1], screens[2]);
+    terminal.keyboard.write_all(b"\x03").unwrap();
+    assert_eq!(terminal.end().0, Some(130));
+
+    // And where it was right from the start.
+    save("0,0,5");
+    let terminal = Terminal::run(&folder, (60, 20), arguments).unwrap();
+    wait_until("a picture", || terminal.screens().len() == 1);
+    save("0,1,5");
+    wait_until("another picture", || terminal.screens().len() == 2);
 }

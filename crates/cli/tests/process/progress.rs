@@ -49,6 +49,37 @@ fn runners_of_open_job_description_read_stdout() {
     }
 }
 
+/// Frames that are there, and frames that fail, are done with.
+#[test]
+fn progress_comes_to_an_end_whatever_becomes_of_frames() {
+    let folder = Folder::new();
+    let animation = "camera: LookAt(position: (0, 0, -2), target: (0, 0, 0)),
+    animation: Keyframes(frames: (1, 4), keys: [
+        (frame: 1, position: (0, 0, -2), ease: Linear), (frame: 3, position: (0, 0, 2)),
+    ])";
+    let through = BALL.replace("camera: Free()", animation);
+    fs::write(folder.path("through.ron"), through).unwrap();
+    let render = "render through.ron -o #.png --size 9x9 --skip-existing --progress=openjd";
+    let output = folder.run(&format!("{render} --frames 1"));
+    assert_eq!(code(&output), 0);
+    let output = folder.run(render);
+    assert_eq!(code(&output), 1);
+    let lines = text(&output.stdout);
+    let percents = lines
+        .lines()
+        .filter_map(|line| line.strip_prefix("openjd_progress: "));
+    let percents: Vec<u32> = percents.map(|percent| percent.parse().unwrap()).collect();
+    assert!(percents.is_sorted_by(|one, next| one < next), "{lines}");
+    assert_eq!((percents[0], percents.last()), (25, Some(&100)), "{lines}");
+    // The frame that was skipped is done, the one that failed is not.
+    let status: Vec<&str> = lines
+        .lines()
+        .filter_map(|line| line.strip_prefix("openjd_status: "))
+        .collect();
+    assert!(status[0].starts_with("frame 3: 2 of 4 done, "), "{lines}");
+    assert!(status[1].starts_with("frame 4: 3 of 4 done, "), "{lines}");
+}
+
 #[test]
 fn programs_read_json_on_stderr() {
     let folder = Folder::new();

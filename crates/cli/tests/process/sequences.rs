@@ -1,9 +1,11 @@
 //! Sequences that are killed, resumed, rendered by several processes, and that fail in the middle.
 
 use std::fs;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
+
+use exr::meta::MetaData;
 
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
 use crate::signals::wait_until;
@@ -149,6 +151,14 @@ fn another_rate_matters_where_files_tell_it() {
         let lines = text(&output.stdout);
         assert_eq!(lines.matches("skipped").count(), expected, "{lines}");
     }
+    let told = |more: &str| {
+        let render = format!("render turn.ron -o told.exr --frames 1 --size 9x9 {more}");
+        assert_eq!(code(&folder.run(&render)), 0);
+        let meta = MetaData::read_from_file(folder.path("told.exr"), true).unwrap();
+        meta.headers[0].own_attributes.frames_per_second
+    };
+    assert_eq!(told(""), Some((24, 1)));
+    assert_eq!(told("--fps 29.97"), Some((30_000, 1001)));
     for refused in ["0", "-1", "NaN", "fast"] {
         let output = folder.run(&format!("render turn.ron --fps={refused}"));
         assert_eq!(code(&output), 2, "{refused}");
@@ -241,6 +251,38 @@ const NOISE: &str = "(
 )
 ";
 
+/// Runs `marbles` where files may have so many blocks, of half a kilobyte or a whole one: asking for
+/// more is an error and not the end.
+#[cfg(unix)]
+fn run_with_small_files(folder: &Folder, blocks: u32, arguments: &str) -> Output {
+    let marbles = folder.marbles(arguments);
+    let limits = format!("trap '' XFSZ; ulimit -f {blocks}; exec \"$@\"");
+    let mut shell = Command::new("sh");
+    let shell = shell.args(["-c", &limits, "sh"]).current_dir(&folder.0);
+    let shell = shell.arg(marbles.get_program()).args(marbles.get_args());
+    shell.output().unwrap()
+}
+
+/// The writer fails long before all is rendered, and the rest is given up.
+#[cfg(unix)]
+#[test]
+fn a_frame_that_is_given_up_does_not_stop_the_others() {
+    let folder = Folder::new();
+    let tall = NOISE
+        .replace("width: 64, height: 64", "width: 256, height: 4096")
+        .replace("radius: 3", "radius: 9");
+    fs::write(folder.path("tall.ron"), tall).unwrap();
+    let render = "render tall.ron -o out/#.png --frames 3-7x2 --samples 4";
+    let output = run_with_small_files(&folder, 100, render);
+    assert_eq!(code(&output), 1);
+    assert_eq!(folder.names("out"), ["3.png", "7.png"]);
+    let errors = text(&output.stderr);
+    let reason = "marbles: out/5.png: cannot write the file: file too large\n";
+    assert!(errors.contains(reason), "{errors}");
+    let last = "marbles: 2 of 3 frames written, failed: 5\n";
+    assert!(errors.ends_with(last), "{errors}");
+}
+
 #[cfg(unix)]
 #[test]
 fn frames_that_cannot_be_written_do_not_stop_the_others() {
@@ -248,15 +290,7 @@ fn frames_that_cannot_be_written_do_not_stop_the_others() {
     fs::write(folder.path("noise.ron"), NOISE).unwrap();
     let run = |out: &str, more: &str| {
         let arguments = format!("render noise.ron -o {out}/#.png --samples 1 {more}");
-        let marbles = folder.marbles(&arguments);
-        // Files of a kilobyte at most; that asking for more is an error and not the end.
-        let output = Command::new("sh")
-            .args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$@\"", "sh"])
-            .arg(marbles.get_program())
-            .args(marbles.get_args())
-            .current_dir(&folder.0)
-            .output()
-            .unwrap();
+        let output = run_with_small_files(&folder, 1, &arguments);
         assert_eq!(code(&output), 1);
         for name in folder.names(out) {
             assert!(is_picture(&name), "{name}");

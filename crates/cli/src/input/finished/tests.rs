@@ -73,3 +73,19 @@ fn an_exr_without_the_places_of_its_blocks_is_not_whole() {
         }
     }
 }
+
+#[test]
+fn an_exr_whose_blocks_say_other_rows_is_not_whole() {
+    for file in &files()[2..] {
+        let mut rest = Cursor::new(file);
+        MetaData::read_from_buffered(&mut rest, false).unwrap();
+        let table = rest.position() as usize;
+        let (offsets, _) = file[table..table + 16].as_chunks();
+        for block in offsets.iter().copied().map(u64::from_le_bytes) {
+            let mut file = file.clone();
+            // A block begins with the number of its first row.
+            file[block as usize] ^= 1;
+            assert_eq!(of(&file), None);
+        }
+    }
+}

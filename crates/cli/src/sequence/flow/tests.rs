@@ -92,6 +92,49 @@ fn the_next_begins_while_others_end_the_last() {
     assert_eq!(begun.into_inner().unwrap(), last);
 }
 
+/// Who comes to work that is nearly done prepares the next, before there is nothing left to begin: no
+/// part ends here until that has happened.
+#[test]
+fn the_next_is_prepared_while_others_do_the_last() {
+    /// Far longer than it should take.
+    const PATIENCE: Duration = Duration::from_secs(60);
+    let prepared = Mutex::new(0);
+    let changed = Condvar::new();
+    let last = 5;
+    let prepare = |number: u32| {
+        *prepared.lock().unwrap() = number;
+        changed.notify_all();
+    };
+    run_works(2, &[2; 6], prepare, &|number| {
+        let is_early = |latest: &mut u32| *latest < last.min(number + 1);
+        let prepared = prepared.lock().unwrap();
+        let waited = changed.wait_timeout_while(prepared, PATIENCE, is_early);
+        assert!(!waited.unwrap().1.timed_out());
+        ControlFlow::Continue(())
+    });
+}
+
+/// As long as there is much to do, nothing is prepared.
+#[test]
+fn the_next_is_not_prepared_too_early() {
+    const COUNT: u32 = 50;
+    for threads in [1, 2, 3] {
+        let begun = [0; 6].map(AtomicU32::new);
+        let prepare = |number: u32| {
+            let Some(before) = number.checked_sub(1) else {
+                return;
+            };
+            // Two for each of the others, and those that are begun but not counted.
+            let few = 2 * (threads - 1) + threads;
+            assert!(begun[before as usize].load(Ordering::SeqCst) + few >= COUNT);
+        };
+        run_works(threads as usize, &[COUNT; 6], prepare, &|number| {
+            begun[number as usize].fetch_add(1, Ordering::SeqCst);
+            ControlFlow::Continue(())
+        });
+    }
+}
+
 /// What is ahead takes memory.
 #[test]
 fn no_more_than_the_next_is_prepared() {
