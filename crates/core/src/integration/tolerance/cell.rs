@@ -279,8 +279,8 @@ impl Workspace {
         for chunk in lines.chunks(8) {
             let mut y = [chunk[chunk.len() - 1]; 8];
             y[..chunk.len()].copy_from_slice(chunk);
-            let signatures = self.signatures(simd, scene, cell, &y, precision, batches)?;
-            for (&y, &signature) in chunk.iter().zip(&signatures) {
+            self.look(simd, scene, cell, &y, precision, batches)?;
+            for (&y, &signature) in chunk.iter().zip(self.cuts.signatures()) {
                 self.samples.push(Sample { y, signature });
             }
         }
@@ -314,9 +314,9 @@ impl Workspace {
             let before = y.iter().filter(|&&y| y < at).count();
             y[before.clamp(2, 7) - 1] = at;
         }
-        let signatures = self.signatures(simd, scene, cell, &y, precision, batches)?;
+        self.look(simd, scene, cell, &y, precision, batches)?;
         self.samples.clear();
-        for (&y, &signature) in y.iter().zip(&signatures) {
+        for (&y, &signature) in y.iter().zip(self.cuts.signatures()) {
             self.samples.push(Sample { y, signature });
         }
         Ok(())
@@ -345,8 +345,8 @@ impl Workspace {
             for (index, y) in y.iter_mut().enumerate() {
                 *y += (index + 1) as f64 * step;
             }
-            let signatures = self.signatures(simd, scene, cell, &y, precision, batches)?;
-            let new = y.iter().zip(&signatures);
+            self.look(simd, scene, cell, &y, precision, batches)?;
+            let new = y.iter().zip(self.cuts.signatures());
             let new = new.map(|(&y, &signature)| Sample { y, signature });
             self.samples.splice(index + 1..index + 1, new);
         }
@@ -354,7 +354,7 @@ impl Workspace {
     }
 
     #[inline(always)]
-    fn signatures<S: Simd>(
+    fn look<S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'_>,
@@ -362,7 +362,7 @@ impl Workspace {
         y: &[f64; 8],
         precision: &Precision,
         batches: &mut u32,
-    ) -> Result<[Signature; 8], Hard> {
+    ) -> Result<(), Hard> {
         *batches += 1;
         self.work.lines += 8;
         self.effort += self.contents.extent();
@@ -371,7 +371,7 @@ impl Workspace {
         }
         Ok(self
             .cuts
-            .signatures(simd, scene, cell, &self.contents, y, precision.gap)?)
+            .look(simd, scene, cell, &self.contents, y, precision.gap)?)
     }
 
     /// Makes tasks of the lines of a task between changes; what those changes may cost whose place

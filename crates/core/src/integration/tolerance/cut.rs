@@ -31,6 +31,12 @@ impl Signature {
     };
 }
 
+impl Default for Signature {
+    fn default() -> Self {
+        Self::EMPTY
+    }
+}
+
 /// No sphere.
 pub(super) const NOTHING: u64 = 0;
 
@@ -63,6 +69,8 @@ pub(super) struct Cuts {
     places: Vec<[f64; 8]>,
     branches: Vec<[u16; 8]>,
     counts: [usize; 8],
+    /// Of the lines that were looked at last.
+    signatures: [Signature; 8],
     /// Which of the places the changes of the signatures are.
     changes: [[usize; MOST_CHANGES]; 8],
     scratch: Vec<f64>,
@@ -75,9 +83,9 @@ impl Cuts {
         std::mem::take(&mut self.has_dropped)
     }
 
-    /// The signatures of the lines with these y, without what is narrower than `narrowest`.
+    /// Finds the signatures of the lines with these y, without what is narrower than `narrowest`.
     #[inline(never)]
-    pub(super) fn signatures<S: Simd>(
+    pub(super) fn look<S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'_>,
@@ -85,7 +93,7 @@ impl Cuts {
         contents: &Contents,
         y: &[f64; 8],
         narrowest: f64,
-    ) -> Result<[Signature; 8], Crowded> {
+    ) -> Result<(), Crowded> {
         simd.vectorize(
             #[inline(always)]
             || {
@@ -127,7 +135,7 @@ impl Cuts {
                     }
                 }
                 let most = self.counts.iter().copied().max().unwrap_or(0);
-                let mut signatures = [Signature::EMPTY; 8];
+                self.signatures = [Signature::EMPTY; 8];
                 // The branch that began what is narrower than a gap may be: the first of those in one place.
                 let mut pending = [None; 8];
                 let mut has_begun = [false; 8];
@@ -154,7 +162,7 @@ impl Cuts {
                         if gap > self.counts[lane] {
                             continue;
                         }
-                        let signature = &mut signatures[lane];
+                        let signature = &mut self.signatures[lane];
                         let branch: Option<u16> = (gap > 0).then(|| self.branches[gap - 1][lane]);
                         let branch = match (pending[lane], branch) {
                             (Some(one), Some(other)) => Some(u16::min(one, other)),
@@ -182,9 +190,14 @@ impl Cuts {
                         }
                     }
                 }
-                Ok(signatures)
+                Ok(())
             },
         )
+    }
+
+    /// Of the lines that were looked at last.
+    pub(super) fn signatures(&self) -> &[Signature; 8] {
+        &self.signatures
     }
 
     /// Where the line in a lane of the last signatures changes.

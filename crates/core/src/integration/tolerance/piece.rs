@@ -151,11 +151,11 @@ impl Surroundings<'_> {
         } = self;
         let signature = piece.signature;
         let lines: [f64; 8] = y.into();
-        let found = cuts.signatures(simd, scene, cell, contents, &lines, piece.gap);
-        let found = found.map_err(|_| Unlike { at: None })?;
+        let found = cuts.look(simd, scene, cell, contents, &lines, piece.gap);
+        found.map_err(|_| Unlike { at: None })?;
         let mut stops = [[0.5; 8]; MOST_CHANGES + 1];
         let mut unlike = 0_u64;
-        for (lane, found) in found.iter().enumerate() {
+        for (lane, found) in cuts.signatures().iter().enumerate() {
             if found == signature {
                 for (change, stops) in stops.iter_mut().enumerate().take(signature.changes) {
                     stops[lane] = cuts.place(lane, change);
