@@ -285,6 +285,25 @@ slurm_job() {
     [ -z "$(find "$work/canceled" ! -name '*.png' -type f)" ] || fail "a temporary file was left"
 }
 
+# One frame in parts, and a job that puts them together, as docs/farm.md has it.
+slurm_parts() {
+    local id
+    cat >"$work/parts.sh" <<END
+#!/bin/bash
+#SBATCH --array=0-2
+#SBATCH --requeue
+marbles render "$scene" ${options[*]} --frames 7 --skip-existing -o "part-\$SLURM_ARRAY_TASK_ID.exr" \\
+    --region "0,\$((SLURM_ARRAY_TASK_ID * 30)),90,30"
+END
+    id=$(timeout 10 sbatch --parsable --chdir="$work" --output="$work/log/part-%a" "$work/parts.sh")
+    timeout 10 sbatch --dependency="afterok:$id" --chdir="$work" --output="$work/log/merge" \
+        --wrap 'marbles merge poster.exr part-?.exr'
+    within 60 none_is_left || { squeue; fail "the parts are not put together"; }
+    marbles render "$scene" --quiet "${options[@]}" --frames 7 -o "$work/whole.exr"
+    cmp "$work/whole.exr" "$work/poster.exr" || fail "the parts are not the whole"
+    printf 'a frame in three parts is the whole\n'
+}
+
 # ---- all
 
 render_alone 20
@@ -296,6 +315,7 @@ fi
 if find_slurm; then
     render_alone 40
     slurm_job
+    slurm_parts
 else
     skip "Slurm is not installed, and apt cannot install it"
 fi
