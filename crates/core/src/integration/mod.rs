@@ -3,6 +3,7 @@
 //! An [`Integrator`] answers for every pixel of a tile what its value is, how far that may be
 //! from the exact area average, and how its work ended.
 
+mod kronrod;
 mod shutter;
 mod supersampling;
 mod tolerance;

@@ -1,10 +1,11 @@
 //! A part of the time that the shutter is open, and the rule by which light is averaged over it.
 
 use super::super::Pixel;
+use super::super::kronrod::{self, ABSCISSAS, WEIGHTS};
 use crate::{Radiance, Status};
 
 /// Moments of a panel.
-pub(super) const MOMENTS: usize = 7;
+pub(super) const MOMENTS: usize = kronrod::POINTS;
 
 /// Shorter panels are not made: 2 to the power of minus this.
 pub(super) const DEEPEST: u32 = 14;
@@ -13,30 +14,7 @@ pub(super) const DEEPEST: u32 = 14;
 pub(super) const FASTEST: u32 = 8;
 
 /// No two moments of a panel of length 1 are farther apart than this.
-pub(super) const LONGEST_GAP: f64 = 0.5 * NODES[4];
-
-/// Abscissas and weights of Kronrod's rule on −1 to 1.
-///
-/// # Source
-/// Kronrod, Nodes and Weights of Quadrature Formulas, 1965.
-const NODES: [f64; MOMENTS] = [
-    -0.960_491_268_708_020_3,
-    -0.774_596_669_241_483_4,
-    -0.434_243_749_346_802_6,
-    0.0,
-    0.434_243_749_346_802_6,
-    0.774_596_669_241_483_4,
-    0.960_491_268_708_020_3,
-];
-const KRONROD: [f64; MOMENTS] = [
-    0.104_656_226_026_467_3,
-    0.268_488_089_868_333_4,
-    0.401_397_414_775_962_2,
-    0.450_916_538_658_474_1,
-    0.401_397_414_775_962_2,
-    0.268_488_089_868_333_4,
-    0.104_656_226_026_467_3,
-];
+pub(super) const LONGEST_GAP: f64 = 0.5 * ABSCISSAS[4];
 
 /// Two rules that are 0 for every polynomial of degree 4, and of degree 5: half of the weights of the
 /// polynomials of degree 5 and 6 that are orthogonal, under Kronrod's weights, to those of lower
@@ -94,7 +72,7 @@ impl Panel {
     pub(super) fn times(self) -> [f64; MOMENTS] {
         let length = self.length();
         let middle = (f64::from(self.index) + 0.5) * length - 0.5;
-        NODES.map(|node| middle + 0.5 * length * node)
+        ABSCISSAS.map(|node| middle + 0.5 * length * node)
     }
 }
 
@@ -124,7 +102,7 @@ impl<C: Radiance> Part<C> {
         let mut odd_alpha = [0.0; 2];
         let mut is_lost = false;
         for (place, pixel) in pixels.iter().enumerate() {
-            let weight = 0.5 * KRONROD[place];
+            let weight = 0.5 * WEIGHTS[place];
             let difference = pixel.value + middle.value * -1.0;
             let alpha_difference = pixel.alpha - middle.alpha;
             value += difference * weight;
@@ -205,7 +183,7 @@ mod tests {
     /// But for one before the first moment or after the last.
     #[test]
     fn a_jump_claims_about_what_it_costs() {
-        let outside = 0.5 - 0.5 * NODES[MOMENTS - 1];
+        let outside = 0.5 - 0.5 * ABSCISSAS[MOMENTS - 1];
         for place in 0..1000 {
             let jump = f64::from(place) / 1000.0 - 0.5;
             let found = part(WHOLE, |time| f64::from(u8::from(time > jump)));

@@ -1,7 +1,9 @@
 //! Rules of integration on 0 to 1.
 
+use crate::integration::kronrod::{self, ABSCISSAS, WEIGHTS};
+
 /// Nodes of the rules.
-pub(super) const NODES: usize = 7;
+pub(super) const NODES: usize = kronrod::POINTS;
 
 /// Nodes on 0 to 1 with the weights of Kronrod's rule and of Gauss's with three points, which is
 /// held against it, after a change of variable.
@@ -31,28 +33,6 @@ impl Rule {
 }
 
 const RULES: [Rule; 4] = {
-    /// Abscissas and weights on −1 to 1.
-    ///
-    /// # Source
-    /// Kronrod, Nodes and Weights of Quadrature Formulas, 1965.
-    const NODE: [f64; 7] = [
-        -0.960_491_268_708_020_3,
-        -0.774_596_669_241_483_4,
-        -0.434_243_749_346_802_6,
-        0.0,
-        0.434_243_749_346_802_6,
-        0.774_596_669_241_483_4,
-        0.960_491_268_708_020_3,
-    ];
-    const KRONROD: [f64; 7] = [
-        0.104_656_226_026_467_3,
-        0.268_488_089_868_333_4,
-        0.401_397_414_775_962_2,
-        0.450_916_538_658_474_1,
-        0.401_397_414_775_962_2,
-        0.268_488_089_868_333_4,
-        0.104_656_226_026_467_3,
-    ];
     const GAUSS: [f64; 7] = [0.0, 5.0 / 9.0, 0.0, 8.0 / 9.0, 0.0, 5.0 / 9.0, 0.0];
     let mut rules = [Rule {
         nodes: [0.0; 8],
@@ -63,7 +43,7 @@ const RULES: [Rule; 4] = {
     while kind < 4 {
         let mut index = 0;
         while index < 7 {
-            let s = 0.5 + 0.5 * NODE[index];
+            let s = 0.5 + 0.5 * ABSCISSAS[index];
             let (node, slope) = match kind {
                 0 => (s, 1.0),
                 1 => (s * s, 2.0 * s),
@@ -71,7 +51,7 @@ const RULES: [Rule; 4] = {
                 _ => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)),
             };
             rules[kind].nodes[index] = node;
-            rules[kind].fine[index] = 0.5 * KRONROD[index] * slope;
+            rules[kind].fine[index] = 0.5 * WEIGHTS[index] * slope;
             rules[kind].coarse[index] = 0.5 * GAUSS[index] * slope;
             index += 1;
         }
