@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use super::polynomial::{Linear, Quadratic};
 use super::shadow::Caster;
+use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// A rectangle of the retina: a pixel or a part of one.
 ///

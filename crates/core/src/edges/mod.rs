@@ -4,22 +4,11 @@
 //! Outlines, seams and terminators are conics there, and cross a line in two places at most. An
 //! edge of a shadow on a sphere crosses it in four at most.
 
-mod cell;
-mod polynomial;
-mod quartic;
-mod seam;
-mod shadow;
-mod silhouette;
-mod terminator;
-mod vectors;
-
-pub(crate) use cell::{Ball, Cell};
-pub(crate) use polynomial::{Linear, Quadratic};
-pub(crate) use seam::seam;
-pub(crate) use shadow::{Arcs, Caster};
-pub(crate) use silhouette::silhouette;
-pub(crate) use terminator::terminator;
-pub(crate) use vectors::Vectors;
+pub(crate) mod cell;
+pub(crate) mod seam;
+pub(crate) mod shadow;
+pub(crate) mod silhouette;
+pub(crate) mod terminator;
 
 #[cfg(test)]
 pub(crate) mod tests;

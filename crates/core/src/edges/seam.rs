@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::cell::{Ball, Cell, dot};
-use super::polynomial::Quadratic;
+use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// Vanishes where the ray through (x, y) meets both spheres in one point, on their near sides or
 /// on others.
@@ -58,10 +58,10 @@ pub(super) fn plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quad
     // (c × d) · (ĉ × w) = −(d × c) · (ĉ × w), of which only the square counts.
     let turned = {
         let side = toward_center.cross(w);
-        let part = |pick: fn(&super::Linear) -> f64| {
+        let part = |pick: fn(&Linear) -> f64| {
             pick(&across[0]) * side.x + pick(&across[1]) * side.y + pick(&across[2]) * side.z
         };
-        super::Linear {
+        Linear {
             one: part(|linear| linear.one),
             x: part(|linear| linear.x),
             y: part(|linear| linear.y),

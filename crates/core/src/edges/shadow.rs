@@ -5,8 +5,8 @@ use fearless_simd::prelude::*;
 use glam::{DVec2, DVec3};
 
 use super::cell::{Ball, Cell};
-use super::quartic;
-use super::vectors::Vectors;
+use crate::numeric::quartic;
+use crate::numeric::vectors::Vectors;
 use fearless_simd::f64x8;
 
 /// Where the planes of eight lines cut a sphere that the eye is outside of: circles, of which an

@@ -1,7 +1,7 @@
 //! The outlines of spheres.
 
 use super::cell::{Ball, Cell, dot};
-use super::polynomial::Quadratic;
+use crate::numeric::polynomial::Quadratic;
 
 /// The discriminant Q of the ray through (x, y): a sphere is seen where it is not negative, in
 /// front of the eye where the ray's direction d has d · c > 0.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 
 use super::cell::{Ball, Cell};
-use super::polynomial::Quadratic;
 use super::seam::plane_cut;
+use crate::numeric::polynomial::Quadratic;
 
 /// Vanishes where the ray through (x, y) meets a sphere in the great circle n·l = 0 across a light
 /// in the unit direction `toward`, on its near side or on its far one.
@@ -14,9 +14,9 @@ pub(crate) fn terminator(cell: &Cell, ball: &Ball, toward: DVec3) -> Quadratic {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{ball_in_front, cell_at, direction, ray, zeros};
     use super::*;
-    use crate::visibility::tests::Random;
+    use crate::edges::tests::{ball_in_front, cell_at, direction, ray, zeros};
+    use crate::search::tests::Random;
 
     /// The plane n·l = 0 is met where the sphere is: at distance r from its center.
     #[test]

@@ -3,8 +3,9 @@
 use fearless_simd::{Level, SimdFrom, dispatch, f64x8};
 use glam::DVec3;
 
-use super::{Ball, Cell, Linear, Quadratic};
-use crate::visibility::tests::Random;
+use super::cell::{Ball, Cell};
+use crate::numeric::polynomial::{Linear, Quadratic};
+use crate::search::tests::Random;
 
 /// From `low` to `high`, every magnitude alike.
 pub(crate) fn magnitude(random: &mut Random, low: f64, high: f64) -> f64 {

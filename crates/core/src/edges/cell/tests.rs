@@ -1,8 +1,8 @@
 //! Cells against rays that are computed one by one.
 
-use super::super::tests::{any_cell, at, ball, coordinate, direction, magnitude, ray, value};
 use super::*;
-use crate::visibility::tests::Random;
+use crate::edges::tests::{any_cell, at, ball, coordinate, direction, magnitude, ray, value};
+use crate::search::tests::Random;
 
 #[test]
 fn products_are_those_of_the_ray() {

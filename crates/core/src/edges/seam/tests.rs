@@ -1,10 +1,10 @@
 //! The points of seams lie on both spheres.
 
-use super::super::tests::{
+use super::*;
+use crate::edges::tests::{
     ball, ball_in_front, cell_at, crossings, direction, magnitude, ray, value, zeros,
 };
-use super::*;
-use crate::visibility::tests::Random;
+use crate::search::tests::Random;
 
 /// A ball that intersects another one.
 fn across(random: &mut Random, one: &Ball) -> Ball {

@@ -2,11 +2,11 @@
 
 use fearless_simd::{Level, SimdFrom, dispatch};
 
-use super::super::tests::{
+use super::*;
+use crate::edges::tests::{
     ball, ball_in_front, cell_at, coordinate, direction, first_hit, magnitude, ray,
 };
-use super::*;
-use crate::visibility::tests::Random;
+use crate::search::tests::Random;
 
 fn caster_at(center: DVec3, radius: f64, toward: DVec3) -> Caster {
     let (right, up) = toward.any_orthonormal_pair();

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::super::tests::{any_cell, ball, ball_in_front, cell_at, magnitude, ray, value, zeros};
 use super::*;
-use crate::visibility::tests::Random;
+use crate::edges::tests::{any_cell, ball, ball_in_front, cell_at, magnitude, ray, value, zeros};
+use crate::search::tests::Random;
 
 /// Of the ray from the ball's center, in radii.
 fn distance(ray: DVec3, ball: &Ball) -> f64 {

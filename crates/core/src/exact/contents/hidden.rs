@@ -1,0 +1,131 @@
+//! Spheres that nearer ones together hide from a cell.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8};
+
+use super::Active;
+use crate::exact::squares;
+use crate::numeric::polynomial::Quadratic;
+
+/// Where spheres begin and end, and memory for it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Hiding {
+    /// How near the eye parts of spheres may be seen, and their positions.
+    begins: Vec<(f64, usize)>,
+    /// Behind which distance spheres hide what they cover, and their positions.
+    ends: Vec<(f64, usize)>,
+    hidden: Vec<bool>,
+}
+
+/// Fewer spheres need no union to hide one.
+const FEWEST: usize = 3;
+
+impl Hiding {
+    /// Leaves out the spheres of which nothing is seen in the cell.
+    ///
+    /// The cell is seen as squares. A sphere hides those whose corners it covers, as what an eye in
+    /// front of it sees of it is convex, from all that lies farther away than √K, where rays touch
+    /// it.
+    pub(crate) fn leave_out(&mut self, level: Level, active: &mut Vec<Active>) {
+        const ROUNDING: f64 = 1e-12;
+        if active.len() < FEWEST {
+            return;
+        }
+        self.begins.clear();
+        self.ends.clear();
+        for (position, active) in active.iter().enumerate() {
+            let ball = &active.ball;
+            if ball.outside > 0.0 {
+                let distance = ball.center.length();
+                let begin = distance - ball.radius - ROUNDING * distance;
+                self.begins.push((begin, position));
+                if ball.center.z > ball.radius {
+                    let end = ball.outside.sqrt() * (1.0 + ROUNDING);
+                    self.ends.push((end, position));
+                }
+            }
+        }
+        let by_distance = |one: &(f64, usize), other: &(f64, usize)| one.0.total_cmp(&other.0);
+        self.begins.sort_unstable_by(by_distance);
+        self.ends.sort_unstable_by(by_distance);
+        self.hidden.clear();
+        self.hidden.resize(active.len(), false);
+        let mut covered = 0;
+        let mut ends = self.ends.iter().peekable();
+        for &(begin, position) in &self.begins {
+            while let Some((_, nearer)) = ends.next_if(|(end, _)| *end < begin) {
+                if covered != squares::ALL && !self.hidden[*nearer] {
+                    covered |= covers(level, &active[*nearer].discriminant);
+                }
+            }
+            let is_hidden = covered == squares::ALL
+                || covered != 0 && touches(level, &active[position].discriminant) & !covered == 0;
+            self.hidden[position] = is_hidden;
+        }
+        if self.hidden.contains(&true) {
+            let mut hidden = self.hidden.iter();
+            active.retain(|_| !hidden.next().is_some_and(|&hidden| hidden));
+        }
+    }
+}
+
+/// Where corners of squares lie along a side, and half the side of one.
+const CORNERS: [f64; 8] = [
+    -0.5,
+    1.0 / 7.0 - 0.5,
+    2.0 / 7.0 - 0.5,
+    3.0 / 7.0 - 0.5,
+    4.0 / 7.0 - 0.5,
+    5.0 / 7.0 - 0.5,
+    6.0 / 7.0 - 0.5,
+    0.5,
+];
+const HALF: f64 = 0.5 / squares::SIDE as f64;
+
+/// What rounding may change a discriminant by.
+fn slack(q: &Quadratic) -> f64 {
+    1e-12 * (q.spread() + q.one.abs())
+}
+
+/// The squares on which a discriminant is positive.
+fn covers(level: Level, q: &Quadratic) -> u64 {
+    dispatch!(level, simd => covers_lanes(simd, q))
+}
+
+#[inline(always)]
+fn covers_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
+    let x: f64x8<S> = CORNERS.simd_into(simd);
+    let (constant, slope) = ((x * q.xx + q.x) * x + q.one, x * q.xy + q.y);
+    let least = slack(q);
+    let mut corners = 0;
+    for (row, y) in CORNERS.into_iter().enumerate() {
+        let value = (slope + q.yy * y) * y + constant;
+        corners |= value.simd_gt(least).to_bitmask() << (8 * row);
+    }
+    squares::between(corners)
+}
+
+/// The squares on which a discriminant may be positive.
+fn touches(level: Level, q: &Quadratic) -> u64 {
+    dispatch!(level, simd => touches_lanes(simd, q))
+}
+
+#[inline(always)]
+fn touches_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
+    let x: f64x8<S> = CORNERS.simd_into(simd);
+    let x = x + HALF;
+    let (constant, slope) = ((x * q.xx + q.x) * x + q.one, x * q.xy + q.y);
+    let rise = x * (2.0 * q.xx) + q.x;
+    let bend = HALF * HALF * (q.xx.max(0.0) + q.xy.abs() + q.yy.max(0.0));
+    let least = -slack(q) - bend;
+    let mut touched = 0;
+    for (row, y) in CORNERS.into_iter().enumerate() {
+        let y = y + HALF;
+        let value = (slope + q.yy * y) * y + constant;
+        let steep = (rise + q.xy * y).abs() + (slope + 2.0 * q.yy * y).abs();
+        let most = steep * HALF + value;
+        // What is not a number may be anything.
+        touched |= (!most.simd_lt(least)).to_bitmask() << (8 * row);
+    }
+    touched & squares::ALL
+}

@@ -1,0 +1,324 @@
+//! Which parts of curves are seen, and what lies on either side of them.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::curve::{Piece, Trace};
+use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
+use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
+use crate::exact::contents::{Contents, Kind, Reach};
+
+/// What is in front, or next behind a curve, at eight places.
+#[derive(Clone, Copy)]
+struct Front<S: Simd> {
+    /// In multiples of the ray.
+    nearest: f64x8<S>,
+    /// The position of the sphere and one more, or zero.
+    first: f64x8<S>,
+    /// Whether one sphere hides all of the places.
+    is_hidden: bool,
+}
+
+impl<S: Simd> Front<S> {
+    /// At which of the places an active sphere is first.
+    #[inline(always)]
+    fn is(&self, sphere: usize) -> u64 {
+        self.first.simd_eq((sphere + 1) as f64).to_bitmask()
+    }
+}
+
+/// Intervals that begin or end at some of the places.
+fn beside(lanes: u64) -> u64 {
+    (lanes | lanes >> 1) & INTERVALS
+}
+
+/// Intervals that begin and end at some of the places.
+pub(super) fn between(lanes: u64) -> u64 {
+    lanes & lanes >> 1 & INTERVALS
+}
+
+/// The first of the active spheres on which a curve does not lie, at some places of it.
+#[inline(never)]
+fn front<S: Simd>(simd: S, contents: &Contents, own: [usize; 2], places: &Trace<S>) -> Front<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let mut front = Front {
+                nearest: f64x8::splat(simd, f64::INFINITY),
+                first: zero,
+                is_hidden: false,
+            };
+            let (x, y) = (places.x, places.y);
+            for (position, active) in contents.active.iter().enumerate() {
+                if own.contains(&position) {
+                    continue;
+                }
+                let discriminant = polynomial(&active.discriminant, x, y);
+                let covers = discriminant.simd_ge(0.0);
+                let lanes = covers.to_bitmask();
+                if lanes == 0 {
+                    continue;
+                }
+                let along = x * active.along.x + y * active.along.y + active.along.one;
+                let root = discriminant.max(zero).sqrt();
+                let t = f64x8::splat(simd, active.ball.outside) / (along + root);
+                let is_nearer = covers & t.simd_lt(front.nearest);
+                front.nearest = is_nearer.select(t, front.nearest);
+                front.first =
+                    is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
+                if lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff {
+                    front.is_hidden = true;
+                    return front;
+                }
+            }
+            front
+        },
+    )
+}
+
+impl Boundary {
+    /// Finds the parts of a piece that are seen.
+    #[inline(always)]
+    pub(super) fn find_arcs<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        piece: &Piece,
+    ) {
+        self.arcs.clear();
+        self.breaks.clear();
+        let stretch = Stretch {
+            curve,
+            piece,
+            start: 0.0,
+            end: 1.0,
+        };
+        let places = stretch.places(simd, setting);
+        if !self.find_own_breaks(simd, setting, &stretch, &places) {
+            return;
+        }
+        let contents = setting.contents;
+        let front = front(simd, contents, curve.own, &places);
+        let is_side = matches!(curve.edge, Edge::Left | Edge::Right);
+        if front.is_hidden && !is_side {
+            return;
+        }
+        let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
+        let firsts: [f64; 8] = front.first.into();
+        let mut alike = 0;
+        for lane in 0..7 {
+            alike |= u64::from(firsts[lane] == firsts[lane + 1]) << lane;
+        }
+        // Nothing comes in sight where one sphere hides both ends.
+        let open = if is_side {
+            INTERVALS
+        } else {
+            INTERVALS & !(between(hidden) & alike)
+        };
+        for (position, active) in contents.active.iter().enumerate() {
+            if curve.own.contains(&position) {
+                continue;
+            }
+            let mut intervals = open;
+            if self.parts == 1 {
+                // Where the same is first at both ends, others begin behind it.
+                intervals &= beside(front.is(position)) | !alike;
+            }
+            if intervals == 0 {
+                continue;
+            }
+            let values = polynomial(&active.discriminant, places.x, places.y);
+            let function = Function::Outline(position);
+            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+        }
+        for (index, (kind, conic)) in contents.conics.iter().enumerate() {
+            let Kind::Seam(one, other) = *kind else {
+                continue;
+            };
+            let (function, intervals) = match (curve.own.contains(&one), curve.own.contains(&other))
+            {
+                (true, true) => continue,
+                (false, false) => {
+                    let mut intervals = open;
+                    if self.parts == 1 {
+                        intervals &= !alike;
+                    }
+                    let values = polynomial(conic, places.x, places.y);
+                    let function = Function::Conic(index);
+                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+                    continue;
+                }
+                (true, false) => (Function::Inside(other), beside(front.is(other))),
+                (false, true) => (Function::Inside(one), beside(front.is(one))),
+            };
+            let intervals = intervals & open;
+            if intervals == 0 {
+                continue;
+            }
+            let values = value(simd, setting, function, &places);
+            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+        }
+        self.order_breaks(0.0, 1.0);
+        self.see_arcs(simd, setting, &stretch);
+    }
+
+    /// Finds where a piece leaves the outer sides of its own spheres, the cell or the lower side of a
+    /// caster; whether any of it may be seen.
+    #[inline(always)]
+    fn find_own_breaks<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        places: &Trace<S>,
+    ) -> bool {
+        let curve = stretch.curve;
+        if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+            return true;
+        }
+        let mut functions = [(Function::Across(false, 0.0), 0.0); 7];
+        let mut count = 0;
+        for own in curve.own {
+            if own != NONE {
+                functions[count] = (Function::Facing(own), 1.0);
+                count += 1;
+            }
+        }
+        if let Edge::Shadow(light, caster) = curve.edge {
+            functions[count] = (Function::Above(light, caster), -1.0);
+            functions[count + 1] = (Function::Across(false, -0.5), 1.0);
+            functions[count + 2] = (Function::Across(false, 0.5), -1.0);
+            functions[count + 3] = (Function::Across(true, -0.5), 1.0);
+            functions[count + 4] = (Function::Across(true, 0.5), -1.0);
+            count += 5;
+        }
+        let mut outside = [0; 7];
+        for (index, (function, sign)) in functions.iter().enumerate().take(count) {
+            let values = value(simd, setting, *function, places);
+            outside[index] = (values * *sign).simd_lt(0.0).to_bitmask();
+            let known = self.breaks.len();
+            stretch.roots(
+                simd,
+                setting,
+                *function,
+                values,
+                INTERVALS,
+                &mut self.breaks,
+            );
+            if outside[index] == 0xff && self.breaks.len() == known {
+                return false;
+            }
+        }
+        if let Edge::Shadow(light, own) = curve.edge {
+            // Where it is dark anyway, no shadow ends.
+            let lights = setting.scene.lights.len();
+            let reach = &setting.contents.reach[curve.own[0] * lights + light];
+            let Reach::Past(casters) = reach else {
+                return false;
+            };
+            let toward = setting.scene.lights[light].toward;
+            for caster in casters.clone() {
+                if caster == own {
+                    continue;
+                }
+                let inside = in_disc(simd, setting, caster, &places.point);
+                let height = setting.contents.casters[caster].center.dot(toward);
+                let is_below = places.point.dot_one(toward).simd_lt(height);
+                if (inside.simd_lt(0.0) & is_below).to_bitmask() == 0xff {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    /// Brings the breaks in order, between two ends.
+    pub(super) fn order_breaks(&mut self, start: f64, end: f64) {
+        self.breaks.push(start);
+        self.breaks.push(end);
+        self.breaks.sort_unstable_by(f64::total_cmp);
+    }
+
+    /// The middles between eight of the breaks and the next ones.
+    pub(super) fn middles(&self, first: usize, count: usize) -> [f64; 8] {
+        let mut middles = [0.0; 8];
+        for (lane, middle) in middles.iter_mut().enumerate() {
+            let at = first + lane.min(count - 1);
+            *middle = 0.5 * (self.breaks[at] + self.breaks[at + 1]);
+        }
+        middles
+    }
+
+    /// Finds what is seen beside the curve between the breaks.
+    #[inline(always)]
+    fn see_arcs<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, stretch: &Stretch<'_>) {
+        let (contents, curve) = (setting.contents, stretch.curve);
+        let steps = self.breaks.len() - 1;
+        let mut first = 0;
+        while first < steps {
+            let count = (steps - first).min(8);
+            let middles = self.middles(first, count);
+            let places = stretch.trace(simd, setting, middles.simd_into(simd));
+            let front = front(simd, contents, curve.own, &places);
+            let mut hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
+            if matches!(curve.edge, Edge::Left | Edge::Right) {
+                hidden = 0;
+            } else if front.is_hidden {
+                hidden = 0xff;
+            }
+            if !matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+                for own in curve.own {
+                    if own != NONE {
+                        let facing = value(simd, setting, Function::Facing(own), &places);
+                        hidden |= facing.simd_le(0.0).to_bitmask();
+                    }
+                }
+            }
+            if let Edge::Shadow(light, caster) = curve.edge {
+                let above = value(simd, setting, Function::Above(light, caster), &places);
+                hidden |= above.simd_ge(0.0).to_bitmask();
+                let far = places.x.abs().max(places.y.abs());
+                hidden |= far.simd_gt(0.5).to_bitmask();
+            }
+            let firsts: [f64; 8] = front.first.into();
+            for (lane, first_here) in firsts.into_iter().enumerate().take(count) {
+                if hidden >> lane & 1 == 1 {
+                    continue;
+                }
+                let seen = (first_here as usize).wrapping_sub(1);
+                let (inner, outer) = match curve.edge {
+                    Edge::Left | Edge::Right => (seen, NONE),
+                    Edge::Limb => (curve.own[0], seen),
+                    Edge::Seam => (curve.own[0], curve.own[1]),
+                    Edge::Terminator(_) | Edge::Shadow(..) => (curve.own[0], curve.own[0]),
+                };
+                let arc = Arc {
+                    start: self.breaks[first + lane],
+                    end: self.breaks[first + lane + 1],
+                    inner,
+                    outer,
+                    lit: [0; 2],
+                };
+                add(&mut self.arcs, arc);
+            }
+            first += count;
+        }
+    }
+}
+
+/// Adds an arc, to the last one where that goes on.
+pub(super) fn add(arcs: &mut Vec<Arc>, arc: Arc) {
+    match arcs.last_mut() {
+        Some(last)
+            if last.end == arc.start
+                && last.inner == arc.inner
+                && last.outer == arc.outer
+                && last.lit == arc.lit =>
+        {
+            last.end = arc.end;
+        }
+        _ => arcs.push(arc),
+    }
+}

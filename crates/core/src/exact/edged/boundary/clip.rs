@@ -1,0 +1,213 @@
+//! The parts of curves that may lie in a cell.
+
+use glam::{DVec2, DVec3};
+
+use super::curve::{Circle, Piece, Shape};
+use crate::edges::cell::Cell;
+
+/// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.
+pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
+    let mut roots = [DVec2::ZERO; 8];
+    let mut count = 0;
+    for axis in 0..2 {
+        for side in [-0.5, 0.5] {
+            let edge = cell.middle[axis] + side * cell.size[axis];
+            // What lies beyond the side is positive.
+            let beyond = |vector: DVec3| side.signum() * (vector[axis] - edge * vector.z);
+            let (a, b) = (beyond(circle.right), beyond(circle.up));
+            let c = beyond(circle.middle);
+            let [one, other] = zeros(a, b, c);
+            if let (Some(one), Some(other)) = (one, other) {
+                roots[count] = one;
+                roots[count + 1] = other;
+                count += 2;
+            } else if c >= 0.0 || c.is_nan() {
+                // All of it lies beyond.
+                return;
+            }
+        }
+    }
+    between(&mut roots[..count], pieces, |e| {
+        let point = circle.at(e);
+        let (x, y) = cell.place(point);
+        x.abs() < 0.5 && y.abs() < 0.5
+    });
+}
+
+/// The unit vectors e with a e.x + b e.y + c = 0.
+fn zeros(a: f64, b: f64, c: f64) -> [Option<DVec2>; 2] {
+    let size_sq = a * a + b * b;
+    let rest = size_sq - c * c;
+    if rest <= 0.0 || rest.is_nan() {
+        return [None; 2];
+    }
+    let root = rest.sqrt();
+    let foot = DVec2::new(a, b) * -c;
+    let aside = DVec2::new(-b, a) * root;
+    [
+        Some((foot + aside) / size_sq),
+        Some((foot - aside) / size_sq),
+    ]
+}
+
+/// The part of the edge of a shadow that exists and may come as near as `around` to a point beside
+/// the light: the point is seen from the middle of the ball.
+pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Vec<Piece>) {
+    let Shape::Shadow {
+        circle, radius_sq, ..
+    } = shape
+    else {
+        return;
+    };
+    let disc_sq = circle.right.length_squared();
+    let mut roots = [DVec2::ZERO; 4];
+    let mut count = 0;
+    // Both ask for |middle + r e - p|² < limit.
+    let limits = [(near, around * around), (DVec3::ZERO, *radius_sq)];
+    let first = pieces.len();
+    for (point, limit) in limits {
+        let to_middle = circle.middle - point;
+        let (a, b) = (
+            2.0 * circle.right.dot(to_middle),
+            2.0 * circle.up.dot(to_middle),
+        );
+        let c = to_middle.length_squared() + disc_sq - limit;
+        let [one, other] = zeros(a, b, c);
+        if let (Some(one), Some(other)) = (one, other) {
+            roots[count] = one;
+            roots[count + 1] = other;
+            count += 2;
+        } else if c >= 0.0 || c.is_nan() {
+            return;
+        }
+    }
+    between(&mut roots[..count], pieces, |e| {
+        let at = circle.at(e);
+        limits
+            .iter()
+            .all(|(point, limit)| (at - point).length_squared() < *limit)
+    });
+    // Where it ends it turns back, if it ends on the terminator.
+    for piece in &mut pieces[first..] {
+        piece.roots = piece
+            .ends
+            .map(|e| circle.at(e).length_squared() > radius_sq * (1.0 - 1e-9));
+    }
+}
+
+/// The parts between unit vectors whose middles lie inside; all, where there are none.
+fn between(roots: &mut [DVec2], pieces: &mut Vec<Piece>, inside: impl Fn(DVec2) -> bool) {
+    const QUARTERS: [DVec2; 5] = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y, DVec2::X];
+    if roots.is_empty() {
+        for ends in QUARTERS.windows(2) {
+            pieces.push(Piece {
+                ends: [ends[0], ends[1]],
+                roots: [false; 2],
+            });
+        }
+        return;
+    }
+    let mut angles = [0.0; 8];
+    for index in 0..roots.len() {
+        let (root, here) = (roots[index], angle(roots[index]));
+        let mut at = index;
+        while at > 0 && angles[at - 1] > here {
+            (roots[at], angles[at]) = (roots[at - 1], angles[at - 1]);
+            at -= 1;
+        }
+        (roots[at], angles[at]) = (root, here);
+    }
+    for index in 0..roots.len() {
+        let next = (index + 1) % roots.len();
+        let (start, end) = (roots[index], roots[next]);
+        let turn = angles[next] - angles[index];
+        let turn = if turn <= 0.0 { turn + 4.0 } else { turn };
+        if roots.len() > 1 && turn < 1e-12 {
+            continue;
+        }
+        if inside(middle(start, end, turn)) {
+            divide(start, end, turn, pieces);
+        }
+    }
+}
+
+/// Divides each piece into so many.
+pub(super) fn split(pieces: &mut Vec<Piece>, parts: usize) {
+    if parts <= 1 {
+        return;
+    }
+    for index in 0..pieces.len() {
+        let Piece { ends, roots } = pieces[index];
+        let at = |part: usize| {
+            let e = ends[0].lerp(ends[1], part as f64 / parts as f64);
+            if ends[0].x == 0.0 && ends[1].x == 0.0 {
+                e
+            } else {
+                e.normalize()
+            }
+        };
+        for part in 0..parts {
+            let piece = Piece {
+                ends: [at(part), at(part + 1)],
+                roots: [roots[0] && part == 0, roots[1] && part + 1 == parts],
+            };
+            if part == 0 {
+                pieces[index] = piece;
+            } else {
+                pieces.push(piece);
+            }
+        }
+    }
+}
+
+/// Halves parts until they are no more than a quarter turn.
+fn divide(start: DVec2, end: DVec2, turn: f64, pieces: &mut Vec<Piece>) {
+    if turn <= 1.0 {
+        pieces.push(Piece {
+            ends: [start, end],
+            roots: [false; 2],
+        });
+        return;
+    }
+    let middle = middle(start, end, turn);
+    let first = angle(middle) - angle(start);
+    let first = if first <= 0.0 { first + 4.0 } else { first };
+    divide(start, middle, first, pieces);
+    divide(middle, end, turn - first, pieces);
+}
+
+/// The unit vector halfway, counterclockwise, between two.
+fn middle(start: DVec2, end: DVec2, turn: f64) -> DVec2 {
+    let sum = start + end;
+    if turn > 1.9 && turn < 2.1 {
+        return (start.perp() - end.perp()).normalize();
+    }
+    let sum = if turn > 2.0 { -sum } else { sum };
+    sum.normalize()
+}
+
+/// Rises from 0 to 4 in a turn.
+fn angle(e: DVec2) -> f64 {
+    let share = e.y / (e.x.abs() + e.y.abs());
+    if e.x >= 0.0 {
+        if e.y >= 0.0 { share } else { 4.0 + share }
+    } else {
+        2.0 - share
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn angles_rise_through_a_turn() {
+        let mut last = -1.0;
+        for step in 0..1000 {
+            let turn = f64::from(step) * std::f64::consts::TAU / 1000.0;
+            let here = angle(DVec2::new(libm::cos(turn), libm::sin(turn)));
+            assert!(here > last && here < 4.0, "{step}");
+            last = here;
+        }
+    }
+}

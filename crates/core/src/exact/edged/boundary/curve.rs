@@ -1,0 +1,227 @@
+//! Curves on which what is seen changes, and points of them.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::{DVec2, DVec3};
+
+use crate::edges::cell::{Ball, Cell};
+use crate::edges::shadow::Caster;
+use crate::numeric::vectors::Vectors;
+
+/// A circle in space: the points `middle` + `right` cos θ + `up` sin θ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Circle {
+    pub(super) middle: DVec3,
+    pub(super) right: DVec3,
+    pub(super) up: DVec3,
+}
+
+impl Circle {
+    /// The circle around a middle, across a unit vector.
+    fn across(middle: DVec3, axis: DVec3, radius: f64) -> Self {
+        let (right, up) = axis.any_orthonormal_pair();
+        Self {
+            middle,
+            right: right * radius,
+            up: up * radius,
+        }
+    }
+
+    /// Where the rays from the eye touch a ball that it is outside of.
+    pub(super) fn limb(ball: &Ball) -> Self {
+        let distance_sq = ball.center.length_squared();
+        let share = ball.outside / distance_sq;
+        let axis = ball.center * (1.0 / distance_sq.sqrt());
+        Self::across(ball.center * share, axis, ball.radius * share.sqrt())
+    }
+
+    /// Where two balls meet.
+    pub(super) fn seam(one: &Ball, other: &Ball) -> Option<Self> {
+        let between = other.center - one.center;
+        let apart = between.length();
+        let axis = between * (1.0 / apart);
+        let (sum, difference) = (one.radius + other.radius, one.radius - other.radius);
+        let along = 0.5 * (apart + sum * difference / apart);
+        let radius_sq = (one.radius - along) * (one.radius + along);
+        (radius_sq > 0.0).then(|| Self::across(one.center + axis * along, axis, radius_sq.sqrt()))
+    }
+
+    /// Where a light grazes a ball.
+    pub(super) fn terminator(ball: &Ball, toward: DVec3) -> Self {
+        Self::across(ball.center, toward, ball.radius)
+    }
+
+    pub(super) fn at(&self, e: DVec2) -> DVec3 {
+        self.middle + self.right * e.x + self.up * e.y
+    }
+}
+
+/// What a curve is.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Shape {
+    /// An upright side of the cell, at this x.
+    Side(f64),
+    Circle(Circle),
+    /// The edge of the shadow of a caster on a ball: the circle is that of the caster across the
+    /// light, seen from the ball's center, without its height.
+    Shadow {
+        circle: Circle,
+        center: DVec3,
+        radius_sq: f64,
+        toward: DVec3,
+    },
+}
+
+impl Shape {
+    pub(super) fn shadow(ball: &Ball, caster: &Caster, toward: DVec3) -> Self {
+        let offset = caster.center - ball.center;
+        Self::Shadow {
+            circle: Circle {
+                middle: offset - toward * offset.dot(toward),
+                right: caster.right * caster.radius,
+                up: caster.up * caster.radius,
+            },
+            center: ball.center,
+            radius_sq: ball.radius * ball.radius,
+            toward,
+        }
+    }
+}
+
+/// A part of a curve: between two unit vectors (cos θ, sin θ), by less than half a turn; of a side,
+/// between two y, which are the second components.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) ends: [DVec2; 2],
+    /// Whether the curve turns back at an end, where places go with the root of the angle.
+    pub(super) roots: [bool; 2],
+}
+
+/// Eight points of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Trace<S: Simd> {
+    /// In space; of a side, on the plane of the retina at distance 1.
+    pub(super) point: Vectors<S>,
+    /// Where they are seen in the cell.
+    pub(super) x: f64x8<S>,
+    pub(super) y: f64x8<S>,
+    /// How the place changes with the parameter.
+    pub(super) dx: f64x8<S>,
+    pub(super) dy: f64x8<S>,
+}
+
+/// The points of a piece with these parameters, from 0 to 1.
+#[inline(never)]
+pub(super) fn trace<S: Simd>(
+    simd: S,
+    cell: &Cell,
+    shape: &Shape,
+    piece: &Piece,
+    s: f64x8<S>,
+) -> Trace<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let one = f64x8::splat(simd, 1.0);
+            let [start, end] = piece.ends;
+            match shape {
+                Shape::Side(x) => {
+                    let x = f64x8::splat(simd, *x);
+                    let y = s * (end.y - start.y) + start.y;
+                    Trace {
+                        point: Vectors {
+                            x: x * cell.size[0] + cell.middle.x,
+                            y: y * cell.size[1] + cell.middle.y,
+                            z: one,
+                        },
+                        x,
+                        y,
+                        dx: zero,
+                        dy: one * (end.y - start.y),
+                    }
+                }
+                Shape::Circle(circle) => {
+                    let (e, turn) = turned(start, end, s);
+                    let point = on_circle(simd, circle, e);
+                    let step = along_circle(simd, circle, e).times(turn);
+                    placed(cell, point, step)
+                }
+                Shape::Shadow {
+                    circle,
+                    center,
+                    radius_sq,
+                    toward,
+                } => {
+                    let (s, slope) = warped(piece.roots, s);
+                    let (e, turn) = turned(start, end, s);
+                    let turn = turn * slope;
+                    let aside = on_circle(simd, circle, e);
+                    let step = along_circle(simd, circle, e).times(turn);
+                    let rest = (one * *radius_sq - aside.length_squared()).max(zero);
+                    let height = rest.sqrt();
+                    let inverse = one / height.max(one * 1e-150);
+                    let toward = Vectors::splat(simd, *toward);
+                    let point = aside
+                        .plus(&Vectors::splat(simd, *center))
+                        .plus(&toward.times(height));
+                    let rise = -(aside.dot(&step)) * inverse;
+                    let step = step.plus(&toward.times(rise));
+                    placed(cell, point, step)
+                }
+            }
+        },
+    )
+}
+
+/// A parameter in which places are smooth that go with the root of the distance to an end, and how fast
+/// the former changes.
+#[inline(always)]
+fn warped<S: Simd>(roots: [bool; 2], s: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
+    let one = s * 0.0 + 1.0;
+    match roots {
+        [false, false] => (s, one),
+        [true, false] => (s * s, s * 2.0),
+        [false, true] => (s * (2.0 - s), 2.0 - s * 2.0),
+        [true, true] => (s * s * (3.0 - s * 2.0), s * (one - s) * 6.0),
+    }
+}
+
+/// The unit vectors between two, and how fast they turn.
+#[inline(always)]
+fn turned<S: Simd>(start: DVec2, end: DVec2, s: f64x8<S>) -> ([f64x8<S>; 2], f64x8<S>) {
+    let x = s * (end.x - start.x) + start.x;
+    let y = s * (end.y - start.y) + start.y;
+    let inverse_sq = (x * 0.0 + 1.0) / (x * x + y * y);
+    let inverse = inverse_sq.sqrt();
+    let cross = start.x * end.y - start.y * end.x;
+    ([x * inverse, y * inverse], inverse_sq * cross)
+}
+
+#[inline(always)]
+fn on_circle<S: Simd>(simd: S, circle: &Circle, [cos, sin]: [f64x8<S>; 2]) -> Vectors<S> {
+    let right = Vectors::splat(simd, circle.right).times(cos);
+    let up = Vectors::splat(simd, circle.up).times(sin);
+    Vectors::splat(simd, circle.middle).plus(&right).plus(&up)
+}
+
+#[inline(always)]
+fn along_circle<S: Simd>(simd: S, circle: &Circle, [cos, sin]: [f64x8<S>; 2]) -> Vectors<S> {
+    let right = Vectors::splat(simd, circle.right).times(-sin);
+    let up = Vectors::splat(simd, circle.up).times(cos);
+    right.plus(&up)
+}
+
+#[inline(always)]
+fn placed<S: Simd>(cell: &Cell, point: Vectors<S>, step: Vectors<S>) -> Trace<S> {
+    let inverse = (point.x * 0.0 + 1.0) / point.z;
+    let (u, v) = (point.x * inverse, point.y * inverse);
+    let (across, upward) = (1.0 / cell.size[0], 1.0 / cell.size[1]);
+    Trace {
+        point,
+        x: (u - cell.middle.x) * across,
+        y: (v - cell.middle.y) * upward,
+        dx: (step.x - u * step.z) * inverse * across,
+        dy: (step.y - v * step.z) * inverse * upward,
+    }
+}

@@ -1,0 +1,283 @@
+//! What changes along curves, and where.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::curve::{Piece, Trace, trace};
+use super::{Curve, Setting};
+use crate::exact::edged::cut::ray;
+use crate::exact::points::Points;
+use crate::numeric::polynomial::Quadratic;
+use crate::numeric::vectors::Vectors;
+
+/// Points on a piece at which functions are looked at first, and the intervals between them, bit by
+/// bit.
+pub(super) const STEPS: [f64; 8] = [
+    0.0,
+    1.0 / 7.0,
+    2.0 / 7.0,
+    3.0 / 7.0,
+    4.0 / 7.0,
+    5.0 / 7.0,
+    6.0 / 7.0,
+    1.0,
+];
+pub(super) const INTERVALS: u64 = 0x7f;
+
+/// What changes its sign where something may happen.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Function {
+    /// The discriminant of an active sphere.
+    Outline(usize),
+    /// The polynomial of an edge.
+    Conic(usize),
+    /// On which side of an active sphere on which they lie points lie.
+    Facing(usize),
+    /// How far above the middle of a caster, toward a light, points lie.
+    Above(usize, usize),
+    /// Whether points lie inside an active sphere.
+    Inside(usize),
+    /// How far from a side of the cell, an upright one or one across, points lie.
+    Across(bool, f64),
+    /// How far what is seen of an active sphere faces a light.
+    Lit(usize, usize),
+    /// How far that lies in the disc of a caster.
+    Shaded(usize, usize),
+}
+
+/// The values of a polynomial.
+#[inline(always)]
+pub(super) fn polynomial<S: Simd>(q: &Quadratic, x: f64x8<S>, y: f64x8<S>) -> f64x8<S> {
+    (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one
+}
+
+/// The values of a function at some places.
+#[inline(never)]
+pub(super) fn value<S: Simd>(
+    simd: S,
+    setting: &Setting<'_, '_>,
+    function: Function,
+    places: &Trace<S>,
+) -> f64x8<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let contents = setting.contents;
+            match function {
+                Function::Outline(sphere) => {
+                    polynomial(&contents.active[sphere].discriminant, places.x, places.y)
+                }
+                Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
+                Function::Facing(sphere) => {
+                    let center = contents.active[sphere].ball.center;
+                    places.point.dot_one(center) - places.point.length_squared()
+                }
+                Function::Above(light, caster) => {
+                    let toward = setting.scene.lights[light].toward;
+                    places.point.dot_one(toward) - contents.casters[caster].center.dot(toward)
+                }
+                Function::Inside(sphere) => {
+                    let ball = &contents.active[sphere].ball;
+                    let from = places.point.minus(&Vectors::splat(simd, ball.center));
+                    from.length_squared() - ball.radius * ball.radius
+                }
+                Function::Across(is_upward, side) => {
+                    let place = if is_upward { places.y } else { places.x };
+                    place - side
+                }
+                Function::Lit(sphere, light) => {
+                    let ball = &contents.active[sphere].ball;
+                    let points =
+                        Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                    points.normal.dot_one(setting.scene.lights[light].toward)
+                }
+                Function::Shaded(sphere, caster) => {
+                    let ball = &contents.active[sphere].ball;
+                    let points =
+                        Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                    in_disc(simd, setting, caster, &points.place())
+                }
+            }
+        },
+    )
+}
+
+/// The square of the distance of points from the middle of a caster, seen along its light, less that
+/// of its radius.
+#[inline(always)]
+pub(super) fn in_disc<S: Simd>(
+    simd: S,
+    setting: &Setting<'_, '_>,
+    caster: usize,
+    place: &Vectors<S>,
+) -> f64x8<S> {
+    let caster = &setting.contents.casters[caster];
+    let from = place.minus(&Vectors::splat(simd, caster.center));
+    let (right, up) = (from.dot_one(caster.right), from.dot_one(caster.up));
+    right * right + up * up - caster.radius * caster.radius
+}
+
+/// A stretch of a curve that is looked at in eight places.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch<'a> {
+    pub(super) curve: &'a Curve,
+    pub(super) piece: &'a Piece,
+    pub(super) start: f64,
+    pub(super) end: f64,
+}
+
+impl Stretch<'_> {
+    fn at(&self, share: f64) -> f64 {
+        self.start + share * (self.end - self.start)
+    }
+
+    /// Appends where a function with these values at the eight places vanishes, in some intervals
+    /// between them.
+    #[inline(never)]
+    pub(super) fn roots<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        function: Function,
+        values: f64x8<S>,
+        intervals: u64,
+        breaks: &mut Vec<f64>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let below = values.simd_lt(0.0).to_bitmask();
+                let mut changes = (below ^ (below >> 1)) & intervals;
+                while changes != 0 {
+                    let lane = changes.trailing_zeros() as usize;
+                    changes &= changes - 1;
+                    let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
+                    let ends = [values[lane], values[lane + 1]];
+                    breaks.push(self.root(simd, setting, function, bracket, ends));
+                }
+                let mut touches = touches(simd, values) & (intervals | intervals << 1);
+                while touches != 0 {
+                    let lane = touches.trailing_zeros() as usize;
+                    touches &= touches - 1;
+                    let [before, here, after] = [values[lane - 1], values[lane], values[lane + 1]];
+                    let way = -0.5 * (after - before) / (before - 2.0 * here + after);
+                    let step = if way < 0.0 { lane - 1 } else { lane };
+                    let at = self.at(STEPS[lane] + way * STEPS[1]);
+                    let places = self.trace(simd, setting, f64x8::splat(simd, at));
+                    let there = value(simd, setting, function, &places)[0];
+                    if (there < 0.0) == (here < 0.0) {
+                        continue;
+                    }
+                    let (low, high) = (self.at(STEPS[step]), self.at(STEPS[step + 1]));
+                    for (bracket, ends) in [
+                        ([low, at], [values[step], there]),
+                        ([at, high], [there, values[step + 1]]),
+                    ] {
+                        breaks.push(self.root(simd, setting, function, bracket, ends));
+                    }
+                }
+            },
+        )
+    }
+
+    #[inline(always)]
+    pub(super) fn trace<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        s: f64x8<S>,
+    ) -> Trace<S> {
+        trace(simd, setting.cell, &self.curve.shape, self.piece, s)
+    }
+
+    /// The eight places.
+    #[inline(always)]
+    pub(super) fn places<S: Simd>(&self, simd: S, setting: &Setting<'_, '_>) -> Trace<S> {
+        let steps: f64x8<S> = STEPS.simd_into(simd);
+        self.trace(simd, setting, steps * (self.end - self.start) + self.start)
+    }
+
+    /// The parameter between two, with values of different signs, at which a function vanishes.
+    #[inline(never)]
+    fn root<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        function: Function,
+        mut bracket: [f64; 2],
+        mut values: [f64; 2],
+    ) -> f64 {
+        /// Places around where a straight line would vanish, in widths of the bracket.
+        const AROUND: [f64; 8] = [-0.2, -0.02, -0.002, -0.0002, 0.0002, 0.002, 0.02, 0.2];
+        /// A bracket in which a straight line will do.
+        const NARROW: f64 = 3e-4;
+        const MOST_ROUNDS: usize = 4;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let around: f64x8<S> = AROUND.simd_into(simd);
+                for _ in 0..MOST_ROUNDS {
+                    let width = bracket[1] - bracket[0];
+                    let guess = bracket[0] + width * share_of_root(&values);
+                    let at = around * width + guess;
+                    let at = at
+                        .max(f64x8::splat(simd, bracket[0]))
+                        .min(f64x8::splat(simd, bracket[1]));
+                    let places = self.trace(simd, setting, at);
+                    let found = value(simd, setting, function, &places);
+                    let below = found.simd_lt(0.0).to_bitmask();
+                    // The first that differs from the start.
+                    let differs = if values[0] < 0.0 {
+                        !below & 0xff
+                    } else {
+                        below
+                    };
+                    let first = differs.trailing_zeros() as usize;
+                    if first > 0 {
+                        let before = first.min(8) - 1;
+                        bracket[0] = at[before];
+                        values[0] = found[before];
+                    }
+                    if first < 8 {
+                        bracket[1] = at[first];
+                        values[1] = found[first];
+                    }
+                    if bracket[1] - bracket[0] < NARROW {
+                        break;
+                    }
+                }
+                bracket[0] + (bracket[1] - bracket[0]) * share_of_root(&values)
+            },
+        )
+    }
+}
+
+/// Where, between 0 and 1, a straight line with these values at the ends vanishes.
+fn share_of_root(values: &[f64; 2]) -> f64 {
+    let share = values[0] / (values[0] - values[1]);
+    if share.is_finite() { share } else { 0.5 }
+}
+
+/// The lanes beside which parabolas through neighboring values, all of one sign, come near zero.
+#[inline(always)]
+fn touches<S: Simd>(simd: S, values: f64x8<S>) -> u64 {
+    /// How much farther than a parabola the values may go.
+    const FARTHER: f64 = 1.1;
+    const BENT: f64 = 0.01;
+    const INNER: u64 = 0x7e;
+    let v: [f64; 8] = values.into();
+    let before = [v[0], v[0], v[1], v[2], v[3], v[4], v[5], v[6]];
+    let after = [v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[7]];
+    let before: f64x8<S> = before.simd_into(simd);
+    let after: f64x8<S> = after.simd_into(simd);
+    let bend = before - values * 2.0 + after;
+    let rise = after - before;
+    // Of one sign, bent toward zero, with the vertex between them.
+    let is_bent = (before * values).simd_gt(0.0)
+        & (after * values).simd_gt(0.0)
+        & (bend * values).simd_gt(0.0)
+        & rise.abs().simd_lt(bend.abs() * 2.0);
+    let depth = rise * rise * FARTHER + bend * bend * BENT;
+    let comes_near = (values * bend).abs().simd_lt(depth * 0.125);
+    (is_bent & comes_near).to_bitmask() & INNER
+}

@@ -1,0 +1,250 @@
+//! The integral along an arc.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::curve::{Piece, Shape, Trace, trace};
+use super::primitive::{Lines, Sender, lit_up_to};
+use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
+use crate::exact::contents::Contents;
+use crate::exact::edged::rule::{Roots, Rule, error_estimate};
+use crate::exact::scene::InCamera;
+use crate::model::color::Radiance;
+
+/// How much larger than what the rules differ by their error is taken to be.
+const CAUTION: f64 = 3.0;
+
+/// Arcs that take more of the tolerance are halved, so often.
+const SHARE: f64 = 0.02;
+const DEEPEST: u32 = 5;
+
+/// Arcs that are not worth it, in pieces.
+const SHORTEST: f64 = 1e-12;
+
+/// The lane of a trace that is in the middle of an arc.
+const MIDDLE: usize = 2;
+
+impl Boundary {
+    /// Adds what an arc contributes.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "all of it is at hand where it is called"
+    )]
+    #[inline(never)]
+    pub(super) fn add_arc<S: Simd, C: Radiance>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        piece: &Piece,
+        arc: &Arc,
+        depth: u32,
+        sum: &mut Sum<S>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let Setting {
+                    scene, cell, goal, ..
+                } = *setting;
+                if arc.end - arc.start < SHORTEST {
+                    return;
+                }
+                let length = arc.end - arc.start;
+                let mut at = [arc.start; 8];
+                at[1] = arc.end;
+                at[MIDDLE] = arc.start + 0.5 * length;
+                let ends = trace(simd, cell, &curve.shape, piece, at.simd_into(simd));
+                let sign = sign(scene, setting.contents, curve, &ends);
+                let rise = (ends.y[1] - ends.y[0]) * sign;
+                if !sends_light(setting, curve, arc) {
+                    self.note_sides(curve, arc, rise);
+                    return;
+                }
+                let rule = Rule::of(Roots::default());
+                let nodes: f64x8<S> = rule.nodes.simd_into(simd);
+                let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
+                let dy = places.dy * (length * sign);
+                let fine: f64x8<S> = rule.fine.simd_into(simd);
+                let coarse: f64x8<S> = rule.coarse.simd_into(simd);
+                let zero = f64x8::splat(simd, 0.0);
+                let (kept, kept_empty) = (sum.value, sum.empty);
+                let mut light = [zero; 3];
+                let mut doubt = zero;
+                let mut is_empty = [0.0; 2];
+                for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
+                    let factor = if side == 0 { 1.0 } else { -1.0 };
+                    if sphere == NONE {
+                        if side == 1 && matches!(curve.edge, Edge::Left | Edge::Right) {
+                            continue;
+                        }
+                        is_empty[side] = factor;
+                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                            *light += places.x * (factor * goal.background[channel]);
+                        }
+                        continue;
+                    }
+                    let active = &setting.contents.active[sphere];
+                    let albedo = scene.world.albedo(active.sphere);
+                    let ambient = albedo * scene.ambient * factor;
+                    for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                        *light += places.x * ambient[channel];
+                    }
+                    // What both sides have need not be computed.
+                    let mut lights = arc.lit[side];
+                    if arc.inner == arc.outer {
+                        lights &= !arc.lit[1 - side];
+                    }
+                    if lights != 0 {
+                        let lines = Lines {
+                            cell,
+                            x: places.x,
+                            y: places.y,
+                        };
+                        let sender = Sender {
+                            scene,
+                            active,
+                            finish: &setting.finishes[sphere],
+                            lights,
+                            reference: self.references[sphere],
+                        };
+                        let negligible = 0.01 * goal.tolerance;
+                        let summed = lit_up_to::<S, C>(simd, &sender, &lines, negligible);
+                        self.samples += summed.samples;
+                        doubt += summed.doubt;
+                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                            *light += summed.light[channel] * factor;
+                        }
+                    }
+                }
+                let empty = is_empty[0] + is_empty[1];
+                let all = dy * fine;
+                let slip = (total(all) - rise).abs();
+                let of_sums = total(doubt * all.abs());
+                let mut error = 0.0_f64;
+                if empty != 0.0 {
+                    let (one, other) = (places.x * all, places.x * dy * coarse);
+                    sum.empty += one * empty;
+                    error = error_estimate(total(one - other).abs(), total(one.abs())) + slip;
+                }
+                for (channel, light) in light.into_iter().enumerate().take(C::CHANNELS) {
+                    let part = light * dy;
+                    let (one, other) = (part * fine, part * coarse);
+                    sum.value[channel] += one;
+                    let difference = total(one - other).abs();
+                    let spread = total(one.abs());
+                    let highest = greatest(light.abs());
+                    error = error.max(error_estimate(difference, spread) + slip * highest);
+                }
+                if error > SHARE * goal.tolerance && depth < DEEPEST {
+                    for (channel, kept) in kept.into_iter().enumerate() {
+                        sum.value[channel] = kept;
+                    }
+                    sum.empty = kept_empty;
+                    let middle = 0.5 * (arc.start + arc.end);
+                    let halves = [(arc.start, middle), (middle, arc.end)];
+                    for (start, end) in halves {
+                        let half = Arc { start, end, ..*arc };
+                        self.add_arc::<S, C>(simd, setting, curve, piece, &half, depth + 1, sum);
+                    }
+                    return;
+                }
+                sum.error += CAUTION * (error + of_sums);
+                self.note_sides(curve, arc, rise);
+            },
+        );
+    }
+
+    /// Notes how far an arc rises for what lies on either side.
+    fn note_sides(&mut self, curve: &Curve, arc: &Arc, rise: f64) {
+        self.note(arc.inner, arc.lit[0], rise);
+        if !matches!(curve.edge, Edge::Left | Edge::Right) {
+            self.note(arc.outer, arc.lit[1], -rise);
+        }
+    }
+
+    fn note(&mut self, sphere: usize, lit: u64, rise: f64) {
+        let known = self
+            .regions
+            .iter_mut()
+            .find(|region| region.0 == sphere && region.1 == lit);
+        match known {
+            Some(region) => region.2 += rise,
+            None => self.regions.push((sphere, lit, rise)),
+        }
+    }
+}
+
+/// Whether anything but darkness lies on either side of an arc.
+fn sends_light(setting: &Setting<'_, '_>, curve: &Curve, arc: &Arc) -> bool {
+    let scene = setting.scene;
+    let sides = [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])];
+    let is_side = matches!(curve.edge, Edge::Left | Edge::Right);
+    sides
+        .iter()
+        .enumerate()
+        .any(|(index, &(sphere, lit))| match sphere {
+            NONE => index == 0 || !is_side,
+            _ => lit != 0 || scene.ambient.max_element() > 0.0,
+        })
+}
+
+/// The sum of the lanes.
+#[inline(always)]
+pub(super) fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
+    let v: [f64; 8] = lanes.into();
+    ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]))
+}
+
+fn greatest<S: Simd>(lanes: f64x8<S>) -> f64 {
+    let v: [f64; 8] = lanes.into();
+    v.into_iter().fold(0.0, f64::max)
+}
+
+/// 1 where the inner side lies to the left of a curve, -1 to its right.
+#[inline(always)]
+fn sign<S: Simd>(
+    scene: &InCamera<'_>,
+    contents: &Contents,
+    curve: &Curve,
+    places: &Trace<S>,
+) -> f64 {
+    let point = DVec3::new(
+        places.point.x[MIDDLE],
+        places.point.y[MIDDLE],
+        places.point.z[MIDDLE],
+    );
+    let inward = match (curve.edge, &curve.shape) {
+        (Edge::Left, _) => return -1.0,
+        (Edge::Right, _) => return 1.0,
+        (Edge::Limb, _) => contents.active[curve.own[0]].ball.center,
+        (Edge::Seam, Shape::Circle(circle)) => {
+            let [one, other] = curve.own.map(|own| contents.active[own].ball.center);
+            let axis = one - other;
+            let along = axis.cross(point - circle.middle);
+            let across = (point - one).cross(along);
+            across * across.dot(axis).signum()
+        }
+        (Edge::Terminator(light), _) => scene.lights[light].toward,
+        (
+            Edge::Shadow(..),
+            Shape::Shadow {
+                circle,
+                center,
+                toward,
+                ..
+            },
+        ) => {
+            let from_center = point - *center;
+            let height = from_center.dot(*toward);
+            let aside = from_center - *toward * height;
+            let away = aside - circle.middle;
+            away - *toward * (aside.dot(away) / height)
+        }
+        _ => return 0.0,
+    };
+    let x = inward.x * point.z - point.x * inward.z;
+    let y = inward.y * point.z - point.y * inward.z;
+    (places.dx[MIDDLE] * y - places.dy[MIDDLE] * x).signum()
+}

@@ -1,0 +1,211 @@
+//! The integral over a pixel, to a tolerance.
+//!
+//! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
+//! known as curves, between whose events the light is smooth.
+
+mod casters;
+mod contents;
+mod edged;
+mod glimpse;
+mod interior;
+mod pixel;
+mod points;
+mod relief;
+mod scene;
+mod squares;
+mod surface;
+mod tile;
+mod trust;
+
+use std::num::NonZeroU32;
+
+use fearless_simd::{Level, dispatch};
+
+use self::edged::cell::Workspace;
+use self::scene::{InCamera, MOST_LIGHTS};
+use self::trust::trusts_view;
+use crate::edges::cell::Cell;
+use crate::model::color::Radiance;
+use crate::model::roughness::PixelKey;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::picture::image::Band;
+use crate::picture::integrator::Integrator;
+use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::tile::Tile;
+use crate::sampling::Supersampling;
+use crate::search::seen::Seen;
+
+/// Averages to a tolerance.
+#[derive(Clone, Debug)]
+pub(crate) struct Exact<'scene> {
+    scene: InCamera<'scene>,
+    view: View,
+    seen: Seen<'scene>,
+    /// Whether doubles can be trusted with the view.
+    is_trusted: bool,
+    /// For pixels that cannot be integrated.
+    fallback: Supersampling<'scene>,
+    /// What is left to the tolerance of each group of lights.
+    tolerance: f64,
+    /// Which group of lights this is of.
+    group: usize,
+    /// The other groups.
+    others: Vec<Self>,
+    alpha: bool,
+    level: Level,
+    /// About the largest difference of light that an edge may make.
+    contrast: f64,
+}
+
+/// Samples on a side of a pixel that cannot be integrated.
+const FALLBACK_SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
+impl<'scene> Exact<'scene> {
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &View,
+        seen: &Seen<'scene>,
+        tolerance: f64,
+        alpha: bool,
+    ) -> Self {
+        let groups = world.lights.len().div_ceil(MOST_LIGHTS).max(1);
+        let tolerance = tolerance / groups as f64;
+        let of_group = |group| Self::of_group(world, view, seen, tolerance, alpha, group);
+        Self {
+            others: (1..groups).map(of_group).collect(),
+            ..of_group(0)
+        }
+    }
+
+    fn of_group(
+        world: &'scene World,
+        view: &View,
+        seen: &Seen<'scene>,
+        tolerance: f64,
+        alpha: bool,
+        group: usize,
+    ) -> Self {
+        let scene = InCamera::new(world, seen.visibility, view, group);
+        let lights = world
+            .lights
+            .iter()
+            .map(|light| light.intensity().max_element());
+        let contrast = 1.0
+            + world.ambient.max_element()
+            + world.background.max_element()
+            + lights.sum::<f64>();
+        Self {
+            is_trusted: trusts_view(view),
+            scene,
+            view: *view,
+            seen: seen.clone(),
+            fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
+            tolerance,
+            group,
+            others: Vec::new(),
+            alpha,
+            level: Level::new(),
+            contrast,
+        }
+    }
+
+    /// The cell that covers some pixels.
+    fn cell(&self, tile: Tile) -> Cell {
+        let distance = self.view.lens.distance * self.view.zoom;
+        let pixel = self.view.pixel_size() / distance;
+        let center = |col: u32, row: u32| {
+            self.view.cell_center(u64::from(col), u64::from(row), 1) / distance
+        };
+        let first = center(tile.col, tile.row);
+        let last = center(tile.col + tile.width - 1, tile.row + tile.height - 1);
+        Cell {
+            middle: (0.5 * (first + last)).extend(1.0),
+            size: [
+                pixel * f64::from(tile.width),
+                pixel * f64::from(tile.height),
+            ],
+            is_transposed: false,
+        }
+    }
+}
+
+/// Memory to work in, and what is remembered of the noise.
+#[derive(Debug, Default)]
+pub(crate) struct Room {
+    own: Workspace,
+    /// For further lights.
+    others: Vec<Workspace>,
+}
+
+impl<C: Radiance> Pixel<C> {
+    /// What is given up, until samples take its place.
+    const LOST: Self = Self {
+        value: C::ZERO,
+        alpha: 0.0,
+        error: f64::NAN,
+        evidence: Evidence::Estimate,
+        status: Status::OutOfBudget,
+    };
+
+    /// Adds what further lights contribute.
+    fn add(&mut self, more: &Self) {
+        self.value += more.value;
+        self.error += more.error;
+        self.evidence = self.evidence.min(more.evidence);
+        if self.status == Status::Met || more.status == Status::OutOfBudget {
+            self.status = more.status;
+        }
+    }
+}
+
+impl<C: Radiance> Integrator<C> for Exact<'_> {
+    type Room = Room;
+
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
+        let candidates = self.seen.indices(tile);
+        let first = pixels.len();
+        let Room { own, others } = room;
+        let mut work =
+            dispatch!(self.level, simd => self.tile(simd, tile, &candidates, own, pixels));
+        others.resize_with(self.others.len(), Workspace::default);
+        let mut of_group = Vec::new();
+        for (other, workspace) in self.others.iter().zip(others) {
+            of_group.clear();
+            work += dispatch!(self.level, simd => {
+                other.tile(simd, tile, &candidates, workspace, &mut of_group)
+            });
+            for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
+                pixel.add(more);
+            }
+        }
+        for ((col, row), pixel) in tile.pixels().zip(&mut pixels[first..]) {
+            if pixel.error.is_nan() {
+                let frame = self.view.frame;
+                *pixel = self
+                    .fallback
+                    .pixel_of_last_resort(PixelKey { col, row, frame });
+            }
+        }
+        work
+    }
+
+    fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
+        if self.seen.balls(tile).next().is_some() {
+            let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
+            let work = self.integrate(tile, room, &mut pixels);
+            band.write::<C>(tile, &pixels);
+            return work;
+        }
+        // Most pictures have empty tiles.
+        let mut pixel: Pixel<C> = self.empty();
+        for other in &self.others {
+            pixel.add(&other.empty());
+        }
+        band.write_same(tile, &pixel);
+        Work::default()
+    }
+}
+
+#[cfg(test)]
+mod tests;

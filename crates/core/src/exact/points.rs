@@ -1,0 +1,80 @@
+//! Points of spheres, eight at a time.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use crate::edges::cell::Ball;
+use crate::numeric::vectors::Vectors;
+
+/// Points of a sphere that the eye sees from outside.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Points<S: Simd> {
+    pub(crate) ray: Vectors<S>,
+    pub(crate) ray_sq: f64x8<S>,
+    /// In multiples of the ray.
+    pub(crate) t: f64x8<S>,
+    /// Unit outward normals.
+    pub(crate) normal: Vectors<S>,
+}
+
+impl<S: Simd> Points<S> {
+    /// None that anything is known of.
+    #[inline(always)]
+    pub(crate) fn nowhere(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let nothing = Vectors {
+            x: zero,
+            y: zero,
+            z: zero,
+        };
+        Self {
+            ray: nothing,
+            ray_sq: zero,
+            t: zero,
+            normal: nothing,
+        }
+    }
+
+    /// The points in the directions `ray`; a ray that misses counts as grazing.
+    #[inline(always)]
+    pub(crate) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let ray_sq = ray.length_squared();
+        let along = ray.dot_one(ball.center);
+        if ball.is_apart() {
+            let across = ray.cross(&Vectors::splat(simd, ball.center));
+            let discriminant = ray_sq * (ball.radius * ball.radius) - across.length_squared();
+            let root = discriminant.max(zero).sqrt();
+            let t = one * ball.outside / (along + root);
+            // From the center to the foot of the perpendicular, times d·d, and back to the eye.
+            let foot = ray.cross(&across);
+            let normal = foot
+                .minus(&ray.times(root))
+                .times(one / (ray_sq * ball.radius));
+            Self {
+                ray,
+                ray_sq,
+                t,
+                normal,
+            }
+        } else {
+            let discriminant = along * along - ray_sq * ball.outside;
+            let root = discriminant.max(zero).sqrt();
+            let t = one * ball.outside / (along + root);
+            let from_center = ray.times(t).minus(&Vectors::splat(simd, ball.center));
+            Self {
+                ray,
+                ray_sq,
+                t,
+                normal: from_center.times(one * (1.0 / ball.radius)),
+            }
+        }
+    }
+
+    /// The points, from the eye.
+    #[inline(always)]
+    pub(crate) fn place(&self) -> Vectors<S> {
+        self.ray.times(self.t)
+    }
+}

@@ -1,0 +1,158 @@
+//! The world in the frame of a camera.
+
+use glam::{DMat3, DVec3};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use crate::edges::cell::Ball;
+use crate::edges::shadow::Caster;
+use crate::model::color::Color;
+use crate::model::sphere::Sphere;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::search::Visibility;
+
+/// Lights that are integrated at a time: further ones in further groups.
+pub(crate) const MOST_LIGHTS: usize = 8;
+
+/// What integration needs of world and view.
+#[derive(Clone, Debug)]
+pub(crate) struct InCamera<'scene> {
+    pub(crate) world: &'scene World,
+    pub(crate) visibility: &'scene Visibility<'scene>,
+    pub(crate) world_from_camera: DMat3,
+    pub(crate) viewpoint: DVec3,
+    camera_from_world: DMat3,
+    /// All spheres; none in a world of very many, of which a view sees few.
+    balls: Vec<Ball>,
+    /// Whether the eye is inside a sphere that casts shadows: so is all that it sees, and no light
+    /// gets there.
+    pub(crate) is_enclosed: bool,
+    /// Those of one group.
+    pub(crate) lights: Vec<Light>,
+    /// What spheres send without a light; nothing but for the first group.
+    pub(crate) ambient: Color,
+}
+
+/// So many spheres are brought into the camera's frame once for a view.
+const MOST_KEPT: usize = 1 << 15;
+
+/// Threads share the work on no fewer spheres than this.
+const FEWEST_TO_SHARE: usize = 4096;
+
+/// A light in the camera's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Light {
+    /// Its number in the world.
+    pub(crate) index: usize,
+    pub(crate) intensity: Color,
+    /// Unit vector toward it.
+    pub(crate) toward: DVec3,
+    /// Unit vectors across.
+    pub(crate) right: DVec3,
+    pub(crate) up: DVec3,
+}
+
+impl Light {
+    /// A ball as the light sees it.
+    pub(crate) fn caster(&self, center: DVec3, radius: f64) -> Caster {
+        Caster {
+            center,
+            radius,
+            right: self.right,
+            up: self.up,
+        }
+    }
+}
+
+impl<'scene> InCamera<'scene> {
+    pub(crate) fn new(
+        world: &'scene World,
+        visibility: &'scene Visibility<'scene>,
+        view: &View,
+        group: usize,
+    ) -> Self {
+        let world_from_camera = view.camera.world_from_camera;
+        let camera_from_world = world_from_camera.transpose();
+        let viewpoint = view.camera.position;
+        let in_camera = |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world);
+        let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
+        let balls: Vec<Ball> = if world.spheres().len() <= MOST_KEPT {
+            spheres.clone().map(in_camera).collect()
+        } else {
+            Vec::new()
+        };
+        let encloses = |sphere: &Sphere| {
+            /// Far more than rounding.
+            const NEARLY: f64 = 1.0 + 1e-9;
+            let distance_sq = (sphere.center() - viewpoint).length_squared();
+            let radius_sq = sphere.radius() * sphere.radius();
+            // What is not a number may be anything.
+            let is_far = distance_sq > radius_sq * NEARLY && radius_sq > 0.0;
+            !is_far && sphere.relative_to(viewpoint).outside() <= 0.0
+        };
+        let of_group = world.lights.iter().enumerate();
+        let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
+        let lights = of_group.map(|(index, light)| {
+            let toward = camera_from_world * light.toward();
+            let (right, up) = toward.any_orthonormal_pair();
+            Light {
+                index,
+                intensity: light.intensity(),
+                toward,
+                right,
+                up,
+            }
+        });
+        Self {
+            world,
+            visibility,
+            world_from_camera,
+            viewpoint,
+            is_enclosed: world.shadows && spheres.any(encloses),
+            camera_from_world,
+            balls,
+            lights: lights.collect(),
+            ambient: if group == 0 {
+                world.ambient
+            } else {
+                Color::ZERO
+            },
+        }
+    }
+
+    /// A sphere in the camera's frame.
+    pub(crate) fn ball(&self, sphere: usize) -> Ball {
+        match self.balls.get(sphere) {
+            Some(ball) => *ball,
+            None => in_camera(
+                &self.world.spheres()[sphere],
+                self.viewpoint,
+                &self.camera_from_world,
+            ),
+        }
+    }
+
+    /// The center of a sphere in the camera's frame, and its radius.
+    pub(crate) fn center(&self, sphere: usize) -> (DVec3, f64) {
+        match self.balls.get(sphere) {
+            Some(ball) => (ball.center, ball.radius),
+            None => {
+                let sphere = &self.world.spheres()[sphere];
+                let center = self.camera_from_world * (sphere.center() - self.viewpoint);
+                (center, sphere.radius())
+            }
+        }
+    }
+
+    pub(crate) fn in_world(&self, point: DVec3) -> DVec3 {
+        self.viewpoint + self.world_from_camera * point
+    }
+}
+
+fn in_camera(sphere: &Sphere, viewpoint: DVec3, camera_from_world: &DMat3) -> Ball {
+    Ball {
+        center: *camera_from_world * (sphere.center() - viewpoint),
+        radius: sphere.radius(),
+        outside: sphere.relative_to(viewpoint).outside(),
+    }
+}

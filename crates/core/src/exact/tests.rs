@@ -1,0 +1,182 @@
+//! The same bits on every processor.
+
+use fearless_simd::Level;
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::model::camera::{Camera, Lens};
+use crate::model::color::Color;
+use crate::model::light::DirectionalLight;
+use crate::model::material::{Grain, Highlight, Material, Roughness};
+use crate::model::sphere::Sphere;
+use crate::numeric::angle::Angle;
+use crate::numeric::lanes::tests::levels;
+use crate::picture::pixel::Status;
+use crate::search::Visibility;
+use crate::search::tests::Random;
+
+/// Balls of every finish that intersect and shade each other, on a floor, under two lights.
+fn world() -> World {
+    let mut random = Random(1);
+    let mut world = World::new();
+    let materials = [0, 1, 2].map(|number| {
+        world.add_material(Material {
+            albedo: Color::new(0.9, 0.3 * f64::from(number), 0.3),
+            exponent: [1.0, 2.7, 0.7][number as usize],
+            highlight: (number > 0).then_some(Highlight {
+                strength: 0.5,
+                shininess: 20.0,
+            }),
+            roughness: (number == 2).then_some(Roughness {
+                amplitude: 0.2,
+                grain: Grain::Surface(0.5),
+                seed: 3,
+            }),
+        })
+    });
+    for index in 0..40 {
+        let center = random.point() + DVec3::Z * 4.0;
+        let radius = 0.1 + 0.2 * random.number();
+        world.add_sphere(Sphere::new(center, radius).unwrap(), materials[index % 3]);
+    }
+    let floor = Sphere::new(DVec3::new(0.0, -1e4 - 1.0, 4.0), 1e4).unwrap();
+    world.add_sphere(floor, materials[0]);
+    for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, 0.2)] {
+        let intensity = Color::new(0.6, 0.5, 0.4);
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, intensity));
+    }
+    world.background = Color::new(0.0, 0.1, 0.2);
+    world
+}
+
+fn view() -> View {
+    View {
+        camera: Camera::free(
+            DVec3::ZERO,
+            Angle::ZERO,
+            Angle::ZERO,
+            Angle::from_degrees(13.0),
+        ),
+        lens: Lens {
+            width: 2.0,
+            distance: 3.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 29,
+        height: 21,
+        frame: 1,
+    }
+}
+
+fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
+    let (world, view) = (world(), view());
+    let visibility = Visibility::new(&world);
+    let seen = Seen::new(&visibility, &view, Tile::SIDE);
+    let integrator = Exact {
+        level,
+        ..Exact::new(&world, &view, &seen, tolerance, true)
+    };
+    let mut found = vec![None; (view.width * view.height) as usize];
+    let mut room = Room::default();
+    for row in (0..view.height).step_by(side as usize) {
+        for col in (0..view.width).step_by(side as usize) {
+            let tile = Tile {
+                col,
+                row,
+                width: side.min(view.width - col),
+                height: side.min(view.height - row),
+            };
+            let mut pixels = Vec::new();
+            integrator.integrate(tile, &mut room, &mut pixels);
+            for ((col, row), pixel) in tile.pixels().zip(pixels) {
+                found[(row * view.width + col) as usize] = Some(pixel);
+            }
+        }
+    }
+    found.into_iter().map(Option::unwrap).collect()
+}
+
+#[test]
+fn processors_and_tiles_do_not_change_a_bit() {
+    for tolerance in [1e-2, 1e-4] {
+        let expected = pixels(Level::new(), tolerance, Tile::SIDE);
+        let partly = |pixel: &&Pixel<Color>| 0.0 < pixel.alpha && pixel.alpha < 1.0;
+        assert!(expected.iter().filter(partly).count() > 50);
+        let is_met = |pixel: &Pixel<Color>| pixel.status == Status::Met;
+        assert!(expected.iter().all(is_met), "nothing falls back on samples");
+        for level in levels().into_iter().chain([Level::baseline()]) {
+            let found = pixels(level, tolerance, Tile::SIDE);
+            assert!(expected == found, "{level:?}");
+        }
+        // Tiles of one, two and four pixels lie in those of eight.
+        for side in [1, 2, 4] {
+            let found = pixels(Level::new(), tolerance, side);
+            assert!(expected == found, "tiles of {side}");
+        }
+    }
+}
+
+/// Spheres as large as a pixel, some of which hide and shade others: against sixty-four times
+/// sixty-four samples of the same pixels.
+#[test]
+fn crowds_meet_their_tolerance() {
+    let mut random = Random(9);
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    let shiny = world.add_material(Material {
+        highlight: Some(Highlight {
+            strength: 0.3,
+            shininess: 8.0,
+        }),
+        exponent: 2.0,
+        ..Material::MATTE_WHITE
+    });
+    for index in 0..2000 {
+        let center = random.point() + DVec3::Z * 4.0;
+        let radius = 0.02 + 0.05 * random.number();
+        let material = if index % 3 == 0 { shiny } else { white };
+        world.add_sphere(Sphere::new(center, radius).unwrap(), material);
+    }
+    for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, -0.2)] {
+        let intensity = Color::splat(0.5);
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, intensity));
+    }
+    world.ambient = Color::splat(0.1);
+    world.background = Color::splat(0.2);
+    let view = view();
+    let visibility = Visibility::new(&world);
+    let seen = Seen::new(&visibility, &view, Tile::SIDE);
+    let samples = NonZeroU32::new(64).unwrap();
+    let sampled = Supersampling::new(&world, &view, &seen, samples, false);
+    let exact = Exact::new(&world, &view, &seen, 1e-3, false);
+    let tile = Tile {
+        col: 8,
+        row: 8,
+        width: 8,
+        height: 8,
+    };
+    let (mut expected, mut found) = (Vec::new(), Vec::new());
+    Integrator::<f64>::integrate(&sampled, tile, &mut Default::default(), &mut expected);
+    let work = Integrator::<f64>::integrate(&exact, tile, &mut Default::default(), &mut found);
+    let (mut partly, mut square) = (0, 0.0);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert_eq!(found.status, Status::Met);
+        let off = (found.value - expected.value).abs();
+        // Edges along the grid cost samples a share of a row of them.
+        assert!(off <= found.error + 0.2 * expected.error, "{off:e}");
+        square += off * off;
+        partly += u32::from(expected.error > 1e-3);
+    }
+    assert!(partly > 50, "{partly} pixels with edges");
+    let mean = (square / found.len() as f64).sqrt();
+    assert!(mean < 5e-4, "{mean:e}");
+    assert!(
+        work.lines < 64 * 16,
+        "{work:?}: most are followed along edges"
+    );
+}

@@ -1,0 +1,132 @@
+//! The pixels of a tile: which of them see one sphere and no edge, and which need lines.
+
+use fearless_simd::prelude::*;
+
+use super::Exact;
+use super::casters::CasterCache;
+use super::edged::cell::Workspace;
+use super::glimpse::Glimpse;
+use super::trust::trusts;
+use crate::edges::cell::Ball;
+use crate::model::color::{Color, Radiance};
+use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::tile::Tile;
+
+impl Exact<'_> {
+    #[inline(always)]
+    pub(crate) fn tile<S: Simd, C: Radiance>(
+        &self,
+        simd: S,
+        tile: Tile,
+        candidates: &[usize],
+        workspace: &mut Workspace,
+        pixels: &mut Vec<Pixel<C>>,
+    ) -> Work {
+        workspace.balls.clear();
+        for &sphere in candidates {
+            workspace.balls.push(self.scene.ball(sphere));
+        }
+        let trusts_all = self.is_trusted && workspace.balls.iter().all(trusts);
+        if !trusts_all && !candidates.is_empty() {
+            let count = tile.width as usize * tile.height as usize;
+            pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
+            return Work::default();
+        }
+        let first = pixels.len();
+        let count = tile.width as usize * tile.height as usize;
+        pixels.extend(std::iter::repeat_n(self.empty::<C>(), count));
+        if candidates.is_empty() {
+            return Work::default();
+        }
+        let pixel = self
+            .cell(Tile {
+                width: 1,
+                height: 1,
+                ..tile
+            })
+            .size[0];
+        let mut cache = CasterCache::new(self.cell(tile), pixel);
+        let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
+        let mut spheres: Vec<(usize, Ball)> = Vec::new();
+        for row in 0..tile.height {
+            for left in (0..tile.width).step_by(8) {
+                let width = (tile.width - left).min(8);
+                let start = Tile {
+                    col: tile.col + left,
+                    row: tile.row + row,
+                    width: 1,
+                    height: 1,
+                };
+                let at = first + (row * tile.width + left) as usize;
+                let pixels = &mut pixels[at..at + width as usize];
+                glimpses.clear();
+                workspace.work.candidate_tests += candidates.len() as u64 * u64::from(width);
+                simd.vectorize(
+                    #[inline(always)]
+                    || {
+                        let balls = &workspace.balls;
+                        self.glimpse(simd, start, width, candidates, balls, &mut glimpses);
+                    },
+                );
+                let mut singles: Vec<(usize, u64)> = Vec::new();
+                for (index, pixel) in pixels.iter_mut().enumerate() {
+                    let seen = |glimpse: &&Glimpse| glimpse.touched >> index & 1 == 1;
+                    let mut touching = glimpses.iter().filter(seen);
+                    let Some(one) = touching.next() else { continue };
+                    let is_single = touching.next().is_none() && one.covered >> index & 1 == 1;
+                    spheres.clear();
+                    if is_single {
+                        spheres.push((one.sphere, one.ball));
+                    } else {
+                        let here = Tile {
+                            col: start.col + index as u32,
+                            ..start
+                        };
+                        let cell = self.cell(here);
+                        self.visible(&cell, index, &glimpses, &mut spheres);
+                        let covers = |sphere: usize| {
+                            glimpses.iter().any(|glimpse| {
+                                glimpse.sphere == sphere && glimpse.covered >> index & 1 == 1
+                            })
+                        };
+                        if spheres.len() != 1 || !covers(spheres[0].0) {
+                            *pixel = self.pixel(simd, here, &spheres, &mut cache, workspace);
+                            continue;
+                        }
+                    }
+                    let sphere = spheres[0].0;
+                    match singles.iter_mut().find(|single| single.0 == sphere) {
+                        Some(single) => single.1 |= 1 << index,
+                        None => singles.push((sphere, 1 << index)),
+                    }
+                }
+                for (sphere, which) in singles {
+                    self.fill(
+                        simd, start, sphere, which, &glimpses, &mut cache, workspace, pixels,
+                    );
+                }
+            }
+        }
+        let mut work = std::mem::take(&mut workspace.work);
+        work.candidate_tests += cache.tests;
+        work
+    }
+
+    pub(crate) fn empty<C: Radiance>(&self) -> Pixel<C> {
+        Pixel {
+            value: C::from_color(self.background()),
+            alpha: 0.0,
+            error: 0.0,
+            evidence: Evidence::Bound,
+            status: Status::Met,
+        }
+    }
+
+    pub(crate) fn background(&self) -> Color {
+        if self.alpha || self.group > 0 {
+            Color::ZERO
+        } else {
+            self.scene.world.background
+        }
+    }
+}

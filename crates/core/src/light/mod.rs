@@ -1,0 +1,3 @@
+//! The light that a surface sends to the eye.
+
+pub(crate) mod shading;

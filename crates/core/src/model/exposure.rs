@@ -1,0 +1,114 @@
+//! What a picture is taken of: one view, or those of a camera that moves meanwhile.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use super::camera::Camera;
+use super::view::View;
+
+/// Where a camera is at a moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// Where it is and looks.
+    pub camera: Camera,
+    /// Factor on the retina's distance, greater than 0.
+    pub zoom: f64,
+}
+
+/// What a camera does while the shutter is open.
+pub trait Motion: Debug + Send + Sync {
+    /// The pose at a time from −½, when the shutter opens, to ½, when it closes: always the same for
+    /// the same time. Where there is none, that of the middle is taken for it.
+    fn pose(&self, time: f64) -> Option<Pose>;
+
+    /// Whether it goes on without a bend or a jump at time 0. It does at all other times.
+    fn is_smooth(&self) -> bool;
+}
+
+/// A view, and what the camera does while the shutter is open.
+#[derive(Clone, Debug)]
+pub struct Exposure<'motion> {
+    view: View,
+    motion: Option<Arc<dyn Motion + 'motion>>,
+}
+
+impl<'motion> Exposure<'motion> {
+    /// A view of a moving camera: where it is in the middle of the time.
+    pub fn of_motion(view: View, motion: impl Motion + 'motion) -> Self {
+        Self {
+            view,
+            motion: Some(Arc::new(motion)),
+        }
+    }
+
+    /// The view in the middle of the time.
+    pub fn view(&self) -> &View {
+        &self.view
+    }
+
+    /// The camera's poses at some moments, from when the shutter opens to when it closes, those just
+    /// before and in the middle among them: enough to tell motions apart. None for an exposure of a
+    /// moment.
+    pub fn poses(&self) -> Vec<Pose> {
+        let Some(motion) = &self.motion else {
+            return Vec::new();
+        };
+        let pose = |time| pose(&self.view, motion.as_ref(), time);
+        HALVES.into_iter().flatten().map(pose).collect()
+    }
+
+    /// The motion, where the camera moves at all.
+    pub(crate) fn motion(&self) -> Option<Arc<dyn Motion + 'motion>> {
+        let motion = self.motion.as_ref()?;
+        let rest = Pose::of(&self.view);
+        let moves = self.poses().iter().any(|pose| *pose != rest);
+        moves.then(|| Arc::clone(motion))
+    }
+}
+
+/// Moments of the two halves of the time; the first ends just before the second begins, where there
+/// may be a jump.
+pub(crate) const HALVES: [[f64; 5]; 2] = [
+    [-0.5, -0.375, -0.25, -0.125, -1.0 / 1_048_576.0],
+    [0.0, 0.125, 0.25, 0.375, 0.5],
+];
+
+impl Pose {
+    fn of(view: &View) -> Self {
+        Self {
+            camera: view.camera,
+            zoom: view.zoom,
+        }
+    }
+}
+
+/// The pose at a time, or that of the view.
+fn pose(view: &View, motion: &dyn Motion, time: f64) -> Pose {
+    motion.pose(time).unwrap_or(Pose::of(view))
+}
+
+/// The view at a time.
+pub(crate) fn view_at(view: &View, motion: &dyn Motion, time: f64) -> View {
+    let Pose { camera, zoom } = pose(view, motion, time);
+    View {
+        camera,
+        zoom,
+        ..*view
+    }
+}
+
+/// An exposure of a moment.
+impl From<&View> for Exposure<'_> {
+    fn from(view: &View) -> Self {
+        Self {
+            view: *view,
+            motion: None,
+        }
+    }
+}
+
+impl<'motion> From<&Exposure<'motion>> for Exposure<'motion> {
+    fn from(exposure: &Exposure<'motion>) -> Self {
+        exposure.clone()
+    }
+}

@@ -1,0 +1,58 @@
+//! What surfaces are made of.
+
+use glam::DVec3;
+
+use super::color::Color;
+
+/// How a surface answers light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Fraction of the light that is scattered, per channel.
+    pub albedo: Color,
+    /// Contrast exponent of n·l, greater than 0; 1 is Lambert's law.
+    pub exponent: f64,
+    /// The mirror-like spot, if any.
+    pub highlight: Option<Highlight>,
+    /// The bumps, if any.
+    pub roughness: Option<Roughness>,
+}
+
+impl Material {
+    /// Matte white: Lambert's law, everything scattered.
+    pub const MATTE_WHITE: Self = Self {
+        albedo: DVec3::ONE,
+        exponent: 1.0,
+        highlight: None,
+        roughness: None,
+    };
+}
+
+/// A highlight, `strength · max(0, n·h)^shininess` with h half-way between light and viewer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Highlight {
+    /// Radiance at the brightest point under a light of intensity 1, at least 0.
+    pub strength: f64,
+    /// Exponent, greater than 0: the larger, the smaller the spot.
+    pub shininess: f64,
+}
+
+/// A perturbation of the shading normal: each component is multiplied by a number from
+/// 1 − amplitude to 1 + amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Roughness {
+    /// From 0 (smooth) up to, not including, 1.
+    pub amplitude: f64,
+    /// What the numbers are attached to.
+    pub grain: Grain,
+    /// Seed of the numbers.
+    pub seed: u64,
+}
+
+/// What the random numbers of a rough surface are attached to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grain {
+    /// To the surface: smooth noise with cells of this size, in scene units, greater than 0.
+    Surface(f64),
+    /// To the picture: an independent draw for each pixel and frame.
+    Pixel,
+}

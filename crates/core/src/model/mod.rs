@@ -1,0 +1,13 @@
+//! The scene as a user describes it: world and view.
+
+pub(crate) mod albedos;
+pub(crate) mod camera;
+pub(crate) mod color;
+pub(crate) mod exposure;
+pub(crate) mod light;
+pub(crate) mod material;
+pub(crate) mod ray;
+pub(crate) mod roughness;
+pub(crate) mod sphere;
+pub(crate) mod view;
+pub(crate) mod world;

@@ -1,0 +1,188 @@
+//! Rough surfaces: normals multiplied by random numbers.
+
+pub(crate) mod noise;
+
+use crate::model::roughness::noise::NoiseCells;
+use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8};
+use glam::DVec3;
+
+use self::noise::{Cell, hash, spread};
+use super::material::{Grain, Roughness};
+use crate::numeric::lanes::Lanes;
+
+/// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
+const MOST_CELLS: f64 = (1_u64 << 50) as f64;
+
+/// What the numbers of [`Grain::Pixel`] are drawn for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PixelKey {
+    pub(crate) col: u32,
+    pub(crate) row: u32,
+    pub(crate) frame: i64,
+}
+
+impl Roughness {
+    /// The perturbed shading normal, unit, at the point of the sphere with the outward normal
+    /// `normal`.
+    pub(crate) fn perturb(
+        &self,
+        normal: DVec3,
+        radius: f64,
+        sphere: usize,
+        pixel: PixelKey,
+    ) -> DVec3 {
+        match self.bumps(radius, sphere) {
+            Some(bumps) => bumps.perturb(normal),
+            None => {
+                let scaled = normal * self.pixel_factors(sphere, pixel);
+                DVec3::from_array(unit(scaled.to_array()))
+            }
+        }
+    }
+
+    /// The bumps of one sphere, prepared for many normals; `None` where they are attached to the
+    /// pixels.
+    pub(crate) fn bumps(&self, radius: f64, sphere: usize) -> Option<Bumps> {
+        match self.grain {
+            Grain::Surface(size) => Some(Bumps {
+                key: hash(self.seed, sphere as u64),
+                cells: (radius / size).min(MOST_CELLS),
+                amplitude: self.amplitude,
+            }),
+            Grain::Pixel => None,
+        }
+    }
+
+    /// What [`Grain::Pixel`] multiplies all normals by that a pixel sees of a sphere; [`unit`]
+    /// makes the products shading normals.
+    pub(crate) fn pixel_factors(&self, sphere: usize, pixel: PixelKey) -> DVec3 {
+        1.0 + self.amplitude * pixel_noise(self.seed, sphere, pixel)
+    }
+}
+
+/// Bumps that are attached to the surface of one sphere.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bumps {
+    /// Of the seed and the sphere.
+    key: u64,
+    /// How many cells the radius spans.
+    cells: f64,
+    amplitude: f64,
+}
+
+impl Bumps {
+    /// The perturbed shading normal, unit, at the point with the outward normal `normal`.
+    pub(crate) fn perturb(&self, normal: DVec3) -> DVec3 {
+        let normal = normal.to_array();
+        let (nearest, offset) = self.place(normal);
+        let draw = Cell::new(self.key, nearest.map(|part| part as i64)).blend(offset);
+        DVec3::from_array(unit(self.scale(normal, draw)))
+    }
+
+    /// The normals of eight lanes with their components multiplied; [`unit`] makes them those of
+    /// [`Self::perturb`], with the same bits.
+    ///
+    /// All lanes of one cell are done at once, and the values of cells are kept in `cells`: fast
+    /// where neighbors lie in the same cell, as fast as one by one where each has its own. Lanes
+    /// that nobody needs should repeat others; NaN costs the time of a cell, too.
+    #[inline(always)]
+    pub(crate) fn scale_lanes<S: Simd>(
+        &self,
+        normal: [f64x8<S>; 3],
+        cells: &mut NoiseCells,
+    ) -> [f64x8<S>; 3] {
+        let (nearest, offset) = self.place(normal);
+        let [x, y, z]: [[f64; 8]; 3] = [nearest[0].into(), nearest[1].into(), nearest[2].into()];
+        let mut draw = normal;
+        let mut pending = 0xff_u64;
+        while pending != 0 {
+            let lane = pending.trailing_zeros() as usize;
+            let is_here = nearest[0].simd_eq(x[lane])
+                & nearest[1].simd_eq(y[lane])
+                & nearest[2].simd_eq(z[lane]);
+            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
+            let drawn = cell.blend(offset);
+            draw = [
+                is_here.select(drawn[0], draw[0]),
+                is_here.select(drawn[1], draw[1]),
+                is_here.select(drawn[2], draw[2]),
+            ];
+            // NaN is not even where it is: without its own bit the loop would not end.
+            pending &= !(is_here.to_bitmask() | 1 << lane);
+        }
+        self.scale(normal, draw)
+    }
+
+    /// How many cells of the noise the radius spans.
+    pub(crate) fn cells(&self) -> f64 {
+        self.cells
+    }
+
+    /// A bound of |∂n′/∂n|: two points of the sphere whose normals enclose the angle δ, in
+    /// radians, have shading normals that differ by at most `slope_bound() · δ`.
+    ///
+    /// Let n move along the sphere with unit speed and u = n ∘ w, w = 1 + a g(n · cells), with a
+    /// the amplitude.
+    ///
+    /// A component of g is Σ v W, v in [−1, 1], where the weight W is a product of three
+    /// B-splines Bⱼ. Along a unit vector d it changes by g′ = Σ v d·∇W = Σ v W Σⱼ dⱼ Bⱼ′/Bⱼ. The W
+    /// are at least 0 and sum to 1, and so do the B of each axis. Read as probabilities, they make
+    /// the three ratios ξⱼ = Bⱼ′/Bⱼ independent and of mean 0, as Σ B′ = 0, and g′ is the
+    /// covariance of v and Σ dⱼ ξⱼ. With E v = g, v has a variance of at most 1 − g². With the
+    /// offset o from −½ to ½, E ξ² = Σ B′²/B ≤ 2 + 4o²/(¾ − o²) + 2 ≤ 6, so that Σ dⱼ ξⱼ has a
+    /// variance of at most 6. By Cauchy and Schwarz |g′| ≤ √6 √(1 − g²).
+    ///
+    /// So |w′|/w ≤ √6 cells a √(1 − g²)/(1 + a g), at most √6 cells a/√(1 − a²) (where g = −a): a
+    /// bound for |n ∘ w′|/|u|, too. The other part of u′, n′ ∘ w, turns u by at most the largest
+    /// ratio of two factors, (1 + a)/(1 − a). The direction of u changes by at most |u′|/|u|, and
+    /// chords are no longer than the paths along the sphere.
+    ///
+    /// The bound holds for exact arithmetic; rounding adds 2⁻⁵³ times it, and some units in the last
+    /// place.
+    pub(crate) fn slope_bound(&self) -> f64 {
+        const NOISE_SLOPE: f64 = 2.449_489_742_783_178_4;
+        let a = self.amplitude;
+        (1.0 + a) / (1.0 - a) + NOISE_SLOPE * self.cells * a / ((1.0 - a) * (1.0 + a)).sqrt()
+    }
+
+    /// The lattice point next to a point of the surface, and where the point lies from it: at most
+    /// ½ away along each axis.
+    #[inline(always)]
+    fn place<L: Lanes>(&self, normal: [L; 3]) -> ([L; 3], [L; 3]) {
+        let [x, y, z] = normal;
+        let [x, y, z] = [x * self.cells, y * self.cells, z * self.cells];
+        let nearest = [x.nearest_whole(), y.nearest_whole(), z.nearest_whole()];
+        let offset = [x - nearest[0], y - nearest[1], z - nearest[2]];
+        (nearest, offset)
+    }
+
+    /// The normal with its components multiplied by 1 + amplitude · draw.
+    #[inline(always)]
+    fn scale<L: Lanes>(&self, normal: [L; 3], draw: [L; 3]) -> [L; 3] {
+        [
+            normal[0] * (draw[0] * self.amplitude + 1.0),
+            normal[1] * (draw[1] * self.amplitude + 1.0),
+            normal[2] * (draw[2] * self.amplitude + 1.0),
+        ]
+    }
+}
+
+/// The unit vector in the direction of one whose length is neither tiny nor huge.
+///
+/// (A normal times numbers above 1 − amplitude > 0 is neither.)
+#[inline(always)]
+pub(crate) fn unit<L: Lanes>(vector: [L; 3]) -> [L; 3] {
+    let [x, y, z] = vector;
+    let inverse_length = (x * x + y * y + z * z).sqrt().reciprocal();
+    [x * inverse_length, y * inverse_length, z * inverse_length]
+}
+
+/// Independent numbers in [−1, 1) for a pixel of a frame.
+fn pixel_noise(seed: u64, sphere: usize, pixel: PixelKey) -> DVec3 {
+    let key = hash(hash(seed, sphere as u64), pixel.frame as u64);
+    let bits = hash(key, u64::from(pixel.col) << 32 | u64::from(pixel.row));
+    DVec3::from_array(spread(bits))
+}
+
+#[cfg(test)]
+mod tests;

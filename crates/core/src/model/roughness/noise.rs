@@ -1,0 +1,204 @@
+//! Smooth noise in [−1, 1): random values at the points of the unit lattice, blended by quadratic
+//! B-splines, so that slopes are continuous and no lattice shows.
+
+use crate::numeric::lanes::Lanes;
+
+/// The noise in the unit cube about one lattice point: random values at the 27 lattice points around,
+/// blended.
+///
+/// As a polynomial of the second degree in each of the offsets from the lattice point, which takes
+/// two thirds of the products that weights do. The values have 21 bits, so that the coefficients are
+/// exact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cell {
+    /// By powers of z, then y, then x; three independent polynomials.
+    coefficients: [[[[f64; 3]; 3]; 3]; 3],
+}
+
+impl Cell {
+    /// The cell about the lattice point `index` (x, y, z) of the lattice with this key.
+    pub(super) fn new(key: u64, index: [i64; 3]) -> Self {
+        let [xs, ys, zs] =
+            index.map(|index| [-1, 0, 1].map(|step| index.wrapping_add(step) as u64));
+        let planes = zs.map(|z| {
+            let key = hash(key, z);
+            let rows = ys.map(|y| {
+                let key = hash(key, y);
+                spline(xs.map(|x| spread(hash(key, x))))
+            });
+            let [before, middle, after] = rows;
+            let mut plane = rows;
+            for power in 0..3 {
+                let along = spline([before[power], middle[power], after[power]]);
+                for (row, value) in plane.iter_mut().zip(along) {
+                    row[power] = value;
+                }
+            }
+            plane
+        });
+        let [before, middle, after] = planes;
+        let mut coefficients = planes;
+        for y in 0..3 {
+            for x in 0..3 {
+                let along = spline([before[y][x], middle[y][x], after[y][x]]);
+                for (plane, value) in coefficients.iter_mut().zip(along) {
+                    plane[y][x] = value;
+                }
+            }
+        }
+        Self { coefficients }
+    }
+
+    /// The noise at an offset from the lattice point, from −½ to ½ along each axis.
+    ///
+    /// Axis by axis: first the nine rows along x, then three along y, then one along z.
+    #[inline(always)]
+    pub(super) fn blend<L: Lanes>(&self, [x, y, z]: [L; 3]) -> [L; 3] {
+        let [constant, linear, square] = &self.coefficients;
+        let planes = [
+            plane(x, y, constant),
+            plane(x, y, linear),
+            plane(x, y, square),
+        ];
+        along(z, planes)
+    }
+}
+
+#[inline(always)]
+fn plane<L: Lanes>(x: L, y: L, [constant, linear, square]: &[[[f64; 3]; 3]; 3]) -> [L; 3] {
+    along(y, [row(x, constant), row(x, linear), row(x, square)])
+}
+
+#[inline(always)]
+fn row<L: Lanes>(x: L, [a, b, c]: &[[f64; 3]; 3]) -> [L; 3] {
+    [
+        (x * c[0] + b[0]) * x + a[0],
+        (x * c[1] + b[1]) * x + a[1],
+        (x * c[2] + b[2]) * x + a[2],
+    ]
+}
+
+#[inline(always)]
+fn along<L: Lanes>(at: L, [a, b, c]: [[L; 3]; 3]) -> [L; 3] {
+    [
+        (at * c[0] + b[0]) * at + a[0],
+        (at * c[1] + b[1]) * at + a[1],
+        (at * c[2] + b[2]) * at + a[2],
+    ]
+}
+
+/// The polynomial of the offset o from the middle one of three lattice points, the constant first, that
+/// is the blend of their values with the weights of the quadratic B-spline: ½ (½ − o)², ¾ − o² and
+/// ½ (½ + o)².
+fn spline([before, middle, after]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let mut polynomial = [[0.0; 3]; 3];
+    for part in 0..3 {
+        let sides = before[part] + after[part];
+        polynomial[0][part] = 0.125 * sides + 0.75 * middle[part];
+        polynomial[1][part] = 0.5 * (after[part] - before[part]);
+        polynomial[2][part] = 0.5 * sides - middle[part];
+    }
+    polynomial
+}
+
+/// The cells that were asked for last, of any spheres.
+///
+/// A table with one place for each cell: the cells of a sphere within a cube of four by four by
+/// four never push each other out.
+#[derive(Clone, Debug)]
+pub(crate) struct NoiseCells {
+    /// Which cells are in the table: apart from the cells, so that a glance takes little memory.
+    names: Vec<Name>,
+    cells: Vec<Cell>,
+}
+
+/// What tells a cell: the key of its lattice and the bits of the lattice point.
+type Name = (u64, [u64; 3]);
+
+/// Bits of the index that choose the slot, for each axis.
+const SLOT_BITS: u32 = 2;
+const SLOTS: usize = 1 << (3 * SLOT_BITS);
+
+/// 1.5 · 2⁵²: whole numbers of up to 51 bits, added to it, are its last bits.
+const COUNTER: f64 = 1.5 * (1_u64 << (f64::MANTISSA_DIGITS - 1)) as f64;
+
+impl NoiseCells {
+    /// An empty table of about 40 KiB.
+    pub(crate) fn new() -> Self {
+        // Any cell will do for a start, anywhere: it is what its key and index say.
+        let name = (0, [0; 3]);
+        Self {
+            names: vec![name; SLOTS],
+            cells: vec![Cell::new(0, [0; 3]); SLOTS],
+        }
+    }
+
+    /// The cell about the lattice point (x, y, z), computed where it is not in the table.
+    #[inline(always)]
+    pub(super) fn cell(&mut self, key: u64, [x, y, z]: [f64; 3]) -> &Cell {
+        let place = last_bits(x) | last_bits(y) << SLOT_BITS | last_bits(z) << (2 * SLOT_BITS);
+        let slot = place.wrapping_add(key as usize) % SLOTS;
+        let (of, [at_x, at_y, at_z]) = self.names[slot];
+        let is_other =
+            (of ^ key) | (at_x ^ x.to_bits()) | (at_y ^ y.to_bits()) | (at_z ^ z.to_bits());
+        if is_other != 0 {
+            self.replace(slot, key, [x, y, z]);
+        }
+        &self.cells[slot]
+    }
+
+    #[inline(never)]
+    fn replace(&mut self, slot: usize, key: u64, point: [f64; 3]) {
+        self.names[slot] = (key, point.map(f64::to_bits));
+        self.cells[slot] = Cell::new(key, point.map(|part| part as i64));
+    }
+}
+
+/// The last bits of a whole number, as many as choose the slot.
+#[inline(always)]
+fn last_bits(whole: f64) -> usize {
+    (whole + COUNTER).to_bits() as usize % (1 << SLOT_BITS)
+}
+
+/// Three numbers in [−1, 1) from the bits of one.
+pub(super) fn spread(bits: u64) -> [f64; 3] {
+    const BITS: u32 = 21;
+    const UNIT: f64 = 1.0 / (1_u64 << (BITS - 1)) as f64;
+    let part = |index: u32| {
+        let bits = bits >> (64 - BITS * (index + 1)) & ((1 << BITS) - 1);
+        f64::from(bits as u32) * UNIT - 1.0
+    };
+    [part(0), part(1), part(2)]
+}
+
+/// Mixes a word into a key; every bit of either changes every bit of the result.
+///
+/// # Source
+/// The increment and finalizer of SplitMix64: Steele, Lea, Flood, Fast Splittable Pseudorandom
+/// Number Generators, OOPSLA 2014, with the constants of Stafford's variant 13.
+pub(super) fn hash(key: u64, word: u64) -> u64 {
+    const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mut z = (key ^ word.wrapping_mul(GOLDEN_GAMMA)).wrapping_add(GOLDEN_GAMMA);
+    z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ z >> 31
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_of_a_block_stay_in_the_table() {
+        let mut table = NoiseCells::new();
+        let block = (0..64).map(|i| [i % 4 - 2, i / 4 % 4 - 7, i / 16 + (1 << 40)]);
+        let block = block.map(|index: [i64; 3]| index.map(|index| index as f64));
+        for index in block.clone() {
+            table.cell(99, index);
+        }
+        for index in block {
+            let name = (99, index.map(f64::to_bits));
+            assert!(table.names.contains(&name), "{index:?}");
+        }
+    }
+}

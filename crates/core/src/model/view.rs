@@ -1,0 +1,138 @@
+//! From where a world is rendered.
+
+use glam::{DVec2, DVec3};
+
+use super::camera::{Camera, Lens};
+use super::ray::Ray;
+
+/// One picture to take: camera, lens, and the pixels of the retina.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where the camera is and looks.
+    pub camera: Camera,
+    /// Its retina.
+    pub lens: Lens,
+    /// Factor on the retina's distance, greater than 0.
+    pub zoom: f64,
+    /// Columns of the picture, at least 1.
+    pub width: u32,
+    /// Rows of the picture, at least 1.
+    pub height: u32,
+    /// Number of the frame; only [`crate::Grain::Pixel`] depends on it.
+    pub frame: i64,
+}
+
+impl View {
+    /// Side of a pixel on the retina, in scene units.
+    pub fn pixel_size(&self) -> f64 {
+        self.lens.width / f64::from(self.width)
+    }
+
+    /// The ray from the viewpoint through a point of the retina.
+    pub fn ray(&self, retina_point: DVec2) -> Ray {
+        let in_camera = DVec3::new(
+            retina_point.x,
+            retina_point.y,
+            self.lens.distance * self.zoom,
+        );
+        Ray {
+            origin: self.camera.position,
+            direction: self.camera.world_from_camera * in_camera,
+        }
+    }
+
+    /// The retina point (u, v) in the middle of a cell of the grid that divides every pixel into
+    /// `divisions` × `divisions` cells; cell (0, 0) is the top left one.
+    ///
+    /// Points that mirror each other in the middle of an unshifted retina do so to the bit.
+    pub fn cell_center(&self, col: u64, row: u64, divisions: u32) -> DVec2 {
+        let cell = self.lens.width / (f64::from(self.width) * f64::from(divisions));
+        // Twice the distance from the middle, in cells: a whole number.
+        let twice = |index: u64, pixels: u32| {
+            2 * index as i64 + 1 - i64::from(divisions) * i64::from(pixels)
+        };
+        let u = 0.5 * cell * twice(col, self.width) as f64;
+        let v = -0.5 * cell * twice(row, self.height) as f64;
+        DVec2::new(u, v) + self.lens.shift
+    }
+
+    /// The pixel coordinates (column, row) at which a world point is seen; pixel (0, 0) spans
+    /// from 0 to 1. `None` when the point is not in front of the viewpoint.
+    pub fn project(&self, point: DVec3) -> Option<DVec2> {
+        let from_eye = point - self.camera.position;
+        let in_camera = self.camera.world_from_camera.transpose() * from_eye;
+        if in_camera.z <= 0.0 {
+            return None;
+        }
+        let scale = self.lens.distance * self.zoom / in_camera.z;
+        let on_retina = in_camera.truncate() * scale - self.lens.shift;
+        let size = DVec2::new(f64::from(self.width), f64::from(self.height));
+        Some(0.5 * size + DVec2::new(on_retina.x, -on_retina.y) / self.pixel_size())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numeric::angle::Angle;
+
+    fn view() -> View {
+        View {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            lens: Lens {
+                width: 8.0,
+                distance: 10.0,
+                shift: DVec2::ZERO,
+            },
+            zoom: 1.0,
+            width: 4,
+            height: 3,
+            frame: 1,
+        }
+    }
+
+    #[test]
+    fn pixel_centers_lie_on_the_retina_from_the_top_left() {
+        assert_eq!(view().cell_center(0, 0, 1), DVec2::new(-3.0, 2.0));
+        assert_eq!(view().cell_center(3, 2, 1), DVec2::new(3.0, -2.0));
+        assert_eq!(view().cell_center(0, 0, 2), DVec2::new(-3.5, 2.5));
+    }
+
+    #[test]
+    fn shift_moves_the_retina_and_zoom_its_distance() {
+        let mut view = view();
+        view.lens.shift = DVec2::new(5.0, -1.0);
+        view.zoom = 3.0;
+        let ray = view.ray(view.cell_center(0, 0, 1));
+        assert_eq!(ray.direction, DVec3::new(2.0, 1.0, 30.0));
+    }
+
+    #[test]
+    fn projection_inverts_the_rays() {
+        let angle = Angle::from_degrees;
+        let mut view = view();
+        view.camera = Camera::free(
+            DVec3::new(3.0, 1.0, 4.0),
+            angle(20.0),
+            angle(-50.0),
+            angle(70.0),
+        );
+        view.lens.shift = DVec2::new(0.3, 0.7);
+        let pixel = view
+            .project(view.ray(view.cell_center(1, 2, 1)).at(7.0))
+            .unwrap();
+        assert!((pixel - DVec2::new(1.5, 2.5)).length() < 1e-14);
+        assert_eq!(view.project(view.ray(DVec2::ZERO).at(-1.0)), None);
+    }
+
+    #[test]
+    fn mirrored_cells_mirror_to_the_bit() {
+        let mut view = view();
+        view.lens.width = 0.7;
+        view.width = 601;
+        for col in 0..3 * 601 {
+            let left = view.cell_center(col, 0, 3).x;
+            assert_eq!(left, -view.cell_center(3 * 601 - 1 - col, 0, 3).x);
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! What is rendered.
+
+use super::albedos::Albedos;
+use super::color::Color;
+use super::light::DirectionalLight;
+use super::material::Material;
+use super::sphere::Sphere;
+use crate::model::color::is_grey;
+
+/// Everything that a camera may see, and its light.
+#[derive(Clone, Debug)]
+pub struct World {
+    /// The lights; none leaves only the ambient light.
+    pub lights: Vec<DirectionalLight>,
+    /// Light from everywhere, which no shadow stops.
+    pub ambient: Color,
+    /// Radiance where no sphere is seen.
+    pub background: Color,
+    /// Whether spheres keep the light from each other.
+    pub shadows: bool,
+    spheres: Vec<Sphere>,
+    material_ids: Vec<MaterialId>,
+    materials: Vec<Material>,
+    /// Which materials some sphere has.
+    is_used: Vec<bool>,
+    /// The spheres that have albedos of their own.
+    painted: Vec<Painted>,
+}
+
+/// Spheres that have albedos of their own, instead of their material's.
+#[derive(Clone, Debug)]
+struct Painted {
+    /// The index of the first.
+    first: usize,
+    albedos: Albedos,
+    is_grey: bool,
+}
+
+/// One of a world's materials.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct MaterialId(u32);
+
+impl World {
+    /// A world without spheres and lights: black, shadows on.
+    pub fn new() -> Self {
+        Self {
+            lights: Vec::new(),
+            ambient: Color::ZERO,
+            background: Color::ZERO,
+            shadows: true,
+            spheres: Vec::new(),
+            material_ids: Vec::new(),
+            materials: Vec::new(),
+            is_used: Vec::new(),
+            painted: Vec::new(),
+        }
+    }
+
+    /// Adds a material that spheres of this world may have.
+    pub fn add_material(&mut self, material: Material) -> MaterialId {
+        let id = MaterialId(self.materials.len() as u32);
+        self.materials.push(material);
+        self.is_used.push(false);
+        id
+    }
+
+    /// Adds a sphere; where surfaces coincide, the one added first is seen.
+    ///
+    /// # Panics
+    /// When `material` is not of this world.
+    pub fn add_sphere(&mut self, sphere: Sphere, material: MaterialId) {
+        self.note_use(material);
+        self.spheres.push(sphere);
+        self.material_ids.push(material);
+    }
+
+    /// Adds many spheres of one material behind those that are there, at the price of a copy at
+    /// most. `albedos` has one for each of them that takes the place of the material's.
+    ///
+    /// # Panics
+    /// When `material` is not of this world, or the albedos are not as many as the spheres.
+    pub fn add_spheres(
+        &mut self,
+        mut spheres: Vec<Sphere>,
+        material: MaterialId,
+        albedos: Option<Albedos>,
+    ) {
+        if spheres.is_empty() {
+            return;
+        }
+        self.note_use(material);
+        let first = self.spheres.len();
+        let count = spheres.len();
+        if let Some(albedos) = albedos {
+            assert_eq!(albedos.len(), count, "an albedo for every sphere");
+            self.painted.push(Painted {
+                first,
+                is_grey: albedos.are_grey(),
+                albedos,
+            });
+        }
+        if first < count {
+            // The few go before the many: there is never a second copy of the many.
+            spheres.splice(0..0, self.spheres.drain(..));
+            self.spheres = spheres;
+        } else {
+            self.spheres.append(&mut spheres);
+        }
+        self.material_ids.reserve_exact(count);
+        self.material_ids.resize(first + count, material);
+    }
+
+    fn note_use(&mut self, material: MaterialId) {
+        assert!(
+            (material.0 as usize) < self.materials.len(),
+            "the material of another world"
+        );
+        self.is_used[material.0 as usize] = true;
+    }
+
+    /// The spheres in the order in which they were added.
+    pub fn spheres(&self) -> &[Sphere] {
+        &self.spheres
+    }
+
+    /// The material of the sphere with this index.
+    pub fn material(&self, sphere: usize) -> &Material {
+        &self.materials[self.material_ids[sphere].0 as usize]
+    }
+
+    /// The albedo of the sphere with this index: its own, or its material's.
+    #[inline]
+    pub fn albedo(&self, sphere: usize) -> Color {
+        if self.painted.is_empty() {
+            self.material(sphere).albedo
+        } else {
+            self.own_albedo(sphere)
+        }
+    }
+
+    /// Whether some spheres have albedos of their own.
+    pub fn has_own_albedos(&self) -> bool {
+        !self.painted.is_empty()
+    }
+
+    fn own_albedo(&self, sphere: usize) -> Color {
+        let after = self.painted.partition_point(|some| some.first <= sphere);
+        let own = self.painted[..after].last();
+        own.and_then(|some| some.albedos.get(sphere - some.first))
+            .unwrap_or(self.material(sphere).albedo)
+    }
+
+    /// The materials in the order in which they were added.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// The place of a sphere's material among the materials.
+    pub fn material_index(&self, sphere: usize) -> u32 {
+        self.material_ids[sphere].0
+    }
+
+    /// Whether nothing that can be seen has a color, so that one channel tells all.
+    pub fn is_grey(&self) -> bool {
+        is_grey(self.background) && self.has_grey_spheres()
+    }
+
+    /// Whether the spheres' light has no color, whatever the background has.
+    pub fn has_grey_spheres(&self) -> bool {
+        let used = self
+            .materials
+            .iter()
+            .zip(&self.is_used)
+            .filter(|(_, used)| **used);
+        is_grey(self.ambient)
+            && self.lights.iter().all(|light| is_grey(light.intensity()))
+            && used
+                .into_iter()
+                .all(|(material, _)| is_grey(material.albedo))
+            && self.painted.iter().all(|some| some.is_grey)
+    }
+}
+
+impl Default for World {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    fn spheres(count: usize, x: f64) -> Vec<Sphere> {
+        (0..count)
+            .map(|index| Sphere::new(DVec3::new(x, index as f64, 0.0), 1.0).unwrap())
+            .collect()
+    }
+
+    #[test]
+    fn many_spheres_come_behind_those_that_are_there() {
+        let mut world = World::new();
+        let white = world.add_material(Material::MATTE_WHITE);
+        for (count, x) in [(2, 0.0), (5, 1.0), (0, 2.0), (3, 3.0), (9, 4.0)] {
+            world.add_spheres(spheres(count, x), white, None);
+        }
+        let found: Vec<(f64, f64)> = world
+            .spheres()
+            .iter()
+            .map(|sphere| (sphere.center().x, sphere.center().y))
+            .collect();
+        let expected: Vec<(f64, f64)> = [(2, 0.0), (5, 1.0), (3, 3.0), (9, 4.0)]
+            .into_iter()
+            .flat_map(|(count, x)| (0..count).map(move |y| (x, f64::from(y))))
+            .collect();
+        assert_eq!(found, expected);
+        assert_eq!(*world.material(18), Material::MATTE_WHITE);
+    }
+
+    #[test]
+    fn albedos_of_their_own_belong_to_their_spheres() {
+        let mut world = World::new();
+        let grey = world.add_material(Material {
+            albedo: Color::splat(0.5),
+            ..Material::MATTE_WHITE
+        });
+        world.add_spheres(spheres(2, 0.0), grey, None);
+        let each = Albedos::Each(vec![[0.25, 0.25, 0.25], [0.5, 0.75, 1.0]]);
+        world.add_spheres(spheres(2, 0.0), grey, Some(each));
+        world.add_spheres(spheres(1, 0.0), grey, None);
+        assert!(!world.has_grey_spheres());
+        let palette = Albedos::Palette {
+            colors: vec![Color::X, Color::Y],
+            indices: vec![1, 0, 1],
+        };
+        world.add_spheres(spheres(3, 0.0), grey, Some(palette));
+        let found: Vec<Color> = (0..8).map(|index| world.albedo(index)).collect();
+        let half = Color::splat(0.5);
+        let colored = Color::new(0.5, 0.75, 1.0);
+        let expected = [
+            half,
+            half,
+            0.5 * half,
+            colored,
+            half,
+            Color::Y,
+            Color::X,
+            Color::Y,
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn grey_albedos_leave_a_world_grey() {
+        let mut world = World::new();
+        let white = world.add_material(Material::MATTE_WHITE);
+        let grey = Albedos::Each(vec![[0.25; 3]; 4]);
+        world.add_spheres(spheres(4, 0.0), white, Some(grey));
+        // Colors that no sphere has do not count.
+        let palette = Albedos::Palette {
+            colors: vec![Color::X, Color::ONE],
+            indices: vec![1, 1],
+        };
+        world.add_spheres(spheres(2, 0.0), white, Some(palette));
+        assert!(world.is_grey());
+    }
+}

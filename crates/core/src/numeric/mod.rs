@@ -1,0 +1,12 @@
+//! Numbers: rounding, lanes, powers, polynomials, rules of integration.
+
+pub(crate) mod angle;
+pub(crate) mod double_double;
+pub(crate) mod fused;
+pub(crate) mod kronrod;
+pub(crate) mod lanes;
+pub(crate) mod polynomial;
+pub(crate) mod power;
+pub(crate) mod quartic;
+pub(crate) mod rounding;
+pub(crate) mod vectors;

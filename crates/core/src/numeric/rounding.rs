@@ -1,0 +1,121 @@
+//! Sums and products of doubles without loss: the result and its rounding error, both doubles.
+//!
+//! # Source
+//! T. J. Dekker, A floating-point technique for extending the available precision, Numerische
+//! Mathematik 18, 1971; D. E. Knuth, The Art of Computer Programming 2, 4.2.2.
+
+use std::ops::{Add, Mul, Sub};
+
+use fearless_simd::{Simd, SimdFloat, f64x4};
+
+/// Half the distance from 1 to the next double, 2⁻⁵³: the relative error of one rounding is at
+/// most this.
+pub(crate) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+
+/// A double, or several side by side.
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+{
+    /// `self · factor + term`, rounded once.
+    fn multiply_add(self, factor: Self, term: Self) -> Self;
+}
+
+impl Number for f64 {
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, term: Self) -> Self {
+        self.mul_add(factor, term)
+    }
+}
+
+impl<S: Simd> Number for f64x4<S> {
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, term: Self) -> Self {
+        self.mul_add_precise(factor, term)
+    }
+}
+
+/// The rounded sum and its error; exact unless the sum overflows.
+#[inline(always)]
+pub(crate) fn two_sum<T: Number>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// The rounded difference and its error; exact unless the difference overflows.
+#[inline(always)]
+pub(crate) fn two_difference<T: Number>(a: T, b: T) -> (T, T) {
+    let difference = a - b;
+    let b_part = difference - a;
+    (difference, (a - (difference - b_part)) - (b + b_part))
+}
+
+/// The rounded sum and its error, exact where |a| ≥ |b| or a = 0.
+#[inline(always)]
+pub(crate) fn fast_two_sum<T: Number>(a: T, b: T) -> (T, T) {
+    let sum = a + b;
+    (sum, b - (sum - a))
+}
+
+/// The rounded product and its error; exact where the product neither overflows nor lies so
+/// near to zero (below 2⁻⁹⁶⁹) that its error is lost.
+///
+/// With `FUSED` by a fused multiplication and addition, which is a slow function where the
+/// processor has none; else by splitting the factors, which must lie below 2⁹⁹⁶. Where the error is
+/// exact, the results are the same to the bit; below 2⁻⁹⁶⁹ they may differ in the last bits of a
+/// subnormal error.
+#[inline(always)]
+pub(crate) fn two_product<const FUSED: bool, T: Number>(a: T, b: T) -> (T, T) {
+    let product = a * b;
+    if FUSED {
+        return (product, a.multiply_add(b, product * -1.0));
+    }
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    (product, error)
+}
+
+/// The upper 26 bits of a double, and the rest.
+#[inline(always)]
+fn split<T: Number>(a: T) -> (T, T) {
+    /// 2²⁷ + 1, after Veltkamp.
+    const SPLITTER: f64 = 134_217_729.0;
+    let shifted = a * SPLITTER;
+    let high = shifted - (shifted - a);
+    (high, a - high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_what_rounding_lost() {
+        assert_eq!(two_sum(1.0, 1e-30), (1.0, 1e-30));
+        assert_eq!(two_difference(1e-30, 1.0), (-1.0, 1e-30));
+        assert_eq!(fast_two_sum(1.0, 1e-30), (1.0, 1e-30));
+        let third = 1.0 + f64::EPSILON;
+        // (1 + ε)² = 1 + 2ε + ε².
+        let expected = (1.0 + 2.0 * f64::EPSILON, f64::EPSILON * f64::EPSILON);
+        assert_eq!(two_product::<true, f64>(third, third), expected);
+    }
+
+    #[test]
+    fn split_products_equal_fused_ones() {
+        let mut bits = 1_u64;
+        let mut next = || {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            // Any sign and mantissa, exponents from −400 to 400.
+            let exponent = 1023 - 400 + (bits >> 33) % 801;
+            f64::from_bits(bits & 0x800f_ffff_ffff_ffff | exponent << 52)
+        };
+        for _ in 0..100_000 {
+            let (a, b) = (next(), next());
+            assert_eq!(
+                two_product::<false, f64>(a, b),
+                two_product::<true, f64>(a, b),
+                "{a:e} · {b:e}"
+            );
+        }
+    }
+}

@@ -1,0 +1,471 @@
+//! Pictures in linear light.
+
+use std::ops::Range;
+
+use rayon::iter::{IndexedParallelIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
+
+use super::pixel::Pixel;
+use super::pixel::{Evidence, Status, Work};
+use super::plane::{Plane, PlaneBand};
+use super::tile::{Tile, TileLight};
+use super::window::Window;
+use crate::model::color::{Color, Radiance};
+use crate::model::world::World;
+
+/// Which numbers a picture holds for each pixel.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Channels {
+    /// One: the picture has no color.
+    Grey,
+    /// Red, green, blue.
+    Rgb,
+}
+
+impl Channels {
+    /// Those of a world's pictures, with or without an alpha channel in place of the background.
+    pub fn of(world: &World, alpha: bool) -> Self {
+        let is_grey = if alpha {
+            world.has_grey_spheres()
+        } else {
+            world.is_grey()
+        };
+        if is_grey { Self::Grey } else { Self::Rgb }
+    }
+
+    fn count(self) -> usize {
+        match self {
+            Self::Grey => 1,
+            Self::Rgb => 3,
+        }
+    }
+}
+
+/// A picture: linear light, premultiplied by coverage where it has an alpha channel, and for
+/// every pixel the error of these numbers.
+///
+/// Row 0 is the top row, column 0 the left one. Pictures are equal whose pixels are, and what is
+/// known of them; what they cost does not count.
+#[derive(Clone, Debug)]
+pub struct Image {
+    width: u32,
+    height: u32,
+    channels: Channels,
+    alpha: bool,
+    /// Row by row, the channels and then the alpha of each pixel.
+    values: Vec<f64>,
+    errors: Plane<f64>,
+    evidence: Plane<Evidence>,
+    statuses: Plane<Status>,
+    /// Whether values and errors are 0 where nothing was written.
+    is_blank: bool,
+    work: Work,
+}
+
+/// What a picture is before its pixels are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    /// Columns and rows.
+    pub(crate) size: (u32, u32),
+    pub(crate) channels: Channels,
+    pub(crate) alpha: bool,
+    pub(crate) prospect: Prospect,
+}
+
+/// What is known of a picture's pixels before they are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prospect {
+    /// The error of all pixels, where it is the same.
+    pub(crate) error: Option<f64>,
+    /// Evidence and status of all pixels, where they are the same.
+    pub(crate) ending: Option<(Evidence, Status)>,
+}
+
+/// What a picture as a whole achieved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// Number of pixels.
+    pub pixels: u64,
+    /// The largest error that any pixel claims.
+    pub largest_error: f64,
+    /// What stands behind the errors: a bound only where all of them are.
+    pub evidence: Evidence,
+    /// Number of pixels that did not meet the tolerance; 0 where none was asked for.
+    pub over_tolerance: u64,
+}
+
+impl Summary {
+    /// What is true of two pictures, or parts of one, together.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            largest_error: self.largest_error.max(other.largest_error),
+            evidence: self.evidence.min(other.evidence),
+            over_tolerance: self.over_tolerance + other.over_tolerance,
+        }
+    }
+}
+
+impl Image {
+    /// A picture to be written, in the memory of another one where that suffices.
+    pub(crate) fn new(form: Form, spent: Option<Self>) -> Self {
+        let Form {
+            size: (width, height),
+            channels,
+            alpha,
+            prospect: Prospect { error, ending },
+        } = form;
+        let pixels = width as usize * height as usize;
+        let numbers = pixels * (channels.count() + usize::from(alpha));
+        let (evidence, status) = (ending.map(|ending| ending.0), ending.map(|ending| ending.1));
+        let spent = spent.filter(|spent| spent.values.capacity() >= numbers);
+        let is_blank = spent.is_none();
+        let (values, errors, known, statuses) = match spent {
+            Some(mut spent) => {
+                spent.values.resize(numbers, 0.0);
+                let known = (spent.evidence, spent.statuses);
+                (
+                    spent.values,
+                    Some(spent.errors),
+                    Some(known.0),
+                    Some(known.1),
+                )
+            }
+            // Memory that the system clears, page by page where it is written.
+            None => (vec![0.0; numbers], None, None, None),
+        };
+        Self {
+            width,
+            height,
+            channels,
+            alpha,
+            values,
+            errors: Plane::new(pixels, error, 0.0, errors),
+            evidence: Plane::new(pixels, evidence, Evidence::Bound, known),
+            statuses: Plane::new(pixels, status, Status::NoTolerance, statuses),
+            is_blank,
+            work: Work::default(),
+        }
+    }
+
+    /// Number of columns.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Number of rows.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Whether the picture has color.
+    pub fn channels(&self) -> Channels {
+        self.channels
+    }
+
+    /// Whether the picture is premultiplied light without its background, with coverage.
+    pub fn has_alpha(&self) -> bool {
+        self.alpha
+    }
+
+    /// Red, green, blue and alpha of a pixel; grey repeats, and alpha is 1 without its channel.
+    ///
+    /// # Panics
+    /// Outside the picture, as for the other accessors of a pixel.
+    pub fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
+        let count = self.channels.count();
+        let stride = count + usize::from(self.alpha);
+        let start = self.index(col, row) * stride;
+        let pixel = &self.values[start..start + stride];
+        let alpha = if self.alpha { pixel[count] } else { 1.0 };
+        match self.channels {
+            Channels::Grey => [pixel[0], pixel[0], pixel[0], alpha],
+            Channels::Rgb => [pixel[0], pixel[1], pixel[2], alpha],
+        }
+    }
+
+    /// The numbers of a row's pixels from left to right: of each its channels, then its alpha where
+    /// there is one.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn row(&self, row: u32) -> &[f64] {
+        let first = self.index(0, row);
+        let stride = self.channels.count() + usize::from(self.alpha);
+        &self.values[first * stride..][..self.width as usize * stride]
+    }
+
+    /// How far a pixel's numbers may be from the exact area average; infinite where nothing is
+    /// known.
+    pub fn error(&self, col: u32, row: u32) -> f64 {
+        self.errors.at(self.index(col, row))
+    }
+
+    /// How the work on a pixel ended.
+    pub fn status(&self, col: u32, row: u32) -> Status {
+        self.statuses.at(self.index(col, row))
+    }
+
+    /// What stands behind a pixel's error.
+    pub fn evidence(&self, col: u32, row: u32) -> Evidence {
+        self.evidence.at(self.index(col, row))
+    }
+
+    /// What the picture cost.
+    pub fn work(&self) -> Work {
+        self.work
+    }
+
+    pub(crate) fn set_work(&mut self, work: Work) {
+        self.work = work;
+    }
+
+    /// What the picture as a whole achieved.
+    pub fn summary(&self) -> Summary {
+        let is_over = |status: &Status| status.is_over_tolerance();
+        let pixels = u64::from(self.width) * u64::from(self.height);
+        Summary {
+            pixels,
+            largest_error: largest(self.errors.distinct()),
+            evidence: if self.evidence.distinct().contains(&Evidence::Estimate) {
+                Evidence::Estimate
+            } else {
+                Evidence::Bound
+            },
+            over_tolerance: match &self.statuses {
+                Plane::Same(status) if is_over(status) => pixels,
+                Plane::Same(_) => 0,
+                Plane::Each(statuses) => {
+                    statuses.iter().filter(|&status| is_over(status)).count() as u64
+                }
+            },
+        }
+    }
+
+    /// A part of the picture.
+    pub(crate) fn cut(&self, window: Window) -> Self {
+        let stride = self.channels.count() + usize::from(self.alpha);
+        let rows = (window.row..window.row + window.height).map(|row| {
+            let first = self.index(window.col, row);
+            first..first + window.width as usize
+        });
+        let rows: Vec<Range<usize>> = rows.collect();
+        let values = rows.iter().flat_map(|row| {
+            let row = row.start * stride..row.end * stride;
+            self.values[row].iter().copied()
+        });
+        Self {
+            width: window.width,
+            height: window.height,
+            channels: self.channels,
+            alpha: self.alpha,
+            values: values.collect(),
+            errors: self.errors.cut(&rows),
+            evidence: self.evidence.cut(&rows),
+            statuses: self.statuses.cut(&rows),
+            is_blank: false,
+            work: Work::default(),
+        }
+    }
+
+    /// The picture cut into bands of at most `rows` rows, from the top.
+    pub(crate) fn bands_mut(&mut self, rows: u32) -> impl IndexedParallelIterator<Item = Band<'_>> {
+        let (width, height) = (self.width, self.height);
+        let stride = self.channels.count() + usize::from(self.alpha);
+        let pixels = width as usize * rows as usize;
+        let is_blank = self.is_blank;
+        let bands = self.height.div_ceil(rows) as usize;
+        self.values
+            .par_chunks_mut(pixels * stride)
+            .zip(self.errors.bands_mut(pixels, bands))
+            .zip(self.evidence.bands_mut(pixels, bands))
+            .zip(self.statuses.bands_mut(pixels, bands))
+            .enumerate()
+            .map(move |(index, (((values, errors), evidence), statuses))| {
+                let row = index as u32 * rows;
+                let area = Tile {
+                    col: 0,
+                    row,
+                    width,
+                    height: rows.min(height - row),
+                };
+                Band {
+                    area,
+                    stride,
+                    values,
+                    errors,
+                    evidence,
+                    statuses,
+                    is_blank,
+                }
+            })
+    }
+
+    /// Some rows of the picture as a band, where the picture's first pixel is (`col`, `row`) of a
+    /// larger one.
+    pub(crate) fn band_mut(&mut self, (col, row): (u32, u32), rows: Range<u32>) -> Band<'_> {
+        let stride = self.channels.count() + usize::from(self.alpha);
+        let width = self.width as usize;
+        let pixels = rows.start as usize * width..rows.end as usize * width;
+        Band {
+            area: Tile {
+                col,
+                row: row + rows.start,
+                width: self.width,
+                height: rows.end - rows.start,
+            },
+            stride,
+            values: &mut self.values[pixels.start * stride..pixels.end * stride],
+            errors: self.errors.band_mut(pixels.clone()),
+            evidence: self.evidence.band_mut(pixels.clone()),
+            statuses: self.statuses.band_mut(pixels),
+            is_blank: self.is_blank,
+        }
+    }
+
+    fn index(&self, col: u32, row: u32) -> usize {
+        assert!(
+            col < self.width && row < self.height,
+            "pixel ({col}, {row}) is outside"
+        );
+        row as usize * self.width as usize + col as usize
+    }
+}
+
+impl PartialEq for Image {
+    fn eq(&self, other: &Self) -> bool {
+        let size = |image: &Self| (image.width, image.height, image.channels, image.alpha);
+        size(self) == size(other)
+            && self.values == other.values
+            && self.errors == other.errors
+            && self.evidence == other.evidence
+            && self.statuses == other.statuses
+    }
+}
+
+/// Whole rows of a picture, to be written by one thread.
+pub(crate) struct Band<'image> {
+    pub(crate) area: Tile,
+    stride: usize,
+    values: &'image mut [f64],
+    errors: PlaneBand<'image, f64>,
+    evidence: PlaneBand<'image, Evidence>,
+    statuses: PlaneBand<'image, Status>,
+    is_blank: bool,
+}
+
+impl Band<'_> {
+    /// Writes the pixels of a tile inside the band, which come in the order of
+    /// [`Tile::pixels`].
+    pub(crate) fn write<C: Radiance>(&mut self, tile: Tile, pixels: &[Pixel<C>]) {
+        for ((col, row), pixel) in tile.pixels().zip(pixels) {
+            let index = self.index(col, row);
+            let values = &mut self.values[index * self.stride..][..self.stride];
+            let channels = pixel.value.channels();
+            values[..channels.len()].copy_from_slice(channels);
+            // The alpha channel, where there is one.
+            values[channels.len()..].fill(pixel.alpha);
+            self.errors.write(index, &[pixel.error]);
+            self.evidence.write(index, &[pixel.evidence]);
+            self.statuses.write(index, &[pixel.status]);
+        }
+    }
+
+    /// Writes the same pixel all over a tile inside the band.
+    pub(crate) fn write_same<C: Radiance>(&mut self, tile: Tile, pixel: &Pixel<C>) {
+        let (width, stride) = (tile.width as usize, self.stride);
+        for row in tile.row..tile.row + tile.height {
+            let index = self.index(tile.col, row);
+            let channels = pixel.value.channels();
+            let values = &mut self.values[index * stride..][..width * stride];
+            for values in values.chunks_exact_mut(stride) {
+                values[..channels.len()].copy_from_slice(channels);
+                values[channels.len()..].fill(pixel.alpha);
+            }
+            self.errors.fill(index, width, pixel.error);
+            self.evidence.fill(index, width, pixel.evidence);
+            self.statuses.fill(index, width, pixel.status);
+        }
+    }
+
+    /// Writes the light of a tile inside the band; all pixels end alike.
+    pub(crate) fn write_light(&mut self, tile: Tile, light: &TileLight) {
+        let width = tile.width as usize;
+        let stride = self.stride;
+        for row in 0..tile.height {
+            let index = self.index(tile.col, tile.row + row);
+            let light = light.row(row);
+            let values = &mut self.values[index * stride..][..width * stride];
+            match (stride, &light.channels) {
+                (1, [grey, ..]) => copy(values, grey),
+                (2, [grey, ..]) => interleave(values, [grey, &light.alpha]),
+                (3, [red, green, blue]) => interleave(values, [red, green, blue]),
+                (_, [red, green, blue]) => interleave(values, [red, green, blue, &light.alpha]),
+            }
+            self.errors.write(index, &light.errors[..width]);
+        }
+    }
+
+    /// Writes light that is the same in all pixels of a tile inside the band, and in which nothing
+    /// covers them.
+    pub(crate) fn write_even_light(&mut self, tile: Tile, color: Color, error: f64) {
+        let (width, stride) = (tile.width as usize, self.stride);
+        for row in tile.row..tile.row + tile.height {
+            let index = self.index(tile.col, row);
+            let values = &mut self.values[index * stride..][..width * stride];
+            if color != Color::ZERO {
+                // The background is left out of a picture with alpha: there are channels only.
+                for pixel in values.chunks_exact_mut(stride) {
+                    pixel.copy_from_slice(&color.as_ref()[..stride]);
+                }
+            } else if !self.is_blank {
+                for values in values.chunks_mut(Tile::SIDE as usize) {
+                    copy(values, &[0.0; Tile::SIDE as usize]);
+                }
+            }
+            if error != 0.0 || !self.is_blank {
+                self.errors.fill(index, width, error);
+            }
+        }
+    }
+
+    fn index(&self, col: u32, row: u32) -> usize {
+        let (col, row) = (col - self.area.col, row - self.area.row);
+        row as usize * self.area.width as usize + col as usize
+    }
+}
+
+/// The largest of some numbers that are not negative; they are ordered as their bits are, of which
+/// processors compare many at a time.
+fn largest(numbers: &[f64]) -> f64 {
+    let bits = numbers.iter().map(|number| number.abs().to_bits());
+    f64::from_bits(bits.max().unwrap_or(0))
+}
+
+/// Writes a number of every pixel of a row. Most rows are whole: a copy of a known length is a few
+/// instructions, and not worth a call.
+#[inline(always)]
+fn copy(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
+    if values.len() == part.len() {
+        for (value, number) in values.iter_mut().zip(part) {
+            *value = *number;
+        }
+    } else {
+        copy_some(values, part);
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn copy_some(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
+    values.copy_from_slice(&part[..values.len()]);
+}
+
+/// Writes some numbers of every pixel, pixel by pixel.
+fn interleave<const COUNT: usize>(values: &mut [f64], parts: [&[f64; Tile::SIDE as usize]; COUNT]) {
+    let (pixels, _) = values.as_chunks_mut::<COUNT>();
+    for (place, pixel) in pixels.iter_mut().enumerate() {
+        *pixel = parts.map(|part| part[place]);
+    }
+}

@@ -1,0 +1,92 @@
+//! Pixels, how they are averaged, and what is known of them.
+
+use std::num::NonZeroU32;
+use std::ops::AddAssign;
+
+use thiserror::Error;
+
+/// How pixels are averaged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Over the midpoints of an N × N division of every pixel.
+    Samples(NonZeroU32),
+    /// Between known edges, until every channel of every pixel is within this of the exact average.
+    Tolerance(f64),
+}
+
+/// The caller of a rendering asked it to stop.
+#[derive(Clone, Copy, Debug, Eq, Error, PartialEq)]
+#[error("the rendering was stopped")]
+pub struct Cancelled;
+
+/// What is known of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pixel<C> {
+    /// Average of the light over the pixel's square.
+    pub(crate) value: C,
+    /// Fraction of the pixel's square that spheres cover.
+    pub(crate) alpha: f64,
+    /// How far value and alpha may be from the exact averages, in any channel; infinite where
+    /// nothing is known.
+    pub(crate) error: f64,
+    /// What the error is worth.
+    pub(crate) evidence: Evidence,
+    /// How the work on the pixel ended.
+    pub(crate) status: Status,
+}
+
+/// What stands behind an error.
+#[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
+pub enum Evidence {
+    /// It is inferred from rules and samples that agree.
+    Estimate,
+    /// It is proved.
+    Bound,
+}
+
+/// What pixels cost, counted.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[non_exhaustive]
+pub struct Work {
+    /// Points at which light, or the normal of a rough surface, was computed.
+    pub samples: u64,
+    /// Lines that were cut where something happens on them.
+    pub lines: u64,
+    /// Spheres that were asked whether a pixel, or a ray, may see them, or whether they may keep a
+    /// light from what a tile, a pixel or a part of one sees.
+    pub candidate_tests: u64,
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.lines += other.lines;
+        self.candidate_tests += other.candidate_tests;
+    }
+}
+
+/// How the work on a pixel ended.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
+pub enum Status {
+    /// No tolerance was asked for; the error is an estimate.
+    NoTolerance,
+    /// The error is within the tolerance.
+    Met,
+    /// The tolerance is not met, and most of the error is that of rounding.
+    AtRoundoff,
+    /// The tolerance is not met: the work that a pixel may cost did not suffice, or numbers are so
+    /// extreme that edges are not found in doubles. Where edges were given up, samples tell value and
+    /// error: a guess, as they miss what lies between them.
+    OutOfBudget,
+}
+
+impl Status {
+    /// Whether a tolerance was asked for and not met.
+    pub fn is_over_tolerance(self) -> bool {
+        match self {
+            Self::NoTolerance | Self::Met => false,
+            Self::AtRoundoff | Self::OutOfBudget => true,
+        }
+    }
+}

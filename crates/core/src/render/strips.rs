@@ -1,0 +1,246 @@
+//! A picture strip by strip, for those that need not have it as a whole.
+
+use crate::picture::window::Window;
+use std::marker::PhantomData;
+use std::ops::{ControlFlow, Range};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::renderer::Job;
+use super::renderer::{Renderer, Settings};
+use crate::model::color::Radiance;
+use crate::model::exposure::Exposure;
+use crate::picture::image::Form;
+use crate::picture::image::Image;
+use crate::picture::integrator::Integrator;
+use crate::picture::pixel::{Cancelled, Work};
+use crate::picture::tile::Tile;
+
+/// Rows of a band; a strip is a number of bands.
+pub const BAND_ROWS: u32 = Tile::SIDE;
+
+/// Columns of a strip that are rendered before they go to the sink: so few that what a thread
+/// writes stays near it, however wide a picture is.
+const PART_COLUMNS: u32 = 1024;
+
+/// Where a picture, or a window of one, goes while it is rendered.
+///
+/// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
+/// of its own. Columns and strips are counted from the window's first.
+pub trait Sink: Sync {
+    /// The strip with this index, counted from the top, is about to be rendered. `None` ends the
+    /// rendering.
+    ///
+    /// May wait until the strips above are done, but not for those below.
+    fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>>;
+}
+
+/// A strip that is being rendered; dropped before its end where the rendering is cancelled.
+pub trait Strip {
+    /// Some columns are rendered, `col` the first of them, from left to right: all of the picture
+    /// `part`.
+    fn add(&mut self, col: u32, part: &Image);
+
+    /// All columns were added.
+    fn end(self: Box<Self>);
+}
+
+/// A window of a picture that any number of threads render together, strip by strip, so that
+/// a picture of any height needs little memory.
+///
+/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may go on
+/// with the next picture while others still end theirs.
+pub struct Rendering<'a> {
+    strips: Box<dyn Strips + 'a>,
+    window: Window,
+    /// Rows of a strip, but the last.
+    rows: u32,
+    /// The index of the strip that nobody has begun.
+    next: AtomicU32,
+}
+
+impl Renderer<'_> {
+    /// Prepares the rendering of a window of a picture in strips of so many bands of [`BAND_ROWS`]
+    /// rows, at least 1; the last one may have fewer rows.
+    ///
+    /// Works on the threads of the current rayon pool.
+    ///
+    /// # Panics
+    /// When the window is not inside the picture.
+    pub fn begin<'a>(
+        &'a self,
+        exposure: impl Into<Exposure<'a>>,
+        window: Window,
+        settings: &Settings,
+        bands: u32,
+    ) -> Rendering<'a> {
+        let exposure = exposure.into();
+        let view = exposure.view();
+        let is_inside = |first: u32, length: u32, all: u32| {
+            first.checked_add(length).is_some_and(|end| end <= all)
+        };
+        assert!(
+            is_inside(window.col, window.width, view.width)
+                && is_inside(window.row, window.height, view.height),
+            "{window:?} is outside"
+        );
+        Rendering {
+            strips: self.strips(&exposure, settings),
+            window,
+            rows: bands.max(1).saturating_mul(BAND_ROWS),
+            next: AtomicU32::new(0),
+        }
+    }
+
+    /// Prepares what paints strips: not generic, so that integrators are compiled here, once.
+    fn strips<'a>(&'a self, exposure: &Exposure<'a>, settings: &Settings) -> Box<dyn Strips + 'a> {
+        self.run(exposure, settings, Preparation)
+    }
+}
+
+impl Rendering<'_> {
+    /// How many strips nobody has begun.
+    pub fn strips_left(&self) -> u32 {
+        let next = self.next.load(Ordering::Relaxed);
+        self.count().saturating_sub(next)
+    }
+
+    /// Renders strips until there is none that nobody has begun, and what they cost.
+    ///
+    /// Each goes to `sink` as soon as it is rendered; they are begun from the top downward and end as
+    /// they come. `progress` is called with the number of pixels that were just finished, those around
+    /// the window among them that are in its tiles: tiles stay where they are and are rendered as
+    /// a whole, since it is in a tile that pixels find out what they may see. Where strips begin in
+    /// the middle of a band, that is rendered for each of the two. When `progress` breaks or `sink` wants
+    /// no more, the work of all threads ends soon.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the work of this thread has ended so.
+    pub fn help(
+        &self,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        let work = self.strips.render(self, sink, progress);
+        work.inspect_err(|Cancelled| self.begin_no_more())
+    }
+
+    fn begin_no_more(&self) {
+        self.next.store(self.count(), Ordering::Relaxed);
+    }
+
+    /// How many strips there are.
+    fn count(&self) -> u32 {
+        self.window.height.div_ceil(self.rows)
+    }
+
+    /// The index of a strip that is to be begun, and where it lies.
+    fn next(&self) -> Option<(u32, Window)> {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.count() {
+            // However often it is asked, it does not begin anew.
+            self.begin_no_more();
+            return None;
+        }
+        let first = index * self.rows;
+        let strip = Window {
+            row: self.window.row + first,
+            height: self.rows.min(self.window.height - first),
+            ..self.window
+        };
+        Some((index, strip))
+    }
+}
+
+/// What paints strips, whatever the integrator.
+trait Strips: Send + Sync {
+    fn render(
+        &self,
+        rendering: &Rendering<'_>,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled>;
+}
+
+struct Preparation;
+
+impl<'a> Job<'a> for Preparation {
+    type Output = Box<dyn Strips + 'a>;
+
+    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
+        self,
+        form: Form,
+        integrator: I,
+    ) -> Self::Output {
+        Box::new(Painter {
+            form,
+            integrator,
+            radiance: PhantomData::<C>,
+        })
+    }
+}
+
+/// An integrator, and what it makes.
+struct Painter<C, I> {
+    form: Form,
+    integrator: I,
+    radiance: PhantomData<C>,
+}
+
+impl<C: Radiance, I: Integrator<C>> Strips for Painter<C, I> {
+    fn render(
+        &self,
+        rendering: &Rendering<'_>,
+        sink: &dyn Sink,
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        let (picture_width, picture_height) = self.form.size;
+        let window = rendering.window;
+        let columns = whole_tiles(window.col, window.width, picture_width);
+        let mut room = I::Room::default();
+        let mut image = None;
+        let mut work = Work::default();
+        while let Some((index, strip)) = rendering.next() {
+            let rows = whole_tiles(strip.row, strip.height, picture_height);
+            let mut sink = sink.begin(index).ok_or(Cancelled)?;
+            for col in columns.clone().step_by(PART_COLUMNS as usize) {
+                let width = PART_COLUMNS.min(columns.end - col);
+                let form = Form {
+                    size: (width, rows.end - rows.start),
+                    ..self.form
+                };
+                let mut part = Image::new(form, image);
+                for first in rows.clone().step_by(BAND_ROWS as usize) {
+                    let end = rows.end.min(first + BAND_ROWS);
+                    let band = first - rows.start..end - rows.start;
+                    let mut band = part.band_mut((col, rows.start), band);
+                    work += self.integrator.paint_band(&mut band, &mut room, progress)?;
+                }
+                let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);
+                let in_part = Window {
+                    col: inside.start - col,
+                    row: strip.row - rows.start,
+                    width: inside.end - inside.start,
+                    height: strip.height,
+                };
+                let first = inside.start - strip.col;
+                if (in_part.width, in_part.height) == (part.width(), part.height()) {
+                    sink.add(first, &part);
+                } else {
+                    sink.add(first, &part.cut(in_part));
+                }
+                image = Some(part);
+            }
+            sink.end();
+        }
+        Ok(work)
+    }
+}
+
+/// The columns or rows of the tiles that some of them are in.
+fn whole_tiles(first: u32, length: u32, all: u32) -> Range<u32> {
+    let end = (first + length).next_multiple_of(Tile::SIDE);
+    first / Tile::SIDE * Tile::SIDE..end.min(all)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,226 @@
+//! The rays of a tile, eight pixels of a row at a time.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
+use glam::{DVec2, DVec3};
+
+use super::lanes::Vectors;
+use crate::model::ray::Ray;
+use crate::model::view::View;
+use crate::picture::tile::Tile;
+
+/// Where the samples of a view lie: those of [`View::cell_center`] to the bit.
+#[derive(Clone, Debug)]
+pub(super) struct Rays {
+    view: View,
+    /// Samples on a side of a pixel.
+    side: u32,
+    /// Half the side of a cell.
+    half_cell: f64,
+    distance: f64,
+    /// Directions are divided by two to the power of this, which makes them moderate.
+    exponent: i32,
+    scale: f64,
+    /// Rows on a length of 1 at the distance of 1, and in the lens's shift.
+    rows_on_unit: f64,
+    shift_rows: f64,
+    /// Where the first sample lies in a pixel.
+    first: f64,
+}
+
+/// A sample of each of eight pixels in a row: which part of the pixels, and where the row starts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) col: u32,
+    pub(super) row: u32,
+    pub(super) cell_col: u32,
+    pub(super) cell_row: u32,
+}
+
+impl Rays {
+    pub(super) fn new(view: &View, side: u32) -> Self {
+        let cell = view.lens.width / (f64::from(view.width) * f64::from(side));
+        let distance = view.lens.distance * view.zoom;
+        let size = DVec2::new(f64::from(view.width), f64::from(view.height));
+        let edges = 0.5 * view.pixel_size() * size + view.lens.shift.abs();
+        let exponent = libm::ilogb(edges.max_element().max(distance)).clamp(-1000, 1000);
+        Self {
+            view: *view,
+            side,
+            half_cell: 0.5 * cell,
+            distance,
+            exponent,
+            scale: libm::scalbn(1.0, -exponent),
+            rows_on_unit: distance / view.pixel_size(),
+            shift_rows: view.lens.shift.y / view.pixel_size(),
+            first: 0.5 / f64::from(side),
+        }
+    }
+
+    /// The exponent of the power of two that directions were divided by.
+    pub(super) fn exponent(&self) -> i32 {
+        self.exponent
+    }
+
+    /// How many samples lie side by side on a length of 1 at the distance of 1.
+    pub(super) fn cells_on_unit(&self) -> f64 {
+        self.distance / (2.0 * self.half_cell)
+    }
+
+    /// Where a sample of eight pixels lies on the retina, to the right; pixels after the first
+    /// `width` repeat the last of them.
+    #[inline(always)]
+    pub(super) fn across<S: Simd>(&self, simd: S, place: Place, width: u32) -> f64x8<S> {
+        let steps: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        let steps = f64x8::simd_from(simd, steps);
+        let last = f64x8::splat(simd, f64::from(width - 1));
+        let steps = steps.simd_lt(last).select(steps, last);
+        let first = self.twice(place.col, place.cell_col, self.view.width);
+        let across = steps * (2.0 * f64::from(self.side)) + first;
+        across * self.half_cell + self.view.lens.shift.x
+    }
+
+    /// Twice the distance of a cell from the middle, in cells: whole numbers, far below 2⁵³.
+    #[inline(always)]
+    fn twice(&self, pixel: u32, cell: u32, pixels: u32) -> f64 {
+        let index = i64::from(pixel) * i64::from(self.side) + i64::from(cell);
+        (2 * index + 1 - i64::from(self.side) * i64::from(pixels)) as f64
+    }
+
+    /// The directions of a sample in eight pixels that lie so far to the right, divided by that
+    /// power.
+    #[inline(always)]
+    pub(super) fn directions<S: Simd>(&self, u: f64x8<S>, place: Place) -> Vectors<S> {
+        let upward = self.twice(place.row, place.cell_row, self.view.height);
+        let v = -self.half_cell * upward + self.view.lens.shift.y;
+        let axes = &self.view.camera.world_from_camera;
+        let (up, forward) = (axes.y_axis * v, axes.z_axis * self.distance);
+        Vectors {
+            x: (u * axes.x_axis.x + up.x + forward.x) * self.scale,
+            y: (u * axes.x_axis.y + up.y + forward.y) * self.scale,
+            z: (u * axes.x_axis.z + up.z + forward.z) * self.scale,
+        }
+    }
+
+    /// The ray of one of the eight pixels.
+    pub(super) fn ray(&self, place: Place, lane: usize) -> Ray {
+        let cell =
+            |pixel: u32, cell: u32| u64::from(pixel) * u64::from(self.side) + u64::from(cell);
+        let center = self.view.cell_center(
+            cell(place.col + lane as u32, place.cell_col),
+            cell(place.row, place.cell_row),
+            self.side,
+        );
+        self.view.ray(center)
+    }
+
+    /// What is true of all rays of a tile.
+    pub(super) fn bundle(&self, tile: Tile) -> Bundle {
+        /// Above all rounding errors, which are of some units in the last place.
+        const WIDER: f64 = 1.0 + 1e-9;
+        let pixel = self.view.pixel_size();
+        let middle = |first: u32, count: u32, pixels: u32| {
+            f64::from(first) + 0.5 * (f64::from(count) - f64::from(pixels))
+        };
+        let center = DVec3::new(
+            middle(tile.col, tile.width, self.view.width) * pixel + self.view.lens.shift.x,
+            -middle(tile.row, tile.height, self.view.height) * pixel + self.view.lens.shift.y,
+            self.distance,
+        ) * self.scale;
+        let half = DVec2::new(f64::from(tile.width), f64::from(tile.height)) * (0.5 * pixel);
+        let half = half * self.scale;
+        let (center_length, reach) = (center.length(), half.length());
+        let (shortest, longest) = (center_length - reach, center_length + reach);
+        Bundle {
+            cone: self.cone(center, half),
+            rows: self.rows(tile),
+            shortest: shortest.max(center.z) * (1.0 / WIDER),
+            longest: longest * WIDER,
+        }
+    }
+
+    /// The rows of a tile.
+    fn rows(&self, tile: Tile) -> Rows {
+        let axes = &self.view.camera.world_from_camera;
+        let middle = 0.5 * f64::from(self.view.height) - f64::from(tile.row);
+        Rows {
+            up: axes.y_axis,
+            forward: axes.z_axis,
+            on_unit: self.rows_on_unit,
+            origin: middle + self.shift_rows,
+            size: f64::from(self.view.height) + self.shift_rows.abs(),
+            first: self.first,
+            last: 1.0 - self.first,
+            count: tile.height,
+        }
+    }
+
+    /// A circular cone around the rays through a rectangle on the retina, given in camera axes.
+    fn cone(&self, center: DVec3, half: DVec2) -> Option<Cone> {
+        const WIDER: f64 = 1.0 + 1e-9;
+        const ROUNDING: f64 = 1e-12;
+        const WIDEST_SINE: f64 = 0.7;
+        // The corner p with the largest angle a: with c the center and h = p − c,
+        // sin² a = (c² h² − (c·h)²) / (c² p²), which rounding makes wrong by a few u h² / p².
+        let (center_sq, half_sq) = (center.length_squared(), half.length_squared());
+        let (mut sine_sq, mut is_ahead) = (0.0_f64, true);
+        for along in [
+            center.x * half.x + center.y * half.y,
+            center.x * half.x - center.y * half.y,
+        ] {
+            // Both corners of a diagonal: the nearer one is seen at the larger angle.
+            let along = along.abs();
+            // Of more than a right angle the sine tells nothing.
+            is_ahead &= along < center_sq;
+            let corner_sq = center_sq + half_sq - 2.0 * along;
+            sine_sq = sine_sq.max((center_sq * half_sq - along * along) / (center_sq * corner_sq));
+        }
+        let sine_sq = sine_sq * WIDER + ROUNDING * half_sq / center_sq;
+        let is_sane = is_ahead && sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > 1e-60;
+        is_sane.then(|| Cone {
+            axis: self.view.camera.world_from_camera * (center * (1.0 / center_sq.sqrt())),
+            sine: sine_sq.sqrt(),
+            cosine: (1.0 - sine_sq).sqrt(),
+        })
+    }
+}
+
+/// What is true of all rays of a tile.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bundle {
+    /// Around them; none where it would be wider than is worth having.
+    pub(super) cone: Option<Cone>,
+    pub(super) rows: Rows,
+    /// No direction is shorter.
+    pub(super) shortest: f64,
+    /// No direction is longer.
+    pub(super) longest: f64,
+}
+
+/// A circular cone with its tip in the viewpoint.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cone {
+    /// Unit, in the world frame.
+    pub(super) axis: DVec3,
+    /// Of the angle between the axis and the surface.
+    pub(super) sine: f64,
+    pub(super) cosine: f64,
+}
+
+/// Where the rows of a tile lie.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows {
+    /// Unit axes of the camera, in the world frame.
+    pub(super) up: DVec3,
+    pub(super) forward: DVec3,
+    /// How many rows lie on a length of 1 at the distance of 1.
+    pub(super) on_unit: f64,
+    /// How far below the tile's upper edge the height 0 is, in rows.
+    pub(super) origin: f64,
+    /// More than any number of rows that is added up.
+    pub(super) size: f64,
+    /// Where the first and last samples of a row lie in it.
+    pub(super) first: f64,
+    pub(super) last: f64,
+    pub(super) count: u32,
+}

@@ -1,0 +1,85 @@
+//! Points side by side are in the shadow that single points are in.
+
+use fearless_simd::{Level, dispatch};
+
+use super::*;
+use crate::model::color::Color;
+use crate::model::material::Material;
+use crate::model::sphere::Sphere;
+use crate::model::world::World;
+use crate::search::tests::Random;
+
+/// Points on the first of a world's spheres, the first light, and how far they are off.
+fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
+    let visibility = Visibility::new(world);
+    let light = &world.lights[0];
+    let is_dark = |&lane: &usize| {
+        let to_light = Ray {
+            origin: points[lane],
+            direction: light.toward(),
+        };
+        visibility.is_blocked(0, &to_light, error, 0)
+    };
+    let expected = lanes_of(0xff)
+        .filter(is_dark)
+        .fold(0, |dark, lane| dark | 1 << lane);
+    let (right, up) = visibility.axes(0);
+    let found = dispatch!(Level::new(), simd => {
+        let mut vectors = Vectors::splat(simd, DVec3::ZERO);
+        for (lane, point) in points.into_iter().enumerate() {
+            vectors.set_lane(lane, point);
+        }
+        let lit = Lit {
+            points: vectors,
+            errors: f64x8::splat(simd, error),
+            right: vectors.dot(Vectors::splat(simd, right)),
+            up: vectors.dot(Vectors::splat(simd, up)),
+        };
+        let mut shadows = Shadows::new(&visibility, DVec3::ZERO, 1.0);
+        shadows.darkened(simd, &lit, 0, light, 0, 0xff)
+    });
+    assert_eq!(found, expected);
+    found
+}
+
+/// Casters that barely reach the light of a point, or barely do not; few, and so many that patches
+/// are looked up.
+#[test]
+fn casters_that_nearly_touch_the_light() {
+    let mut random = Random(21);
+    let (mut dark, mut asked) = (0, 0);
+    for step in 0..600 {
+        let mut world = World::new();
+        let white = world.add_material(Material::MATTE_WHITE);
+        let toward = random.point();
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, Color::ONE));
+        let toward = world.lights[0].toward();
+        let (center, radius) = (random.point() * 3.0, 1.0 + random.number());
+        world.add_sphere(Sphere::new(center, radius).unwrap(), white);
+        let points: [DVec3; 8] = std::array::from_fn(|_| {
+            let normal = random.point().normalize();
+            center + normal * (radius * normal.dot(toward).signum())
+        });
+        let casters = if step % 3 == 0 { 200 } else { 8 };
+        for number in 0..casters {
+            let point = points[number % 8];
+            let aside = random.point().cross(toward).normalize();
+            let size = libm::exp10(-2.0 + 2.0 * random.number());
+            let place = point + toward * (size + 5.0 * random.number()) + aside * size;
+            let across = (place - point).cross(toward).length();
+            let radius = across * (1.0 + (random.number() * 5.0 - 2.5).round() * 1e-16);
+            // Small ones leave some points in the light.
+            let radius = if number < 8 { radius } else { 0.1 * radius };
+            world.add_sphere(Sphere::new(place, radius).unwrap(), white);
+        }
+        let error = [0.0, 1e-15, 1e-12][step % 3];
+        dark += agrees(&world, points, error).count_ones();
+        asked += 8;
+    }
+    assert!(
+        dark > asked / 10 && dark < asked * 9 / 10,
+        "{dark} of {asked}"
+    );
+}

@@ -1,0 +1,94 @@
+//! Values, errors and alpha on pixels known in closed form.
+
+mod exactness;
+
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::model::camera::{Camera, Lens};
+use crate::model::color::Color;
+use crate::model::material::Material;
+use crate::model::sphere::Sphere;
+use crate::numeric::angle::Angle;
+use crate::search::Visibility;
+
+/// A 2 × 1 picture whose right pixel is covered but for its left quarter, by a sphere so
+/// large that its outline is straight there.
+fn scene() -> (World, View) {
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    let radius = 1e6;
+    let touched = DVec3::new(0.25, 0.0, 1.0);
+    let across = DVec3::new(1.0, 0.0, -0.25).normalize();
+    world.add_sphere(
+        Sphere::new(touched + radius * across, radius).unwrap(),
+        white,
+    );
+    world.ambient = Color::splat(0.5);
+    world.background = Color::splat(0.1);
+    let view = View {
+        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        lens: Lens {
+            width: 2.0,
+            distance: 1.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 2,
+        height: 1,
+        frame: 1,
+    };
+    (world, view)
+}
+
+fn pixels<C: Radiance>(samples: u32, alpha: bool) -> Vec<Pixel<C>> {
+    let (world, view) = scene();
+    let visibility = Visibility::new(&world);
+    let seen = Seen::new(&visibility, &view, 8);
+    let samples = NonZeroU32::new(samples).unwrap();
+    let tile = Tile {
+        col: 0,
+        row: 0,
+        width: 2,
+        height: 1,
+    };
+    let mut pixels = Vec::new();
+    Supersampling::new(&world, &view, &seen, samples, alpha).integrate(
+        tile,
+        &mut Room::default(),
+        &mut pixels,
+    );
+    pixels
+}
+
+#[test]
+fn value_is_the_mean_over_the_grid() {
+    let [left, right] = pixels::<f64>(4, false)[..] else {
+        panic!("two pixels")
+    };
+    assert!((left.value - 0.1).abs() < 1e-15 && left.alpha == 0.0 && left.error == 0.0);
+    assert!((right.value - 0.4).abs() < 1e-15 && right.alpha == 0.75);
+    assert_eq!(right.error, (0.5 - 0.1) / 8.0);
+}
+
+#[test]
+fn alpha_leaves_the_background_out_and_counts_in_the_error() {
+    let [left, right] = pixels::<Color>(4, true)[..] else {
+        panic!("two pixels")
+    };
+    assert_eq!(
+        (left.value, left.alpha, left.error),
+        (Color::ZERO, 0.0, 0.0)
+    );
+    assert_eq!((right.value, right.alpha), (Color::splat(0.375), 0.75));
+    assert_eq!(right.error, 1.0 / 8.0);
+}
+
+#[test]
+fn one_sample_claims_nothing() {
+    assert!(
+        pixels::<f64>(1, false)
+            .iter()
+            .all(|pixel| pixel.error == f64::INFINITY)
+    );
+}

@@ -1,0 +1,366 @@
+//! What eight rays see.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8};
+use glam::DVec3;
+
+use super::lanes::{LANES, Vectors, lanes_of};
+use super::near::{Near, Nearby};
+use super::rays::{Place, Rays};
+use crate::picture::tile::Tile;
+use crate::search::seen::{Candidate, Seen};
+
+/// Rows of a tile.
+const SIDE: usize = Tile::SIDE as usize;
+
+/// All lanes of a bit mask.
+const ALL_LANES: u64 = (1 << LANES) - 1;
+
+/// The rays of a tile and all that they may meet.
+pub(super) struct Tracer<'tile> {
+    pub(super) seen: &'tile Seen<'tile>,
+    pub(super) rays: &'tile Rays,
+    pub(super) nearby: &'tile Nearby,
+    pub(super) tile: Tile,
+    /// Balls that were asked whether eight rays meet them.
+    pub(super) tests: u64,
+    /// The balls for the search one ray at a time, once it is needed.
+    pub(super) candidates: Vec<Candidate>,
+}
+
+/// Rays that see the same ball, as bits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Group<'tile> {
+    pub(super) near: &'tile Near,
+    pub(super) lanes: u64,
+}
+
+/// The balls that eight rays see, each once. Apart from [`Sight`], which moves.
+pub(super) struct Groups<'tile> {
+    list: [Group<'tile>; LANES],
+    count: usize,
+}
+
+impl<'tile> Groups<'tile> {
+    /// No groups, and a ball for their places.
+    pub(super) fn new(near: &'tile Near) -> Self {
+        Self {
+            list: [Group { near, lanes: 0 }; LANES],
+            count: 0,
+        }
+    }
+
+    pub(super) fn as_slice(&self) -> &[Group<'tile>] {
+        &self.list[..self.count]
+    }
+}
+
+/// What eight rays see; lanes that see nothing hold any numbers. What is cold gets copies: this stays
+/// in the processor's registers.
+#[derive(Clone, Copy)]
+pub(super) struct Sight<S: Simd> {
+    pub(super) direction: Vectors<S>,
+    pub(super) length_sq: f64x8<S>,
+    /// The rays that see anything, as bits.
+    pub(super) covered: u64,
+    /// The rays that see the inner side of a ball.
+    pub(super) inner: u64,
+    /// From the viewpoint to what is seen, in the lengths of the balls.
+    pub(super) point: Vectors<S>,
+    /// The unit outward normal there.
+    pub(super) normal: Vectors<S>,
+}
+
+/// A row of rays, and the nearest ball of each so far.
+#[derive(Clone, Copy)]
+pub(super) struct RayRow<S: Simd> {
+    direction: Vectors<S>,
+    length_sq: f64x8<S>,
+    /// A t, the distance in multiples of the direction over the direction's square.
+    key: f64x8<S>,
+    /// The ball's place among those of the tile; −1 for none.
+    place: f64x8<S>,
+    /// Where a ball may begin that was neither met nor missed for certain.
+    doubtful: f64x8<S>,
+}
+
+impl<S: Simd> RayRow<S> {
+    /// Rays that have met nothing.
+    #[inline(always)]
+    pub(super) fn new(simd: S, direction: Vectors<S>) -> Self {
+        let never = f64x8::splat(simd, f64::INFINITY);
+        Self {
+            direction,
+            length_sq: direction.dot(direction),
+            key: never,
+            place: f64x8::splat(simd, -1.0),
+            doubtful: never,
+        }
+    }
+}
+
+impl<'tile> Tracer<'tile> {
+    /// Finds what all rows of rays see, as far as bounds of rounding errors decide it.
+    ///
+    /// The nearest certain hits, and from where on they are not certain. Two distances are compared
+    /// by their B ± √Q, whose errors [`Ball`](crate::sphere::Ball) bounds by |d| times its `blur`.
+    /// What lies closer together counts as doubtful from there on.
+    ///
+    /// Ball by ball and row by row: the rows do not wait for each other. Rows beyond the height of
+    /// the tile are left alone.
+    #[inline(always)]
+    pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>; SIDE]) {
+        // The rows in which something may come nearer, as bits.
+        let mut open = u8::MAX >> (SIDE as u32 - self.tile.height);
+        let zero = f64x8::splat(simd, 0.0);
+        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
+        for (place, near) in self.nearby.balls.iter().enumerate() {
+            let ball = &near.ball;
+            let place = f64x8::splat(simd, place as f64);
+            let begin = f64x8::splat(simd, near.begin);
+            let center = Vectors::splat(simd, ball.to_center);
+            let inside = near.root_sign > 0.0;
+            let mut left = near.rows & open;
+            while left != 0 {
+                let number = left.trailing_zeros();
+                left &= left - 1;
+                let row = &mut rows[number as usize % SIDE];
+                // Whatever lies within the error of the nearest was met before, or is doubtful; and
+                // the next ones begin no sooner.
+                if begin.simd_gt(row.key + blur).all_true() {
+                    open &= !(1 << number);
+                    continue;
+                }
+                self.tests += 1;
+                let along = row.direction.dot(center);
+                let discriminant = along * along - row.length_sq * ball.outside;
+                let doubt = row.length_sq * ball.doubt;
+                let missed = discriminant.simd_lt(-doubt).to_bitmask();
+                if missed == ALL_LANES {
+                    continue;
+                }
+                let decided = discriminant.simd_gt(doubt);
+                let root = decided.select(discriminant, zero).sqrt();
+                let (met, key) = if inside {
+                    (decided, along + root)
+                } else {
+                    (decided & along.simd_gt(zero), along - root)
+                };
+                let open = !(missed | decided.to_bitmask()) & ALL_LANES;
+                if open != 0 {
+                    let sooner = mask64x8::from_bitmask(simd, open) & begin.simd_lt(row.doubtful);
+                    row.doubtful = sooner.select(begin, row.doubtful);
+                }
+                let close = met & (key - row.key).abs().simd_le(blur);
+                let closer = met & key.simd_lt(row.key);
+                row.key = closer.select(key, row.key);
+                row.place = closer.select(place, row.place);
+                if close.any_true() {
+                    let sooner = close & row.key.simd_lt(row.doubtful);
+                    row.doubtful = sooner.select(row.key, row.doubtful);
+                }
+            }
+            if open == 0 {
+                break;
+            }
+        }
+    }
+
+    /// What a row of rays sees after the search. Whatever that left open is asked of exact
+    /// arithmetic.
+    ///
+    /// # Accuracy
+    /// What is seen is exact. Where the ray meets the ball and the normal there are functions of
+    /// the ray and the ball alone, whatever else the tile holds; see [`Tracer::meet`].
+    #[inline(always)]
+    pub(super) fn look<S: Simd>(
+        &mut self,
+        simd: S,
+        place: Place,
+        row: &RayRow<S>,
+        groups: &mut Groups<'tile>,
+    ) -> Sight<S> {
+        /// Far from where squares lose digits to underflow.
+        const SHORTEST_SQ: f64 = 1e-60;
+        let mut places = row.place;
+        let trusted = row.length_sq.simd_gt(f64x8::splat(simd, SHORTEST_SQ));
+        // Both distances may be off by half of this, the one of what may be nearer too.
+        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
+        let open = row.doubtful.simd_lt(row.key + blur) | !trusted;
+        if open.any_true() {
+            let mut settled: [f64; LANES] = places.into();
+            self.settle(place, open.to_bitmask(), &mut settled);
+            places = f64x8::simd_from(simd, settled);
+        }
+        self.meet(simd, place, (row.direction, row.length_sq), places, groups)
+    }
+
+    /// Settles exactly what some rays see.
+    #[cold]
+    #[inline(never)]
+    fn settle(&mut self, place: Place, open: u64, places: &mut [f64; LANES]) {
+        let balls = &self.nearby.balls;
+        if self.candidates.is_empty() {
+            self.candidates = self.seen.candidates(self.tile);
+        }
+        for lane in lanes_of(open) {
+            let lane_of_pixel = lane.min(self.tile.width as usize - 1);
+            let ray = self.rays.ray(place, lane_of_pixel);
+            let seen = self.seen.nearest(&self.candidates, ray.direction);
+            let place = seen.and_then(|(index, _)| {
+                balls
+                    .iter()
+                    .position(|near| near.ball.index as usize == index)
+            });
+            places[lane] = place.map_or(-1.0, |place| place as f64);
+        }
+    }
+
+    /// Where rays meet the balls at these places among those of the tile.
+    ///
+    /// The distance is t = K / (B + √Q), the normal (t d − f) / r.
+    ///
+    /// # Accuracy
+    /// Q is computed as A r² − |d × f|² where |d × f| < B, else as B² − A K. With u the unit
+    /// roundoff: each part of d × f is off by 3u (|dᵢ fⱼ| + |dⱼ fᵢ|), so that the vector is off by
+    /// 6u |d| |f| and Q, in the first case, by 12u |d × f| |d| |f| + 6u A r²; as |d × f| ≤ |d| r,
+    /// √Q ≥ |d| r / 64 (the rim is left to [`Sphere::hit`](crate::Sphere::hit)) and
+    /// B ≥ |d| |f| / √2 > |d| r / √2, t is off by (32 · 18u · √2 + 10u) t. In the second case
+    /// B² is off by 9u |d| |f| B, A K by 6u B² and Q by 16u |d| |f| B together, while
+    /// |f| ≤ √2 r: t is off by (32 · 16u · √2 + 32 · 4u · √2 + 4u) t. Both are below 1024u t,
+    /// in the worst place of the rim: [`DISTANCE_ERROR`]. The normal is off by that times
+    /// t |d| / r, and by 4u |f| / r.
+    #[inline(always)]
+    fn meet<S: Simd>(
+        &self,
+        simd: S,
+        place: Place,
+        (direction, length_sq): (Vectors<S>, f64x8<S>),
+        places: f64x8<S>,
+        groups: &mut Groups<'tile>,
+    ) -> Sight<S> {
+        let nearby = self.nearby;
+        let covered = places.simd_ge(f64x8::splat(simd, 0.0)).to_bitmask();
+        let mut sight = Sight {
+            direction,
+            length_sq,
+            covered,
+            inner: 0,
+            point: Vectors::splat(simd, DVec3::ZERO),
+            normal: Vectors::splat(simd, DVec3::ZERO),
+        };
+        if covered == 0 {
+            return sight;
+        }
+        let first = places[covered.trailing_zeros() as usize];
+        let mut selected = Selected::splat(simd, &nearby.balls[first as usize]);
+        let (mut left, mut count) = (covered, 0);
+        while left != 0 {
+            let number = places[left.trailing_zeros() as usize];
+            let near = &nearby.balls[number as usize];
+            let mask = places.simd_eq(f64x8::splat(simd, number));
+            let lanes = mask.to_bitmask();
+            if count > 0 {
+                selected = selected.or(!mask, Selected::splat(simd, near));
+            }
+            if near.root_sign > 0.0 {
+                sight.inner |= lanes;
+            }
+            groups.list[count] = Group { near, lanes };
+            count += 1;
+            left &= !lanes;
+        }
+        groups.count = count;
+        let center = selected.center;
+        let across = direction.cross(center);
+        let (across_sq, along) = (across.dot(across), direction.dot(center));
+        let along_sq = along * along;
+        let discriminant = across_sq.simd_lt(along_sq).select(
+            length_sq * selected.radius_sq - across_sq,
+            along_sq - length_sq * selected.outside,
+        );
+        let sound = discriminant.simd_ge(length_sq * selected.rim);
+        let one = f64x8::splat(simd, 1.0);
+        let root = sound.select(discriminant, one).sqrt();
+        sight.point = direction.scaled(selected.outside / (along + root));
+        sight.normal = sight.point.minus(center).scaled(selected.inverse_radius);
+        // Only the ambient light reaches inner sides, wherever they are met.
+        let alone = covered & !sound.to_bitmask() & !sight.inner;
+        if alone != 0 {
+            return self.meet_alone(place, alone, groups, sight);
+        }
+        sight
+    }
+
+    /// Where single rays meet the balls that they see.
+    #[cold]
+    #[inline(never)]
+    fn meet_alone<S: Simd>(
+        &self,
+        place: Place,
+        alone: u64,
+        groups: &Groups<'_>,
+        mut sight: Sight<S>,
+    ) -> Sight<S> {
+        let exponent = self.rays.exponent() - self.seen.length_exponent();
+        for lane in lanes_of(alone) {
+            let sees = |group: &Group<'_>| group.lanes >> lane & 1 == 1;
+            let Some(group) = groups.as_slice().iter().find(|group| sees(group)) else {
+                continue;
+            };
+            let lane_of_pixel = lane.min(self.tile.width as usize - 1);
+            let ray = self.rays.ray(place, lane_of_pixel);
+            let candidate = self.seen.candidate(group.near.ball.index);
+            let length_sq = ray.direction.length_squared();
+            let Some(hit) = self.seen.hit(&candidate, &ray, length_sq) else {
+                continue;
+            };
+            let t = libm::scalbn(hit.t, exponent);
+            let direction = sight.direction.lane(lane);
+            sight.point.set_lane(lane, direction * t);
+            sight.normal.set_lane(lane, hit.normal);
+            if hit.inner_side {
+                sight.inner |= 1 << lane;
+            }
+        }
+        sight
+    }
+}
+
+/// A bound of the relative error of the distance to what is seen; derived at [`Tracer::meet`].
+pub(super) const DISTANCE_ERROR: f64 = 512.0 * f64::EPSILON;
+
+/// The numbers of the ball that each ray sees.
+#[derive(Clone, Copy)]
+struct Selected<S: Simd> {
+    center: Vectors<S>,
+    outside: f64x8<S>,
+    radius_sq: f64x8<S>,
+    inverse_radius: f64x8<S>,
+    rim: f64x8<S>,
+}
+
+impl<S: Simd> Selected<S> {
+    #[inline(always)]
+    fn splat(simd: S, near: &Near) -> Self {
+        Self {
+            center: Vectors::splat(simd, near.ball.to_center),
+            outside: f64x8::splat(simd, near.ball.outside),
+            radius_sq: f64x8::splat(simd, near.radius_sq),
+            inverse_radius: f64x8::splat(simd, near.inverse_radius),
+            rim: f64x8::splat(simd, near.rim),
+        }
+    }
+
+    /// `self` where the mask holds, else `other`.
+    #[inline(always)]
+    fn or(self, mask: mask64x8<S>, other: Self) -> Self {
+        Self {
+            center: self.center.or(mask, other.center),
+            outside: mask.select(self.outside, other.outside),
+            radius_sq: mask.select(self.radius_sq, other.radius_sq),
+            inverse_radius: mask.select(self.inverse_radius, other.inverse_radius),
+            rim: mask.select(self.rim, other.rim),
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! Which cells eight boxes, or eight spheres, may be seen in.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
+use glam::{DMat3, DVec3};
+
+use super::coverage::{CellRange, Grid};
+use super::frustum::CLEAR;
+use super::hierarchy::boxes::{Boxes, Group, WIDTH};
+use crate::model::view::View;
+use crate::numeric::rounding::UNIT_ROUNDOFF;
+
+/// What turns places in the world into places before the eye.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eye {
+    position: DVec3,
+    /// Times lengths of the world.
+    scale: f64,
+    camera_from_world: DMat3,
+    /// What the processor can do.
+    level: Level,
+}
+
+/// What is known of eight boxes or spheres.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eight {
+    /// Those that may be seen, as bits; of others nothing is known.
+    pub(super) may: u8,
+    /// They come no nearer than this.
+    pub(super) begin: [f64; WIDTH],
+    /// Their centers, in the camera's frame.
+    center: [[f64; WIDTH]; 3],
+    columns: ([u32; WIDTH], [u32; WIDTH]),
+    rows: ([u32; WIDTH], [u32; WIDTH]),
+}
+
+impl Eight {
+    /// The cells that one of those may be seen in.
+    #[inline]
+    pub(super) fn range(&self, place: usize) -> CellRange {
+        CellRange {
+            columns: (self.columns.0[place], self.columns.1[place]),
+            rows: (self.rows.0[place], self.rows.1[place]),
+        }
+    }
+
+    /// The center of one of those.
+    #[inline]
+    pub(super) fn center(&self, place: usize) -> DVec3 {
+        DVec3::from_array(self.center.map(|axis| axis[place]))
+    }
+}
+
+impl Eye {
+    /// The eye of a view; lengths are multiplied by `scale`.
+    pub(super) fn new(view: &View, scale: f64) -> Self {
+        Self {
+            position: view.camera.position,
+            scale,
+            camera_from_world: view.camera.world_from_camera.transpose(),
+            level: Level::new(),
+        }
+    }
+
+    /// From the eye to a point, in the world's directions.
+    pub(super) fn offset(&self, point: DVec3) -> DVec3 {
+        (point - self.position) * self.scale
+    }
+
+    /// The same in those of the camera.
+    pub(super) fn turned(&self, offset: DVec3) -> DVec3 {
+        self.camera_from_world * offset
+    }
+
+    /// Where boxes begin, and which cells they may be seen in.
+    pub(super) fn boxes(&self, boxes: &Boxes, grid: &Grid) -> Eight {
+        dispatch!(self.level, simd => self.boxes_in(simd, boxes, grid))
+    }
+
+    /// Where spheres begin, and which cells they may be seen in.
+    pub(super) fn spheres(&self, group: &Group, grid: &Grid) -> Eight {
+        dispatch!(self.level, simd => self.spheres_in(simd, group, grid))
+    }
+
+    #[inline(always)]
+    fn boxes_in<S: Simd>(&self, simd: S, boxes: &Boxes, grid: &Grid) -> Eight {
+        /// More than rounding moves the box by, and the distances to the spheres in it. (Sums of
+        /// neighbors in single precision are exact: the middle is rounded where the box is wide.)
+        const MARGIN: f64 = 1e-9;
+        let zero = f64x8::splat(simd, 0.0);
+        let (mut middle, mut half) = ([zero; 3], [zero; 3]);
+        let mut filled = mask64x8::splat(simd, true);
+        for axis in 0..3 {
+            let low = doubles(simd, &boxes.low[axis]);
+            let high = doubles(simd, &boxes.high[axis]);
+            filled &= low.simd_le(high);
+            middle[axis] = ((low + high) * 0.5 - self.position[axis]) * self.scale;
+            half[axis] = (high - low) * (0.5 * self.scale);
+        }
+        let center = self.turn(&middle, false);
+        let mut half = self.turn(&half, true);
+        let size =
+            center[0].abs() + center[1].abs() + center[2].abs() + half[0] + half[1] + half[2];
+        let mut beyond_sq = zero;
+        for axis in 0..3 {
+            half[axis] += size * MARGIN;
+            let beyond = (center[axis].abs() - half[axis]).max(zero);
+            beyond_sq += beyond * beyond;
+        }
+        let begin = beyond_sq.sqrt() - size * MARGIN;
+        let (near, far) = (center[2] - half[2], center[2] + half[2]);
+        let is_finite = size.simd_lt(f64::INFINITY);
+        let is_behind = far.simd_lt(zero) & is_finite;
+        let is_known = near.simd_gt(size * MARGIN) & is_finite;
+        let mut ends = [(zero, zero); 2];
+        for axis in 0..2 {
+            let (low, high) = (center[axis] - half[axis], center[axis] + half[axis]);
+            ends[axis] = (
+                low / low.simd_lt(zero).select(near, far),
+                high / high.simd_gt(zero).select(near, far),
+            );
+        }
+        // Whatever single precision cannot hold may be anywhere.
+        let begin = is_finite.select(begin, zero);
+        let may = filled & !is_behind;
+        self.eight(simd, grid, (center, begin), may, (is_known, ends))
+    }
+
+    /// With the bounds of [`InCamera`](super::frustum::InCamera), which are above what rounding moves
+    /// the distance by, too.
+    #[inline(always)]
+    fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> Eight {
+        let [x, y, z] = &group.center;
+        let offset = [
+            (doubles(simd, x) - self.position.x) * self.scale,
+            (doubles(simd, y) - self.position.y) * self.scale,
+            (doubles(simd, z) - self.position.z) * self.scale,
+        ];
+        let radius = doubles(simd, &group.radius) * self.scale;
+        let size = offset[0].abs() + offset[1].abs() + offset[2].abs() + radius;
+        let radius = radius + (size * (128.0 * UNIT_ROUNDOFF) + f64::MIN_POSITIVE);
+        let [x, y, z] = self.turn(&offset, false);
+        let product = (z - radius) * (z + radius);
+        let inverse = 1.0 / product;
+        let mut ends = [(x, x); 2];
+        for (axis, along) in [x, y].into_iter().enumerate() {
+            let half = radius * (along * along + product).sqrt();
+            let middle = along * z;
+            ends[axis] = ((middle - half) * inverse, (middle + half) * inverse);
+        }
+        let is_behind = z.simd_lt(-radius);
+        let is_known = z.simd_gt(radius * CLEAR);
+        let distance_sq = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
+        let begin = distance_sq.sqrt() - radius;
+        self.eight(simd, grid, ([x, y, z], begin), !is_behind, (is_known, ends))
+    }
+
+    /// Vectors of the world in the camera's directions, or boxes of these half sizes.
+    #[inline(always)]
+    fn turn<S: Simd>(&self, vectors: &[f64x8<S>; 3], are_sizes: bool) -> [f64x8<S>; 3] {
+        let row = |axis| {
+            let row = self.camera_from_world.row(axis);
+            if are_sizes { row.abs() } else { row }
+        };
+        [
+            along(vectors, row(0)),
+            along(vectors, row(1)),
+            along(vectors, row(2)),
+        ]
+    }
+
+    /// What is seen between these ends, low and high, on the retina at distance 1, or, where they are
+    /// not known, anywhere.
+    #[inline(always)]
+    fn eight<S: Simd>(
+        &self,
+        simd: S,
+        grid: &Grid,
+        (center, begin): ([f64x8<S>; 3], f64x8<S>),
+        may: mask64x8<S>,
+        (is_known, ends): (mask64x8<S>, Ends<S>),
+    ) -> Eight {
+        let (columns, across) = grid.columns(simd, ends[0].0, ends[0].1, is_known);
+        let (rows, down) = grid.rows(simd, ends[1].0, ends[1].1, is_known);
+        Eight {
+            may: (may & across & down).to_bitmask() as u8,
+            begin: begin.into(),
+            center: [center[0].into(), center[1].into(), center[2].into()],
+            columns,
+            rows,
+        }
+    }
+}
+
+/// Where eight things begin and end on the retina, along both axes.
+type Ends<S> = [(f64x8<S>, f64x8<S>); 2];
+
+#[inline(always)]
+fn along<S: Simd>([x, y, z]: &[f64x8<S>; 3], row: DVec3) -> f64x8<S> {
+    *x * row.x + *y * row.y + *z * row.z
+}
+
+#[inline(always)]
+pub(super) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
+    f64x8::simd_from(simd, numbers.map(f64::from))
+}

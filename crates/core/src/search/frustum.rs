@@ -1,0 +1,186 @@
+//! Which tiles a sphere may be seen in.
+
+use glam::{DVec2, DVec3};
+
+use crate::model::view::View;
+use crate::numeric::rounding::UNIT_ROUNDOFF;
+
+/// A sphere in the camera's frame, its radius with more than what rounding may cost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct InCamera {
+    center: DVec3,
+    radius: f64,
+}
+
+impl InCamera {
+    /// From the vector to the center in the world frame.
+    ///
+    /// With u the unit roundoff, the rotation costs 6u |f|, the rotation's own columns are unit and
+    /// orthogonal up to 16u, a ray deviates by 16u from its place on the retina, and the planes
+    /// below cost 8u |f|; 128u |f| covers twice the sum. The places themselves are rounded, which a
+    /// large shift of the lens makes worse; but samples lie half a cell inside their pixels, and
+    /// cells are far larger than that.
+    pub(super) fn new(to_center: DVec3, radius: f64, view: &View) -> Self {
+        let center = view.camera.world_from_camera.transpose() * to_center;
+        let slack = 128.0 * UNIT_ROUNDOFF * (to_center.abs().element_sum() + radius);
+        Self {
+            center,
+            radius: radius + slack + f64::MIN_POSITIVE,
+        }
+    }
+
+    /// Around what the retina at distance 1 shows of the sphere: its lowest and highest corner; none
+    /// where it comes too near to the eye's plane.
+    pub(super) fn outline(&self) -> Option<(DVec2, DVec2)> {
+        let DVec3 { x, y, z } = self.center;
+        let product = (z - self.radius) * (z + self.radius);
+        let ends = |along: f64| {
+            let half = self.radius * (along * along + product).sqrt();
+            ((along * z - half) / product, (along * z + half) / product)
+        };
+        let (x, y) = (ends(x), ends(y));
+        let corners = (DVec2::new(x.0, y.0), DVec2::new(x.1, y.1));
+        (z > CLEAR * self.radius).then_some(corners)
+    }
+
+    /// Whether all of the sphere may be behind the viewpoint, where no ray goes.
+    pub(super) fn is_behind(&self) -> bool {
+        self.center.z < -self.radius
+    }
+}
+
+/// The tiles of a picture, along one axis of the retina.
+#[derive(Clone, Debug)]
+struct Axis {
+    /// Planes through the viewpoint between neighboring tiles, in the order of the tiles; the
+    /// normals point to higher tiles.
+    planes: Vec<DVec2>,
+    /// A slope, along the axis over forward, times this is in tiles,
+    tiles_per_slope: f64,
+    /// and so far from the first.
+    offset: f64,
+}
+
+/// A sphere this much nearer than its radius to the eye's plane has ends too far out.
+pub(super) const CLEAR: f64 = 1.0 + 1.0 / 64.0;
+
+/// First and last tile.
+type Span = (u32, u32);
+
+impl Axis {
+    fn new(view: &View, tile_side: u32, pixels: u32, sign: f64, shift: f64) -> Self {
+        let distance = view.lens.distance * view.zoom;
+        let pixel = view.pixel_size();
+        let edges = (0..pixels).step_by(tile_side as usize).chain([pixels]);
+        let plane = |edge: u32| {
+            let on_retina = sign * (f64::from(edge) - 0.5 * f64::from(pixels)) * pixel + shift;
+            let length = libm::hypot(distance, on_retina);
+            sign * DVec2::new(distance / length, -on_retina / length)
+        };
+        let side = f64::from(tile_side);
+        Self {
+            planes: edges.map(plane).collect(),
+            tiles_per_slope: sign * (distance / pixel) / side,
+            offset: (0.5 * f64::from(pixels) - sign * (shift / pixel)) / side,
+        }
+    }
+
+    fn tiles(&self) -> u32 {
+        self.planes.len() as u32 - 1
+    }
+
+    /// The tiles that a sphere reaches into, and few others.
+    fn span(&self, center: DVec2, radius: f64) -> Option<Span> {
+        /// Far above the rounding errors of the quotient and of the place in tiles: those are
+        /// below 10⁻¹² of the sums of absolute values that this is relative to.
+        const MARGIN: f64 = 1e-10;
+        let (along, forward) = (center.x, center.y);
+        if forward > CLEAR * radius {
+            let product = (forward - radius) * (forward + radius);
+            let half = radius * (along * along + product).sqrt();
+            let scale = self.tiles_per_slope / product;
+            let (a, b) = (
+                (along * forward - half) * scale,
+                (along * forward + half) * scale,
+            );
+            let size = (along.abs() * forward + half) * scale.abs() + self.offset.abs();
+            let margin = MARGIN * (size + f64::from(self.tiles()));
+            let (low, high) = (
+                a.min(b) + self.offset - margin,
+                a.max(b) + self.offset + margin,
+            );
+            if low <= high {
+                let last = f64::from(self.tiles() - 1);
+                // In this range the casts cut off what follows the point.
+                return (high >= 0.0 && low < last + 1.0)
+                    .then(|| (low.max(0.0) as u32, high.min(last) as u32));
+            }
+        }
+        let is_in = |tile: &u32| {
+            let tile = *tile as usize;
+            is_between(&self.planes[tile..tile + 2], center, radius)
+        };
+        let first = (0..self.tiles()).find(is_in)?;
+        let last = (0..self.tiles()).rfind(is_in)?;
+        Some((first, last))
+    }
+}
+
+/// Whether a sphere reaches between two planes; true where a number is not finite.
+fn is_between(planes: &[DVec2], center: DVec2, radius: f64) -> bool {
+    !(planes[0].dot(center) < -radius || planes[1].dot(center) > radius)
+}
+
+/// The tiles of a picture, from a viewpoint.
+#[derive(Clone, Debug)]
+pub(super) struct Frustum {
+    columns: Axis,
+    rows: Axis,
+}
+
+/// A rectangle of tiles, ends included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TileRange {
+    pub(super) columns: Span,
+    pub(super) rows: Span,
+}
+
+impl TileRange {
+    pub(super) fn count(&self) -> u64 {
+        let along = |span: Span| u64::from(span.1 - span.0 + 1);
+        along(self.columns) * along(self.rows)
+    }
+}
+
+impl Frustum {
+    /// The frustum of a view cut into tiles with this side.
+    pub(super) fn new(view: &View, tile_side: u32) -> Self {
+        let shift = view.lens.shift;
+        Self {
+            columns: Axis::new(view, tile_side, view.width, 1.0, shift.x),
+            rows: Axis::new(view, tile_side, view.height, -1.0, shift.y),
+        }
+    }
+
+    /// Tiles side by side.
+    pub(super) fn columns(&self) -> u32 {
+        self.columns.tiles()
+    }
+
+    /// Tiles one above the other.
+    pub(super) fn rows(&self) -> u32 {
+        self.rows.tiles()
+    }
+
+    /// A rectangle around the tiles that the sphere may be seen in.
+    pub(super) fn range(&self, sphere: &InCamera) -> Option<TileRange> {
+        if sphere.is_behind() {
+            return None;
+        }
+        let DVec3 { x, y, z } = sphere.center;
+        Some(TileRange {
+            columns: self.columns.span(DVec2::new(x, z), sphere.radius)?,
+            rows: self.rows.span(DVec2::new(y, z), sphere.radius)?,
+        })
+    }
+}

@@ -1,0 +1,178 @@
+//! A hierarchy of boxes around spheres.
+//!
+//! Its boxes are in single precision and rounded outward: they leave out what cannot matter, and
+//! decide nothing.
+
+pub(crate) mod boxes;
+mod order;
+
+use crate::search::hierarchy::boxes::Boxes;
+use crate::search::hierarchy::boxes::Group;
+use crate::search::hierarchy::boxes::WIDTH;
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSlice;
+
+use self::order::NOBODY;
+use crate::model::sphere::Sphere;
+
+/// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
+/// their number alone.
+///
+/// It takes 4 bytes a sphere for the order, 16 for what is nearly the sphere and 3.5 for the boxes.
+#[derive(Clone, Debug)]
+pub(crate) struct Hierarchy {
+    /// The indices of the spheres, group by group.
+    order: Vec<u32>,
+    /// The spheres of the groups, nearly.
+    groups: Vec<Group>,
+    /// The boxes of the groups of spheres, then those of groups of groups; the last level has one
+    /// element, unless there is no sphere.
+    levels: Vec<Vec<Boxes>>,
+}
+
+/// A node: eight boxes of a level.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Node {
+    pub(crate) level: u32,
+    pub(crate) index: u32,
+}
+
+impl Hierarchy {
+    /// The hierarchy of some spheres, on the threads of the current rayon pool.
+    pub(crate) fn new(spheres: &[Sphere]) -> Self {
+        const NODES_A_TASK: usize = 256;
+        let entries = order::order(spheres);
+        let mut levels = Vec::new();
+        let leaves: Vec<Boxes> = entries
+            .par_chunks(WIDTH * WIDTH)
+            .with_min_len(NODES_A_TASK)
+            .map(|groups| {
+                let mut boxes = Boxes::EMPTY;
+                for (place, group) in groups.chunks(WIDTH).enumerate() {
+                    for entry in group.iter().filter(|entry| is_sphere(entry.index)) {
+                        boxes.add(place, entry);
+                    }
+                }
+                boxes
+            })
+            .collect();
+        levels.push(leaves);
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+            let above = last
+                .par_chunks(WIDTH)
+                .with_min_len(NODES_A_TASK)
+                .map(|children| {
+                    let mut boxes = Boxes::EMPTY;
+                    for (place, child) in children.iter().enumerate() {
+                        boxes.add_all(place, child);
+                    }
+                    boxes
+                })
+                .collect();
+            levels.push(above);
+        }
+        let groups = entries.par_chunks(WIDTH).with_min_len(NODES_A_TASK * WIDTH);
+        Self {
+            groups: groups.map(Group::new).collect(),
+            order: entries.par_iter().map(|entry| entry.index).collect(),
+            levels,
+        }
+    }
+
+    /// The node above all others, unless there is no sphere.
+    pub(crate) fn root(&self) -> Option<Node> {
+        let level = self.levels.len() - 1;
+        let is_there = !self.levels[level].is_empty();
+        is_there.then_some(Node {
+            level: level as u32,
+            index: 0,
+        })
+    }
+
+    /// The boxes of a node.
+    pub(crate) fn boxes(&self, node: Node) -> &Boxes {
+        &self.levels[node.level as usize][node.index as usize]
+    }
+
+    /// What is nearly the spheres of a child of a node of the lowest level.
+    pub(crate) fn group(&self, index: u32) -> &Group {
+        &self.groups[index as usize]
+    }
+
+    /// The indices of its spheres; [`is_sphere`] tells the places that hold one.
+    pub(crate) fn indices(&self, group: u32) -> &[u32] {
+        &self.order[group as usize * WIDTH..][..WIDTH]
+    }
+
+    /// Whether something `holds` for any of the groups of spheres whose boxes, and those around them,
+    /// may matter, and of others too: `look` says of the boxes of a node which ones do. Each is asked
+    /// once, and none after one for which it holds. Of siblings those are asked first that come first
+    /// by their keys.
+    #[inline(always)]
+    pub(crate) fn any(
+        &self,
+        mut look: impl FnMut(&Boxes) -> Look,
+        mut holds: impl FnMut(u32) -> bool,
+    ) -> bool {
+        // Seven siblings wait on each of the levels: there are at most eleven.
+        let mut waiting = [Node { level: 0, index: 0 }; 96];
+        let mut count = 0;
+        if let Some(root) = self.root() {
+            waiting[0] = root;
+            count = 1;
+        }
+        while count > 0 {
+            count -= 1;
+            let node = waiting[count];
+            let boxes = self.boxes(node);
+            let seen = look(boxes);
+            let mut left = seen.may & boxes.filled();
+            let mut places = [0; WIDTH];
+            let mut known = 0;
+            while left != 0 {
+                let place = left.trailing_zeros() as usize;
+                left &= left - 1;
+                let mut at = known;
+                while at > 0 && seen.keys[places[at - 1]] > seen.keys[place] {
+                    places[at] = places[at - 1];
+                    at -= 1;
+                }
+                places[at] = place;
+                known += 1;
+            }
+            // What is put last among those that wait is taken first.
+            let first = count;
+            for &place in &places[..known] {
+                let index = node.index * WIDTH as u32 + place as u32;
+                if node.level > 0 {
+                    waiting[count] = Node {
+                        level: node.level - 1,
+                        index,
+                    };
+                    count += 1;
+                } else if holds(index) {
+                    return true;
+                }
+            }
+            waiting[first..count].reverse();
+        }
+        false
+    }
+}
+
+/// What a search makes of the boxes of a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Look {
+    /// The boxes that may matter, as bits.
+    pub(crate) may: u8,
+    /// In which order they are to be looked at, the least first.
+    pub(crate) keys: [f64; WIDTH],
+}
+
+/// Whether a place in a group holds a sphere.
+pub(crate) fn is_sphere(index: u32) -> bool {
+    index != NOBODY
+}
+
+#[cfg(test)]
+mod tests;

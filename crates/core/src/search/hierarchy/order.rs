@@ -1,0 +1,138 @@
+//! The order in which neighbors in space are neighbors in a list.
+
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+
+use super::boxes::WIDTH;
+use crate::model::sphere::Sphere;
+
+/// A place in the order, and the sphere there; without one its index is [`NOBODY`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Entry {
+    /// Rounded to the nearest that is finite.
+    pub(super) center: [f32; 3],
+    /// Rounded up.
+    pub(super) radius: f32,
+    pub(super) index: u32,
+}
+
+/// The index of no sphere.
+pub(super) const NOBODY: u32 = u32::MAX;
+
+const EMPTY: Entry = Entry {
+    center: [0.0; 3],
+    radius: 0.0,
+    index: NOBODY,
+};
+
+/// Spheres whose radii differ by a factor of more than 2 to the power of this are kept apart: one
+/// floor among a million grains would make every box above it as large as itself.
+const OCTAVES: i32 = 3;
+
+/// Fewer are not worth another thread.
+const FEWEST_TO_SHARE: usize = 1 << 13;
+
+/// All spheres so that every group of eight, and every group of eight such groups and so on, lies
+/// close together. Some places are left over.
+pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = spheres
+        .par_iter()
+        .enumerate()
+        .with_min_len(FEWEST_TO_SHARE)
+        .map(|(index, sphere)| Entry::new(index as u32, sphere))
+        .collect();
+    let classes = classes(&entries);
+    if classes.len() <= 1 {
+        split(&mut entries);
+        entries.resize(entries.len().next_multiple_of(WIDTH), EMPTY);
+        return entries;
+    }
+    let mut order = Vec::with_capacity(entries.len() + WIDTH * classes.len());
+    for &(wanted, _) in &classes {
+        let first = order.len();
+        order.extend(entries.iter().filter(|entry| entry.class() == wanted));
+        split(&mut order[first..]);
+        order.resize(order.len().next_multiple_of(WIDTH), EMPTY);
+    }
+    order
+}
+
+impl Entry {
+    fn new(index: u32, sphere: &Sphere) -> Self {
+        let radius = sphere.radius() as f32;
+        let is_below = f64::from(radius) < sphere.radius();
+        Self {
+            // What is beyond single precision reaches to infinity as a box.
+            center: sphere
+                .center()
+                .to_array()
+                .map(|center| (center as f32).clamp(f32::MIN, f32::MAX)),
+            radius: if is_below { radius.next_up() } else { radius },
+            index,
+        }
+    }
+
+    fn class(&self) -> i32 {
+        libm::ilogbf(self.radius).div_euclid(OCTAVES)
+    }
+}
+
+/// The classes of sizes, the largest class first: its groups are those of powers of eight.
+fn classes(entries: &[Entry]) -> Vec<(i32, usize)> {
+    let mut classes: Vec<(i32, usize)> = Vec::new();
+    for entry in entries {
+        let class = entry.class();
+        match classes.iter_mut().find(|(known, _)| *known == class) {
+            Some((_, count)) => *count += 1,
+            None => classes.push((class, 1)),
+        }
+    }
+    classes.sort_unstable_by_key(|&(class, count)| (std::cmp::Reverse(count), class));
+    classes
+}
+
+/// Orders entries by halving them across their longest extent, again and again, at places where
+/// groups of powers of eight begin.
+fn split(entries: &mut [Entry]) {
+    let count = entries.len();
+    if count <= WIDTH {
+        // The order within a group is that of the file, whatever the splits made of it.
+        entries.sort_unstable_by_key(|entry| entry.index);
+        return;
+    }
+    let mut unit = WIDTH;
+    while unit * WIDTH < count {
+        unit *= WIDTH;
+    }
+    let middle = unit * count.div_ceil(unit).div_ceil(2);
+    let axis = longest_axis(entries);
+    // Indices decide between equals: the result does not depend on how the halves are found.
+    entries.select_nth_unstable_by(middle, |one, other| {
+        let by_place = one.center[axis].total_cmp(&other.center[axis]);
+        by_place.then(one.index.cmp(&other.index))
+    });
+    let (low, high) = entries.split_at_mut(middle);
+    if count < FEWEST_TO_SHARE {
+        split(low);
+        split(high);
+    } else {
+        rayon::join(|| split(low), || split(high));
+    }
+}
+
+fn longest_axis(entries: &[Entry]) -> usize {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for entry in entries {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(entry.center[axis]);
+            high[axis] = high[axis].max(entry.center[axis]);
+        }
+    }
+    let extent = |axis: usize| high[axis] - low[axis];
+    if extent(0) >= extent(1) && extent(0) >= extent(2) {
+        0
+    } else if extent(1) >= extent(2) {
+        1
+    } else {
+        2
+    }
+}

@@ -1,0 +1,431 @@
+//! What is left out can never matter: against asking every sphere, on sets of every kind.
+
+use crate::search::seen::Seen;
+use std::cmp::Ordering;
+
+use glam::{DVec2, DVec3};
+
+use super::*;
+use crate::hit::outcome::Hit;
+use crate::model::camera::{Camera, Lens};
+use crate::model::color::Color;
+use crate::model::light::DirectionalLight;
+use crate::model::material::Material;
+use crate::model::view::View;
+use crate::numeric::angle::Angle;
+use crate::picture::tile::Tile;
+
+/// Uniform numbers from 0 to 1.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn number(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// A point of the cube from −1 to 1.
+    pub(crate) fn point(&mut self) -> DVec3 {
+        DVec3::new(self.number(), self.number(), self.number()) * 2.0 - 1.0
+    }
+}
+
+const SIDE: u32 = 8;
+
+fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) -> World {
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    for (center, radius) in balls {
+        world.add_sphere(Sphere::new(center, radius).unwrap(), white);
+    }
+    for toward in [random.point(), DVec3::Y, random.point()] {
+        world
+            .lights
+            .extend(DirectionalLight::new(toward, Color::ONE));
+    }
+    world
+}
+
+/// A view of the surroundings of the origin, wide or narrow, rolled and shifted.
+fn view(random: &mut Random) -> View {
+    let mut degrees = |range: f64| Angle::from_degrees(range * (random.number() - 0.5));
+    let (azimuth, elevation, roll) = (degrees(720.0), degrees(300.0), degrees(360.0));
+    let camera = Camera::orbit(
+        random.point(),
+        6.0 * random.number(),
+        azimuth,
+        elevation,
+        roll,
+    );
+    let shift = DVec2::new(random.number() - 0.5, random.number() - 0.5);
+    let lens = Lens {
+        width: 0.3 + 4.0 * random.number(),
+        distance: 1.0,
+        shift,
+    };
+    View {
+        camera,
+        lens,
+        zoom: 1.0,
+        width: 37,
+        height: 27,
+        frame: 1,
+    }
+}
+
+/// The answer of every sphere, in their order.
+fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
+    let mut nearest: Option<(usize, Hit)> = None;
+    for (index, sphere) in spheres.iter().enumerate() {
+        let Some(hit) = sphere.hit(ray) else { continue };
+        let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
+            sphere.compare(&hit, &spheres[*other], other_hit, ray) == Ordering::Less
+        });
+        if is_nearer {
+            nearest = Some((index, hit));
+        }
+    }
+    nearest
+}
+
+/// Divisions of a pixel so fine that the cells along a tile's edge lie on it, nearly.
+const FINE: u32 = 1 << 20;
+
+/// For every pixel of a tile a cell in its middle; for those at the edge also cells at the edge.
+fn cells_and_edges(tile: Tile) -> Vec<(u64, u64)> {
+    let fine = u64::from(FINE);
+    let steps = |first: u32, count: u32| {
+        let first = u64::from(first) * fine;
+        let last = first + u64::from(count) * fine - 1;
+        let middles = (0..u64::from(count)).map(move |pixel| first + pixel * fine + fine / 2);
+        [first]
+            .into_iter()
+            .chain(middles)
+            .chain([last])
+            .collect::<Vec<u64>>()
+    };
+    let rows = steps(tile.row, tile.height);
+    let cols = steps(tile.col, tile.width);
+    rows.iter()
+        .flat_map(|&row| cols.iter().map(move |&col| (col, row)))
+        .collect()
+}
+
+/// Asks at the midpoints of divisions of every pixel, as a crowd that is asked nowhere else.
+fn midpoints_agree(few: &Seen<'_>, view: &View, hierarchy: Option<&Hierarchy>) {
+    for divisions in 1..=5 {
+        let samples = NonZeroU32::new(divisions).unwrap();
+        let tiles = (SIDE, Points::Midpoints(samples));
+        let crowd = Seen::with_hierarchy(few.visibility, view, tiles, hierarchy);
+        for tile in tiles_of(view) {
+            let lists = [few.candidates(tile), crowd.candidates(tile)];
+            let cells = |first: u32, count: u32| {
+                let cell = u64::from(first) * u64::from(divisions);
+                cell..cell + u64::from(count) * u64::from(divisions)
+            };
+            for row in cells(tile.row, tile.height) {
+                for col in cells(tile.col, tile.width) {
+                    let ray = view.ray(view.cell_center(col, row, divisions));
+                    let [one, other] = [(few, &lists[0]), (&crowd, &lists[1])]
+                        .map(|(seen, list)| seen.nearest(list, ray.direction));
+                    assert_eq!(one, other, "{divisions} × {divisions}");
+                }
+            }
+        }
+    }
+}
+
+/// The tiles of a picture.
+fn tiles_of(view: &View) -> impl Iterator<Item = Tile> {
+    let View { width, height, .. } = *view;
+    let corners = (0..height)
+        .step_by(SIDE as usize)
+        .flat_map(move |row| (0..width).step_by(SIDE as usize).map(move |col| (col, row)));
+    corners.map(move |(col, row)| Tile {
+        col,
+        row,
+        width: SIDE.min(width - col),
+        height: SIDE.min(height - row),
+    })
+}
+
+/// Asks for every pixel of some views, and from every point that they see for every light.
+fn agrees_with_asking_all(world: &World, random: &mut Random) {
+    let spheres = world.spheres();
+    let visibility = Visibility::new(world);
+    for _ in 0..6 {
+        let view = view(random);
+        let few = Seen::new(&visibility, &view, SIDE);
+        // Whatever their number, but for sizes whose squares are no numbers.
+        let crowd = visibility.hierarchy.as_deref();
+        let crowd = crowd.filter(|_| visibility.is_moderate());
+        midpoints_agree(&few, &view, crowd);
+        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), crowd);
+        for tile in tiles_of(&view) {
+            let candidates = few.candidates(tile);
+            let in_crowd = crowd.candidates(tile);
+            for cell in cells_and_edges(tile) {
+                let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
+                let found = few.nearest(&candidates, ray.direction);
+                let expected = nearest_of_all(spheres, &ray);
+                assert_eq!(found, crowd.nearest(&in_crowd, ray.direction));
+                // Distances agree to the last place; what is known from the viewpoint is rounded
+                // another way.
+                assert_eq!(
+                    found.map(|(index, _)| index),
+                    expected.map(|(index, _)| index)
+                );
+                let (Some((index, hit)), Some((_, other))) = (found, expected) else {
+                    continue;
+                };
+                assert!((hit.t - other.t).abs() <= 2.0 * f64::EPSILON * other.t);
+                for (number, light) in world.lights.iter().enumerate() {
+                    let to_light = Ray {
+                        origin: ray.at(hit.t),
+                        direction: light.toward(),
+                    };
+                    let error = ray.point_error(hit.t);
+                    let expected = spheres.iter().enumerate().any(|(caster, sphere)| {
+                        caster != index
+                            && *sphere != spheres[index]
+                            && sphere.is_met(&to_light, error)
+                    });
+                    assert_eq!(
+                        visibility.is_blocked(number, &to_light, error, index),
+                        expected
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn random_clouds() {
+    for seed in 0..6 {
+        let mut random = Random(seed);
+        let count = [1, 2, 10, 60, 200, 400][seed as usize];
+        let balls: Vec<_> = (0..count)
+            .map(|_| (random.point(), 0.02 + 0.2 * random.number()))
+            .collect();
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+/// Counted work, and what is seen, where most is hidden.
+#[test]
+fn crowds_leave_out_what_is_hidden() {
+    let mut random = Random(19);
+    // The last are so far from the origin that single precision says too little of them.
+    for (radius, middle) in [(0.06, 0.0), (0.2, 0.0), (0.06, 1e5)] {
+        let middle = DVec3::splat(middle);
+        let balls: Vec<_> = (0..4000)
+            .map(|_| (middle + random.point(), radius))
+            .collect();
+        let world = world_of(balls, &mut random);
+        let visibility = Visibility::new(&world);
+        let mut view = view(&mut random);
+        view.camera.position = middle + view.camera.world_from_camera * DVec3::NEG_Z * 4.0;
+        (view.width, view.height) = (150, 90);
+        let few = Seen::new(&visibility, &view, SIDE);
+        let hierarchy = visibility.hierarchy.as_deref();
+        midpoints_agree(&few, &view, hierarchy);
+        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), hierarchy);
+        let once = Points::Midpoints(NonZeroU32::MIN);
+        let sampled = Seen::with_hierarchy(&visibility, &view, (SIDE, once), hierarchy);
+        let (mut listed, mut left, mut left_once) = (0, 0, 0);
+        for tile in tiles_of(&view) {
+            let lists = [few.candidates(tile), crowd.candidates(tile)];
+            (listed, left) = (listed + lists[0].len(), left + lists[1].len());
+            left_once += sampled.candidates(tile).len();
+            for cell in cells_and_edges(tile) {
+                let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
+                let [one, other] = [(&few, &lists[0]), (&crowd, &lists[1])]
+                    .map(|(seen, list)| seen.nearest(list, ray.direction));
+                assert_eq!(one, other);
+            }
+        }
+        assert!(2 * left < listed && left > 100, "{left} of {listed}");
+        assert!(left_once < left && left_once > 100, "{left_once} of {left}");
+    }
+}
+
+#[test]
+fn no_spheres() {
+    let mut random = Random(1);
+    agrees_with_asking_all(&world_of([], &mut random), &mut random);
+}
+
+#[test]
+fn all_equal_all_nested_and_all_on_a_line() {
+    let mut random = Random(2);
+    let center = DVec3::new(0.1, 0.2, 0.3);
+    let equal = [(center, 0.5); 20];
+    let nested: Vec<_> = (1..20)
+        .map(|index| (center, 0.05 * f64::from(index)))
+        .collect();
+    let line: Vec<_> = (0..60)
+        .map(|index| (DVec3::X * (0.1 * f64::from(index) - 3.0), 0.06))
+        .collect();
+    let column: Vec<_> = (0..60)
+        .map(|index| (DVec3::Y * (0.1 * f64::from(index) - 3.0), 0.05))
+        .collect();
+    for balls in [equal.to_vec(), nested, line, column] {
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+#[test]
+fn huge_among_tiny_and_radii_over_twelve_decades() {
+    let mut random = Random(3);
+    let mut floor: Vec<_> = (0..60).map(|_| (random.point(), 0.05)).collect();
+    floor.push((DVec3::new(0.0, -1e6 - 0.5, 0.0), 1e6));
+    let decades: Vec<_> = (0..80)
+        .map(|_| {
+            let radius = libm::exp10(-6.0 + 12.0 * random.number());
+            (random.point() * (1.0 + radius), radius)
+        })
+        .collect();
+    for balls in [floor, decades] {
+        agrees_with_asking_all(&world_of(balls, &mut random), &mut random);
+    }
+}
+
+#[test]
+fn far_from_the_origin() {
+    let mut random = Random(4);
+    for exponent in [-600, -538, -537, -536, -535, -500, -300, 300, 600] {
+        let scale = libm::scalbn(1.0, exponent);
+        let balls: Vec<_> = (0..40)
+            .map(|_| (random.point() * scale, 0.2 * scale))
+            .collect();
+        let world = world_of(balls, &mut random);
+        let visibility = Visibility::new(&world);
+        let mut view = view(&mut random);
+        view.camera.position *= scale;
+        let seen = Seen::new(&visibility, &view, SIDE);
+        let tile = Tile {
+            col: 16,
+            row: 8,
+            width: SIDE,
+            height: SIDE,
+        };
+        let candidates = seen.candidates(tile);
+        for (col, row) in tile.pixels() {
+            let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
+            let found = seen.nearest(&candidates, ray.direction);
+            let expected = nearest_of_all(world.spheres(), &ray);
+            assert_eq!(
+                found.map(|(index, _)| index),
+                expected.map(|(index, _)| index)
+            );
+        }
+    }
+}
+
+/// Counted work: most spheres are not even asked.
+#[test]
+fn tiles_ask_few_spheres() {
+    let mut random = Random(5);
+    let balls: Vec<_> = (0..1000)
+        .map(|_| (random.point() * 100.0, 3.0 + 9.0 * random.number()))
+        .collect();
+    let world = world_of(balls, &mut random);
+    let visibility = Visibility::new(&world);
+    let degrees = Angle::from_degrees(20.0);
+    let camera = Camera::orbit(DVec3::ZERO, 400.0, degrees, degrees, Angle::ZERO);
+    let lens = Lens {
+        width: 600.0,
+        distance: 700.0,
+        shift: DVec2::ZERO,
+    };
+    let view = View {
+        camera,
+        lens,
+        zoom: 1.0,
+        width: 600,
+        height: 600,
+        frame: 1,
+    };
+    let seen = Seen::new(&visibility, &view, SIDE);
+    let tiles = (0..75).flat_map(|row| (0..75).map(move |col| (row * SIDE, col * SIDE)));
+    let candidates: usize = tiles
+        .map(|(row, col)| {
+            seen.candidates(Tile {
+                col,
+                row,
+                width: SIDE,
+                height: SIDE,
+            })
+            .len()
+        })
+        .sum();
+    assert!(
+        candidates < 10 * 75 * 75,
+        "{} a tile",
+        candidates as f64 / (75.0 * 75.0)
+    );
+}
+
+/// Spheres that reach into a tile by a ten-thousandth of their radius.
+#[test]
+fn spheres_that_barely_reach_into_a_tile_are_among_its_candidates() {
+    let mut random = Random(6);
+    for _ in 0..2000 {
+        let view = view(&mut random);
+        let col = SIDE * (1 + (3.0 * random.number()) as u32);
+        let row = SIDE;
+        // A point on one of the tile's edges, and the way out of the tile from there.
+        let along = random.number() * f64::from(SIDE);
+        let fine = f64::from(FINE);
+        let (left, top) = (f64::from(col), f64::from(row));
+        let side = f64::from(SIDE);
+        let (across, beyond) = match (4.0 * random.number()) as u32 {
+            0 => ((left, top + along), DVec2::NEG_X),
+            1 => ((left + side, top + along), DVec2::X),
+            2 => ((left + along, top), DVec2::Y),
+            _ => ((left + along, top + side), DVec2::NEG_Y),
+        };
+        let cell = |pixels: f64| (pixels * fine) as u64;
+        let on_edge = view.cell_center(cell(across.0), cell(across.1), FINE);
+        let direction = view.ray(on_edge).direction;
+        let other = view.ray(on_edge + beyond * view.lens.width).direction;
+        // Out of the tile, across its plane.
+        let plane = direction.cross(direction.cross(other)).normalize();
+        let outward = if plane.dot(other) < 0.0 {
+            -plane
+        } else {
+            plane
+        };
+        let edge_along = view
+            .ray(on_edge + beyond.perp() * view.lens.width)
+            .direction;
+        let normal = direction.cross(edge_along).normalize();
+        let normal = if normal.dot(outward) < 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        let radius = 0.01 + random.number();
+        let touch = view.camera.position + direction * (1.0 + 5.0 * random.number());
+        let center = touch + normal * (radius * (1.0 - 1e-4));
+        let world = world_of([(center, radius)], &mut random);
+        let visibility = Visibility::new(&world);
+        let seen = Seen::new(&visibility, &view, SIDE);
+        let width = SIDE.min(view.width - col);
+        let height = SIDE.min(view.height - row);
+        assert_eq!(
+            seen.candidates(Tile {
+                col,
+                row,
+                width,
+                height
+            })
+            .len(),
+            1
+        );
+    }
+}
