@@ -27,7 +27,7 @@ mod time;
 pub use hit::outcome::{Floor, Hit};
 pub use model::albedos::Albedos;
 pub use model::camera::{Camera, Lens};
-pub use model::color::{Color, Radiance};
+pub use model::color::Color;
 pub use model::exposure::{Exposure, Motion, Pose};
 pub use model::light::DirectionalLight;
 pub use model::material::{Grain, Highlight, Material, Roughness};

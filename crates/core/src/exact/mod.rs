@@ -25,11 +25,11 @@ use self::edged::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
 use self::trust::trusts_view;
 use crate::edges::cell::Cell;
-use crate::model::color::Radiance;
+use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::picture::image::Band;
+use crate::picture::image::{Band, Channels};
 use crate::picture::integrator::Integrator;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
@@ -86,7 +86,8 @@ impl<'scene> Exact<'scene> {
         alpha: bool,
         group: usize,
     ) -> Self {
-        let scene = InCamera::new(world, seen.visibility, view, group);
+        let channels = Channels::of(world, alpha);
+        let scene = InCamera::new(world, seen.visibility, view, channels, group);
         let lights = world
             .lights
             .iter()
@@ -138,10 +139,10 @@ pub(crate) struct Room {
     others: Vec<Workspace>,
 }
 
-impl<C: Radiance> Pixel<C> {
+impl Pixel {
     /// What is given up, until samples take its place.
     const LOST: Self = Self {
-        value: C::ZERO,
+        value: Color::ZERO,
         alpha: 0.0,
         error: f64::NAN,
         evidence: Evidence::Estimate,
@@ -159,10 +160,10 @@ impl<C: Radiance> Pixel<C> {
     }
 }
 
-impl<C: Radiance> Integrator<C> for Exact<'_> {
+impl Integrator for Exact<'_> {
     type Room = Room;
 
-    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
         let candidates = self.seen.indices(tile);
         let first = pixels.len();
         let Room { own, others } = room;
@@ -194,11 +195,11 @@ impl<C: Radiance> Integrator<C> for Exact<'_> {
         if self.seen.balls(tile).next().is_some() {
             let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
             let work = self.integrate(tile, room, &mut pixels);
-            band.write::<C>(tile, &pixels);
+            band.write(tile, &pixels);
             return work;
         }
         // Most pictures have empty tiles.
-        let mut pixel: Pixel<C> = self.empty();
+        let mut pixel: Pixel = self.empty();
         for other in &self.others {
             pixel.add(&other.empty());
         }

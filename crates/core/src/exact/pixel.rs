@@ -9,7 +9,6 @@ use super::casters::CasterCache;
 use super::edged::cell::{Goal, Workspace};
 use super::edged::piece::Part;
 use crate::edges::cell::{Ball, Cell};
-use crate::model::color::Radiance;
 use crate::model::material::Material;
 use crate::model::roughness::PixelKey;
 use crate::picture::pixel::{Evidence, Pixel, Status};
@@ -44,14 +43,14 @@ impl Exact<'_> {
     }
 
     /// A pixel with edges.
-    pub(crate) fn pixel<S: Simd, C: Radiance>(
+    pub(crate) fn pixel<S: Simd>(
         &self,
         simd: S,
         here: Tile,
         spheres: &[(usize, Ball)],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
-    ) -> Pixel<C> {
+    ) -> Pixel {
         let key = self.key(here, 0);
         workspace.contents.pixel = Some(key);
         let cell = self.cell(here);
@@ -59,7 +58,7 @@ impl Exact<'_> {
             error: f64::INFINITY,
             ..Part::NOTHING
         };
-        if let Some(found) = self.along_edges::<S, C>(simd, &cell, spheres, cache, workspace) {
+        if let Some(found) = self.along_edges(simd, &cell, spheres, cache, workspace) {
             part = found;
             if part.error <= self.tolerance {
                 return self.of_part(&part);
@@ -71,7 +70,7 @@ impl Exact<'_> {
             let tolerance = looser * self.tolerance;
             let found = simd.vectorize(
                 #[inline(always)]
-                || self.parts::<S, C>(simd, cell, spheres, cache, workspace, tolerance),
+                || self.parts(simd, cell, spheres, cache, workspace, tolerance),
             );
             if found.error < part.error || found.error.is_nan() {
                 part = found;
@@ -89,10 +88,10 @@ impl Exact<'_> {
         self.of_part(&part)
     }
 
-    fn of_part<C: Radiance>(&self, part: &Part) -> Pixel<C> {
+    fn of_part(&self, part: &Part) -> Pixel {
         let error = part.error;
         Pixel {
-            value: C::from_color(part.value),
+            value: self.scene.spread(part.value),
             alpha: part.covered,
             error,
             evidence: Evidence::Estimate,
@@ -107,7 +106,7 @@ impl Exact<'_> {
     }
 
     /// The average over a cell along the edges in it, where spheres are smooth and highlights broad.
-    fn along_edges<S: Simd, C: Radiance>(
+    fn along_edges<S: Simd>(
         &self,
         simd: S,
         cell: &Cell,
@@ -154,7 +153,7 @@ impl Exact<'_> {
                         contents, boundary, ..
                     } = workspace;
                     boundary.parts = finer;
-                    boundary.integrate::<S, C>(simd, &self.scene, cell, contents, &goal)
+                    boundary.integrate(simd, &self.scene, cell, contents, &goal)
                 },
             );
             workspace.work.samples += std::mem::take(&mut workspace.boundary.samples);
@@ -172,7 +171,7 @@ impl Exact<'_> {
 
     /// The average over a cell, by the averages over its quarters where it is hard, and over theirs:
     /// large ones first, until the pixel has cost enough.
-    fn parts<S: Simd, C: Radiance>(
+    fn parts<S: Simd>(
         &self,
         simd: S,
         cell: Cell,
@@ -188,7 +187,7 @@ impl Exact<'_> {
             let part = if workspace.is_over_budget() {
                 None
             } else {
-                self.part::<S, C>(simd, &cell, spheres, cache, workspace, tolerance, depth)
+                self.part(simd, &cell, spheres, cache, workspace, tolerance, depth)
             };
             match part {
                 Some(part) => sum.add(&part, share),
@@ -212,7 +211,7 @@ impl Exact<'_> {
         clippy::too_many_arguments,
         reason = "all of it is at hand where it is called"
     )]
-    fn part<S: Simd, C: Radiance>(
+    fn part<S: Simd>(
         &self,
         simd: S,
         cell: &Cell,
@@ -248,9 +247,7 @@ impl Exact<'_> {
                     cell = cell.transposed();
                     workspace.contents.transpose();
                 }
-                workspace
-                    .integrate::<S, C>(simd, &self.scene, &cell, &goal)
-                    .ok()
+                workspace.integrate(simd, &self.scene, &cell, &goal).ok()
             },
         )
     }

@@ -9,6 +9,7 @@ use crate::model::color::Color;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::picture::image::Channels;
 use crate::search::Visibility;
 
 /// Lights that are integrated at a time: further ones in further groups.
@@ -18,6 +19,8 @@ pub(crate) const MOST_LIGHTS: usize = 8;
 #[derive(Clone, Debug)]
 pub(crate) struct InCamera<'scene> {
     pub(crate) world: &'scene World,
+    /// How many channels of light are counted: 1 in a world without color, whose channels are the same.
+    pub(crate) channels: usize,
     pub(crate) visibility: &'scene Visibility<'scene>,
     pub(crate) world_from_camera: DMat3,
     pub(crate) viewpoint: DVec3,
@@ -69,6 +72,7 @@ impl<'scene> InCamera<'scene> {
         world: &'scene World,
         visibility: &'scene Visibility<'scene>,
         view: &View,
+        channels: Channels,
         group: usize,
     ) -> Self {
         let world_from_camera = view.camera.world_from_camera;
@@ -105,6 +109,7 @@ impl<'scene> InCamera<'scene> {
         });
         Self {
             world,
+            channels: channels.count(),
             visibility,
             world_from_camera,
             viewpoint,
@@ -141,6 +146,15 @@ impl<'scene> InCamera<'scene> {
                 let center = self.camera_from_world * (sphere.center() - self.viewpoint);
                 (center, sphere.radius())
             }
+        }
+    }
+
+    /// A color of which only the counted channels are known.
+    pub(crate) fn spread(&self, color: Color) -> Color {
+        if self.channels == 1 {
+            Color::splat(color.x)
+        } else {
+            color
         }
     }
 

@@ -7,7 +7,7 @@ use super::interior::facings::Facings;
 use super::points::Points;
 use super::relief::Relief;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::material::Material;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
@@ -308,7 +308,7 @@ impl<'scene> Finish<'scene> {
     /// The light of some lights, bit by bit, that points without bumps send to the eye, without what they
     /// send where none of them reaches; on where the surface turns from them, as smooth as it is.
     #[inline(always)]
-    pub(crate) fn unclamped<S: Simd, C: Radiance>(
+    pub(crate) fn unclamped<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -334,7 +334,7 @@ impl<'scene> Finish<'scene> {
                 self.diffuse.lanes(facing.max(zero).min(one))
             };
             let color = self.albedo * light.intensity;
-            for channel in 0..C::CHANNELS {
+            for channel in 0..scene.channels {
                 sum[channel] += diffuse * color[channel];
             }
             if let Some((strength, power)) = &self.specular {
@@ -342,7 +342,7 @@ impl<'scene> Finish<'scene> {
                 let length_sq = (along * 2.0 + 2.0).max(one * f64::MIN_POSITIVE);
                 let half = (facing + to_eye) / length_sq.sqrt();
                 let spot = power.lanes(half.max(zero).min(one));
-                for (channel, sum) in sum.iter_mut().enumerate().take(C::CHANNELS) {
+                for (channel, sum) in sum.iter_mut().enumerate().take(scene.channels) {
                     *sum += spot * (light.intensity[channel] * strength);
                 }
             }
@@ -353,7 +353,7 @@ impl<'scene> Finish<'scene> {
     /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels
     /// that `C` counts; `lit` tells for each light, bit by bit, which of the points it reaches.
     #[inline(always)]
-    pub(crate) fn radiance<S: Simd, C: Radiance>(
+    pub(crate) fn radiance<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -390,7 +390,7 @@ impl<'scene> Finish<'scene> {
             let diffuse = self.diffuse.lanes(facing.max(zero).min(one));
             let diffuse = faces.select(diffuse, zero);
             let color = self.albedo * intensity;
-            for channel in 0..C::CHANNELS {
+            for channel in 0..scene.channels {
                 sum[channel] += diffuse * color[channel];
             }
             if let Some((strength, power)) = &self.specular {
@@ -402,7 +402,7 @@ impl<'scene> Finish<'scene> {
                     facings.note_spot(index, spot, half);
                 }
                 let spot = faces.select(spot, zero);
-                for channel in 0..C::CHANNELS {
+                for channel in 0..scene.channels {
                     sum[channel] += spot * (intensity[channel] * strength);
                 }
             }

@@ -71,7 +71,7 @@ fn view() -> View {
     }
 }
 
-fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
+fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
     let (world, view) = (world(), view());
     let visibility = Visibility::new(&world);
     let seen = Seen::new(&visibility, &view, Tile::SIDE);
@@ -103,9 +103,9 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel<Color>> {
 fn processors_and_tiles_do_not_change_a_bit() {
     for tolerance in [1e-2, 1e-4] {
         let expected = pixels(Level::new(), tolerance, Tile::SIDE);
-        let partly = |pixel: &&Pixel<Color>| 0.0 < pixel.alpha && pixel.alpha < 1.0;
+        let partly = |pixel: &&Pixel| 0.0 < pixel.alpha && pixel.alpha < 1.0;
         assert!(expected.iter().filter(partly).count() > 50);
-        let is_met = |pixel: &Pixel<Color>| pixel.status == Status::Met;
+        let is_met = |pixel: &Pixel| pixel.status == Status::Met;
         assert!(expected.iter().all(is_met), "nothing falls back on samples");
         for level in levels().into_iter().chain([Level::baseline()]) {
             let found = pixels(level, tolerance, Tile::SIDE);
@@ -161,12 +161,12 @@ fn crowds_meet_their_tolerance() {
         height: 8,
     };
     let (mut expected, mut found) = (Vec::new(), Vec::new());
-    Integrator::<f64>::integrate(&sampled, tile, &mut Default::default(), &mut expected);
-    let work = Integrator::<f64>::integrate(&exact, tile, &mut Default::default(), &mut found);
+    Integrator::integrate(&sampled, tile, &mut Default::default(), &mut expected);
+    let work = Integrator::integrate(&exact, tile, &mut Default::default(), &mut found);
     let (mut partly, mut square) = (0, 0.0);
     for (found, expected) in found.iter().zip(&expected) {
         assert_eq!(found.status, Status::Met);
-        let off = (found.value - expected.value).abs();
+        let off = (found.value.x - expected.value.x).abs();
         // Edges along the grid cost samples a share of a row of them.
         assert!(off <= found.error + 0.2 * expected.error, "{off:e}");
         square += off * off;

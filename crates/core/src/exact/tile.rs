@@ -8,19 +8,19 @@ use super::edged::cell::Workspace;
 use super::glimpse::Glimpse;
 use super::trust::trusts;
 use crate::edges::cell::Ball;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 
 impl Exact<'_> {
     #[inline(always)]
-    pub(crate) fn tile<S: Simd, C: Radiance>(
+    pub(crate) fn tile<S: Simd>(
         &self,
         simd: S,
         tile: Tile,
         candidates: &[usize],
         workspace: &mut Workspace,
-        pixels: &mut Vec<Pixel<C>>,
+        pixels: &mut Vec<Pixel>,
     ) -> Work {
         workspace.balls.clear();
         for &sphere in candidates {
@@ -34,7 +34,7 @@ impl Exact<'_> {
         }
         let first = pixels.len();
         let count = tile.width as usize * tile.height as usize;
-        pixels.extend(std::iter::repeat_n(self.empty::<C>(), count));
+        pixels.extend(std::iter::repeat_n(self.empty(), count));
         if candidates.is_empty() {
             return Work::default();
         }
@@ -112,9 +112,9 @@ impl Exact<'_> {
         work
     }
 
-    pub(crate) fn empty<C: Radiance>(&self) -> Pixel<C> {
+    pub(crate) fn empty(&self) -> Pixel {
         Pixel {
-            value: C::from_color(self.background()),
+            value: self.background(),
             alpha: 0.0,
             error: 0.0,
             evidence: Evidence::Bound,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::hit::outcome::Hit;
-use crate::model::color::Radiance;
+use crate::model::color::Color;
 use crate::model::ray::Ray;
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
@@ -15,14 +15,14 @@ use crate::search::Visibility;
     not(test),
     allow(dead_code, reason = "what rays side by side are tested against")
 )]
-pub(crate) fn shade<C: Radiance>(
+pub(crate) fn shade(
     world: &World,
     visibility: &Visibility<'_>,
     ray: &Ray,
     sphere: usize,
     hit: &Hit,
     pixel: PixelKey,
-) -> C {
+) -> Color {
     if hit.inner_side {
         return shade_inner_side(world, sphere);
     }
@@ -43,8 +43,8 @@ pub(crate) fn shade<C: Radiance>(
 }
 
 /// Radiance of a sphere's inner side, which only the ambient light reaches.
-pub(crate) fn shade_inner_side<C: Radiance>(world: &World, sphere: usize) -> C {
-    C::from_color(world.albedo(sphere)) * C::from_color(world.ambient)
+pub(crate) fn shade_inner_side(world: &World, sphere: usize) -> Color {
+    world.albedo(sphere) * world.ambient
 }
 
 /// A point of a sphere's outer side, and who looks at it.
@@ -59,11 +59,7 @@ pub(crate) struct Surface {
 }
 
 /// Radiance of a point under those lights that it faces and for which `is_lit` holds.
-pub(crate) fn shade_lit<C: Radiance>(
-    world: &World,
-    point: &Surface,
-    is_lit: impl Fn(usize) -> bool,
-) -> C {
+pub(crate) fn shade_lit(world: &World, point: &Surface, is_lit: impl Fn(usize) -> bool) -> Color {
     let material = world.material(point.sphere);
     let normal = match &material.roughness {
         Some(roughness) => {
@@ -72,8 +68,8 @@ pub(crate) fn shade_lit<C: Radiance>(
         }
         None => point.normal,
     };
-    let mut diffuse = C::from_color(world.ambient);
-    let mut mirrored = C::ZERO;
+    let mut diffuse = world.ambient;
+    let mut mirrored = Color::ZERO;
     let falloff = Power::new(material.exponent);
     let highlight = material
         .highlight
@@ -83,7 +79,7 @@ pub(crate) fn shade_lit<C: Radiance>(
         if facing <= 0.0 || !is_lit(index) {
             continue;
         }
-        let intensity = C::from_color(light.intensity());
+        let intensity = light.intensity();
         diffuse += intensity * falloff.scalar(facing);
         if let Some((strength, falloff)) = &highlight {
             let half = half_vector(light.toward(), point.to_viewer);
@@ -91,7 +87,7 @@ pub(crate) fn shade_lit<C: Radiance>(
             mirrored += intensity * (*strength * spot);
         }
     }
-    C::from_color(world.albedo(point.sphere)) * diffuse + mirrored
+    world.albedo(point.sphere) * diffuse + mirrored
 }
 
 /// Unit vector half-way between a unit vector and a vector of any length; zero where they are

@@ -10,7 +10,7 @@ use super::pixel::{Evidence, Status, Work};
 use super::plane::{Plane, PlaneBand};
 use super::tile::{Tile, TileLight};
 use super::window::Window;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::world::World;
 
 /// Which numbers a picture holds for each pixel.
@@ -33,7 +33,8 @@ impl Channels {
         if is_grey { Self::Grey } else { Self::Rgb }
     }
 
-    fn count(self) -> usize {
+    /// Number of the channels.
+    pub(crate) fn count(self) -> usize {
         match self {
             Self::Grey => 1,
             Self::Rgb => 3,
@@ -358,14 +359,11 @@ pub(crate) struct Band<'image> {
 impl Band<'_> {
     /// Writes the pixels of a tile inside the band, which come in the order of
     /// [`Tile::pixels`].
-    pub(crate) fn write<C: Radiance>(&mut self, tile: Tile, pixels: &[Pixel<C>]) {
+    pub(crate) fn write(&mut self, tile: Tile, pixels: &[Pixel]) {
         for ((col, row), pixel) in tile.pixels().zip(pixels) {
             let index = self.index(col, row);
             let values = &mut self.values[index * self.stride..][..self.stride];
-            let channels = pixel.value.channels();
-            values[..channels.len()].copy_from_slice(channels);
-            // The alpha channel, where there is one.
-            values[channels.len()..].fill(pixel.alpha);
+            put(values, pixel);
             self.errors.write(index, &[pixel.error]);
             self.evidence.write(index, &[pixel.evidence]);
             self.statuses.write(index, &[pixel.status]);
@@ -373,15 +371,13 @@ impl Band<'_> {
     }
 
     /// Writes the same pixel all over a tile inside the band.
-    pub(crate) fn write_same<C: Radiance>(&mut self, tile: Tile, pixel: &Pixel<C>) {
+    pub(crate) fn write_same(&mut self, tile: Tile, pixel: &Pixel) {
         let (width, stride) = (tile.width as usize, self.stride);
         for row in tile.row..tile.row + tile.height {
             let index = self.index(tile.col, row);
-            let channels = pixel.value.channels();
             let values = &mut self.values[index * stride..][..width * stride];
             for values in values.chunks_exact_mut(stride) {
-                values[..channels.len()].copy_from_slice(channels);
-                values[channels.len()..].fill(pixel.alpha);
+                put(values, pixel);
             }
             self.errors.fill(index, width, pixel.error);
             self.evidence.fill(index, width, pixel.evidence);
@@ -433,6 +429,21 @@ impl Band<'_> {
     fn index(&self, col: u32, row: u32) -> usize {
         let (col, row) = (col - self.area.col, row - self.area.row);
         row as usize * self.area.width as usize + col as usize
+    }
+}
+
+/// Writes the numbers of a pixel: its channels, then alpha where there is a place for it.
+#[inline]
+fn put(values: &mut [f64], pixel: &Pixel) {
+    let Color { x, y, z } = pixel.value;
+    match values {
+        [grey] => *grey = x,
+        [grey, alpha] => (*grey, *alpha) = (x, pixel.alpha),
+        [red, green, blue, alpha @ ..] => {
+            (*red, *green, *blue) = (x, y, z);
+            alpha.fill(pixel.alpha);
+        }
+        [] => {}
     }
 }
 

@@ -8,15 +8,14 @@ use std::ops::ControlFlow;
 use super::image::Band;
 use super::pixel::{Cancelled, Pixel, Work};
 use super::tile::Tile;
-use crate::model::color::Radiance;
 
 /// A way to average light over pixels.
-pub(crate) trait Integrator<C: Radiance>: Send + Sync {
+pub(crate) trait Integrator: Send + Sync {
     /// Memory to work in, used again for tile after tile.
     type Room: Default;
 
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; what they cost.
-    fn integrate(&self, tile: Tile, room: &mut Self::Room, pixels: &mut Vec<Pixel<C>>) -> Work;
+    fn integrate(&self, tile: Tile, room: &mut Self::Room, pixels: &mut Vec<Pixel>) -> Work;
 
     /// Writes the tile's pixels into the band of a picture that contains it; what they cost.
     fn paint(&self, tile: Tile, room: &mut Self::Room, band: &mut Band<'_>) -> Work {

@@ -5,6 +5,8 @@ use std::ops::AddAssign;
 
 use thiserror::Error;
 
+use crate::model::color::Color;
+
 /// How pixels are averaged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
@@ -21,9 +23,9 @@ pub struct Cancelled;
 
 /// What is known of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Pixel<C> {
-    /// Average of the light over the pixel's square.
-    pub(crate) value: C,
+pub(crate) struct Pixel {
+    /// Average of the light over the pixel's square; in a world without color all channels are the same.
+    pub(crate) value: Color,
     /// Fraction of the pixel's square that spheres cover.
     pub(crate) alpha: f64,
     /// How far value and alpha may be from the exact averages, in any channel; infinite where

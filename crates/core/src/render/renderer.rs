@@ -8,7 +8,6 @@ use std::sync::Arc;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
 use crate::exact::Exact;
-use crate::model::color::{Color, Radiance};
 use crate::model::exposure::{Exposure, Motion};
 use crate::model::view::View;
 use crate::model::world::World;
@@ -115,17 +114,11 @@ impl<'world> Renderer<'world> {
         match settings.method {
             Method::Samples(samples) => {
                 let integrator = Supersampling::new(world, view, &seen, samples, alpha);
-                match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, integrator),
-                }
+                job.run(form, integrator)
             }
             Method::Tolerance(tolerance) => {
                 let integrator = Exact::new(world, view, &seen, tolerance, alpha);
-                match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, integrator),
-                }
+                job.run(form, integrator)
             }
         }
     }
@@ -144,17 +137,11 @@ impl<'world> Renderer<'world> {
         match settings.method {
             Method::Samples(samples) => {
                 let integrator = SampledOverTime::new(world, instants, samples, alpha);
-                match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, integrator),
-                }
+                job.run(form, integrator)
             }
             Method::Tolerance(tolerance) => {
                 let integrator = ExactOverTime::new(world, instants, tolerance, alpha);
-                match form.channels {
-                    Channels::Grey => job.run::<f64, _>(form, integrator),
-                    Channels::Rgb => job.run::<Color, _>(form, integrator),
-                }
+                job.run(form, integrator)
             }
         }
     }
@@ -180,11 +167,7 @@ pub(crate) trait Job<'a> {
     type Output;
 
     /// Renders a picture of this form.
-    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
-        self,
-        form: Form,
-        integrator: I,
-    ) -> Self::Output;
+    fn run<I: Integrator + 'a>(self, form: Form, integrator: I) -> Self::Output;
 }
 
 /// A picture in one piece.
@@ -197,11 +180,7 @@ struct Whole<'a> {
 impl<'a> Job<'a> for Whole<'_> {
     type Output = Result<Image, Cancelled>;
 
-    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
-        self,
-        form: Form,
-        integrator: I,
-    ) -> Self::Output {
+    fn run<I: Integrator + 'a>(self, form: Form, integrator: I) -> Self::Output {
         let mut image = Image::new(form, self.spent);
         // One by one: bands differ in what they cost, and threads that wait for the last take longer than
         // all handing over.
@@ -228,6 +207,7 @@ mod tests {
 
     use super::*;
     use crate::model::camera::{Camera, Lens};
+    use crate::model::color::Color;
     use crate::model::light::DirectionalLight;
     use crate::model::material::Material;
     use crate::model::sphere::Sphere;

@@ -1,13 +1,11 @@
 //! A picture strip by strip, for those that need not have it as a whole.
 
 use crate::picture::window::Window;
-use std::marker::PhantomData;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::renderer::Job;
 use super::renderer::{Renderer, Settings};
-use crate::model::color::Radiance;
 use crate::model::exposure::Exposure;
 use crate::picture::image::Form;
 use crate::picture::image::Image;
@@ -166,27 +164,18 @@ struct Preparation;
 impl<'a> Job<'a> for Preparation {
     type Output = Box<dyn Strips + 'a>;
 
-    fn run<C: Radiance + 'a, I: Integrator<C> + 'a>(
-        self,
-        form: Form,
-        integrator: I,
-    ) -> Self::Output {
-        Box::new(Painter {
-            form,
-            integrator,
-            radiance: PhantomData::<C>,
-        })
+    fn run<I: Integrator + 'a>(self, form: Form, integrator: I) -> Self::Output {
+        Box::new(Painter { form, integrator })
     }
 }
 
 /// An integrator, and what it makes.
-struct Painter<C, I> {
+struct Painter<I> {
     form: Form,
     integrator: I,
-    radiance: PhantomData<C>,
 }
 
-impl<C: Radiance, I: Integrator<C>> Strips for Painter<C, I> {
+impl<I: Integrator> Strips for Painter<I> {
     fn render(
         &self,
         rendering: &Rendering<'_>,

@@ -25,11 +25,11 @@ use self::near::Nearby;
 use self::rays::{Place, Rays};
 use self::shadow::Shadows;
 use self::trace::{Groups, RayRow, Tracer};
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::picture::image::{Band, Prospect};
+use crate::picture::image::{Band, Channels, Prospect};
 use crate::picture::integrator::Integrator;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::RowLight;
@@ -48,6 +48,7 @@ use crate::search::seen::Seen;
 pub(crate) struct Supersampling<'scene> {
     seen: Seen<'scene>,
     samples: NonZeroU32,
+    channels: Channels,
     alpha: bool,
     rays: Rays,
     shading: Shading<'scene>,
@@ -69,6 +70,7 @@ impl<'scene> Supersampling<'scene> {
         Self {
             seen: seen.clone(),
             samples,
+            channels: Channels::of(world, alpha),
             alpha,
             rays: Rays::new(view, samples.get()),
             shading: Shading::new(world, view.frame),
@@ -86,7 +88,7 @@ impl<'scene> Supersampling<'scene> {
     }
 
     /// A pixel for which a tolerance was asked that cannot be met.
-    pub(crate) fn pixel_of_last_resort<C: Radiance>(&self, key: PixelKey) -> Pixel<C> {
+    pub(crate) fn pixel_of_last_resort(&self, key: PixelKey) -> Pixel {
         let PixelKey { col, row, .. } = key;
         let (width, height) = (1, 1);
         let tile = Tile {
@@ -96,7 +98,7 @@ impl<'scene> Supersampling<'scene> {
             height,
         };
         let mut pixels = Vec::with_capacity(1);
-        Integrator::<C>::integrate(self, tile, &mut Room::default(), &mut pixels);
+        Integrator::integrate(self, tile, &mut Room::default(), &mut pixels);
         Pixel {
             status: Status::OutOfBudget,
             ..pixels[0]
@@ -114,11 +116,10 @@ impl<'scene> Supersampling<'scene> {
 
     /// Averages the light of a tile; how many balls were asked whether eight rays meet them, or
     /// none, and no light, where all rays meet nothing.
-    fn sample<C: Radiance>(&self, tile: Tile, room: &mut Room) -> Option<u64> {
-        if C::ZERO.channels().len() == 1 {
-            self.sample_channels::<1>(tile, room)
-        } else {
-            self.sample_channels::<3>(tile, room)
+    fn sample(&self, tile: Tile, room: &mut Room) -> Option<u64> {
+        match self.channels {
+            Channels::Grey => self.sample_channels::<1>(tile, room),
+            Channels::Rgb => self.sample_channels::<3>(tile, room),
         }
     }
 
@@ -145,6 +146,22 @@ impl<'scene> Supersampling<'scene> {
             f64::INFINITY
         } else {
             0.0
+        }
+    }
+
+    /// One of the pixels of a tile's light.
+    fn pixel(&self, light: &TileLight, col: u32, row: u32) -> Pixel {
+        let (row, place) = (light.row(row), col as usize);
+        let [red, green, blue] = row.channels.map(|channel| channel[place]);
+        Pixel {
+            value: match self.channels {
+                Channels::Grey => Color::splat(red),
+                Channels::Rgb => Color::new(red, green, blue),
+            },
+            alpha: row.alpha[place],
+            error: row.errors[place],
+            evidence: Evidence::Estimate,
+            status: Status::NoTolerance,
         }
     }
 
@@ -327,35 +344,23 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
     }
 }
 
-/// One of the pixels of a tile's light.
-fn pixel<C: Radiance>(light: &TileLight, col: u32, row: u32) -> Pixel<C> {
-    let (row, place) = (light.row(row), col as usize);
-    let [red, green, blue] = row.channels.map(|channel| channel[place]);
-    Pixel {
-        value: C::from_color(Color::new(red, green, blue)),
-        alpha: row.alpha[place],
-        error: row.errors[place],
-        evidence: Evidence::Estimate,
-        status: Status::NoTolerance,
-    }
-}
-
-impl<C: Radiance> Integrator<C> for Supersampling<'_> {
+impl Integrator for Supersampling<'_> {
     type Room = Room;
 
-    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
-        let tests = self.sample::<C>(tile, room);
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
+        let tests = self.sample(tile, room);
         let light = &mut room.light;
         if tests.is_none() {
             light.fill(self.background(), self.error_of_equal_samples());
         }
         let tile_pixels = tile.pixels();
-        pixels.extend(tile_pixels.map(|(col, row)| pixel(light, col - tile.col, row - tile.row)));
+        let pixel = |(col, row)| self.pixel(light, col - tile.col, row - tile.row);
+        pixels.extend(tile_pixels.map(pixel));
         self.work(tile, tests.unwrap_or(0))
     }
 
     fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
-        let tests = self.sample::<C>(tile, room);
+        let tests = self.sample(tile, room);
         if tests.is_some() {
             band.write_light(tile, &room.light);
         } else {

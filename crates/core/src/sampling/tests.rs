@@ -41,7 +41,7 @@ fn scene() -> (World, View) {
     (world, view)
 }
 
-fn pixels<C: Radiance>(samples: u32, alpha: bool) -> Vec<Pixel<C>> {
+fn pixels(samples: u32, alpha: bool) -> Vec<Pixel> {
     let (world, view) = scene();
     let visibility = Visibility::new(&world);
     let seen = Seen::new(&visibility, &view, 8);
@@ -63,17 +63,17 @@ fn pixels<C: Radiance>(samples: u32, alpha: bool) -> Vec<Pixel<C>> {
 
 #[test]
 fn value_is_the_mean_over_the_grid() {
-    let [left, right] = pixels::<f64>(4, false)[..] else {
+    let [left, right] = pixels(4, false)[..] else {
         panic!("two pixels")
     };
-    assert!((left.value - 0.1).abs() < 1e-15 && left.alpha == 0.0 && left.error == 0.0);
-    assert!((right.value - 0.4).abs() < 1e-15 && right.alpha == 0.75);
+    assert!((left.value.x - 0.1).abs() < 1e-15 && left.alpha == 0.0 && left.error == 0.0);
+    assert!((right.value.x - 0.4).abs() < 1e-15 && right.alpha == 0.75);
     assert_eq!(right.error, (0.5 - 0.1) / 8.0);
 }
 
 #[test]
 fn alpha_leaves_the_background_out_and_counts_in_the_error() {
-    let [left, right] = pixels::<Color>(4, true)[..] else {
+    let [left, right] = pixels(4, true)[..] else {
         panic!("two pixels")
     };
     assert_eq!(
@@ -87,7 +87,7 @@ fn alpha_leaves_the_background_out_and_counts_in_the_error() {
 #[test]
 fn one_sample_claims_nothing() {
     assert!(
-        pixels::<f64>(1, false)
+        pixels(1, false)
             .iter()
             .all(|pixel| pixel.error == f64::INFINITY)
     );

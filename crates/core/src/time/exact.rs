@@ -13,7 +13,7 @@ use super::paint_band;
 use super::panel::{MOMENTS, Panel, Part};
 use crate::exact::Exact;
 use crate::exact::Room;
-use crate::model::color::Radiance;
+use crate::model::color::Color;
 use crate::model::world::World;
 use crate::picture::image::Band;
 use crate::picture::integrator::Integrator;
@@ -45,11 +45,11 @@ pub(crate) struct ExactOverTime<'scene> {
 }
 
 /// What is known of a pixel.
-struct Sum<C> {
+struct Sum {
     /// The first panel's, from which differences are taken, so that what never changes is itself.
-    first: Option<(C, f64)>,
+    first: Option<(Color, f64)>,
     /// Of the panels that will not be halved.
-    value: C,
+    value: Color,
     alpha: f64,
     area_error: f64,
     time_error: f64,
@@ -57,7 +57,7 @@ struct Sum<C> {
     /// What may have happened between all moments, which is a part of the error over time.
     missed: f64,
     /// Those that may be.
-    open: Vec<Part<C>>,
+    open: Vec<Part>,
     /// How many panels it has been looked at in, and how many it may be.
     panels: usize,
     most_panels: usize,
@@ -92,15 +92,15 @@ impl<'scene> ExactOverTime<'scene> {
     }
 
     /// The pixels of a rectangle as high as a tile, tile by tile.
-    fn pixels<C: Radiance>(
+    fn pixels(
         &self,
         area: Tile,
         room: &mut Room,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<(Vec<Pixel<C>>, Work), Cancelled> {
+    ) -> Result<(Vec<Pixel>, Work), Cancelled> {
         let tiles: Vec<Tile> = area.tiles().collect();
         let places = tiles.iter().flat_map(|tile| tile.pixels());
-        let mut sums: Vec<Sum<C>> = Vec::with_capacity(area.count() as usize);
+        let mut sums: Vec<Sum> = Vec::with_capacity(area.count() as usize);
         let mut wishes: Vec<Wish> = Vec::new();
         for (pixel, (col, row)) in places.enumerate() {
             let start = self.pace.start(col, row);
@@ -136,13 +136,13 @@ impl<'scene> ExactOverTime<'scene> {
     }
 
     /// Looks at some pixels at the moments of a panel.
-    fn look<C: Radiance>(
+    fn look(
         &self,
         panel: Panel,
         instants: &[Instant<'_>],
         wishes: &[Wish],
         (tiles, room): (&[Tile], &mut Room),
-        sums: &mut [Sum<C>],
+        sums: &mut [Sum],
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
@@ -168,7 +168,7 @@ impl<'scene> ExactOverTime<'scene> {
             for pixel in wanted {
                 let (col, row) = (tile.col + pixel % tile.width, tile.row + pixel / tile.width);
                 let place = (row - around.row) * around.width + col - around.col;
-                let moments: [Pixel<C>; MOMENTS] =
+                let moments: [Pixel; MOMENTS] =
                     std::array::from_fn(|moment| pixels[moment * count + place as usize]);
                 sums[(first + pixel) as usize].add(Part::new(panel, &moments));
             }
@@ -197,12 +197,12 @@ fn around(tile: Tile, mut pixels: impl Iterator<Item = u32>) -> Tile {
     }
 }
 
-impl<C: Radiance> Sum<C> {
+impl Sum {
     fn new(start: Start, contrast: f64) -> Self {
         let missed = contrast * start.missed;
         Self {
             first: None,
-            value: C::ZERO,
+            value: Color::ZERO,
             alpha: 0.0,
             area_error: 0.0,
             time_error: missed,
@@ -216,15 +216,15 @@ impl<C: Radiance> Sum<C> {
     }
 
     /// Adds what was seen in a panel.
-    fn add(&mut self, part: Part<C>) {
+    fn add(&mut self, part: Part) {
         self.first.get_or_insert((part.value, part.alpha));
         self.panels += 1;
         self.open.push(part);
     }
 
     /// Counts a panel that will not be halved.
-    fn settle(&mut self, part: &Part<C>) {
-        let (value, alpha) = self.first.unwrap_or((C::ZERO, 0.0));
+    fn settle(&mut self, part: &Part) {
+        let (value, alpha) = self.first.unwrap_or((Color::ZERO, 0.0));
         let length = part.panel.length();
         self.value += (part.value + value * -1.0) * length;
         self.alpha += (part.alpha - alpha) * length;
@@ -244,9 +244,9 @@ impl<C: Radiance> Sum<C> {
             return;
         }
         let mut open = std::mem::take(&mut self.open);
-        let of_area = |part: &Part<C>| part.area_error * part.panel.length();
+        let of_area = |part: &Part| part.area_error * part.panel.length();
         let area: f64 = self.area_error + open.iter().map(of_area).sum::<f64>();
-        let of_time = |parts: &[Part<C>]| parts.iter().map(|part| part.time_error).sum::<f64>();
+        let of_time = |parts: &[Part]| parts.iter().map(|part| part.time_error).sum::<f64>();
         let is_done = area + self.time_error + of_time(&open) <= tolerance;
         let is_over = self.panels >= self.most_panels || !self.is_paced;
         if is_done || is_over || !area.is_finite() {
@@ -283,8 +283,8 @@ impl<C: Radiance> Sum<C> {
         }
     }
 
-    fn pixel(&self, tolerance: f64) -> Pixel<C> {
-        let (value, alpha) = self.first.unwrap_or((C::ZERO, 0.0));
+    fn pixel(&self, tolerance: f64) -> Pixel {
+        let (value, alpha) = self.first.unwrap_or((Color::ZERO, 0.0));
         let error = self.area_error + self.time_error;
         Pixel {
             value: value + self.value,
@@ -304,10 +304,10 @@ impl<C: Radiance> Sum<C> {
     }
 }
 
-impl<C: Radiance> Integrator<C> for ExactOverTime<'_> {
+impl Integrator for ExactOverTime<'_> {
     type Room = Room;
 
-    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel<C>>) -> Work {
+    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
         let go = |_| ControlFlow::Continue(());
         let Ok((found, work)) = self.pixels(tile, room, &go) else {
             return Work::default();
@@ -322,9 +322,7 @@ impl<C: Radiance> Integrator<C> for ExactOverTime<'_> {
         room: &mut Room,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        paint_band(band, progress, |part| {
-            self.pixels::<C>(part, room, progress)
-        })
+        paint_band(band, progress, |part| self.pixels(part, room, progress))
     }
 }
 
@@ -342,9 +340,9 @@ mod tests {
             is_paced: true,
         };
         for (is_paced, expected) in [(true, Status::Met), (false, Status::OutOfBudget)] {
-            let mut sum = Sum::<f64>::new(Start { is_paced, ..start }, 1.5);
+            let mut sum = Sum::new(Start { is_paced, ..start }, 1.5);
             let pixel = Pixel {
-                value: 0.5,
+                value: Color::splat(0.5),
                 alpha: 1.0,
                 error: 1e-4,
                 evidence: Evidence::Estimate,
@@ -353,7 +351,7 @@ mod tests {
             sum.add(Part::new(panel, &[pixel; MOMENTS]));
             sum.halve(1e-3, |panel| panic!("{panel:?} is not needed"));
             let found = sum.pixel(1e-3);
-            assert_eq!((found.value, found.status), (0.5, expected));
+            assert_eq!((found.value.x, found.status), (0.5, expected));
             assert!((found.error - 4e-4).abs() < 1e-15, "{:e}", found.error);
         }
     }

@@ -8,7 +8,6 @@ pub(crate) mod sampled;
 
 use std::ops::ControlFlow;
 
-use crate::model::color::Radiance;
 use crate::picture::image::Band;
 use crate::picture::pixel::Cancelled;
 use crate::picture::pixel::{Pixel, Work};
@@ -30,10 +29,10 @@ fn parts(area: Tile) -> impl Iterator<Item = Tile> {
 }
 
 /// Writes a band, of whose parts `pixels` finds the pixels, tile by tile.
-fn paint_band<C: Radiance>(
+fn paint_band(
     band: &mut Band<'_>,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    mut pixels: impl FnMut(Tile) -> Result<(Vec<Pixel<C>>, Work), Cancelled>,
+    mut pixels: impl FnMut(Tile) -> Result<(Vec<Pixel>, Work), Cancelled>,
 ) -> Result<Work, Cancelled> {
     let mut work = Work::default();
     for part in parts(band.area) {

@@ -1,6 +1,6 @@
 //! A part of the time that the shutter is open, and the rule by which light is averaged over it.
 
-use crate::model::color::Radiance;
+use crate::model::color::Color;
 use crate::numeric::kronrod;
 use crate::numeric::kronrod::{ABSCISSAS, WEIGHTS};
 use crate::picture::pixel::Pixel;
@@ -80,9 +80,9 @@ impl Panel {
 
 /// What a pixel sees in a panel, on average.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part<C> {
+pub(super) struct Part {
     pub(super) panel: Panel,
-    pub(super) value: C,
+    pub(super) value: Color,
     pub(super) alpha: f64,
     /// What the errors of the moments amount to.
     pub(super) area_error: f64,
@@ -92,15 +92,15 @@ pub(super) struct Part<C> {
     pub(super) is_lost: bool,
 }
 
-impl<C: Radiance> Part<C> {
+impl Part {
     /// From the pixel at the moments of a panel.
-    pub(super) fn new(panel: Panel, pixels: &[Pixel<C>; MOMENTS]) -> Self {
+    pub(super) fn new(panel: Panel, pixels: &[Pixel; MOMENTS]) -> Self {
         let middle = &pixels[MOMENTS / 2];
         // Differences from the middle, so that what never changes is itself.
-        let mut value = C::ZERO;
+        let mut value = Color::ZERO;
         let mut alpha = 0.0;
         let mut area_error = 0.0;
-        let mut odd = [C::ZERO; 2];
+        let mut odd = [Color::ZERO; 2];
         let mut odd_alpha = [0.0; 2];
         let mut is_lost = false;
         for (place, pixel) in pixels.iter().enumerate() {
@@ -117,8 +117,8 @@ impl<C: Radiance> Part<C> {
             is_lost |= pixel.status == Status::OutOfBudget;
         }
         let mut off = libm::hypot(odd_alpha[0], odd_alpha[1]);
-        for (one, other) in odd[0].channels().iter().zip(odd[1].channels()) {
-            off = off.max(libm::hypot(*one, *other));
+        for channel in 0..3 {
+            off = off.max(libm::hypot(odd[0][channel], odd[1][channel]));
         }
         Self {
             panel,
@@ -136,9 +136,9 @@ mod tests {
     use super::*;
     use crate::picture::pixel::Evidence;
 
-    fn part(panel: Panel, light: impl Fn(f64) -> f64) -> Part<f64> {
+    fn part(panel: Panel, light: impl Fn(f64) -> f64) -> Part {
         let pixels = panel.times().map(|time| Pixel {
-            value: light(time),
+            value: Color::splat(light(time)),
             alpha: 1.0,
             error: 1e-4,
             evidence: Evidence::Bound,
@@ -154,7 +154,7 @@ mod tests {
         for degree in 0..=11 {
             let found = part(WHOLE, |time| libm::pow(time + 0.5, f64::from(degree)));
             let expected = 1.0 / f64::from(degree + 1);
-            assert!((found.value - expected).abs() < 1e-15, "degree {degree}");
+            assert!((found.value.x - expected).abs() < 1e-15, "degree {degree}");
             assert_eq!(found.time_error < 1e-14, degree < 5, "degree {degree}");
             assert!((found.area_error - 1e-4).abs() < 1e-18);
         }
@@ -163,7 +163,7 @@ mod tests {
     #[test]
     fn what_never_changes_is_itself() {
         let found = part(WHOLE, |_| 0.1);
-        assert_eq!((found.value, found.time_error), (0.1, 0.0));
+        assert_eq!((found.value.x, found.time_error), (0.1, 0.0));
     }
 
     #[test]
@@ -171,10 +171,10 @@ mod tests {
         let light = |time: f64| libm::exp(3.0 * time);
         let whole = part(WHOLE, light);
         let [first, second] = WHOLE.halves().unwrap().map(|half| part(half, light));
-        let halves = 0.5 * (first.value + second.value);
+        let halves = 0.5 * (first.value.x + second.value.x);
         let exact = 2.0 / 3.0 * libm::sinh(1.5);
         assert!((halves - exact).abs() < 1e-13);
-        assert!((whole.value - exact).abs() < whole.time_error);
+        assert!((whole.value.x - exact).abs() < whole.time_error);
         assert!(first.time_error + second.time_error < 0.1 * whole.time_error);
         assert_eq!(
             [0, 1, 2],
@@ -189,7 +189,7 @@ mod tests {
         for place in 0..1000 {
             let jump = f64::from(place) / 1000.0 - 0.5;
             let found = part(WHOLE, |time| f64::from(u8::from(time > jump)));
-            let off = (found.value - (0.5 - jump)).abs();
+            let off = (found.value.x - (0.5 - jump)).abs();
             let claimed = found.time_error;
             assert!(off <= 2.0 * claimed + outside, "{place}: {off}, {claimed}");
         }

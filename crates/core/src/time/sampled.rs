@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use super::instants::Instants;
 use super::instants::{GROUP, Instant};
 use super::paint_band;
-use crate::model::color::Radiance;
+use crate::model::color::Color;
 use crate::model::world::World;
 use crate::picture::image::Band;
 use crate::picture::integrator::Integrator;
@@ -30,14 +30,14 @@ pub(crate) struct SampledOverTime<'scene> {
 
 /// What is known of a pixel after some moments.
 #[derive(Clone, Copy)]
-struct Sum<C> {
-    first: Pixel<C>,
+struct Sum {
+    first: Pixel,
     /// Sums of differences from the first.
-    value: C,
+    value: Color,
     alpha: f64,
     error: f64,
-    low: C,
-    high: C,
+    low: Color,
+    high: Color,
     least_alpha: f64,
     greatest_alpha: f64,
 }
@@ -58,16 +58,16 @@ impl<'scene> SampledOverTime<'scene> {
     }
 
     /// The pixels of a rectangle as high as a tile, tile by tile.
-    fn pixels<C: Radiance>(
+    fn pixels(
         &self,
         area: Tile,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<(Vec<Pixel<C>>, Work), Cancelled> {
+    ) -> Result<(Vec<Pixel>, Work), Cancelled> {
         let count = self.samples.get();
         let times: Vec<f64> = (0..count)
             .map(|moment| (f64::from(moment) + 0.5) / f64::from(count) - 0.5)
             .collect();
-        let mut sums: Vec<Sum<C>> = Vec::new();
+        let mut sums: Vec<Sum> = Vec::new();
         let mut work = Work::default();
         let mut room = Default::default();
         for (group, times) in times.chunks(GROUP).enumerate() {
@@ -98,11 +98,11 @@ impl<'scene> SampledOverTime<'scene> {
     }
 }
 
-impl<C: Radiance> Sum<C> {
-    fn new(first: Pixel<C>) -> Self {
+impl Sum {
+    fn new(first: Pixel) -> Self {
         Self {
             first,
-            value: C::ZERO,
+            value: Color::ZERO,
             alpha: 0.0,
             error: first.error,
             low: first.value,
@@ -112,7 +112,7 @@ impl<C: Radiance> Sum<C> {
         }
     }
 
-    fn add(&mut self, pixel: &Pixel<C>) {
+    fn add(&mut self, pixel: &Pixel) {
         self.value += pixel.value + self.first.value * -1.0;
         self.alpha += pixel.alpha - self.first.alpha;
         self.error += pixel.error;
@@ -122,16 +122,15 @@ impl<C: Radiance> Sum<C> {
         self.greatest_alpha = self.greatest_alpha.max(pixel.alpha);
     }
 
-    fn mean(&self, count: u32, alpha: bool) -> Pixel<C> {
+    fn mean(&self, count: u32, alpha: bool) -> Pixel {
         let count = f64::from(count);
         let range = self.high + self.low * -1.0;
-        let channels = range.channels().iter().copied();
         let of_alpha = if alpha {
             self.greatest_alpha - self.least_alpha
         } else {
             0.0
         };
-        let spread = channels.fold(of_alpha, f64::max);
+        let spread = of_alpha.max(range.max_element());
         Pixel {
             value: self.first.value + self.value * (1.0 / count),
             alpha: self.first.alpha + self.alpha / count,
@@ -142,10 +141,10 @@ impl<C: Radiance> Sum<C> {
     }
 }
 
-impl<C: Radiance> Integrator<C> for SampledOverTime<'_> {
+impl Integrator for SampledOverTime<'_> {
     type Room = ();
 
-    fn integrate(&self, tile: Tile, _: &mut (), pixels: &mut Vec<Pixel<C>>) -> Work {
+    fn integrate(&self, tile: Tile, _: &mut (), pixels: &mut Vec<Pixel>) -> Work {
         let go = |_| ControlFlow::Continue(());
         let Ok((found, work)) = self.pixels(tile, &go) else {
             return Work::default();
@@ -160,6 +159,6 @@ impl<C: Radiance> Integrator<C> for SampledOverTime<'_> {
         (): &mut (),
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        paint_band(band, progress, |part| self.pixels::<C>(part, progress))
+        paint_band(band, progress, |part| self.pixels(part, progress))
     }
 }

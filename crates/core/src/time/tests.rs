@@ -73,7 +73,7 @@ fn world(balls: &[(DVec3, f64)]) -> World {
 }
 
 /// All pixels of the picture, in tiles of this side.
-fn pixels(world: &World, pan: f64, method: Method, side: u32) -> Vec<Pixel<f64>> {
+fn pixels(world: &World, pan: f64, method: Method, side: u32) -> Vec<Pixel> {
     let visibility = Visibility::new(world);
     let instants = Instants::new(&visibility, &VIEW, Arc::new(Pan(pan)), method);
     match method {
@@ -86,7 +86,7 @@ fn pixels(world: &World, pan: f64, method: Method, side: u32) -> Vec<Pixel<f64>>
     }
 }
 
-fn in_tiles<I: Integrator<f64>>(integrator: &I, side: u32) -> Vec<Pixel<f64>> {
+fn in_tiles<I: Integrator>(integrator: &I, side: u32) -> Vec<Pixel> {
     let mut found = vec![None; (VIEW.width * VIEW.height) as usize];
     for row in (0..VIEW.height).step_by(side as usize) {
         for col in (0..VIEW.width).step_by(side as usize) {
@@ -135,7 +135,7 @@ fn what_passes_quickly_is_seen() {
         let still = pixels(&world, 0.0, Method::Tolerance(1e-4), Tile::SIDE);
         // Off the axis of view pictures are larger: no more than this.
         let larger = 1.0..1.25;
-        let light = |pixels: &[Pixel<f64>]| -> f64 {
+        let light = |pixels: &[Pixel]| -> f64 {
             let above = pixels.iter().map(|pixel| pixel.alpha);
             above.sum()
         };

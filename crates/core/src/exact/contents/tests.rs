@@ -16,6 +16,7 @@ use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
+use crate::picture::image::Channels;
 use crate::search::Visibility;
 use crate::search::tests::Random;
 
@@ -184,7 +185,7 @@ fn casters_are_those_of_all_spheres_that_matter() {
             height: 8,
             frame: 1,
         };
-        let scene = InCamera::new(&world, &visibility, &view, 0);
+        let scene = InCamera::new(&world, &visibility, &view, Channels::Grey, 0);
         for _ in 0..20 {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
@@ -254,7 +255,7 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
         height: 8,
         frame: 1,
     };
-    let scene = InCamera::new(&world, &visibility, &view, 0);
+    let scene = InCamera::new(&world, &visibility, &view, Channels::Grey, 0);
     let tile = cell_at(&mut random, &scene.ball(0), 2.0);
     let mut cache = CasterCache::new(tile, tile.size[0] / 8.0);
     for light in 0..scene.lights.len() {

@@ -10,7 +10,7 @@ use super::rule::Roots;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::contents::Contents;
 use crate::exact::scene::InCamera;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::picture::pixel::Work;
 
@@ -124,7 +124,7 @@ pub(crate) struct Goal {
 impl Workspace {
     /// The integral over the cell that `contents` belongs to.
     #[inline(always)]
-    pub(crate) fn integrate<S: Simd, C: Radiance>(
+    pub(crate) fn integrate<S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'_>,
@@ -134,10 +134,10 @@ impl Workspace {
         self.find_breaks(simd, scene, cell);
         // First everything, however narrow; then, where rounding makes it hopeless, without what does
         // not count.
-        let fine = self.integrate_within::<S, C>(simd, scene, cell, goal, Care::EXACT);
+        let fine = self.integrate_within(simd, scene, cell, goal, Care::EXACT);
         match fine {
             Err(Hard) if !self.is_over_budget() => {
-                self.integrate_within::<S, C>(simd, scene, cell, goal, Care::ROBUST)
+                self.integrate_within(simd, scene, cell, goal, Care::ROBUST)
             }
             fine => fine,
         }
@@ -161,7 +161,7 @@ impl Workspace {
 
     /// The integral between the breaks.
     #[inline(always)]
-    fn integrate_within<S: Simd, C: Radiance>(
+    fn integrate_within<S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'_>,
@@ -208,7 +208,7 @@ impl Workspace {
                 background: goal.background,
                 tolerance: goal.tolerance,
             };
-            let part = surroundings.integrate::<S, C>(
+            let part = surroundings.integrate(
                 simd,
                 &piece,
                 &mut self.cuts,

@@ -13,7 +13,6 @@ use crate::exact::contents::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::exact::surface::Finish;
-use crate::model::color::Radiance;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::world::World;
 
@@ -36,7 +35,7 @@ impl Surroundings<'_> {
         reason = "all of it is at hand where it is called"
     )]
     #[inline(always)]
-    pub(crate) fn add<S: Simd, C: Radiance>(
+    pub(crate) fn add<S: Simd>(
         &self,
         simd: S,
         interval: &Interval<S>,
@@ -57,7 +56,7 @@ impl Surroundings<'_> {
         let material = world.material(active.sphere);
         if interval.view >> 32 == 0 {
             let constant = world.albedo(active.sphere) * scene.ambient;
-            for channel in 0..C::CHANNELS {
+            for channel in 0..scene.channels {
                 sum[channel] += interval.width * constant[channel];
             }
             return Across::SMOOTH;
@@ -81,7 +80,7 @@ impl Surroundings<'_> {
         if finish.is_rough() {
             let is_eased =
                 !finish.has_whole_exponent() || root_at(interval.before) || root_at(interval.after);
-            return self.add_rough::<S, C>(
+            return self.add_rough(
                 simd, interval, active, &finish, &lit, is_eased, y, sum, error, noise, samples,
             );
         }
@@ -94,7 +93,7 @@ impl Surroundings<'_> {
             });
             let start = interval.start + width * f64::from(part);
             *samples += 8 * NODES as u64;
-            self.add_stretch::<S, C>(
+            self.add_stretch(
                 simd, active, &finish, &lit, rule, start, width, y, sum, error, noise,
             );
         }
@@ -109,7 +108,7 @@ impl Surroundings<'_> {
         reason = "all of it is at hand where it is called"
     )]
     #[inline(never)]
-    fn add_rough<S: Simd, C: Radiance>(
+    fn add_rough<S: Simd>(
         &self,
         simd: S,
         interval: &Interval<S>,
@@ -195,7 +194,7 @@ impl Surroundings<'_> {
                     for part in 0..division {
                         *samples += 8 * NODES as u64;
                         let start = start + width * f64::from(part);
-                        self.add_stretch::<S, C>(
+                        self.add_stretch(
                             simd, active, finish, lit, rule, start, width, y, sum, error, noise,
                         );
                     }
@@ -230,7 +229,7 @@ impl Surroundings<'_> {
         reason = "all of it is at hand where it is called"
     )]
     #[inline(never)]
-    fn add_stretch<S: Simd, C: Radiance>(
+    fn add_stretch<S: Simd>(
         &self,
         simd: S,
         active: &Active,
@@ -262,13 +261,13 @@ impl Surroundings<'_> {
                 let normals = finish.normals(simd, scene, &points, noise);
                 for node in 0..NODES {
                     let (points, normal) = (&points[node], &normals[node]);
-                    let light = finish.radiance::<S, C>(simd, scene, points, normal, lit, None);
-                    for channel in 0..C::CHANNELS {
+                    let light = finish.radiance(simd, scene, points, normal, lit, None);
+                    for channel in 0..scene.channels {
                         fine[channel] += light[channel] * rule.fine[node];
                         coarse[channel] += light[channel] * rule.coarse[node];
                     }
                     let mut gauge = light[0];
-                    for channel in &light[1..C::CHANNELS] {
+                    for channel in &light[1..scene.channels] {
                         gauge += *channel;
                     }
                     lowest = lowest.min(gauge);
@@ -276,7 +275,7 @@ impl Surroundings<'_> {
                 }
                 let spread = highest - lowest;
                 let mut largest = zero;
-                for channel in 0..C::CHANNELS {
+                for channel in 0..scene.channels {
                     let difference = (fine[channel] - coarse[channel]).abs();
                     let estimate = if active.is_smooth {
                         let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);

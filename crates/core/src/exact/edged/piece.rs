@@ -11,7 +11,7 @@ use crate::edges::cell::Cell;
 use crate::edges::shadow::Arcs;
 use crate::exact::contents::{Contents, Reach};
 use crate::exact::scene::InCamera;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 
 /// An integral over a part of a cell whose area is 1.
@@ -82,7 +82,7 @@ impl Surroundings<'_> {
     /// The integral over the lines of a piece; the number of samples that it took is added to
     /// `samples`.
     #[inline(always)]
-    pub(crate) fn integrate<S: Simd, C: Radiance>(
+    pub(crate) fn integrate<S: Simd>(
         &self,
         simd: S,
         piece: &Piece<'_>,
@@ -110,7 +110,7 @@ impl Surroundings<'_> {
             let width = end - start;
             let view = signature.views[index];
             if view == NOTHING {
-                for channel in 0..C::CHANNELS {
+                for channel in 0..self.scene.channels {
                     sum[channel] += width * background[channel];
                 }
             } else {
@@ -124,13 +124,13 @@ impl Surroundings<'_> {
                     division: piece.division,
                 };
                 let of_interval =
-                    self.add::<S, C>(simd, &interval, y, &mut sum, &mut along, noise, samples);
+                    self.add(simd, &interval, y, &mut sum, &mut along, noise, samples);
                 across_lines.likeness = across_lines.likeness.min(of_interval.likeness);
                 across_lines.least_error += of_interval.least_error;
             }
             start = end;
         }
-        Ok(self.sum_up::<S, C>(rule, &sum, covered, along, across_lines))
+        Ok(self.sum_up(rule, &sum, covered, along, across_lines))
     }
 
     /// Where the lines of a piece change, and where they end: as the signature says, which all of
@@ -193,7 +193,7 @@ impl Surroundings<'_> {
 
     /// The integral across the lines, from what is along them.
     #[inline(always)]
-    fn sum_up<S: Simd, C: Radiance>(
+    fn sum_up<S: Simd>(
         &self,
         rule: &Rule,
         sum: &[f64x8<S>; 3],
@@ -203,7 +203,7 @@ impl Surroundings<'_> {
     ) -> Part {
         let mut part = Part::NOTHING;
         let mut error: f64 = 0.0;
-        for (channel, sum) in sum.iter().enumerate().take(C::CHANNELS) {
+        for (channel, sum) in sum.iter().enumerate().take(self.scene.channels) {
             let (value, estimate) = across(rule, sum, across_lines.likeness);
             part.value[channel] = value;
             error = error.max(estimate);

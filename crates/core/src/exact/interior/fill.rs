@@ -13,7 +13,6 @@ use crate::exact::glimpse::Glimpse;
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::exact::surface::Finish;
-use crate::model::color::Radiance;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 use crate::picture::pixel::{Evidence, Pixel, Status};
@@ -29,7 +28,7 @@ impl Exact<'_> {
         reason = "all of it is at hand where it is called"
     )]
     #[inline(always)]
-    pub(crate) fn fill<S: Simd, C: Radiance>(
+    pub(crate) fn fill<S: Simd>(
         &self,
         simd: S,
         start: Tile,
@@ -38,7 +37,7 @@ impl Exact<'_> {
         glimpses: &[Glimpse],
         cache: &mut CasterCache,
         workspace: &mut Workspace,
-        pixels: &mut [Pixel<C>],
+        pixels: &mut [Pixel],
     ) {
         let scene = &self.scene;
         let world = scene.world;
@@ -67,7 +66,7 @@ impl Exact<'_> {
         let easy = which & !hard;
         let any_lit = lit.iter().fold(0, |any, lit| any | lit) & easy;
         let ambient = world.albedo(sphere) * scene.ambient;
-        let constant = C::from_color(ambient);
+        let constant = ambient;
         let flat = Pixel {
             value: constant,
             alpha: 1.0,
@@ -114,7 +113,7 @@ impl Exact<'_> {
                 };
                 let light = simd.vectorize(
                     #[inline(always)]
-                    || smooth::<S, C>(simd, scene, &filled, noise),
+                    || smooth(simd, scene, &filled, noise),
                 );
                 let work = &mut workspace.work;
                 work.samples += light.samples as u64 * u64::from(group.count_ones());
@@ -123,13 +122,13 @@ impl Exact<'_> {
                     let is_met = |error: f64| error <= self.tolerance;
                     if !is_met(error) && light.divisible >> lane & 1 == 1 {
                         work.samples += SAMPLES_OF_PARTS;
-                        if let Some(found) = in_parts::<S, C>(simd, scene, &filled, lane, noise) {
+                        if let Some(found) = in_parts(simd, scene, &filled, lane, noise) {
                             (value, error) = found;
                         }
                     }
                     if is_met(error) {
                         pixels[lane] = Pixel {
-                            value: C::from_color(value),
+                            value: self.scene.spread(value),
                             alpha: 1.0,
                             error,
                             evidence: Evidence::Estimate,

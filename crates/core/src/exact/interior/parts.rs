@@ -8,7 +8,7 @@ use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
 use super::smooth::{Filled, Stage};
 use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
 
@@ -25,7 +25,7 @@ pub(crate) const SAMPLES_OF_PARTS: u64 = 8 * STAR_SAMPLES as u64;
 /// # Accuracy
 /// An estimate, as that of the parts. Terminators of bumps cost little in parts which are as small.
 #[inline(never)]
-pub(crate) fn in_parts<S: Simd, C: Radiance>(
+pub(crate) fn in_parts<S: Simd>(
     simd: S,
     scene: &InCamera<'_>,
     filled: &Filled<'_, S>,
@@ -79,19 +79,19 @@ pub(crate) fn in_parts<S: Simd, C: Radiance>(
             let mut facings = Facings::new(simd);
             let mut lights = [[zero; 3]; GAUSS_SAMPLES];
             let mut sum = [zero; 3];
-            let of_star = parts.light::<C, STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
+            let of_star = parts.light::<STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
             lights[..STAR_SAMPLES].copy_from_slice(&of_star);
             for (light, sample) in of_star.iter().zip(&POINTS) {
-                for channel in 0..C::CHANNELS {
+                for channel in 0..scene.channels {
                     sum[channel] += light[channel] * sample.star;
                 }
             }
-            let calm = parts.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
+            let calm = parts.calm(simd, scene, &lights, Stage::Star, &facings);
             if calm.is_known.to_bitmask() != 0xff {
                 return None;
             }
             let mut value = Color::ZERO;
-            for channel in 0..C::CHANNELS {
+            for channel in 0..scene.channels {
                 value[channel] = mean(&sum[channel].into());
             }
             Some((value, mean(&calm.error.into())))

@@ -12,7 +12,7 @@ use crate::edges::cell::Ball;
 use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
 use crate::exact::surface::Finish;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
 
@@ -57,7 +57,7 @@ pub(crate) struct Filled<'a, S: Simd> {
 /// bumps: what they may cost is estimated where it may avert itself from a light between samples
 /// that face it, or face it between those that do not.
 #[inline(always)]
-pub(crate) fn smooth<S: Simd, C: Radiance>(
+pub(crate) fn smooth<S: Simd>(
     simd: S,
     scene: &InCamera<'_>,
     filled: &Filled<'_, S>,
@@ -76,9 +76,9 @@ pub(crate) fn smooth<S: Simd, C: Radiance>(
     };
     // Where a terminator of bumps costs too much, whatever further samples tell.
     let mut hopeless = never;
-    let star_lights = filled.light::<C, STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
+    let star_lights = filled.light::<STAR_SAMPLES>(simd, scene, 0, &mut facings, noise);
     lights[..STAR_SAMPLES].copy_from_slice(&star_lights);
-    let star = filled.calm::<C>(simd, scene, &lights, Stage::Star, &facings);
+    let star = filled.calm(simd, scene, &lights, Stage::Star, &facings);
     if filled.finish.is_rough() {
         let missed = filled.missed(simd, scene, &facings, FROM_GRID);
         hopeless = !star.settled & missed.simd_gt(filled.tolerance);
@@ -86,20 +86,19 @@ pub(crate) fn smooth<S: Simd, C: Radiance>(
     let mut samples = STAR_SAMPLES;
     let settled = star.settled | hopeless;
     if filled.which & !settled.to_bitmask() != 0 {
-        let rest = filled.light::<C, GRID_REST>(simd, scene, samples, &mut facings, noise);
+        let rest = filled.light::<GRID_REST>(simd, scene, samples, &mut facings, noise);
         lights[STAR_SAMPLES..].copy_from_slice(&rest);
-        grid = filled.calm::<C>(simd, scene, &lights, Stage::Grid, &facings);
+        grid = filled.calm(simd, scene, &lights, Stage::Grid, &facings);
         samples = GAUSS_SAMPLES;
         let settled = settled | grid.settled;
         if filled.which & !settled.to_bitmask() != 0 {
             for (light, sample) in lights.iter().zip(&POINTS) {
-                add_apart::<S, C>(&mut apart, light, sample);
+                add_apart(&mut apart, light, sample, scene.channels);
             }
             while samples < SAMPLES {
-                let more =
-                    filled.light::<C, ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
+                let more = filled.light::<ON_DIAGONAL>(simd, scene, samples, &mut facings, noise);
                 for (light, sample) in more.iter().zip(&POINTS[samples..]) {
-                    add_apart::<S, C>(&mut apart, light, sample);
+                    add_apart(&mut apart, light, sample, scene.channels);
                 }
                 samples += ON_DIAGONAL;
             }
@@ -116,7 +115,7 @@ pub(crate) fn smooth<S: Simd, C: Radiance>(
     // quite alike, on bumps less than elsewhere.
     let caution = if is_rough { 2.0 } else { 0.75 };
     let mut error = zero;
-    for channel in 0..C::CHANNELS {
+    for channel in 0..scene.channels {
         let (mut by_star, mut by_grid) = (zero, zero);
         let mut highest = zero;
         for (light, sample) in lights.iter().zip(&POINTS) {
@@ -156,12 +155,13 @@ const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
 
 /// Adds what a sample contributes to what Kronrod's rule finds more along both diagonals.
 #[inline(always)]
-fn add_apart<S: Simd, C: Radiance>(
+fn add_apart<S: Simd>(
     apart: &mut [[f64x8<S>; 3]; 2],
     light: &[f64x8<S>; 3],
     sample: &Sample,
+    channels: usize,
 ) {
-    for channel in 0..C::CHANNELS {
+    for channel in 0..channels {
         apart[0][channel] += light[channel] * sample.apart[0];
         apart[1][channel] += light[channel] * sample.apart[1];
     }
@@ -248,7 +248,7 @@ pub(crate) struct Calm<S: Simd> {
 impl<S: Simd> Filled<'_, S> {
     /// The light at some samples of each pixel, from the one with the number `first`.
     #[inline(always)]
-    pub(crate) fn light<C: Radiance, const COUNT: usize>(
+    pub(crate) fn light<const COUNT: usize>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -271,7 +271,7 @@ impl<S: Simd> Filled<'_, S> {
             let (points, normal) = (&points[index], &normals[index]);
             lights[index] = self
                 .finish
-                .radiance::<S, C>(simd, scene, points, normal, self.lit, facings);
+                .radiance(simd, scene, points, normal, self.lit, facings);
         }
         lights
     }
@@ -282,7 +282,7 @@ impl<S: Simd> Filled<'_, S> {
     /// how much there is, so that a weak highlight on a bright surface counts. The star's rule is
     /// off by 1/720 of the mixed fourth derivative.
     #[inline(always)]
-    pub(crate) fn calm<C: Radiance>(
+    pub(crate) fn calm(
         &self,
         simd: S,
         scene: &InCamera<'_>,
@@ -308,7 +308,7 @@ impl<S: Simd> Filled<'_, S> {
         }
         let samples = if is_star { STAR_SAMPLES } else { GAUSS_SAMPLES };
         let mut error = zero;
-        for channel in 0..C::CHANNELS {
+        for channel in 0..scene.channels {
             let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
             for light in &lights[..samples] {
                 highest = highest.max(light[channel]);

@@ -77,7 +77,7 @@ fn tiles(view: &View, side: u32) -> impl Iterator<Item = Tile> {
 }
 
 /// All pixels by what a processor of this level does, in tiles of this side.
-fn pixels(world: &World, view: &View, samples: u32, level: Level, side: u32) -> Vec<Pixel<Color>> {
+fn pixels(world: &World, view: &View, samples: u32, level: Level, side: u32) -> Vec<Pixel> {
     let visibility = Visibility::new(world);
     let seen = Seen::new(&visibility, view, Tile::SIDE);
     let samples = NonZeroU32::new(samples).unwrap();

@@ -24,7 +24,7 @@ use crate::edges::cell::Cell;
 use crate::exact::contents::{Contents, Kind, Patch, Reach};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
-use crate::model::color::{Color, Radiance};
+use crate::model::color::Color;
 
 /// No sphere.
 const NONE: usize = usize::MAX;
@@ -103,7 +103,7 @@ struct Sum<S: Simd> {
 impl Boundary {
     /// The integral over a cell; nothing where a sphere is rough, or its outline no ellipse.
     #[inline(always)]
-    pub(crate) fn integrate<'scene, S: Simd, C: Radiance>(
+    pub(crate) fn integrate<'scene, S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'scene>,
@@ -160,7 +160,7 @@ impl Boundary {
                 edge,
                 own: [NONE; 2],
             };
-            self.add::<S, C>(simd, &setting, &curve, &mut sum);
+            self.add(simd, &setting, &curve, &mut sum);
         }
         for (kind, _) in &contents.conics {
             let (circle, edge, own) = match *kind {
@@ -179,7 +179,7 @@ impl Boundary {
                     (circle, Edge::Terminator(light), [one, NONE])
                 }
             };
-            self.add_circle::<S, C>(simd, &setting, circle, edge, own, &mut sum);
+            self.add_circle(simd, &setting, circle, edge, own, &mut sum);
         }
         let lights = scene.lights.len();
         for (position, active) in actives.iter().enumerate() {
@@ -204,7 +204,7 @@ impl Boundary {
                     };
                     self.pieces.clear();
                     clip::of_shadow(&curve.shape, near, around, &mut self.pieces);
-                    self.add::<S, C>(simd, &setting, &curve, &mut sum);
+                    self.add(simd, &setting, &curve, &mut sum);
                 }
             }
         }
@@ -213,7 +213,7 @@ impl Boundary {
             defect += left.abs();
         }
         let mut value = Color::ZERO;
-        for channel in 0..C::CHANNELS {
+        for channel in 0..scene.channels {
             value[channel] = total(sum.value[channel]);
         }
         let rounding = goal.contrast * contents.rounding;
@@ -227,7 +227,7 @@ impl Boundary {
     }
 
     #[inline(always)]
-    fn add_circle<S: Simd, C: Radiance>(
+    fn add_circle<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
@@ -243,12 +243,12 @@ impl Boundary {
             edge,
             own,
         };
-        self.add::<S, C>(simd, setting, &curve, sum);
+        self.add(simd, setting, &curve, sum);
     }
 
     /// Adds what the pieces of a curve contribute.
     #[inline(never)]
-    fn add<S: Simd, C: Radiance>(
+    fn add<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
@@ -265,7 +265,7 @@ impl Boundary {
                     self.light_arcs(simd, setting, curve, &piece);
                     for index in 0..self.lit_arcs.len() {
                         let arc = self.lit_arcs[index];
-                        self.add_arc::<S, C>(simd, setting, curve, &piece, &arc, 0, sum);
+                        self.add_arc(simd, setting, curve, &piece, &arc, 0, sum);
                     }
                 }
             },

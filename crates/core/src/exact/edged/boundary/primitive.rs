@@ -8,7 +8,6 @@ use crate::exact::contents::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
-use crate::model::color::Radiance;
 use crate::numeric::vectors::Vectors;
 
 /// Gauss's rules on 0 to 1: nodes and weights.
@@ -80,7 +79,7 @@ pub(super) struct Summed<S: Simd> {
 /// so that the root of the distance to either end is rational, and the light smooth. The place to begin
 /// with has the same τ on all lines.
 #[inline(never)]
-pub(super) fn lit_up_to<S: Simd, C: Radiance>(
+pub(super) fn lit_up_to<S: Simd>(
     simd: S,
     sender: &Sender<'_, '_>,
     lines: &Lines<'_, S>,
@@ -113,10 +112,10 @@ pub(super) fn lit_up_to<S: Simd, C: Radiance>(
             let width = widths.into_iter().fold(0.0, f64::max);
             let brightest = sender.finish.brightest(sender.scene, sender.lights);
             if !sender.finish.is_plain() {
-                let eight = chord.sum::<C>(simd, sender, lines, &EIGHT);
-                let six = chord.sum::<C>(simd, sender, lines, &SIX);
+                let eight = chord.sum(simd, sender, lines, &EIGHT);
+                let six = chord.sum(simd, sender, lines, &SIX);
                 let mut doubt = zero;
-                for channel in 0..C::CHANNELS {
+                for channel in 0..sender.scene.channels {
                     doubt = doubt.max((eight[channel] - six[channel]).abs());
                 }
                 return Summed {
@@ -134,13 +133,13 @@ pub(super) fn lit_up_to<S: Simd, C: Radiance>(
             ];
             let scale = width * brightest;
             let (light, off, samples) = if offs[0] * scale <= negligible {
-                let sum = chord.sum::<C>(simd, sender, lines, &FOUR);
+                let sum = chord.sum(simd, sender, lines, &FOUR);
                 (sum, offs[0], 32)
             } else if offs[1] * scale <= negligible {
-                let sum = chord.sum::<C>(simd, sender, lines, &SIX);
+                let sum = chord.sum(simd, sender, lines, &SIX);
                 (sum, offs[1], 48)
             } else {
-                let sum = chord.sum::<C>(simd, sender, lines, &EIGHT);
+                let sum = chord.sum(simd, sender, lines, &EIGHT);
                 (sum, offs[2], 64)
             };
             Summed {
@@ -165,7 +164,7 @@ struct Chord<S: Simd> {
 
 impl<S: Simd> Chord<S> {
     #[inline(never)]
-    fn sum<C: Radiance>(
+    fn sum(
         &self,
         simd: S,
         sender: &Sender<'_, '_>,
@@ -191,11 +190,10 @@ impl<S: Simd> Chord<S> {
                         z: one,
                     };
                     let points = Points::new(simd, &sender.active.ball, ray);
-                    let light =
-                        sender
-                            .finish
-                            .unclamped::<S, C>(simd, sender.scene, &points, sender.lights);
-                    for channel in 0..C::CHANNELS {
+                    let light = sender
+                        .finish
+                        .unclamped(simd, sender.scene, &points, sender.lights);
+                    for channel in 0..sender.scene.channels {
                         sum[channel] += light[channel] * slope;
                     }
                 }

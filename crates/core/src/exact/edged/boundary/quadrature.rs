@@ -10,7 +10,6 @@ use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
 use crate::exact::contents::Contents;
 use crate::exact::edged::rule::{Roots, Rule, error_estimate};
 use crate::exact::scene::InCamera;
-use crate::model::color::Radiance;
 
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
@@ -32,7 +31,7 @@ impl Boundary {
         reason = "all of it is at hand where it is called"
     )]
     #[inline(never)]
-    pub(super) fn add_arc<S: Simd, C: Radiance>(
+    pub(super) fn add_arc<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
@@ -80,7 +79,7 @@ impl Boundary {
                             continue;
                         }
                         is_empty[side] = factor;
-                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                        for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
                             *light += places.x * (factor * goal.background[channel]);
                         }
                         continue;
@@ -88,7 +87,7 @@ impl Boundary {
                     let active = &setting.contents.active[sphere];
                     let albedo = scene.world.albedo(active.sphere);
                     let ambient = albedo * scene.ambient * factor;
-                    for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                    for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
                         *light += places.x * ambient[channel];
                     }
                     // What both sides have need not be computed.
@@ -110,10 +109,10 @@ impl Boundary {
                             reference: self.references[sphere],
                         };
                         let negligible = 0.01 * goal.tolerance;
-                        let summed = lit_up_to::<S, C>(simd, &sender, &lines, negligible);
+                        let summed = lit_up_to(simd, &sender, &lines, negligible);
                         self.samples += summed.samples;
                         doubt += summed.doubt;
-                        for (channel, light) in light.iter_mut().enumerate().take(C::CHANNELS) {
+                        for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
                             *light += summed.light[channel] * factor;
                         }
                     }
@@ -128,7 +127,7 @@ impl Boundary {
                     sum.empty += one * empty;
                     error = error_estimate(total(one - other).abs(), total(one.abs())) + slip;
                 }
-                for (channel, light) in light.into_iter().enumerate().take(C::CHANNELS) {
+                for (channel, light) in light.into_iter().enumerate().take(scene.channels) {
                     let part = light * dy;
                     let (one, other) = (part * fine, part * coarse);
                     sum.value[channel] += one;
@@ -146,7 +145,7 @@ impl Boundary {
                     let halves = [(arc.start, middle), (middle, arc.end)];
                     for (start, end) in halves {
                         let half = Arc { start, end, ..*arc };
-                        self.add_arc::<S, C>(simd, setting, curve, piece, &half, depth + 1, sum);
+                        self.add_arc(simd, setting, curve, piece, &half, depth + 1, sum);
                     }
                     return;
                 }
