@@ -14,7 +14,7 @@ struct Subject {
     /// Its part of the page, and its plot.
     name: &'static str,
     path: &'static str,
-    /// What the plot shows, for those who cannot see it.
+    /// The plot in words, for readers who cannot see it.
     plot: &'static str,
     /// The time for all of its runs.
     seconds: &'static str,

@@ -25,10 +25,11 @@ const TOLERANCE: f64 = 1e-2;
 const ROUNDS: usize = 3;
 /// For a row, if its rounds take less.
 const SECONDS: u64 = 6;
-/// How far pictures may be apart on average: there are fewer large spheres than small ones.
+/// The largest relative difference of the means of two pictures. Clouds have few large spheres, so
+/// their pictures differ.
 const ALIKE: f64 = 0.1;
 
-/// What a row of the tables measures.
+/// The measurement of a row of the tables.
 struct Setting {
     name: &'static str,
     /// None for one sample a pixel.

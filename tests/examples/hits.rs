@@ -59,7 +59,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// What every form makes of a family.
+/// The results of every form on a family.
 fn judge_forms(family: &Family) -> [Tally; FORMS.len()] {
     let mut tallies = FORMS.map(|_| Tally::default());
     for index in 0..CASES {
@@ -108,7 +108,7 @@ fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table
     table
 }
 
-/// How often each floor answers, and how often the forms are wrong there.
+/// Counts the answers of each floor, and the wrong decisions of each form.
 fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
     let mut table = Table::new(&[
         "rays",
