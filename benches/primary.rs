@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use marbles_benches::{even_cloud, load, main as run, mean, square_view};
+use marbles_benches::{even_cloud, load, main as run, mean, median, square_view};
 use marbles_core::{Method, Renderer, Settings, View, World};
 
 const SIDE: u32 = 600;
@@ -60,10 +60,7 @@ fn time(name: &str, world: &World, view: &View) -> f64 {
         spent = image.ok();
         rays = u64::from(SIDE * SIDE) - first_tile.get().expect("there are tiles");
     }
-    let [preparing, tracing] = [preparing, tracing].map(|mut times| {
-        times.sort_unstable_by(f64::total_cmp);
-        times[times.len() / 2]
-    });
+    let [preparing, tracing] = [preparing, tracing].map(median);
     println!(
         "{name:>24} {:>12.3} ms to prepare {:>10.2} M rays/s",
         1e3 * preparing,

@@ -1,6 +1,7 @@
 //! How much longer does a sequence take than its pictures alone? On two threads.
 //!
 //! Encoding and writing go on beside rendering, and take time from it where all cores are busy.
+//! With `-- --write` the table becomes the measured part of docs/sequences.md.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -8,7 +9,8 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::{fs, process};
 
-use marbles_benches::{Case, Folder, load, main as run, table};
+use marbles_benches::page::Page;
+use marbles_benches::{Case, Folder, is_to_write, load, main as run, seconds, timed_table};
 use marbles_core::{Image, Method, Renderer, Settings, Sink, Strip, Window};
 use marbles_scene::Scene;
 
@@ -17,6 +19,11 @@ const THREADS: usize = 2;
 
 fn main() {
     run(|| {
+        let mut page = is_to_write().then(|| Page::open("docs/sequences.md", &["files"]));
+        let mut rows = String::from(
+            "| frames | pictures alone, one by one | to PNG | to half-float ZIP EXR |\n\
+             |---|--:|--:|--:|\n",
+        );
         let folder = Folder::new();
         let path = turntable(&folder.0);
         let scene = Scene::load(&path).unwrap_or_else(|error| panic!("{error}"));
@@ -38,7 +45,21 @@ fn main() {
                 run: Box::new(|_| pool.install(|| render(&scene, side))),
             };
             let title = format!("{FRAMES} frames of {side} x {side} pixels");
-            table(&title, "pixels", 60, &[alone, files("png"), files("exr")]);
+            let cases = [alone, files("png"), files("exr")];
+            let (rounds, timed) = timed_table(&title, "pixels", 60, &cases);
+            let _ = write!(rows, "| {side} × {side}, medians of {rounds} rounds |");
+            let alone = timed[0].median;
+            for (index, median) in timed.iter().map(|timed| timed.median).enumerate() {
+                let _ = write!(rows, " {}", seconds(median));
+                let _ = match index {
+                    0 => write!(rows, " |"),
+                    _ => write!(rows, " ({:.2} ×) |", median / alone),
+                };
+            }
+            rows.push('\n');
+        }
+        if let Some(page) = &mut page {
+            page.write("files", &rows);
         }
     });
 }

@@ -45,7 +45,7 @@ fn main() {
     });
 }
 
-/// How many spheres a scene has, and the sum of their first coordinates.
+/// The number of spheres of a scene, and the sum of their first coordinates.
 fn load(path: &Path) -> (usize, f64) {
     let scene = Scene::load(path).unwrap_or_else(|error| panic!("{error}"));
     let spheres: &[Sphere] = scene.world().spheres();

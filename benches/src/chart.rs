@@ -19,13 +19,13 @@ type Place = (f64, f64);
 
 /// One scale of what grows from step to step by the same factor, and times along it.
 pub struct Panel {
-    /// What it shows.
+    /// The line above the scale.
     pub title: String,
-    /// What the steps are called.
+    /// The names of the steps.
     pub steps: Vec<String>,
-    /// By what they grow.
+    /// The factor from one step to the next.
     pub factor: f64,
-    /// How wide the scale is, in pixels.
+    /// The width of the scale, in pixels.
     pub width: f64,
     /// Seconds at each step for each name of the drawing; none where it has no such line.
     pub times: Vec<Vec<f64>>,

@@ -1,9 +1,11 @@
-//! What the benchmarks share: scenes, and a clock that lets all settings take turns.
+//! The parts that benchmarks share: scenes, and a clock that lets all settings take turns.
 //!
 //! Every benchmark answers one question, asserts that its pictures are right and prints a table of
 //! medians. Pictures are rendered on one thread.
 
 pub mod chart;
+pub mod page;
+pub mod process;
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -18,15 +20,15 @@ use marbles_scene::Scene;
 
 /// Something to be timed.
 pub struct Case<'scene, T> {
-    /// What the table calls it.
+    /// Its name in the table.
     pub name: String,
-    /// How many of the table's units it makes, in millions.
+    /// The number of the table's units that it makes, in millions.
     pub millions: f64,
-    /// What is timed; it gets what it made before, whose memory it may use again.
+    /// The work that is timed. It gets its last result, whose memory it may use again.
     pub run: Box<dyn Fn(Option<T>) -> T + Send + Sync + 'scene>,
 }
 
-/// Runs all benchmarks of a file on one thread, if `cargo bench` is what started it: other commands
+/// Runs all benchmarks of a file on one thread if `cargo bench` started the process: other commands
 /// that build everything run it, too.
 pub fn main(benchmarks: impl FnOnce() + Send) {
     if std::env::args().any(|argument| argument == "--bench") {
@@ -35,36 +37,66 @@ pub fn main(benchmarks: impl FnOnce() + Send) {
     }
 }
 
-/// What was measured of a case.
+/// Returns true if the benchmark shall write its page of the documentation: `-- --write`.
+pub fn is_to_write() -> bool {
+    std::env::args().any(|argument| argument == "--write")
+}
+
+/// Seconds, in a unit that suits them.
+pub fn seconds(seconds: f64) -> String {
+    match seconds {
+        1.0.. => format!("{seconds:.2} s"),
+        0.01.. => format!("{:.0} ms", 1e3 * seconds),
+        _ => format!("{:.1} ms", 1e3 * seconds),
+    }
+}
+
+/// The median; the upper one of an even number.
+pub fn median(mut times: Vec<f64>) -> f64 {
+    times.sort_unstable_by(f64::total_cmp);
+    times[times.len() / 2]
+}
+
+/// The result of measuring a case.
 pub struct Timed<T> {
     /// The median of its times, in seconds.
     pub median: f64,
-    /// What it made last.
+    /// The last result of the case.
     pub result: T,
 }
 
 /// Runs all cases in turns, until `seconds` are over, but once at least; prints the median times
-/// and the units a second. What each case made.
-#[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
+/// and the units a second. Returns the last result of each case.
 pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) -> Vec<T> {
+    let timed = timed_table(title, unit, seconds, cases).1;
+    timed.into_iter().map(|timed| timed.result).collect()
+}
+
+/// Does the same as [`table`]; returns the number of rounds, and the measurement of each case.
+#[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
+pub fn timed_table<T>(
+    title: &str,
+    unit: &str,
+    seconds: u64,
+    cases: &[Case<'_, T>],
+) -> (usize, Vec<Timed<T>>) {
     let (rounds, timed) = medians(1, seconds, cases);
     println!("\n{title}, medians of {rounds}");
-    let print = |(case, timed): (&Case<'_, T>, Timed<T>)| {
+    for (case, timed) in cases.iter().zip(&timed) {
         let (milliseconds, rate) = (1e3 * timed.median, case.millions / timed.median);
         println!(
             "{:>24} {milliseconds:>12.3} ms {rate:>10.2} M {unit}/s",
             case.name
         );
-        timed.result
-    };
-    cases.iter().zip(timed).map(print).collect()
+    }
+    (rounds, timed)
 }
 
-/// Runs all cases in turns, until `seconds` are over, but `least` times at least; how often, and
-/// what was measured of each.
+/// Runs all cases in turns, until `seconds` are over, but `least` times at least. Returns the number
+/// of rounds, and the measurement of each case.
 ///
 /// # Panics
-/// Where `least` is 0.
+/// If `least` is 0.
 pub fn medians<T>(least: usize, seconds: u64, cases: &[Case<'_, T>]) -> (usize, Vec<Timed<T>>) {
     const MOST_ROUNDS: usize = 25;
     let start = Instant::now();
@@ -80,12 +112,9 @@ pub fn medians<T>(least: usize, seconds: u64, cases: &[Case<'_, T>]) -> (usize, 
         }
         rounds += 1;
     }
-    let timed = |(mut times, result): (Vec<f64>, Option<T>)| {
-        times.sort_unstable_by(f64::total_cmp);
-        Timed {
-            median: times[times.len() / 2],
-            result: result.expect("every case has run"),
-        }
+    let timed = |(times, result): (Vec<f64>, Option<T>)| Timed {
+        median: median(times),
+        result: result.expect("every case has run"),
     };
     (rounds, times.into_iter().zip(results).map(timed).collect())
 }

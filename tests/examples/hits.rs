@@ -1,6 +1,7 @@
 //! Ways to meet a sphere, compared: wrong decisions, errors, time; and which floor answered.
 //!
-//! `cargo hits` prints tables in Markdown.
+//! `cargo hits` prints tables in Markdown; with `--write` they become the measured parts of
+//! docs/accuracy.md.
 
 #[path = "../src/hits/families/mod.rs"]
 mod families;
@@ -11,6 +12,9 @@ mod frames;
 #[path = "../src/hits/judge/mod.rs"]
 #[expect(dead_code, reason = "the tests use the rest")]
 mod judge;
+#[path = "../../benches/src/page.rs"]
+#[expect(unreachable_pub, reason = "it belongs to the benchmarks' library")]
+mod page;
 #[path = "hits/table.rs"]
 mod table;
 #[path = "../src/hits/tally.rs"]
@@ -24,6 +28,7 @@ use families::{FAMILIES, Family};
 use forms::FORMS;
 use frames::Frame;
 use marbles_core::{Floor, Ray, Sphere};
+use page::Page;
 use rayon::prelude::*;
 use table::{Table, number};
 use tally::Tally;
@@ -36,13 +41,25 @@ const PERPENDICULAR: usize = 2;
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
+    let parts = ["forms", "floors"];
+    let is_to_write = std::env::args().any(|argument| argument == "--write");
+    let mut page = is_to_write.then(|| Page::open("docs/accuracy.md", &parts));
     let tallies: Vec<_> = FAMILIES.par_iter().map(judge_forms).collect();
     let frames = [frames::ball(), frames::cloud()];
-    writeln!(out, "{}", compare_forms(&tallies, &frames))?;
-    writeln!(out, "{}", count_floors(&tallies, &frames))
+    let tables = [
+        compare_forms(&tallies, &frames),
+        count_floors(&tallies, &frames),
+    ];
+    for (part, table) in parts.into_iter().zip(tables) {
+        writeln!(out, "{table}")?;
+        if let Some(page) = &mut page {
+            page.write(part, &table.to_string());
+        }
+    }
+    Ok(())
 }
 
-/// What every form makes of a family.
+/// The results of every form on a family.
 fn judge_forms(family: &Family) -> [Tally; FORMS.len()] {
     let mut tallies = FORMS.map(|_| Tally::default());
     for index in 0..CASES {
@@ -63,9 +80,9 @@ fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table
         "t, median ulp",
         "t, worst ulp",
         "n, worst 2^-53 rad",
-        "ball, ns a ray",
+        "ball, ns a test",
         "of perpendicular",
-        "cloud, ns a ray",
+        "cloud, ns a test",
         "of perpendicular",
     ]);
     let times = frames.each_ref().map(timing::nanoseconds_a_test);
@@ -91,16 +108,16 @@ fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table
     table
 }
 
-/// How often each floor answers, and how often the forms are wrong there.
+/// Counts the answers of each floor, and the wrong decisions of each form.
 fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
     let mut table = Table::new(&[
         "rays",
         "tests",
         "hits",
         "doubles",
-        "twice as long",
+        "double-double",
         "integers",
-        "wrong: school",
+        "wrong: b² - 4ac",
         "stable",
         "perpendicular",
         "marbles",

@@ -201,9 +201,25 @@ fn scenes_in_the_documents_are_valid() {
             Scene::parse(&scene, Path::new(document)).unwrap_or_else(|error| panic!("{error}"));
         }
     }
-    let first = fs::read_to_string(repository().join("scenes/first.ron")).unwrap();
+    let shown = fs::read_to_string(repository().join("scenes/snowman.ron")).unwrap();
     assert!(
-        first.ends_with(&fenced_scenes("README.md")[0]),
+        shown.ends_with(&fenced_scenes("README.md")[0]),
         "the README shows another scene"
     );
+}
+
+#[test]
+fn pictures_of_the_gallery_are_wide_enough() {
+    const LEAST: u32 = 480;
+    let gallery = repository().join("docs/gallery");
+    for folder in [gallery.join("original"), gallery] {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_file() {
+                let decoder = png::Decoder::new(BufReader::new(File::open(&path).unwrap()));
+                let width = decoder.read_info().unwrap().info().width;
+                assert!(width >= LEAST, "{} is {width} wide", path.display());
+            }
+        }
+    }
 }

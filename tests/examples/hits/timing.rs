@@ -1,4 +1,4 @@
-//! How long a test of a ray and a sphere takes.
+//! The time of a test of one ray and one sphere.
 
 use std::hint::black_box;
 use std::time::Instant;
