@@ -3,35 +3,25 @@
 //! `cargo hits` prints tables in Markdown; with `--write` they become the measured parts of
 //! docs/accuracy.md.
 
-#[path = "../src/hits/families/mod.rs"]
-mod families;
-#[path = "../src/hits/forms.rs"]
-mod forms;
-#[path = "../src/hits/frames.rs"]
-mod frames;
-#[path = "../src/hits/judge/mod.rs"]
-#[expect(dead_code, reason = "the tests use the rest")]
-mod judge;
 #[path = "../../benches/src/page.rs"]
 #[expect(unreachable_pub, reason = "it belongs to the benchmarks' library")]
 mod page;
 #[path = "hits/table.rs"]
 mod table;
-#[path = "../src/hits/tally.rs"]
-mod tally;
 #[path = "hits/timing.rs"]
 mod timing;
 
 use std::io::{self, Write};
 
-use families::{FAMILIES, Family};
-use forms::FORMS;
-use frames::Frame;
 use marbles_core::{Floor, Ray, Sphere};
+use marbles_tests::hits::families::{FAMILIES, Family};
+use marbles_tests::hits::forms::FORMS;
+use marbles_tests::hits::frames::{self, Frame};
+use marbles_tests::hits::judge;
+use marbles_tests::hits::tally::Tally;
 use page::Page;
 use rayon::prelude::*;
 use table::{Table, number};
-use tally::Tally;
 
 /// Cases a family.
 const CASES: u64 = 5_000;

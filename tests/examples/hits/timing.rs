@@ -6,9 +6,9 @@ use std::time::Instant;
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
-use crate::forms::{FORMS, marbles, original, perpendicular, stable};
-use crate::frames::Frame;
 use crate::table::median;
+use marbles_tests::hits::forms::{FORMS, marbles, original, perpendicular, stable};
+use marbles_tests::hits::frames::Frame;
 
 /// Every form is measured so many times, in turn with the others.
 const ROUNDS: usize = 25;

@@ -10,8 +10,8 @@ use marbles_core::{View, World};
 use rayon::prelude::*;
 
 use crate::numbers::Numbers;
-use crate::promise::pixels::{self, ExactPixel};
-use crate::reference::Reference;
+use marbles_tests::promise::pixels::{self, ExactPixel};
+use marbles_tests::reference::Reference;
 
 /// Pixels of a file in which something changes, and pixels in which nothing does.
 const EDGES: usize = 120;

@@ -12,8 +12,8 @@ use marbles_scene::Scene;
 use rayon::prelude::*;
 
 use crate::numbers::Numbers;
-use crate::promise::measure::single_pixel;
-use crate::reference::{Reference, Truth};
+use marbles_tests::promise::measure::single_pixel;
+use marbles_tests::reference::{Reference, Truth};
 
 /// What may be asked of a judge.
 struct Options {

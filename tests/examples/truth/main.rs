@@ -5,9 +5,6 @@
 mod files;
 mod judge;
 mod numbers;
-mod promise;
-#[path = "../../src/reference/mod.rs"]
-mod reference;
 mod table;
 
 use std::io::{self, Write};

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::time::Instant;
 
-use crate::promise::{measure, pixels};
+use marbles_tests::promise::{measure, pixels};
 
 /// Prints what the test asserts, for the scenes whose names contain `part`.
 pub(crate) fn table(part: &str, whole: bool) -> String {

@@ -6,10 +6,10 @@ use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
 /// What every form computes: the distance and the outward normal.
-pub(crate) type Form = fn(&Sphere, &Ray) -> Option<(f64, DVec3)>;
+pub type Form = fn(&Sphere, &Ray) -> Option<(f64, DVec3)>;
 
 /// The forms with their names, the project's own last.
-pub(crate) const FORMS: [(&str, Form); 4] = [
+pub const FORMS: [(&str, Form); 4] = [
     ("(-b - sqrt(b² - 4ac)) / 2a", original),
     ("stable q", stable),
     ("perpendicular", perpendicular),
@@ -18,7 +18,7 @@ pub(crate) const FORMS: [(&str, Form); 4] = [
 
 /// The quadratic as schools teach it; the far root where the near one lies behind.
 #[inline(always)]
-pub(crate) fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+pub fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let a = ray.direction.length_squared();
     let b = 2.0 * ray.direction.dot(from_center);
@@ -34,7 +34,7 @@ pub(crate) fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
 
 /// The same discriminant; of the roots, the one that adds and the product of both.
 #[inline(always)]
-pub(crate) fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+pub fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let a = ray.direction.length_squared();
     let b = 2.0 * ray.direction.dot(from_center);
@@ -53,7 +53,7 @@ pub(crate) fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
 /// E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection,
 /// Ray Tracing Gems, 2019, chapter 7.
 #[inline(always)]
-pub(crate) fn perpendicular(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+pub fn perpendicular(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
     let radius_sq = sphere.radius() * sphere.radius();
     let a = ray.direction.length_squared();
@@ -73,7 +73,8 @@ fn in_front(sphere: &Sphere, ray: &Ray, near: f64, far: f64) -> Option<(f64, DVe
     (t > 0.0).then(|| (t, (ray.at(t) - sphere.center()) / sphere.radius()))
 }
 
+/// The form of marbles.
 #[inline(always)]
-pub(crate) fn marbles(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
+pub fn marbles(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     sphere.hit(ray).map(|hit| (hit.t, hit.normal))
 }

@@ -6,14 +6,17 @@ use marbles_core::{Ray, Sphere};
 use super::families::Random;
 
 /// Spheres, and the rays that are held against every one of them.
-pub(crate) struct Frame {
-    pub(crate) name: &'static str,
-    pub(crate) spheres: Vec<Sphere>,
-    pub(crate) rays: Vec<Ray>,
+pub struct Frame {
+    /// The name in tables.
+    pub name: &'static str,
+    /// The spheres.
+    pub spheres: Vec<Sphere>,
+    /// The rays.
+    pub rays: Vec<Ray>,
 }
 
 /// The original's ball: 600 × 600 rays, of which one in nine hits.
-pub(crate) fn ball() -> Frame {
+pub fn ball() -> Frame {
     Frame {
         name: "the original's ball",
         spheres: vec![Sphere::new(DVec3::Z * 400.0, 300.0).unwrap()],
@@ -23,7 +26,7 @@ pub(crate) fn ball() -> Frame {
 
 /// A thousand spheres in a cube of side 200, seen by every tenth pixel of a frame across and
 /// down: nearly every test of a ray and a sphere is a miss.
-pub(crate) fn cloud() -> Frame {
+pub fn cloud() -> Frame {
     let mut random = Random::new(1_000);
     let mut sphere = || {
         let center = DVec3::Z * 400.0 + random.in_cube(100.0);

@@ -1,13 +1,10 @@
-//! Hits and misses held against exact answers.
+//! Exact answers about rays and spheres, and hard rays to ask.
 //!
-//! [`judge`] knows the truth about any ray and sphere, [`families`] draws hard ones; [`claims`]
-//! holds the promises of `Sphere::hit` against both, and `examples/hits.rs` compares it with
-//! [`forms`] of others.
+//! [`judge`] knows the truth about any ray and sphere, [`families`] draws hard ones; [`forms`] are
+//! other ways to compute a hit.
 
-mod claims;
-mod families;
-mod forms;
-mod frames;
-mod judge;
-mod tally;
-mod truth;
+pub mod families;
+pub mod forms;
+pub mod frames;
+pub mod judge;
+pub mod tally;

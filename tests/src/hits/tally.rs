@@ -6,23 +6,22 @@ use super::judge::ExactHit;
 
 /// What was found for many cases, held against what is true.
 #[derive(Clone, Default)]
-pub(crate) struct Tally {
-    pub(crate) cases: usize,
-    pub(crate) false_hits: usize,
-    pub(crate) false_misses: usize,
+pub struct Tally {
+    /// Cases so far.
+    pub cases: usize,
+    /// Hits that are none.
+    pub false_hits: usize,
+    /// Hits that were not found.
+    pub false_misses: usize,
     /// The errors of the distances of all true hits found, in units in the last place.
-    pub(crate) distances: Vec<f64>,
+    pub distances: Vec<f64>,
     /// The largest angle of a normal to the exact one, in 2⁻⁵³ radians.
-    pub(crate) worst_angle: f64,
+    pub worst_angle: f64,
 }
 
 impl Tally {
     /// Counts one case; the error of the distance and of the normal of a true hit.
-    pub(crate) fn count(
-        &mut self,
-        exact: Option<&ExactHit>,
-        found: Option<(f64, DVec3)>,
-    ) -> (f64, f64) {
+    pub fn count(&mut self, exact: Option<&ExactHit>, found: Option<(f64, DVec3)>) -> (f64, f64) {
         self.cases += 1;
         match (exact, found) {
             (None, None) => (0.0, 0.0),
@@ -43,7 +42,8 @@ impl Tally {
         }
     }
 
-    pub(crate) fn add(&mut self, other: Self) {
+    /// Adds what was found for other cases.
+    pub fn add(&mut self, other: Self) {
         self.cases += other.cases;
         self.false_hits += other.false_hits;
         self.false_misses += other.false_misses;
@@ -51,7 +51,8 @@ impl Tally {
         self.worst_angle = self.worst_angle.max(other.worst_angle);
     }
 
-    pub(crate) fn worst_distance(&self) -> f64 {
+    /// The largest error of a distance, in units in the last place.
+    pub fn worst_distance(&self) -> f64 {
         self.distances.iter().copied().fold(0.0, f64::max)
     }
 }

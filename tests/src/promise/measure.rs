@@ -15,19 +15,21 @@ const TELLING: f64 = 1e4;
 
 /// What a scene's pixels came to at a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Score {
-    pub(crate) pixels: usize,
-    /// Pixels over the tolerance whose status does not say so; and over three times of it.
-    pub(crate) broken: usize,
-    pub(crate) badly_broken: usize,
+pub struct Score {
+    /// Pixels that were compared.
+    pub pixels: usize,
+    /// Pixels over the tolerance whose status does not say so.
+    pub broken: usize,
+    /// Those of them that are over three times the tolerance.
+    pub badly_broken: usize,
     /// Pixels whose status says that the tolerance was not met.
-    pub(crate) unmet: usize,
+    pub unmet: usize,
     /// Pixels that are off by more than they claim, of those that claim to be within.
-    pub(crate) beyond_claim: usize,
+    pub beyond_claim: usize,
     /// The largest error of those that claim to be within.
-    pub(crate) worst: f64,
+    pub worst: f64,
     /// The median of true / claimed error over pixels with edges, where the truth can tell.
-    pub(crate) honesty: f64,
+    pub honesty: f64,
 }
 
 /// What is judged of a pixel.
@@ -42,7 +44,7 @@ struct Judged {
 /// Renders the pixels of a scene's file, as pictures of one pixel each, or as one whole picture.
 ///
 /// Every other pixel is asked for with its background instead of its coverage.
-pub(crate) fn score(scene: &Path, tolerance: f64, whole: bool) -> Score {
+pub fn score(scene: &Path, tolerance: f64, whole: bool) -> Score {
     let exact = pixels::read(scene);
     let scene = pixels::load(scene);
     let view = scene.view(1).expect("every scene has a first frame");
@@ -112,7 +114,7 @@ fn summarize(judged: &[Judged], tolerance: f64) -> Score {
 }
 
 /// The view whose only pixel is pixel (col, row) of `view`.
-pub(crate) fn single_pixel(view: &View, col: u32, row: u32) -> View {
+pub fn single_pixel(view: &View, col: u32, row: u32) -> View {
     let center = view.cell_center(u64::from(col), u64::from(row), 1);
     View {
         lens: Lens {

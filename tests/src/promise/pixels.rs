@@ -11,18 +11,21 @@ const HEAD: &str = "row,col,edge,red,green,blue,alpha,error";
 
 /// A pixel, and what is known of it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ExactPixel {
-    pub(crate) col: u32,
-    pub(crate) row: u32,
-    pub(crate) has_edge: bool,
+pub struct ExactPixel {
+    /// Column, from the left.
+    pub col: u32,
+    /// Row, from the top.
+    pub row: u32,
+    /// Whether something changes abruptly in the pixel.
+    pub has_edge: bool,
     /// The spheres' light without the background, and the covered fraction.
-    pub(crate) value: DVec4,
+    pub value: DVec4,
     /// What any of these may be off by.
-    pub(crate) error: f64,
+    pub error: f64,
 }
 
 /// All scenes, sorted.
-pub(crate) fn scenes() -> Vec<PathBuf> {
+pub fn scenes() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/promise");
     let files = std::fs::read_dir(folder).expect("the folder of the scenes");
     let mut scenes: Vec<PathBuf> = files
@@ -34,18 +37,18 @@ pub(crate) fn scenes() -> Vec<PathBuf> {
 }
 
 /// The name of a scene.
-pub(crate) fn name(scene: &Path) -> &str {
+pub fn name(scene: &Path) -> &str {
     let stem = scene.file_stem().and_then(|stem| stem.to_str());
     stem.expect("names of scenes are ASCII")
 }
 
 /// A scene of the folder; it must be valid.
-pub(crate) fn load(scene: &Path) -> Scene {
+pub fn load(scene: &Path) -> Scene {
     Scene::load(scene).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The pixels beside a scene.
-pub(crate) fn read(scene: &Path) -> Vec<ExactPixel> {
+pub fn read(scene: &Path) -> Vec<ExactPixel> {
     let path = scene.with_extension("csv");
     let text = std::fs::read_to_string(&path).unwrap_or_default();
     let mut lines = text.lines();
@@ -66,7 +69,7 @@ fn parse(line: &str) -> ExactPixel {
 }
 
 /// The text of a file of pixels; values are rounded to 10⁻¹³, far below their errors.
-pub(crate) fn format(pixels: &[ExactPixel]) -> String {
+pub fn format(pixels: &[ExactPixel]) -> String {
     let mut text = format!("{HEAD}\n");
     for pixel in pixels {
         let (row, col, edge) = (pixel.row, pixel.col, u32::from(pixel.has_edge));

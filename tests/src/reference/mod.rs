@@ -13,8 +13,6 @@
 
 mod across;
 mod ball;
-#[cfg(test)]
-mod checks;
 mod light;
 mod line;
 mod noise;
@@ -42,30 +40,31 @@ const SIDES: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
 
 /// The average of light and coverage over a pixel.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Truth {
+pub struct Truth {
     /// Red, green, blue of the spheres' light, without the background, and the covered fraction.
-    pub(crate) value: DVec4,
+    pub value: DVec4,
     /// What any channel may be off by.
-    pub(crate) error: f64,
+    pub error: f64,
     /// Whether something changes inside the pixel: a sphere's outline, a shadow, a terminator.
-    pub(crate) has_edge: bool,
+    pub has_edge: bool,
     /// Lines that it took.
-    pub(crate) lines: u32,
+    pub lines: u32,
 }
 
 /// A world and a view whose pixels can be asked for.
-pub(crate) struct Reference<'world> {
+pub struct Reference<'world> {
     stage: Stage<'world>,
 }
 
 impl<'world> Reference<'world> {
-    pub(crate) fn new(world: &'world World, view: &View) -> Self {
+    /// For pixels of a view of a world.
+    pub fn new(world: &'world World, view: &View) -> Self {
         let stage = Stage::new(world, view);
         Self { stage }
     }
 
     /// The truth of a pixel.
-    pub(crate) fn pixel(&self, col: u32, row: u32) -> Truth {
+    pub fn pixel(&self, col: u32, row: u32) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row);
         let mut budget = BUDGET;
         let mut truth = patch_truth(&patch, DEPTH, TOLERANCE, &mut budget);
@@ -74,7 +73,7 @@ impl<'world> Reference<'world> {
     }
 
     /// The truth as the sum of its four quarters': what hides in one hardly hides in both.
-    pub(crate) fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
+    pub fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row);
         let mut budget = BUDGET;
         let mut sum = Truth {
@@ -94,12 +93,12 @@ impl<'world> Reference<'world> {
     }
 
     /// Whether any sphere may be seen in a pixel.
-    pub(crate) fn sees_anything(&self, col: u32, row: u32) -> bool {
+    pub fn sees_anything(&self, col: u32, row: u32) -> bool {
         !Patch::of_pixel(&self.stage, col, row).candidates.is_empty()
     }
 
     /// Whether corners and middle of a pixel, a few points in all, differ in what they see.
-    pub(crate) fn seems_to_change(&self, col: u32, row: u32) -> bool {
+    pub fn seems_to_change(&self, col: u32, row: u32) -> bool {
         let patch = Patch::of_pixel(&self.stage, col, row);
         let look = |x: i32, y: i32| {
             let point = DVec2::new(f64::from(x), f64::from(y)) * 0.25;
@@ -111,7 +110,7 @@ impl<'world> Reference<'world> {
     }
 
     /// The mean of N × N midpoints: slow and rough, but hard to get wrong.
-    pub(crate) fn midpoints(&self, col: u32, row: u32, count: u32) -> DVec4 {
+    pub fn midpoints(&self, col: u32, row: u32, count: u32) -> DVec4 {
         let patch = Patch::of_pixel(&self.stage, col, row);
         let place = |index: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;
         let mut sum = DVec4::ZERO;

@@ -22,7 +22,7 @@ impl Sphere {
     /// the last place of the exact distance (a distance beyond the largest double is infinite),
     /// `normal` within 2 · 2⁻⁵³ radians of the exact normal and its length within 2.5 · 2⁻⁵³ of 1.
     /// Derived in the three floors;
-    /// `tests/src/hits` measures both against rational arithmetic.
+    /// `tests/tests/hits` measures both against rational arithmetic.
     #[inline(always)]
     pub fn hit(&self, ray: &Ray) -> Option<Hit> {
         self.hit_and_floor(ray).0

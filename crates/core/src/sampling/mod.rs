@@ -42,7 +42,7 @@ use crate::search::seen::Seen;
 /// An estimate: the spread of the samples over 2N, which is what one straight edge along the
 /// grid costs at the worst. An edge that passes between the samples and the pixel's border is not
 /// in it, which happens in one edge pixel of five, and then costs less than 1/(2N) too; the largest
-/// estimate of a picture covers its largest error. `tests/src/truth.rs` measures all three. One
+/// estimate of a picture covers its largest error. `tests/tests/truth.rs` measures all three. One
 /// sample alone says nothing: its error is infinite.
 #[derive(Clone, Debug)]
 pub(crate) struct Supersampling<'scene> {

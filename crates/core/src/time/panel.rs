@@ -117,8 +117,9 @@ impl Part {
             is_lost |= pixel.status == Status::OutOfBudget;
         }
         let mut off = libm::hypot(odd_alpha[0], odd_alpha[1]);
-        for channel in 0..3 {
-            off = off.max(libm::hypot(odd[0][channel], odd[1][channel]));
+        let [fifth, sixth] = odd.map(|odd| odd.to_array());
+        for (one, other) in fifth.into_iter().zip(sixth) {
+            off = off.max(libm::hypot(one, other));
         }
         Self {
             panel,

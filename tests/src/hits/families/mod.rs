@@ -11,11 +11,12 @@ mod tuned;
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
-pub(crate) use random::Random;
+pub use random::Random;
 
 /// Cases of one kind.
-pub(crate) struct Family {
-    pub(crate) name: &'static str,
+pub struct Family {
+    /// The name in tables.
+    pub name: &'static str,
     draw: fn(&mut Random) -> Draft,
 }
 
@@ -29,7 +30,7 @@ struct Draft {
 }
 
 /// Every family.
-pub(crate) const FAMILIES: [Family; 46] = [
+pub const FAMILIES: [Family; 46] = [
     Family::new("generic", ordinary::generic),
     Family::new("inside", ordinary::inside),
     Family::new("behind", ordinary::behind),
@@ -84,7 +85,7 @@ impl Family {
     }
 
     /// The case with this number; the same on every machine.
-    pub(crate) fn case(&self, number: u64) -> (Sphere, Ray) {
+    pub fn case(&self, number: u64) -> (Sphere, Ray) {
         let name = self.name.bytes().fold(number, |seed, byte| {
             Random::new(seed ^ u64::from(byte) << 56).bits()
         });

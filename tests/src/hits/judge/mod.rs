@@ -21,9 +21,9 @@ use integers::{cross, dot, integers, shifted, to_float};
 const DIGITS: i64 = 125;
 
 /// The nearest point of the sphere in front of the ray's origin, exactly.
-pub(crate) struct ExactHit {
+pub struct ExactHit {
     /// Whether the origin lies inside or on the surface.
-    pub(crate) inner_side: bool,
+    pub inner_side: bool,
     /// The distance lies between this and this plus 2, times two to the `exponent`.
     distance: BigInt,
     exponent: i64,
@@ -33,13 +33,13 @@ pub(crate) struct ExactHit {
 
 /// The exact hit, `None` on a miss. A tangent counts, t = 0 does not; a ray without direction
 /// misses.
-pub(crate) fn judge(sphere: &Sphere, ray: &Ray) -> Option<ExactHit> {
+pub fn judge(sphere: &Sphere, ray: &Ray) -> Option<ExactHit> {
     let quadratic = Quadratic::new(sphere, ray);
     quadratic.is_hit().then(|| quadratic.hit())
 }
 
 /// K and Q / A, each to some 2⁻⁵² of itself.
-pub(crate) fn powers(sphere: &Sphere, ray: &Ray) -> (f64, f64) {
+pub fn powers(sphere: &Sphere, ray: &Ray) -> (f64, f64) {
     let quadratic = Quadratic::new(sphere, ray);
     let unit = 2 * quadratic.scene_unit;
     let ratio = to_float(&quadratic.discriminant, 0) / to_float(&quadratic.direction_sq, 0);

@@ -15,7 +15,7 @@ impl ExactHit {
     /// The unit is the distance from the correctly rounded exact t to the next double away from
     /// zero. Where that t exceeds the largest double, infinity is right; else infinity stands for
     /// 2¹⁰²⁴, the next number after the largest.
-    pub(crate) fn ulps(&self, found: f64) -> f64 {
+    pub fn ulps(&self, found: f64) -> f64 {
         if found.is_nan() || found < 0.0 {
             return f64::INFINITY;
         }
@@ -43,7 +43,7 @@ impl ExactHit {
     }
 
     /// The angle between a found normal and the exact one, in 2⁻⁵³ radians.
-    pub(crate) fn angle(&self, found: DVec3) -> f64 {
+    pub fn angle(&self, found: DVec3) -> f64 {
         if !found.is_finite() || found == DVec3::ZERO {
             return f64::INFINITY;
         }
@@ -55,7 +55,7 @@ impl ExactHit {
     }
 
     /// How far the length of a found normal is from 1, in units of 2⁻⁵³.
-    pub(crate) fn excess_length(found: DVec3) -> f64 {
+    pub fn excess_length(found: DVec3) -> f64 {
         if !found.is_finite() {
             return f64::INFINITY;
         }

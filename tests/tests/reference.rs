@@ -5,7 +5,7 @@ use std::path::Path;
 use marbles_scene::Scene;
 use rayon::prelude::*;
 
-use super::Reference;
+use marbles_tests::reference::Reference;
 
 /// What the numbers in the files may be off by.
 const FILES: f64 = 1e-11;

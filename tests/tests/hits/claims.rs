@@ -3,11 +3,11 @@
 use marbles_core::{Floor, Hit, Ray, Sphere};
 use rayon::prelude::*;
 
-use super::families::{FAMILIES, Family};
-use super::forms::FORMS;
-use super::frames;
-use super::judge::{ExactHit, judge};
-use super::tally::Tally;
+use marbles_tests::hits::families::{FAMILIES, Family};
+use marbles_tests::hits::forms::FORMS;
+use marbles_tests::hits::frames;
+use marbles_tests::hits::judge::{ExactHit, judge};
+use marbles_tests::hits::tally::Tally;
 
 /// The claimed error of t, in units in the last place.
 const DISTANCE_CLAIM: f64 = 1.0;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
-use super::judge::judge;
+use marbles_tests::hits::judge::judge;
 
 /// A case of the files: a ray, a sphere, and the exact hit, if there is one.
 struct Case {

@@ -1,0 +1,5 @@
+//! Truths to hold marbles against, computed independently of it: what tests, examples and benchmarks share.
+
+pub mod hits;
+pub mod promise;
+pub mod reference;
