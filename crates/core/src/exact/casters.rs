@@ -128,7 +128,7 @@ impl CasterCache {
         let mut cover = Cover::new(self.level, &patch, of_light);
         let is_dark = scene
             .visibility
-            .casters(of_light.index, &points, around, |candidate| {
+            .any_occluder(of_light.index, &points, around, |candidate| {
                 self.tests += 1;
                 if candidate == sphere || spheres[candidate] == own {
                     return false;

@@ -83,7 +83,7 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
     })
 }
 
-/// Which of two spheres a ray hits first; both must be hit, from inside or outside.
+/// The order in which a ray hits two spheres; both must be hit, from inside or outside.
 ///
 /// With the distances (Bᵢ ± √Qᵢ) / A, the far root from inside, the sign of
 /// B₁ − B₂ − (±√Q₂ ∓ √Q₁) is found by squaring twice, so that no root remains.

@@ -1,4 +1,4 @@
-//! The bits that are set in a mask.
+//! Bits: those that are set in a mask, and those of doubles in the order of their values.
 
 /// The places of the bits that are set, the lowest first.
 #[inline(always)]
@@ -23,4 +23,18 @@ impl Iterator for SetBits {
         self.0 &= self.0 - 1;
         Some(place)
     }
+}
+
+/// The sign of a double.
+const SIGN: u64 = 1 << 63;
+
+/// Bits that rise with the number.
+pub(crate) fn rising_bits(value: f64) -> u64 {
+    let bits = value.to_bits();
+    if bits & SIGN == 0 { bits | SIGN } else { !bits }
+}
+
+/// The number with such bits.
+pub(crate) fn of_rising_bits(bits: u64) -> f64 {
+    f64::from_bits(if bits & SIGN == 0 { !bits } else { bits ^ SIGN })
 }

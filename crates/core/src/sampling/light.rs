@@ -137,8 +137,8 @@ impl<'scene> Shading<'scene> {
         groups: &Groups<'_>,
         mut albedo: Light<S, CHANNELS>,
     ) -> Light<S, CHANNELS> {
-        for Group { near, lanes } in groups.as_slice() {
-            let own = self.world.albedo(near.ball.index as usize);
+        for Group { ball, lanes } in groups.as_slice() {
+            let own = self.world.albedo(ball.index());
             simd.vectorize(
                 #[inline(always)]
                 || {
@@ -157,8 +157,8 @@ impl<'scene> Shading<'scene> {
     #[inline(never)]
     fn roughened<S: Simd>(&self, sight: Sight<S>, place: Place, groups: &Groups<'_>) -> Vectors<S> {
         let mut normal = sight.normal;
-        for Group { near, lanes } in groups.as_slice() {
-            let index = near.ball.index as usize;
+        for Group { ball, lanes } in groups.as_slice() {
+            let index = ball.index();
             let Some(roughness) = &self.world.material(index).roughness else {
                 continue;
             };
@@ -220,7 +220,7 @@ impl<'scene> Looks<'scene> {
         self.count = 0;
         self.has_highlight = false;
         for group in groups.as_slice() {
-            let number = shading.world.material_index(group.near.ball.index as usize);
+            let number = shading.world.material_index(group.ball.index());
             let known = &mut self.list[..self.count];
             if let Some(look) = known.iter_mut().find(|look| look.number == number) {
                 look.lanes |= group.lanes;

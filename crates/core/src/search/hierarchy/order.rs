@@ -2,8 +2,11 @@
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use super::boxes::WIDTH;
 use crate::model::sphere::Sphere;
+use crate::numeric::lanes::LANES;
+
+/// Children of a node, and spheres of a group: as many as are computed side by side.
+pub(crate) const WIDTH: usize = LANES;
 
 /// A place in the order, and the sphere there; without one its index is [`NOBODY`].
 #[derive(Clone, Copy, Debug)]
