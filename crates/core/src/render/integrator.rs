@@ -15,7 +15,7 @@ use crate::time::exact::ExactOverTime;
 use crate::time::instants::Instants;
 use crate::time::sampled::SampledOverTime;
 
-/// What averages the light over pixels: to a tolerance or by samples, of one view or of a moving
+/// An average of the light over pixels: to a tolerance or by samples, of one view or of a moving
 /// camera.
 pub(super) enum Integrator<'scene> {
     Exact(Box<Exact<'scene>>),

@@ -50,7 +50,7 @@ impl<'world> Renderer<'world> {
         self.render_over(None, exposure, settings, progress)
     }
 
-    /// Renders as [`Self::render`] does, in the memory of a picture that nobody needs any more:
+    /// Renders as [`Self::render`] does, in the memory of a picture that is no longer needed:
     /// memory that was just written is several times as quick as what the system hands out.
     ///
     /// # Errors

@@ -45,8 +45,8 @@ pub trait Strip {
 /// A window of a picture that any number of threads render together, strip by strip, so that
 /// a picture of any height needs little memory.
 ///
-/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may go on
-/// with the next picture while others still end theirs.
+/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may start
+/// on the next picture while other threads end theirs.
 pub struct Rendering<'a> {
     integrator: Integrator<'a>,
     /// The whole picture.
@@ -54,7 +54,7 @@ pub struct Rendering<'a> {
     window: Window,
     /// Rows of a strip, but the last.
     rows: u32,
-    /// The index of the strip that nobody has begun.
+    /// The index of the first strip that no thread has begun.
     next: AtomicU32,
 }
 
@@ -94,13 +94,13 @@ impl Renderer<'_> {
 }
 
 impl Rendering<'_> {
-    /// The number of strips that nobody has begun.
+    /// The number of strips that no thread has begun.
     pub fn strips_left(&self) -> u32 {
         let next = self.next.load(Ordering::Relaxed);
         self.count().saturating_sub(next)
     }
 
-    /// Renders strips until there is none that nobody has begun, and what they cost.
+    /// Renders strips until all are begun; returns what they cost.
     ///
     /// Each goes to `sink` as soon as it is rendered; they are begun from the top downward and end as
     /// they come. `progress` is called with the number of pixels that were just finished, those around

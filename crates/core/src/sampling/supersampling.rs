@@ -10,7 +10,7 @@ use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
 use super::shadow::Shadows;
 use super::sums::{Sample, Sums};
-use super::tile_balls::TileBalls;
+use super::tile_balls::{TileBall, TileBalls};
 use super::trace::{Groups, RayRow, Tracer};
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
@@ -171,21 +171,7 @@ impl<'scene> Supersampling<'scene> {
         let cells = self.rays.cells_on_unit();
         balls.gather(simd, cells, &bundle, self.index.balls(tile));
         let first = balls.list.first()?;
-        let mut sampler = Sampler {
-            tracer: Tracer {
-                index: &self.index,
-                rays: &self.rays,
-                balls,
-                tile,
-                tests: 0,
-            },
-            groups: Groups::new(first),
-            looks: Looks::new(&self.shading),
-            shadows: self.shading.world.shadows.then(|| {
-                let length = libm::scalbn(1.0, self.index.length_exponent());
-                Shadows::new(self.index.visibility, self.view.camera.position, length)
-            }),
-        };
+        let mut sampler = self.sampler(tile, balls, first);
         let nothing = Sample {
             light: splat(simd, self.background()),
             covered: 0,
@@ -221,6 +207,30 @@ impl<'scene> Supersampling<'scene> {
             }
         }
         Some(sampler.tracer.tests)
+    }
+
+    /// Prepares the search among the balls of a tile, of which `first` is one.
+    fn sampler<'tile>(
+        &'tile self,
+        tile: Tile,
+        balls: &'tile TileBalls,
+        first: &'tile TileBall,
+    ) -> Sampler<'tile> {
+        Sampler {
+            tracer: Tracer {
+                index: &self.index,
+                rays: &self.rays,
+                balls,
+                tile,
+                tests: 0,
+            },
+            groups: Groups::new(first),
+            looks: Looks::new(&self.shading),
+            shadows: self.shading.world.shadows.then(|| {
+                let length = libm::scalbn(1.0, self.index.length_exponent());
+                Shadows::new(self.index.visibility, self.view.camera.position, length)
+            }),
+        }
     }
 
     /// Takes a sample of each pixel of a tile, `nothing` where no sphere is seen.

@@ -150,10 +150,15 @@ impl<'a> BlockSearch<'a> {
                 silhouettes.push(silhouette);
             }
         }
+        self.gather(&open.found, &kept, &listed)
+    }
+
+    /// The block of the kept ones of what was found, listed by tile and place.
+    fn gather(&self, found: &[Found], kept: &[u32], listed: &[(u32, u32)]) -> Block {
         let viewpoint = self.view.camera.position;
-        let (starts, mut places) = self.sorted(&listed);
-        let kept = gathered(&mut places, &kept);
-        let kept = kept.iter().map(|&found| &open.found[found as usize]);
+        let (starts, mut places) = sorted(listed);
+        let kept = gathered(&mut places, kept);
+        let kept = kept.iter().map(|&place| &found[place as usize]);
         // One after the other they would be waited for one by one.
         let copies = kept.clone().map(|found| self.spheres[found.index as usize]);
         let copies: Vec<Sphere> = copies.collect();
@@ -193,7 +198,7 @@ impl<'a> BlockSearch<'a> {
         open: &mut Open,
     ) {
         /// A sphere that is smaller by no more than this, relatively, is taken for itself. Not tuned:
-        /// a pixel in 256 is seen through it.
+        /// smaller spheres hide less, and it takes long to get at the sphere itself.
         const SMALLER: f64 = 1.0 / 256.0;
         let spheres = self.hierarchy.group(group);
         let bounds = self.projection.spheres(spheres, grid);
@@ -269,26 +274,26 @@ impl<'a> BlockSearch<'a> {
             }
         }
     }
+}
 
-    /// Places tile by tile, in their order, and where each tile's start.
-    fn sorted(&self, listed: &[(u32, u32)]) -> (Vec<u32>, Vec<u32>) {
-        let mut starts = vec![0_u32; (TILES * TILES) as usize + 2];
-        for &(tile, _) in listed {
-            starts[tile as usize + 2] += 1;
-        }
-        let mut sum = 0;
-        for start in &mut starts {
-            sum += *start;
-            *start = sum;
-        }
-        let mut places = vec![0; listed.len()];
-        for &(tile, place) in listed {
-            let next = &mut starts[tile as usize + 1];
-            places[*next as usize] = place;
-            *next += 1;
-        }
-        (starts, places)
+/// Places tile by tile, in their order, and the start of each tile's.
+fn sorted(listed: &[(u32, u32)]) -> (Vec<u32>, Vec<u32>) {
+    let mut starts = vec![0_u32; (TILES * TILES) as usize + 2];
+    for &(tile, _) in listed {
+        starts[tile as usize + 2] += 1;
     }
+    let mut sum = 0;
+    for start in &mut starts {
+        sum += *start;
+        *start = sum;
+    }
+    let mut places = vec![0; listed.len()];
+    for &(tile, place) in listed {
+        let next = &mut starts[tile as usize + 1];
+        places[*next as usize] = place;
+        *next += 1;
+    }
+    (starts, places)
 }
 
 /// Numbers places anew, in the order in which they are first listed; what was at the old ones, in that

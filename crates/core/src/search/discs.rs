@@ -38,7 +38,7 @@ pub(crate) struct DiscCache<'world> {
     kept: Box<[OnceLock<Kept>]>,
 }
 
-/// How far points of a sphere may be off where its discs are asked for.
+/// The largest error of points of a sphere where its discs are asked for.
 pub(crate) fn point_allowance(sphere: &Sphere) -> f64 {
     /// Far more than points are off, unless the viewpoint is farther away than anything is to be seen.
     const ALLOWANCE: f64 = 1e-9;

@@ -1,4 +1,4 @@
-//! What is left out can never matter: against asking every sphere, on sets of every kind.
+//! Nothing is left out that matters: against asking every sphere, on sets of every kind.
 
 use std::cmp::Ordering;
 use std::num::NonZeroU32;

@@ -69,7 +69,7 @@ impl<'world> Instants<'world> {
         if let Some(instants) = kept.get() {
             return act(instants);
         }
-        // Nobody waits for another thread here: that may wait for this one, which takes parts of its work.
+        // No thread waits for another here: that may wait for this one, which takes parts of its work.
         let instants = prepare();
         let bytes = instants.iter().map(|instant| instant.index.bytes()).sum();
         let there_were = self.bytes.fetch_add(bytes, Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! What is left out of a row cannot be seen there.
+//! Nothing is left out of a row that may be seen there.
 
 use fearless_simd::{Level, dispatch};
 use glam::DVec2;

@@ -10,7 +10,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 use rayon::slice::ParallelSlice;
 
 use self::boxes::{Boxes, Group};
-use self::order::{NOBODY, WIDTH};
+use self::order::{NO_SPHERE, WIDTH};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
 
@@ -167,7 +167,7 @@ pub(crate) struct BoxTest {
 
 /// True where a place in a group holds a sphere.
 pub(crate) fn is_sphere(index: u32) -> bool {
-    index != NOBODY
+    index != NO_SPHERE
 }
 
 #[cfg(test)]
