@@ -10,6 +10,7 @@ use super::scene::{InCamera, Light};
 use super::squares;
 use crate::edges::cell::Cell;
 use crate::edges::silhouette::silhouette;
+use crate::numeric::bits::set_bits;
 
 /// Spheres as a light sees them, in rows of numbers.
 #[derive(Clone, Debug, Default)]
@@ -127,7 +128,7 @@ impl CasterCache {
         let mut cover = Cover::new(self.level, &patch, of_light);
         let is_dark = scene
             .visibility
-            .casters(of_light.index, &points, around, |candidate| {
+            .any_occluder(of_light.index, &points, around, |candidate| {
                 self.tests += 1;
                 if candidate == sphere || spheres[candidate] == own {
                     return false;
@@ -233,10 +234,7 @@ impl CasterCache {
             if is_over.to_bitmask() & valid != 0 {
                 return true;
             }
-            let mut near = is_near.to_bitmask() & valid;
-            while near != 0 {
-                let lane = near.trailing_zeros() as usize;
-                near &= near - 1;
+            for lane in set_bits(is_near.to_bitmask() & valid) {
                 self.edges.push((first + lane) as u32);
             }
             first += count;

@@ -29,19 +29,19 @@ use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::picture::image::{Band, Channels};
-use crate::picture::integrator::Integrator;
+use crate::picture::band::Band;
+use crate::picture::image::Channels;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
-use crate::search::seen::Seen;
+use crate::search::view_index::ViewIndex;
 
 /// Averages to a tolerance.
 #[derive(Clone, Debug)]
 pub(crate) struct Exact<'scene> {
     scene: InCamera<'scene>,
     view: View,
-    seen: Seen<'scene>,
+    seen: ViewIndex<'scene>,
     /// Whether doubles can be trusted with the view.
     is_trusted: bool,
     /// For pixels that cannot be integrated.
@@ -65,7 +65,7 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn new(
         world: &'scene World,
         view: &View,
-        seen: &Seen<'scene>,
+        seen: &ViewIndex<'scene>,
         tolerance: f64,
         alpha: bool,
     ) -> Self {
@@ -81,7 +81,7 @@ impl<'scene> Exact<'scene> {
     fn of_group(
         world: &'scene World,
         view: &View,
-        seen: &Seen<'scene>,
+        seen: &ViewIndex<'scene>,
         tolerance: f64,
         alpha: bool,
         group: usize,
@@ -160,10 +160,9 @@ impl Pixel {
     }
 }
 
-impl Integrator for Exact<'_> {
-    type Room = Room;
-
-    fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
+impl Exact<'_> {
+    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
+    pub(crate) fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
         let candidates = self.seen.indices(tile);
         let first = pixels.len();
         let Room { own, others } = room;
@@ -191,7 +190,8 @@ impl Integrator for Exact<'_> {
         work
     }
 
-    fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
+    /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
+    pub(crate) fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
         if self.seen.balls(tile).next().is_some() {
             let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
             let work = self.integrate(tile, room, &mut pixels);

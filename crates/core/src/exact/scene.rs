@@ -10,7 +10,7 @@ use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::image::Channels;
-use crate::search::Visibility;
+use crate::search::visibility::Visibility;
 
 /// Lights that are integrated at a time: further ones in further groups.
 pub(crate) const MOST_LIGHTS: usize = 8;
@@ -92,7 +92,7 @@ impl<'scene> InCamera<'scene> {
             let radius_sq = sphere.radius() * sphere.radius();
             // What is not a number may be anything.
             let is_far = distance_sq > radius_sq * NEARLY && radius_sq > 0.0;
-            !is_far && sphere.relative_to(viewpoint).outside() <= 0.0
+            !is_far && sphere.outside(viewpoint) <= 0.0
         };
         let of_group = world.lights.iter().enumerate();
         let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
@@ -167,6 +167,6 @@ fn in_camera(sphere: &Sphere, viewpoint: DVec3, camera_from_world: &DMat3) -> Ba
     Ball {
         center: *camera_from_world * (sphere.center() - viewpoint),
         radius: sphere.radius(),
-        outside: sphere.relative_to(viewpoint).outside(),
+        outside: sphere.outside(viewpoint),
     }
 }

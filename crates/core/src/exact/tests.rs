@@ -12,8 +12,9 @@ use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
 use crate::numeric::lanes::tests::levels;
 use crate::picture::pixel::Status;
-use crate::search::Visibility;
+use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
+use crate::search::visibility::Visibility;
 
 /// Balls of every finish that intersect and shade each other, on a floor, under two lights.
 fn world() -> World {
@@ -74,7 +75,7 @@ fn view() -> View {
 fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
     let (world, view) = (world(), view());
     let visibility = Visibility::new(&world);
-    let seen = Seen::new(&visibility, &view, Tile::SIDE);
+    let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
     let integrator = Exact {
         level,
         ..Exact::new(&world, &view, &seen, tolerance, true)
@@ -150,7 +151,7 @@ fn crowds_meet_their_tolerance() {
     world.background = Color::splat(0.2);
     let view = view();
     let visibility = Visibility::new(&world);
-    let seen = Seen::new(&visibility, &view, Tile::SIDE);
+    let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
     let samples = NonZeroU32::new(64).unwrap();
     let sampled = Supersampling::new(&world, &view, &seen, samples, false);
     let exact = Exact::new(&world, &view, &seen, 1e-3, false);
@@ -161,8 +162,8 @@ fn crowds_meet_their_tolerance() {
         height: 8,
     };
     let (mut expected, mut found) = (Vec::new(), Vec::new());
-    Integrator::integrate(&sampled, tile, &mut Default::default(), &mut expected);
-    let work = Integrator::integrate(&exact, tile, &mut Default::default(), &mut found);
+    sampled.integrate(tile, &mut Default::default(), &mut expected);
+    let work = exact.integrate(tile, &mut Default::default(), &mut found);
     let (mut partly, mut square) = (0, 0.0);
     for (found, expected) in found.iter().zip(&expected) {
         assert_eq!(found.status, Status::Met);

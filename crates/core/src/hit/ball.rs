@@ -1,4 +1,4 @@
-//! Spheres as many rays from one viewpoint see them, with what a filter needs to know.
+//! Spheres prepared for the many rays of one viewpoint.
 
 use fearless_simd::{Level, dispatch};
 use glam::DVec3;
@@ -35,16 +35,17 @@ pub(crate) struct Ball {
     pub(crate) outside: f64,
     /// No point of the sphere is nearer to the viewpoint than this.
     pub(crate) nearest: f64,
-    /// What Q has to exceed to decide; infinite for odd balls, which only exact arithmetic knows:
+    /// The number that Q has to exceed to decide; infinite for odd balls, which only exact arithmetic knows:
     /// those whose surface passes through the viewpoint, nearly, and those of immoderate size.
     pub(crate) doubt: f64,
-    /// How far B ± √Q may be off.
+    /// The largest error of B ± √Q.
     pub(crate) blur: f64,
     /// Place of the sphere in the world.
     pub(crate) index: u32,
 }
 
-/// How far √Q lies beyond the root of the error of Q, where it decides.
+/// The ratio of √Q to the root of the error of Q, at least, where it decides. Not tuned: with more, more
+/// rays are left to exact arithmetic; with less, more distances overlap.
 const SURE: f64 = 64.0;
 
 /// Squares between these neither overflow nor underflow in anything computed from them.
@@ -130,7 +131,7 @@ impl Ball {
         }
     }
 
-    /// Whether only exact arithmetic knows where rays meet the ball.
+    /// True where only exact arithmetic knows where rays meet the ball.
     pub(crate) fn is_odd(&self) -> bool {
         self.doubt == f64::INFINITY
     }

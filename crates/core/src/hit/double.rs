@@ -19,7 +19,7 @@ use crate::numeric::rounding::{UNIT_ROUNDOFF, two_difference};
 /// A r² carries 16u²; with the last subtraction Q is off by at most 37u² A (f·f + r²).
 const BOUND: f64 = 64.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
-/// What distance and normal may be off before their last rounding: 2⁻⁵⁷, of t and of the radius.
+/// The largest error of distance and normal before their last rounding: 2⁻⁵⁷, of t and of the radius.
 const TOLERANCE: f64 = UNIT_ROUNDOFF / 16.0;
 
 /// The hit or the miss, `None` where the bounds do not decide or do not prove the last places.

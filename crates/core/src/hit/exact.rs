@@ -13,38 +13,64 @@ use crate::model::sphere::Sphere;
 /// Digits that quotients and roots keep: far more than doubles have.
 const BITS: usize = 160;
 
+/// A sphere and a ray in integers, with the numbers of the [module](super).
+struct Numbers {
+    to_center: [IBig; 3],
+    radius: IBig,
+    /// A.
+    direction_sq: IBig,
+    /// B.
+    along: IBig,
+    /// K.
+    outside: IBig,
+    /// Q.
+    discriminant: IBig,
+}
+
+/// The numbers of some spheres, and the exponent of the power of two that their lengths are multiples
+/// of.
+fn numbers<const COUNT: usize>(
+    spheres: [&Sphere; COUNT],
+    origin: DVec3,
+    direction: &[IBig],
+) -> ([Numbers; COUNT], i32) {
+    let mut lengths = origin.to_array().to_vec();
+    for sphere in spheres {
+        lengths.extend(sphere.center.to_array());
+        lengths.push(sphere.radius);
+    }
+    let (lengths, exponent) = integers(&lengths);
+    let (origin, lengths) = lengths.split_at(3);
+    let of_sphere = |index: usize| {
+        let (center, radius) = (&lengths[4 * index..], lengths[4 * index + 3].clone());
+        let to_center = [0, 1, 2].map(|axis| &center[axis] - &origin[axis]);
+        let direction_sq = dot(direction, direction);
+        let along = dot(direction, &to_center);
+        let outside = dot(&to_center, &to_center) - &radius * &radius;
+        Numbers {
+            discriminant: &along * &along - &direction_sq * &outside,
+            to_center,
+            radius,
+            direction_sq,
+            along,
+            outside,
+        }
+    };
+    (std::array::from_fn(of_sphere), exponent)
+}
+
 /// The hit or the miss of any ray with a direction, without rounding before the last step.
 pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
-    let (center, origin) = (sphere.center, ray.origin);
-    let (scene, scene_exponent) = integers([
-        center.x,
-        center.y,
-        center.z,
-        origin.x,
-        origin.y,
-        origin.z,
-        sphere.radius,
-    ]);
-    let (direction, direction_exponent) = integers(ray.direction.to_array());
-    let [
-        center_x,
-        center_y,
-        center_z,
-        origin_x,
-        origin_y,
-        origin_z,
+    let (direction, direction_exponent) = integers(&ray.direction.to_array());
+    let ([numbers], exponent) = numbers([sphere], ray.origin, &direction);
+    let Numbers {
+        to_center,
         radius,
-    ] = scene;
-    let to_center = [
-        center_x - origin_x,
-        center_y - origin_y,
-        center_z - origin_z,
-    ];
-
-    let direction_sq = dot(&direction, &direction);
-    let along = dot(&direction, &to_center);
-    let outside = dot(&to_center, &to_center) - &radius * &radius;
-    let discriminant = &along * &along - &direction_sq * &outside;
+        direction_sq,
+        along,
+        outside,
+        discriminant,
+    } = numbers;
     let inner_side = outside <= IBig::ZERO;
     if outside >= IBig::ZERO && along <= IBig::ZERO {
         return None;
@@ -74,93 +100,49 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
         let (value, exponent) = quotient(from_center, length.clone());
         libm::scalbn(value, exponent)
     };
-    let normal = DVec3::new(component(0), component(1), component(2));
-    let t = libm::scalbn(t.0, t.1 + scene_exponent - direction_exponent);
     Some(Hit {
-        t,
-        normal,
+        t: libm::scalbn(t.0, t.1 + exponent - direction_exponent),
+        normal: DVec3::new(component(0), component(1), component(2)),
         inner_side,
     })
 }
 
-/// Which of two spheres a ray hits first; both must be hit, from inside or outside.
+/// The order in which a ray hits two spheres; both must be hit, from inside or outside.
 ///
 /// With the distances (Bᵢ ± √Qᵢ) / A, the far root from inside, the sign of
 /// B₁ − B₂ − (±√Q₂ ∓ √Q₁) is found by squaring twice, so that no root remains.
 pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> Ordering {
-    let (centers, origin) = ([first.center, second.center], ray.origin);
-    let coordinates = |vector: DVec3| [vector.x, vector.y, vector.z];
-    let [a, b, o] = [centers[0], centers[1], origin].map(coordinates);
-    let (scene, _) = integers([
-        a[0],
-        a[1],
-        a[2],
-        b[0],
-        b[1],
-        b[2],
-        o[0],
-        o[1],
-        o[2],
-        first.radius,
-        second.radius,
-    ]);
-    let (direction, _) = integers(ray.direction.to_array());
-    let direction_sq = dot(&direction, &direction);
-    let terms = |center: usize, radius: usize| {
-        let to_center = [0, 1, 2].map(|axis| &scene[center + axis] - &scene[6 + axis]);
-        let along = dot(&direction, &to_center);
-        let outside = dot(&to_center, &to_center) - &scene[radius] * &scene[radius];
-        let discriminant = &along * &along - &direction_sq * &outside;
-        (along, discriminant, outside <= IBig::ZERO)
-    };
-    let (first_along, first_q, first_inside) = terms(0, 9);
-    let (second_along, second_q, second_inside) = terms(3, 10);
+    let (direction, _) = integers(&ray.direction.to_array());
+    let ([first, second], _) = numbers([first, second], ray.origin, &direction);
+    let [first_inside, second_inside] = [&first, &second].map(|ball| ball.outside <= IBig::ZERO);
+    let (first_q, second_q) = (first.discriminant, second.discriminant);
 
-    // The sign of gap − (±√Q₂ ∓ √Q₁), which is that of t₁ − t₂.
-    let gap = first_along - second_along;
-    let sign_of = |inside: bool| if inside { 1 } else { -1 };
-    let (first_sign, second_sign) = (sign_of(first_inside), sign_of(second_inside));
-    let roots = match (second_sign, first_sign) {
-        (1, -1) => 1,
-        (-1, 1) => -1,
-        (1, _) => signum(&(&second_q - &first_q)),
-        _ => signum(&(&first_q - &second_q)),
+    // The sign of ±√Q₂ ∓ √Q₁; both zero roots leave no sign of their own.
+    let roots = match (second_inside, first_inside) {
+        _ if first_q == IBig::ZERO && second_q == IBig::ZERO => 0,
+        (true, false) => 1,
+        (false, true) => -1,
+        (true, true) => signum(&(&second_q - &first_q)),
+        (false, false) => signum(&(&first_q - &second_q)),
     };
-    // Both zero roots leave no sign of their own.
-    let roots = if first_q == IBig::ZERO && second_q == IBig::ZERO {
-        0
-    } else {
-        roots
-    };
+    // The sign of gap − (±√Q₂ ∓ √Q₁) is that of t₁ − t₂.
+    let gap = first.along - second.along;
     let gap_sign = signum(&gap);
     if gap_sign != roots {
         return gap_sign.cmp(&roots);
     }
-    // gap² against Q₁ + Q₂ − 2 (±1)(±1) √(Q₁ Q₂).
+    // The sign of gap² − Q₁ − Q₂ ± 2 √(Q₁ Q₂), where the squares of both decide.
     let excess = &gap * &gap - &first_q - &second_q;
     let product = IBig::from(4) * first_q * second_q;
-    let same = first_sign == second_sign;
-    let excess_sign = signum(&excess);
     let squares = &excess * &excess;
-    let larger = match (same, excess_sign) {
-        // excess + 2 √(Q₁ Q₂)
+    let is_sum = first_inside == second_inside;
+    let larger = match (is_sum, signum(&excess)) {
         (true, -1) => signum(&(product - squares)),
-        (true, _) => {
-            if excess_sign == 0 {
-                signum(&product)
-            } else {
-                1
-            }
-        }
-        // excess − 2 √(Q₁ Q₂)
+        (true, 0) => signum(&product),
+        (true, _) => 1,
         (false, 1) => signum(&(squares - product)),
-        (false, _) => {
-            if excess_sign == 0 {
-                -signum(&product)
-            } else {
-                -1
-            }
-        }
+        (false, 0) => -signum(&product),
+        (false, _) => -1,
     };
     (gap_sign * larger).cmp(&0)
 }
@@ -174,15 +156,15 @@ fn signum(value: &IBig) -> i32 {
 }
 
 /// Finite doubles as integers times one common power of two, and its exponent.
-fn integers<const COUNT: usize>(values: [f64; COUNT]) -> ([IBig; COUNT], i32) {
-    let parts = values.map(mantissa_and_exponent);
-    let used = parts.iter().filter(|(mantissa, _)| *mantissa != 0);
-    let common = used.map(|&(_, exponent)| exponent).min().unwrap_or(0);
-    let integers = parts.map(|(mantissa, exponent)| match mantissa {
+fn integers(values: &[f64]) -> (Vec<IBig>, i32) {
+    let parts = values.iter().map(|&value| mantissa_and_exponent(value));
+    let used = parts.clone().filter(|(mantissa, _)| *mantissa != 0);
+    let common = used.map(|(_, exponent)| exponent).min().unwrap_or(0);
+    let integer = |(mantissa, exponent)| match mantissa {
         0 => IBig::ZERO,
         _ => IBig::from(mantissa) << (exponent - common) as usize,
-    });
-    (integers, common)
+    };
+    (parts.map(integer).collect(), common)
 }
 
 /// A finite double as an integer times a power of two.
@@ -217,6 +199,6 @@ fn quotient(numerator: IBig, denominator: IBig) -> (f64, i32) {
     (quotient.to_f64().value(), -places as i32)
 }
 
-fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
+fn dot(a: &[IBig], b: &[IBig]) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }

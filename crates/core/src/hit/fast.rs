@@ -10,14 +10,14 @@ use crate::model::sphere::Sphere;
 use crate::numeric::fused::is_fused;
 use crate::numeric::rounding::{UNIT_ROUNDOFF, two_difference, two_product, two_sum};
 
-/// What the first floor knows.
+/// The answer of the first floor.
 pub(super) enum Answer {
     Miss,
     Hit(Hit),
     Undecided,
 }
 
-/// What the first floor decides.
+/// The decision of the first floor.
 pub(super) enum Decision {
     Miss,
     Hit(Certain),
@@ -43,7 +43,7 @@ const DECISION_BOUND: f64 = 24.0 * UNIT_ROUNDOFF;
 /// high-order ones are relative to the residual itself. 2⁹ u² covers them.
 const RESIDUAL_BOUND: f64 = 512.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
-/// What the decision computed, for the distance and the normal.
+/// The numbers of the decision, for the distance and the normal.
 pub(super) struct Certain {
     /// A.
     direction_sq: f64,
@@ -55,13 +55,13 @@ pub(super) struct Certain {
     discriminant: f64,
 }
 
-/// What depends on the sphere and the origin of rays alone.
+/// The numbers that depend on the sphere and the origin of rays alone.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Relative {
+pub(super) struct Relative {
     /// f.
     to_center: DVec3,
     /// K.
-    outside: f64,
+    pub(super) outside: f64,
     /// f·f + r².
     scale: f64,
 }
@@ -94,13 +94,8 @@ impl Relative {
         }
     }
 
-    /// K.
-    pub(crate) fn outside(&self) -> f64 {
-        self.outside
-    }
-
-    /// Whether the ray with this direction meets the sphere, where K is known up to `slack` more
-    /// than rounding costs.
+    /// Decides whether the ray with this direction meets the sphere, where K is known up to `slack`
+    /// more than rounding costs.
     #[inline(always)]
     pub(super) fn decide(&self, direction: DVec3, direction_sq: f64, slack: f64) -> Decision {
         let Self {
@@ -138,17 +133,13 @@ impl Relative {
 #[inline(always)]
 pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Answer {
     let relative = Relative::new(sphere, ray.origin);
-    hit_relative(sphere, &relative, ray, ray.direction.length_squared())
+    hit_relative(sphere, &relative, ray)
 }
 
-/// [`hit`] where the sphere is known relative to the ray's origin, and d·d.
+/// [`hit`] where the sphere is known relative to the ray's origin.
 #[inline(always)]
-pub(super) fn hit_relative(
-    sphere: &Sphere,
-    relative: &Relative,
-    ray: &Ray,
-    direction_sq: f64,
-) -> Answer {
+pub(super) fn hit_relative(sphere: &Sphere, relative: &Relative, ray: &Ray) -> Answer {
+    let direction_sq = ray.direction.length_squared();
     match relative.decide(ray.direction, direction_sq, 0.0) {
         Decision::Miss => Answer::Miss,
         Decision::Undecided => Answer::Undecided,
@@ -158,7 +149,7 @@ pub(super) fn hit_relative(
     }
 }
 
-/// Whether two squares lie within 2⁻²⁵⁶ and 2²⁵⁶: then nothing computed from them can overflow,
+/// True where two squares lie within 2⁻²⁵⁶ and 2²⁵⁶: then nothing computed from them can overflow,
 /// nor lose digits to underflow that the bounds do not cover.
 #[inline(always)]
 fn are_moderate(a: f64, b: f64) -> bool {

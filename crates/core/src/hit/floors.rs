@@ -34,7 +34,7 @@ impl Sphere {
         self.settle(ray, fast::hit(self, ray))
     }
 
-    /// Whether a ray meets the sphere whose origin is known up to a distance of `origin_error`.
+    /// Says whether a ray meets the sphere whose origin is known up to a distance of `origin_error`.
     ///
     /// Where that error leaves open on which side of the surface the origin lies, it counts as
     /// lying on it: the ray then meets the sphere where it goes inward. So a point keeps the light
@@ -70,24 +70,21 @@ impl Sphere {
         self.hit_precisely(ray).0.is_some()
     }
 
-    /// What depends on the sphere and a viewpoint alone, for [`Sphere::hit_from_viewpoint`].
-    pub(crate) fn relative_to(&self, viewpoint: DVec3) -> Relative {
-        Relative::precise(self, viewpoint)
+    /// K for rays from a viewpoint, to twice the precision where sizes are moderate: the square of a
+    /// tangent's length, negative inside.
+    pub(crate) fn outside(&self, viewpoint: DVec3) -> f64 {
+        Relative::precise(self, viewpoint).outside
     }
 
-    /// [`Sphere::hit`] for a ray whose origin the sphere is known from, and its direction's square.
+    /// [`Sphere::hit`] for one of many rays from a viewpoint: K is precise.
     #[inline(always)]
-    pub(crate) fn hit_from_viewpoint(
-        &self,
-        relative: &Relative,
-        ray: &Ray,
-        direction_sq: f64,
-    ) -> Option<Hit> {
-        self.settle(ray, fast::hit_relative(self, relative, ray, direction_sq))
-            .0
+    pub(crate) fn hit_from_viewpoint(&self, ray: &Ray) -> Option<Hit> {
+        let relative = Relative::precise(self, ray.origin);
+        let answer = fast::hit_relative(self, &relative, ray);
+        self.settle(ray, answer).0
     }
 
-    /// Which of two spheres' hits on the same ray lies nearer; exact.
+    /// The order of two spheres' hits on the same ray by distance; exact.
     #[inline(always)]
     pub(crate) fn compare(&self, hit: &Hit, other: &Self, other_hit: &Hit, ray: &Ray) -> Ordering {
         /// Two distances that are each off by a unit in the last place at most, relatively.
@@ -132,7 +129,7 @@ impl Sphere {
         }
     }
 
-    /// What one floor alone finds out, `None` where it cannot decide: to test the floors by.
+    /// The answer of one floor alone, `None` where it cannot decide: to test the floors by.
     #[doc(hidden)]
     pub fn hit_on_floor(&self, ray: &Ray, floor: Floor) -> Option<Option<Hit>> {
         if !can_hit(ray) {
@@ -150,7 +147,7 @@ impl Sphere {
     }
 }
 
-/// Whether the ray is finite and goes anywhere.
+/// True where the ray is finite and goes anywhere.
 fn can_hit(ray: &Ray) -> bool {
     ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != DVec3::ZERO
 }

@@ -1,4 +1,4 @@
-//! Where rays meet spheres: every decision exact, every distance to the last place.
+//! The intersections of rays and spheres: every decision exact, every distance to the last place.
 //!
 //! With o the ray's origin, d its direction, c the center, r the radius and f = c − o, the ray
 //! meets the sphere where A t² − 2 B t + K = 0 with

@@ -2,18 +2,18 @@
 
 use glam::DVec3;
 
-/// Where a ray meets a sphere.
+/// The point where a ray meets a sphere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Distance in multiples of the ray's direction.
     pub t: f64,
     /// Unit outward normal of the sphere.
     pub normal: DVec3,
-    /// Whether the ray started inside the sphere or on its surface, and so meets its inner side.
+    /// True where the ray started inside the sphere or on its surface, and so meets its inner side.
     pub inner_side: bool,
 }
 
-/// Which arithmetic settled a hit or a miss.
+/// The arithmetic that settled a hit or a miss.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Floor {
     /// Doubles, with a bound of their rounding errors.

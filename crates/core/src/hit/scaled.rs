@@ -61,7 +61,7 @@ impl Scaled {
         libm::scalbn(length, self.length_exponent)
     }
 
-    /// What the first floor knows of the given ray and sphere.
+    /// The answer of the first floor for the given ray and sphere.
     pub(super) fn hit_fast(&self) -> Option<Option<Hit>> {
         match fast::hit(&self.sphere, &self.ray) {
             Answer::Miss => Some(None),
@@ -70,7 +70,7 @@ impl Scaled {
         }
     }
 
-    /// What the second floor knows of the given ray and sphere.
+    /// The answer of the second floor for the given ray and sphere.
     pub(super) fn hit_double(&self) -> Option<Option<Hit>> {
         let hit = double::hit(&self.sphere, &self.ray)?;
         Some(hit.map(|hit| self.restore(hit)))

@@ -8,7 +8,7 @@ use crate::model::ray::Ray;
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
 use crate::numeric::power::Power;
-use crate::search::Visibility;
+use crate::search::visibility::Visibility;
 
 /// Radiance of a sphere toward the origin of the ray that hit it.
 #[cfg_attr(

@@ -29,7 +29,7 @@ impl Albedos {
         }
     }
 
-    /// Whether there are none.
+    /// True where there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
@@ -47,7 +47,7 @@ impl Albedos {
         }
     }
 
-    /// Whether none has a color.
+    /// True where none has a color.
     pub(crate) fn are_grey(&self) -> bool {
         match self {
             Self::Each(albedos) => albedos

@@ -96,7 +96,7 @@ pub struct Lens {
     pub width: f64,
     /// Distance of the retina from the viewpoint at zoom 1, greater than 0.
     pub distance: f64,
-    /// Where the retina's center lies off the axis of view, in scene units, right and up.
+    /// The way from the axis of view to the retina's center, in scene units, right and up.
     pub shift: DVec2,
 }
 

@@ -1,4 +1,4 @@
-//! What a picture is taken of: one view, or those of a camera that moves meanwhile.
+//! The exposure of a picture: one view, or those of a camera that moves meanwhile.
 
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -6,26 +6,26 @@ use std::sync::Arc;
 use super::camera::Camera;
 use super::view::View;
 
-/// Where a camera is at a moment.
+/// The place of a camera at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
-    /// Where it is and looks.
+    /// Its viewpoint and its directions.
     pub camera: Camera,
     /// Factor on the retina's distance, greater than 0.
     pub zoom: f64,
 }
 
-/// What a camera does while the shutter is open.
+/// The motion of a camera while the shutter is open.
 pub trait Motion: Debug + Send + Sync {
     /// The pose at a time from −½, when the shutter opens, to ½, when it closes: always the same for
     /// the same time. Where there is none, that of the middle is taken for it.
     fn pose(&self, time: f64) -> Option<Pose>;
 
-    /// Whether it goes on without a bend or a jump at time 0. It does at all other times.
+    /// True where it goes on without a bend or a jump at time 0. It does at all other times.
     fn is_smooth(&self) -> bool;
 }
 
-/// A view, and what the camera does while the shutter is open.
+/// A view, and the motion of its camera while the shutter is open.
 #[derive(Clone, Debug)]
 pub struct Exposure<'motion> {
     view: View,

@@ -1,10 +1,10 @@
-//! What surfaces are made of.
+//! Materials of surfaces.
 
 use glam::DVec3;
 
 use super::color::Color;
 
-/// How a surface answers light.
+/// The answer of a surface to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Fraction of the light that is scattered, per channel.
@@ -42,13 +42,13 @@ pub struct Highlight {
 pub struct Roughness {
     /// From 0 (smooth) up to, not including, 1.
     pub amplitude: f64,
-    /// What the numbers are attached to.
+    /// The thing that the numbers are attached to.
     pub grain: Grain,
     /// Seed of the numbers.
     pub seed: u64,
 }
 
-/// What the random numbers of a rough surface are attached to.
+/// The thing that the random numbers of a rough surface are attached to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grain {
     /// To the surface: smooth noise with cells of this size, in scene units, greater than 0.

@@ -7,9 +7,9 @@ use crate::numeric::rounding::UNIT_ROUNDOFF;
 /// A half line: the points `origin + t · direction` with `t > 0`, in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Where the ray starts.
+    /// The point where the ray starts.
     pub origin: DVec3,
-    /// Where it goes; need not be unit.
+    /// Its direction; need not be unit.
     pub direction: DVec3,
 }
 

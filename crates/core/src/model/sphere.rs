@@ -10,7 +10,7 @@ pub struct Sphere {
     pub(crate) radius: f64,
 }
 
-/// Why a sphere was refused.
+/// The reason for which a sphere was refused.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum SphereError {
     /// The center is infinite or not a number.

@@ -1,4 +1,4 @@
-//! From where a world is rendered.
+//! The view from which a world is rendered.
 
 use glam::{DVec2, DVec3};
 
@@ -8,7 +8,7 @@ use super::ray::Ray;
 /// One picture to take: camera, lens, and the pixels of the retina.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Where the camera is and looks.
+    /// The viewpoint and the directions of the camera.
     pub camera: Camera,
     /// Its retina.
     pub lens: Lens,

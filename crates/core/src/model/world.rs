@@ -1,4 +1,4 @@
-//! What is rendered.
+//! The world that is rendered.
 
 use super::albedos::Albedos;
 use super::color::Color;
@@ -16,12 +16,12 @@ pub struct World {
     pub ambient: Color,
     /// Radiance where no sphere is seen.
     pub background: Color,
-    /// Whether spheres keep the light from each other.
+    /// True where spheres keep the light from each other.
     pub shadows: bool,
     spheres: Vec<Sphere>,
     material_ids: Vec<MaterialId>,
     materials: Vec<Material>,
-    /// Which materials some sphere has.
+    /// The materials that some sphere has.
     is_used: Vec<bool>,
     /// The spheres that have albedos of their own.
     painted: Vec<Painted>,
@@ -138,7 +138,7 @@ impl World {
         }
     }
 
-    /// Whether some spheres have albedos of their own.
+    /// True where some spheres have albedos of their own.
     pub fn has_own_albedos(&self) -> bool {
         !self.painted.is_empty()
     }
@@ -160,12 +160,12 @@ impl World {
         self.material_ids[sphere].0
     }
 
-    /// Whether nothing that can be seen has a color, so that one channel tells all.
+    /// True where nothing that can be seen has a color, so that one channel tells all.
     pub fn is_grey(&self) -> bool {
         is_grey(self.background) && self.has_grey_spheres()
     }
 
-    /// Whether the spheres' light has no color, whatever the background has.
+    /// True where the spheres' light has no color, whatever the background has.
     pub fn has_grey_spheres(&self) -> bool {
         let used = self
             .materials

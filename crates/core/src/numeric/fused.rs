@@ -1,8 +1,8 @@
-//! Whether the processor multiplies and adds in one operation.
+//! Multiplication and addition in one operation, where the processor has it.
 
 use fearless_simd::Simd;
 
-/// Whether code compiled for this level has fused multiplication and addition; known when it is
+/// True where code compiled for this level has fused multiplication and addition; known when it is
 /// compiled.
 #[inline(always)]
 pub(crate) fn is_fused<S: Simd>(simd: S) -> bool {

@@ -20,8 +20,11 @@ const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
 const COUNTER: f64 = (1_u64 << MANTISSA_BITS) as f64;
 const COUNTER_BITS: u64 = COUNTER.to_bits();
 
-/// What is added to exponents where they are stored.
+/// The number that is added to exponents where they are stored.
 const EXPONENT_BIAS: f64 = 1023.0;
+
+/// Numbers side by side.
+pub(crate) const LANES: usize = 8;
 
 /// A double, or eight.
 pub(crate) trait Lanes:

@@ -5,15 +5,14 @@ use std::ops::Range;
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
-use super::pixel::Pixel;
+use super::band::Band;
 use super::pixel::{Evidence, Status, Work};
-use super::plane::{Plane, PlaneBand};
-use super::tile::{Tile, TileLight};
+use super::plane::Plane;
+use super::tile::Tile;
 use super::window::Window;
-use crate::model::color::Color;
 use crate::model::world::World;
 
-/// Which numbers a picture holds for each pixel.
+/// The numbers that a picture holds for each pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Channels {
     /// One: the picture has no color.
@@ -58,45 +57,45 @@ pub struct Image {
     errors: Plane<f64>,
     evidence: Plane<Evidence>,
     statuses: Plane<Status>,
-    /// Whether values and errors are 0 where nothing was written.
+    /// Values and errors are 0 where nothing was written.
     is_blank: bool,
     work: Work,
 }
 
-/// What a picture is before its pixels are.
+/// A picture without its pixels.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Form {
+pub(crate) struct Layout {
     /// Columns and rows.
     pub(crate) size: (u32, u32),
     pub(crate) channels: Channels,
     pub(crate) alpha: bool,
-    pub(crate) prospect: Prospect,
+    pub(crate) uniform: Uniform,
 }
 
-/// What is known of a picture's pixels before they are.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Prospect {
+/// Numbers that are the same in all pixels of a picture, and known before these are.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Uniform {
     /// The error of all pixels, where it is the same.
     pub(crate) error: Option<f64>,
     /// Evidence and status of all pixels, where they are the same.
-    pub(crate) ending: Option<(Evidence, Status)>,
+    pub(crate) outcome: Option<(Evidence, Status)>,
 }
 
-/// What a picture as a whole achieved.
+/// The achievement of a picture as a whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// Number of pixels.
     pub pixels: u64,
     /// The largest error that any pixel claims.
     pub largest_error: f64,
-    /// What stands behind the errors: a bound only where all of them are.
+    /// The foundation of the errors: a bound only where all of them are.
     pub evidence: Evidence,
     /// Number of pixels that did not meet the tolerance; 0 where none was asked for.
     pub over_tolerance: u64,
 }
 
 impl Summary {
-    /// What is true of two pictures, or parts of one, together.
+    /// The summary of two pictures, or parts of one, together.
     #[must_use]
     pub fn and(self, other: &Self) -> Self {
         Self {
@@ -110,32 +109,29 @@ impl Summary {
 
 impl Image {
     /// A picture to be written, in the memory of another one where that suffices.
-    pub(crate) fn new(form: Form, spent: Option<Self>) -> Self {
-        let Form {
+    pub(crate) fn new(layout: Layout, spent: Option<Self>) -> Self {
+        let Layout {
             size: (width, height),
             channels,
             alpha,
-            prospect: Prospect { error, ending },
-        } = form;
+            uniform: Uniform { error, outcome },
+        } = layout;
         let pixels = width as usize * height as usize;
         let numbers = pixels * (channels.count() + usize::from(alpha));
-        let (evidence, status) = (ending.map(|ending| ending.0), ending.map(|ending| ending.1));
+        let (evidence, status) = outcome.unzip();
         let spent = spent.filter(|spent| spent.values.capacity() >= numbers);
         let is_blank = spent.is_none();
-        let (values, errors, known, statuses) = match spent {
+        let (values, planes) = match spent {
             Some(mut spent) => {
                 spent.values.resize(numbers, 0.0);
-                let known = (spent.evidence, spent.statuses);
-                (
-                    spent.values,
-                    Some(spent.errors),
-                    Some(known.0),
-                    Some(known.1),
-                )
+                let planes = (spent.errors, (spent.evidence, spent.statuses));
+                (spent.values, Some(planes))
             }
             // Memory that the system clears, page by page where it is written.
-            None => (vec![0.0; numbers], None, None, None),
+            None => (vec![0.0; numbers], None),
         };
+        let (errors, planes) = planes.unzip();
+        let (known, statuses) = planes.unzip();
         Self {
             width,
             height,
@@ -160,12 +156,12 @@ impl Image {
         self.height
     }
 
-    /// Whether the picture has color.
+    /// The numbers of each pixel: with color or without.
     pub fn channels(&self) -> Channels {
         self.channels
     }
 
-    /// Whether the picture is premultiplied light without its background, with coverage.
+    /// True for premultiplied light without its background, with coverage.
     pub fn has_alpha(&self) -> bool {
         self.alpha
     }
@@ -193,27 +189,27 @@ impl Image {
     /// Outside the picture.
     pub fn row(&self, row: u32) -> &[f64] {
         let first = self.index(0, row);
-        let stride = self.channels.count() + usize::from(self.alpha);
+        let stride = self.stride();
         &self.values[first * stride..][..self.width as usize * stride]
     }
 
-    /// How far a pixel's numbers may be from the exact area average; infinite where nothing is
-    /// known.
+    /// The largest distance of a pixel's numbers from the exact area average; infinite where nothing
+    /// is known.
     pub fn error(&self, col: u32, row: u32) -> f64 {
         self.errors.at(self.index(col, row))
     }
 
-    /// How the work on a pixel ended.
+    /// The end of the work on a pixel.
     pub fn status(&self, col: u32, row: u32) -> Status {
         self.statuses.at(self.index(col, row))
     }
 
-    /// What stands behind a pixel's error.
+    /// The foundation of a pixel's error.
     pub fn evidence(&self, col: u32, row: u32) -> Evidence {
         self.evidence.at(self.index(col, row))
     }
 
-    /// What the picture cost.
+    /// The work on the picture.
     pub fn work(&self) -> Work {
         self.work
     }
@@ -222,7 +218,7 @@ impl Image {
         self.work = work;
     }
 
-    /// What the picture as a whole achieved.
+    /// The achievement of the picture as a whole.
     pub fn summary(&self) -> Summary {
         let is_over = |status: &Status| status.is_over_tolerance();
         let pixels = u64::from(self.width) * u64::from(self.height);
@@ -246,7 +242,7 @@ impl Image {
 
     /// A part of the picture.
     pub(crate) fn cut(&self, window: Window) -> Self {
-        let stride = self.channels.count() + usize::from(self.alpha);
+        let stride = self.stride();
         let rows = (window.row..window.row + window.height).map(|row| {
             let first = self.index(window.col, row);
             first..first + window.width as usize
@@ -273,7 +269,7 @@ impl Image {
     /// The picture cut into bands of at most `rows` rows, from the top.
     pub(crate) fn bands_mut(&mut self, rows: u32) -> impl IndexedParallelIterator<Item = Band<'_>> {
         let (width, height) = (self.width, self.height);
-        let stride = self.channels.count() + usize::from(self.alpha);
+        let stride = self.stride();
         let pixels = width as usize * rows as usize;
         let is_blank = self.is_blank;
         let bands = self.height.div_ceil(rows) as usize;
@@ -306,7 +302,7 @@ impl Image {
     /// Some rows of the picture as a band, where the picture's first pixel is (`col`, `row`) of a
     /// larger one.
     pub(crate) fn band_mut(&mut self, (col, row): (u32, u32), rows: Range<u32>) -> Band<'_> {
-        let stride = self.channels.count() + usize::from(self.alpha);
+        let stride = self.stride();
         let width = self.width as usize;
         let pixels = rows.start as usize * width..rows.end as usize * width;
         Band {
@@ -323,6 +319,11 @@ impl Image {
             statuses: self.statuses.band_mut(pixels),
             is_blank: self.is_blank,
         }
+    }
+
+    /// Numbers of a pixel: its channels, and its alpha where there is one.
+    fn stride(&self) -> usize {
+        self.channels.count() + usize::from(self.alpha)
     }
 
     fn index(&self, col: u32, row: u32) -> usize {
@@ -345,138 +346,9 @@ impl PartialEq for Image {
     }
 }
 
-/// Whole rows of a picture, to be written by one thread.
-pub(crate) struct Band<'image> {
-    pub(crate) area: Tile,
-    stride: usize,
-    values: &'image mut [f64],
-    errors: PlaneBand<'image, f64>,
-    evidence: PlaneBand<'image, Evidence>,
-    statuses: PlaneBand<'image, Status>,
-    is_blank: bool,
-}
-
-impl Band<'_> {
-    /// Writes the pixels of a tile inside the band, which come in the order of
-    /// [`Tile::pixels`].
-    pub(crate) fn write(&mut self, tile: Tile, pixels: &[Pixel]) {
-        for ((col, row), pixel) in tile.pixels().zip(pixels) {
-            let index = self.index(col, row);
-            let values = &mut self.values[index * self.stride..][..self.stride];
-            put(values, pixel);
-            self.errors.write(index, &[pixel.error]);
-            self.evidence.write(index, &[pixel.evidence]);
-            self.statuses.write(index, &[pixel.status]);
-        }
-    }
-
-    /// Writes the same pixel all over a tile inside the band.
-    pub(crate) fn write_same(&mut self, tile: Tile, pixel: &Pixel) {
-        let (width, stride) = (tile.width as usize, self.stride);
-        for row in tile.row..tile.row + tile.height {
-            let index = self.index(tile.col, row);
-            let values = &mut self.values[index * stride..][..width * stride];
-            for values in values.chunks_exact_mut(stride) {
-                put(values, pixel);
-            }
-            self.errors.fill(index, width, pixel.error);
-            self.evidence.fill(index, width, pixel.evidence);
-            self.statuses.fill(index, width, pixel.status);
-        }
-    }
-
-    /// Writes the light of a tile inside the band; all pixels end alike.
-    pub(crate) fn write_light(&mut self, tile: Tile, light: &TileLight) {
-        let width = tile.width as usize;
-        let stride = self.stride;
-        for row in 0..tile.height {
-            let index = self.index(tile.col, tile.row + row);
-            let light = light.row(row);
-            let values = &mut self.values[index * stride..][..width * stride];
-            match (stride, &light.channels) {
-                (1, [grey, ..]) => copy(values, grey),
-                (2, [grey, ..]) => interleave(values, [grey, &light.alpha]),
-                (3, [red, green, blue]) => interleave(values, [red, green, blue]),
-                (_, [red, green, blue]) => interleave(values, [red, green, blue, &light.alpha]),
-            }
-            self.errors.write(index, &light.errors[..width]);
-        }
-    }
-
-    /// Writes light that is the same in all pixels of a tile inside the band, and in which nothing
-    /// covers them.
-    pub(crate) fn write_even_light(&mut self, tile: Tile, color: Color, error: f64) {
-        let (width, stride) = (tile.width as usize, self.stride);
-        for row in tile.row..tile.row + tile.height {
-            let index = self.index(tile.col, row);
-            let values = &mut self.values[index * stride..][..width * stride];
-            if color != Color::ZERO {
-                // The background is left out of a picture with alpha: there are channels only.
-                for pixel in values.chunks_exact_mut(stride) {
-                    pixel.copy_from_slice(&color.as_ref()[..stride]);
-                }
-            } else if !self.is_blank {
-                for values in values.chunks_mut(Tile::SIDE as usize) {
-                    copy(values, &[0.0; Tile::SIDE as usize]);
-                }
-            }
-            if error != 0.0 || !self.is_blank {
-                self.errors.fill(index, width, error);
-            }
-        }
-    }
-
-    fn index(&self, col: u32, row: u32) -> usize {
-        let (col, row) = (col - self.area.col, row - self.area.row);
-        row as usize * self.area.width as usize + col as usize
-    }
-}
-
-/// Writes the numbers of a pixel: its channels, then alpha where there is a place for it.
-#[inline]
-fn put(values: &mut [f64], pixel: &Pixel) {
-    let Color { x, y, z } = pixel.value;
-    match values {
-        [grey] => *grey = x,
-        [grey, alpha] => (*grey, *alpha) = (x, pixel.alpha),
-        [red, green, blue, alpha @ ..] => {
-            (*red, *green, *blue) = (x, y, z);
-            alpha.fill(pixel.alpha);
-        }
-        [] => {}
-    }
-}
-
 /// The largest of some numbers that are not negative; they are ordered as their bits are, of which
 /// processors compare many at a time.
 fn largest(numbers: &[f64]) -> f64 {
     let bits = numbers.iter().map(|number| number.abs().to_bits());
     f64::from_bits(bits.max().unwrap_or(0))
-}
-
-/// Writes a number of every pixel of a row. Most rows are whole: a copy of a known length is a few
-/// instructions, and not worth a call.
-#[inline(always)]
-fn copy(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
-    if values.len() == part.len() {
-        for (value, number) in values.iter_mut().zip(part) {
-            *value = *number;
-        }
-    } else {
-        copy_some(values, part);
-    }
-}
-
-#[cold]
-#[inline(never)]
-fn copy_some(values: &mut [f64], part: &[f64; Tile::SIDE as usize]) {
-    values.copy_from_slice(&part[..values.len()]);
-}
-
-/// Writes some numbers of every pixel, pixel by pixel.
-fn interleave<const COUNT: usize>(values: &mut [f64], parts: [&[f64; Tile::SIDE as usize]; COUNT]) {
-    let (pixels, _) = values.as_chunks_mut::<COUNT>();
-    for (place, pixel) in pixels.iter_mut().enumerate() {
-        *pixel = parts.map(|part| part[place]);
-    }
 }

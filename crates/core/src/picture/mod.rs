@@ -1,8 +1,9 @@
-//! Pictures: pixels, tiles, windows, and what fills them.
+//! Pictures: pixels, tiles, windows, and how they are written.
 
+pub(crate) mod band;
 pub(crate) mod image;
-pub(crate) mod integrator;
 pub(crate) mod pixel;
 pub(crate) mod plane;
+pub(crate) mod progress;
 pub(crate) mod tile;
 pub(crate) mod window;

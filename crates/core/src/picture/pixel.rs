@@ -1,13 +1,11 @@
-//! Pixels, how they are averaged, and what is known of them.
+//! Pixels, the ways to average them, and what is known of them.
 
 use std::num::NonZeroU32;
 use std::ops::AddAssign;
 
-use thiserror::Error;
-
 use crate::model::color::Color;
 
-/// How pixels are averaged.
+/// The way to average pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Over the midpoints of an N × N division of every pixel.
@@ -16,28 +14,23 @@ pub enum Method {
     Tolerance(f64),
 }
 
-/// The caller of a rendering asked it to stop.
-#[derive(Clone, Copy, Debug, Eq, Error, PartialEq)]
-#[error("the rendering was stopped")]
-pub struct Cancelled;
-
-/// What is known of a pixel.
+/// The average of a pixel, and how well it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pixel {
     /// Average of the light over the pixel's square; in a world without color all channels are the same.
     pub(crate) value: Color,
     /// Fraction of the pixel's square that spheres cover.
     pub(crate) alpha: f64,
-    /// How far value and alpha may be from the exact averages, in any channel; infinite where
-    /// nothing is known.
+    /// The largest distance of value and alpha from the exact averages, in any channel; infinite
+    /// where nothing is known.
     pub(crate) error: f64,
-    /// What the error is worth.
+    /// The worth of the error.
     pub(crate) evidence: Evidence,
-    /// How the work on the pixel ended.
+    /// The end of the work on the pixel.
     pub(crate) status: Status,
 }
 
-/// What stands behind an error.
+/// The foundation of an error.
 #[derive(Clone, Copy, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub enum Evidence {
     /// It is inferred from rules and samples that agree.
@@ -46,7 +39,7 @@ pub enum Evidence {
     Bound,
 }
 
-/// What pixels cost, counted.
+/// The work on pixels, counted.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 #[non_exhaustive]
 pub struct Work {
@@ -67,7 +60,7 @@ impl AddAssign for Work {
     }
 }
 
-/// How the work on a pixel ended.
+/// The end of the work on a pixel.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
 pub enum Status {
@@ -84,7 +77,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// Whether a tolerance was asked for and not met.
+    /// True where a tolerance was asked for and not met.
     pub fn is_over_tolerance(self) -> bool {
         match self {
             Self::NoTolerance | Self::Met => false,

@@ -20,7 +20,7 @@ impl Tile {
     /// may be smaller.
     pub(crate) const SIDE: u32 = 8;
 
-    /// How many pixels it has.
+    /// The number of its pixels.
     pub(crate) fn count(self) -> u64 {
         u64::from(self.width) * u64::from(self.height)
     }

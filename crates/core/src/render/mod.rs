@@ -1,4 +1,6 @@
 //! The loop over the tiles of a picture.
 
+mod integrator;
 pub(crate) mod renderer;
+pub(crate) mod settings;
 pub(crate) mod strips;

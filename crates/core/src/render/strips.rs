@@ -1,17 +1,17 @@
 //! A picture strip by strip, for those that need not have it as a whole.
 
-use crate::picture::window::Window;
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::renderer::Job;
-use super::renderer::{Renderer, Settings};
+use super::integrator::{Integrator, Scratch};
+use super::renderer::Renderer;
+use super::settings::Settings;
 use crate::model::exposure::Exposure;
-use crate::picture::image::Form;
-use crate::picture::image::Image;
-use crate::picture::integrator::Integrator;
-use crate::picture::pixel::{Cancelled, Work};
+use crate::picture::image::{Image, Layout};
+use crate::picture::pixel::Work;
+use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
+use crate::picture::window::Window;
 
 /// Rows of a band; a strip is a number of bands.
 pub const BAND_ROWS: u32 = Tile::SIDE;
@@ -20,7 +20,7 @@ pub const BAND_ROWS: u32 = Tile::SIDE;
 /// writes stays near it, however wide a picture is.
 const PART_COLUMNS: u32 = 1024;
 
-/// Where a picture, or a window of one, goes while it is rendered.
+/// The receiver of a picture, or of a window of one, while it is rendered.
 ///
 /// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
 /// of its own. Columns and strips are counted from the window's first.
@@ -45,14 +45,16 @@ pub trait Strip {
 /// A window of a picture that any number of threads render together, strip by strip, so that
 /// a picture of any height needs little memory.
 ///
-/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may go on
-/// with the next picture while others still end theirs.
+/// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may start
+/// on the next picture while other threads end theirs.
 pub struct Rendering<'a> {
-    strips: Box<dyn Strips + 'a>,
+    integrator: Integrator<'a>,
+    /// The whole picture.
+    layout: Layout,
     window: Window,
     /// Rows of a strip, but the last.
     rows: u32,
-    /// The index of the strip that nobody has begun.
+    /// The index of the first strip that no thread has begun.
     next: AtomicU32,
 }
 
@@ -82,27 +84,23 @@ impl Renderer<'_> {
             "{window:?} is outside"
         );
         Rendering {
-            strips: self.strips(&exposure, settings),
+            integrator: self.integrator(&exposure, settings),
+            layout: self.layout(view, settings),
             window,
             rows: bands.max(1).saturating_mul(BAND_ROWS),
             next: AtomicU32::new(0),
         }
     }
-
-    /// Prepares what paints strips: not generic, so that integrators are compiled here, once.
-    fn strips<'a>(&'a self, exposure: &Exposure<'a>, settings: &Settings) -> Box<dyn Strips + 'a> {
-        self.run(exposure, settings, Preparation)
-    }
 }
 
 impl Rendering<'_> {
-    /// How many strips nobody has begun.
+    /// The number of strips that no thread has begun.
     pub fn strips_left(&self) -> u32 {
         let next = self.next.load(Ordering::Relaxed);
         self.count().saturating_sub(next)
     }
 
-    /// Renders strips until there is none that nobody has begun, and what they cost.
+    /// Renders strips until all are begun; returns what they cost.
     ///
     /// Each goes to `sink` as soon as it is rendered; they are begun from the top downward and end as
     /// they come. `progress` is called with the number of pixels that were just finished, those around
@@ -118,7 +116,7 @@ impl Rendering<'_> {
         sink: &dyn Sink,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        let work = self.strips.render(self, sink, progress);
+        let work = self.render_strips(sink, progress);
         work.inspect_err(|Cancelled| self.begin_no_more())
     }
 
@@ -126,7 +124,7 @@ impl Rendering<'_> {
         self.next.store(self.count(), Ordering::Relaxed);
     }
 
-    /// How many strips there are.
+    /// The number of all strips.
     fn count(&self) -> u32 {
         self.window.height.div_ceil(self.rows)
     }
@@ -147,62 +145,31 @@ impl Rendering<'_> {
         };
         Some((index, strip))
     }
-}
 
-/// What paints strips, whatever the integrator.
-trait Strips: Send + Sync {
-    fn render(
-        &self,
-        rendering: &Rendering<'_>,
-        sink: &dyn Sink,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled>;
-}
-
-struct Preparation;
-
-impl<'a> Job<'a> for Preparation {
-    type Output = Box<dyn Strips + 'a>;
-
-    fn run<I: Integrator + 'a>(self, form: Form, integrator: I) -> Self::Output {
-        Box::new(Painter { form, integrator })
-    }
-}
-
-/// An integrator, and what it makes.
-struct Painter<I> {
-    form: Form,
-    integrator: I,
-}
-
-impl<I: Integrator> Strips for Painter<I> {
-    fn render(
-        &self,
-        rendering: &Rendering<'_>,
-        sink: &dyn Sink,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled> {
-        let (picture_width, picture_height) = self.form.size;
-        let window = rendering.window;
-        let columns = whole_tiles(window.col, window.width, picture_width);
-        let mut room = I::Room::default();
+    /// Renders strips until none is left to begin.
+    fn render_strips(&self, sink: &dyn Sink, progress: &Progress<'_>) -> Result<Work, Cancelled> {
+        let (picture_width, picture_height) = self.layout.size;
+        let columns = whole_tiles(self.window.col, self.window.width, picture_width);
+        let mut scratch = Scratch::default();
         let mut image = None;
         let mut work = Work::default();
-        while let Some((index, strip)) = rendering.next() {
+        while let Some((index, strip)) = self.next() {
             let rows = whole_tiles(strip.row, strip.height, picture_height);
             let mut sink = sink.begin(index).ok_or(Cancelled)?;
             for col in columns.clone().step_by(PART_COLUMNS as usize) {
                 let width = PART_COLUMNS.min(columns.end - col);
-                let form = Form {
+                let layout = Layout {
                     size: (width, rows.end - rows.start),
-                    ..self.form
+                    ..self.layout
                 };
-                let mut part = Image::new(form, image);
+                let mut part = Image::new(layout, image);
                 for first in rows.clone().step_by(BAND_ROWS as usize) {
                     let end = rows.end.min(first + BAND_ROWS);
                     let band = first - rows.start..end - rows.start;
                     let mut band = part.band_mut((col, rows.start), band);
-                    work += self.integrator.paint_band(&mut band, &mut room, progress)?;
+                    work += self
+                        .integrator
+                        .paint_band(&mut band, &mut scratch, progress)?;
                 }
                 let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);
                 let in_part = Window {

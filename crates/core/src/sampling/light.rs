@@ -3,7 +3,6 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-use super::lanes::{LANES, Vectors, lanes_of};
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
@@ -12,7 +11,10 @@ use crate::model::light::DirectionalLight;
 use crate::model::material::{Highlight, Material};
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
 use crate::numeric::power::Power;
+use crate::numeric::vectors::Vectors;
 
 /// Light of eight rays, in one channel or in three.
 pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
@@ -93,8 +95,7 @@ impl<'scene> Shading<'scene> {
         let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
         let mut mirrored = [zero; CHANNELS];
         for (index, light) in world.lights.iter().enumerate() {
-            let toward = Vectors::splat(simd, light.toward());
-            let facing = normal.dot(toward);
+            let facing = normal.dot_one(light.toward());
             let mut lit = facing.simd_gt(zero) & outer;
             if !lit.any_true() {
                 continue;
@@ -136,8 +137,8 @@ impl<'scene> Shading<'scene> {
         groups: &Groups<'_>,
         mut albedo: Light<S, CHANNELS>,
     ) -> Light<S, CHANNELS> {
-        for Group { near, lanes } in groups.as_slice() {
-            let own = self.world.albedo(near.ball.index as usize);
+        for Group { ball, lanes } in groups.as_slice() {
+            let own = self.world.albedo(ball.index());
             simd.vectorize(
                 #[inline(always)]
                 || {
@@ -156,13 +157,13 @@ impl<'scene> Shading<'scene> {
     #[inline(never)]
     fn roughened<S: Simd>(&self, sight: Sight<S>, place: Place, groups: &Groups<'_>) -> Vectors<S> {
         let mut normal = sight.normal;
-        for Group { near, lanes } in groups.as_slice() {
-            let index = near.ball.index as usize;
+        for Group { ball, lanes } in groups.as_slice() {
+            let index = ball.index();
             let Some(roughness) = &self.world.material(index).roughness else {
                 continue;
             };
             let radius = self.world.spheres()[index].radius();
-            for lane in lanes_of(lanes & !sight.inner) {
+            for lane in set_bits(lanes & !sight.inner) {
                 let key = PixelKey {
                     col: place.col + lane as u32,
                     row: place.row,
@@ -219,7 +220,7 @@ impl<'scene> Looks<'scene> {
         self.count = 0;
         self.has_highlight = false;
         for group in groups.as_slice() {
-            let number = shading.world.material_index(group.near.ball.index as usize);
+            let number = shading.world.material_index(group.ball.index());
             let known = &mut self.list[..self.count];
             if let Some(look) = known.iter_mut().find(|look| look.number == number) {
                 look.lanes |= group.lanes;
@@ -273,12 +274,12 @@ impl<'scene> Looks<'scene> {
     ) -> f64x8<S> {
         let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
         let toward = Vectors::splat(simd, light.toward());
-        let view = sight.direction.scaled(one / sight.length_sq.sqrt());
-        let half = toward.minus(view);
-        let half_sq = half.dot(half);
+        let view = sight.direction.times(one / sight.length_sq.sqrt());
+        let half = toward.minus(&view);
+        let half_sq = half.length_squared();
         // Zero where the viewer looks along the light.
         let inverse = half_sq.simd_gt(zero).select(one / half_sq.sqrt(), zero);
-        let facing = normal.dot(half) * inverse;
+        let facing = normal.dot(&half) * inverse;
         let facing = facing.simd_gt(zero).select(facing, zero);
         let mut spots = self.list[0].finish.spot(simd, facing);
         for look in &self.list[1..self.count] {

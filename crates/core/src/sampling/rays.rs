@@ -4,12 +4,19 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
-use super::lanes::Vectors;
 use crate::model::ray::Ray;
 use crate::model::view::View;
+use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
-/// Where the samples of a view lie: those of [`View::cell_center`] to the bit.
+/// Far above all rounding errors, which are of some units in the last place.
+const WIDER: f64 = 1.0 + 1e-9;
+
+/// Sums of squares above this are far from losing digits to underflow: directions are moderate, so
+/// that only tiny ones are not.
+pub(super) const LEAST_SQUARE: f64 = 1e-60;
+
+/// The places of the samples of a view: those of [`View::cell_center`] to the bit.
 #[derive(Clone, Debug)]
 pub(super) struct Rays {
     view: View,
@@ -24,7 +31,7 @@ pub(super) struct Rays {
     /// Rows on a length of 1 at the distance of 1, and in the lens's shift.
     rows_on_unit: f64,
     shift_rows: f64,
-    /// Where the first sample lies in a pixel.
+    /// The place of the first sample in a pixel.
     first: f64,
 }
 
@@ -62,12 +69,12 @@ impl Rays {
         self.exponent
     }
 
-    /// How many samples lie side by side on a length of 1 at the distance of 1.
+    /// The number of samples side by side on a length of 1 at the distance of 1.
     pub(super) fn cells_on_unit(&self) -> f64 {
         self.distance / (2.0 * self.half_cell)
     }
 
-    /// Where a sample of eight pixels lies on the retina, to the right; pixels after the first
+    /// The places on the retina, to the right, of a sample of eight pixels; pixels after the first
     /// `width` repeat the last of them.
     #[inline(always)]
     pub(super) fn across<S: Simd>(&self, simd: S, place: Place, width: u32) -> f64x8<S> {
@@ -114,10 +121,8 @@ impl Rays {
         self.view.ray(center)
     }
 
-    /// What is true of all rays of a tile.
+    /// The bounds of all rays of a tile.
     pub(super) fn bundle(&self, tile: Tile) -> Bundle {
-        /// Above all rounding errors, which are of some units in the last place.
-        const WIDER: f64 = 1.0 + 1e-9;
         let pixel = self.view.pixel_size();
         let middle = |first: u32, count: u32, pixels: u32| {
             f64::from(first) + 0.5 * (f64::from(count) - f64::from(pixels))
@@ -157,8 +162,9 @@ impl Rays {
 
     /// A circular cone around the rays through a rectangle on the retina, given in camera axes.
     fn cone(&self, center: DVec3, half: DVec2) -> Option<Cone> {
-        const WIDER: f64 = 1.0 + 1e-9;
+        /// Far above the few units in the last place that rounding costs relative to h² / p².
         const ROUNDING: f64 = 1e-12;
+        /// Wider cones hold so much beside the tile that they leave out little. Not tuned.
         const WIDEST_SINE: f64 = 0.7;
         // The corner p with the largest angle a: with c the center and h = p − c,
         // sin² a = (c² h² − (c·h)²) / (c² p²), which rounding makes wrong by a few u h² / p².
@@ -176,7 +182,7 @@ impl Rays {
             sine_sq = sine_sq.max((center_sq * half_sq - along * along) / (center_sq * corner_sq));
         }
         let sine_sq = sine_sq * WIDER + ROUNDING * half_sq / center_sq;
-        let is_sane = is_ahead && sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > 1e-60;
+        let is_sane = is_ahead && sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > LEAST_SQUARE;
         is_sane.then(|| Cone {
             axis: self.view.camera.world_from_camera * (center * (1.0 / center_sq.sqrt())),
             sine: sine_sq.sqrt(),
@@ -185,7 +191,7 @@ impl Rays {
     }
 }
 
-/// What is true of all rays of a tile.
+/// The bounds of all rays of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bundle {
     /// Around them; none where it would be wider than is worth having.
@@ -207,19 +213,19 @@ pub(super) struct Cone {
     pub(super) cosine: f64,
 }
 
-/// Where the rows of a tile lie.
+/// The places of the rows of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rows {
     /// Unit axes of the camera, in the world frame.
     pub(super) up: DVec3,
     pub(super) forward: DVec3,
-    /// How many rows lie on a length of 1 at the distance of 1.
+    /// The number of rows on a length of 1 at the distance of 1.
     pub(super) on_unit: f64,
-    /// How far below the tile's upper edge the height 0 is, in rows.
+    /// The way from the tile's upper edge down to the height 0, in rows.
     pub(super) origin: f64,
     /// More than any number of rows that is added up.
     pub(super) size: f64,
-    /// Where the first and last samples of a row lie in it.
+    /// The places of the first and last samples of a row in it.
     pub(super) first: f64,
     pub(super) last: f64,
     pub(super) count: u32,

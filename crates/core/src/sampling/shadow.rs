@@ -1,16 +1,18 @@
-//! Which of eight points of a surface a light reaches.
+//! Shadows on eight points of a surface.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
-use super::lanes::{Vectors, lanes_of};
 use super::trace::{DISTANCE_ERROR, Groups, Sight};
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
+use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
-use crate::search::Visibility;
-use crate::search::discs::Disc;
+use crate::numeric::vectors::Vectors;
+use crate::search::discs::{Disc, point_allowance};
+use crate::search::visibility::Visibility;
 
 /// The shadows on what a tile sees.
 pub(super) struct Shadows<'scene> {
@@ -18,25 +20,26 @@ pub(super) struct Shadows<'scene> {
     viewpoint: DVec3,
     /// Of the balls' unit of length, in those of the world.
     length: f64,
-    /// What may darken the patches of surfaces that were asked for.
-    patches: Vec<Patch>,
+    /// The regions of surfaces that were asked for.
+    regions: Vec<Region>,
 }
 
-/// What may darken a part of a sphere.
-struct Patch {
+/// A part of a sphere, and the discs that may darken it.
+struct Region {
     light: usize,
-    sphere: u32,
-    /// The part, across the light.
-    low: [f64; 2],
-    high: [f64; 2],
+    sphere: usize,
+    /// Its box, across the light.
+    low: DVec2,
+    high: DVec2,
     discs: Vec<Disc>,
 }
 
-/// For so few samples on a sphere it does not pay to find out what may darken it.
+/// For so few samples on a sphere it does not pay to find out what may darken it. Not tuned: finding
+/// out takes about as long as asking for a few dozen points.
 const FEW_SAMPLES: f64 = 32.0;
 
 /// Eight points that a light may reach.
-struct Lit<S: Simd> {
+struct LitPoints<S: Simd> {
     points: Vectors<S>,
     /// Bounds of how far the points are off.
     errors: f64x8<S>,
@@ -55,11 +58,11 @@ impl<'scene> Shadows<'scene> {
             visibility,
             viewpoint,
             length,
-            patches: Vec::new(),
+            regions: Vec::new(),
         }
     }
 
-    /// Which of some rays, as bits, see a point that the light with this index reaches; they see
+    /// Those of some rays, as bits, that see a point which the light with this index reaches; they see
     /// outer sides that face the light.
     ///
     /// Exact for the points as they were rounded, up to the error that they may have: where it
@@ -81,15 +84,14 @@ impl<'scene> Shadows<'scene> {
             if lanes == 0 {
                 continue;
             }
-            let sphere = group.near.ball.index;
-            let allowance = self.visibility.point_allowance(sphere as usize);
+            let sphere = group.ball.index();
+            let allowance = point_allowance(&self.visibility.spheres()[sphere]);
             let precise = lit
                 .errors
                 .simd_le(f64x8::splat(simd, allowance))
                 .to_bitmask();
             let side_by_side = self.visibility.is_moderate()
-                && (group.near.samples > FEW_SAMPLES
-                    || self.visibility.knows_discs(index, sphere as usize));
+                && (group.ball.samples > FEW_SAMPLES || self.visibility.light(index).knows(sphere));
             let alone = if side_by_side {
                 lanes & !precise
             } else {
@@ -111,37 +113,37 @@ impl<'scene> Shadows<'scene> {
     /// Each is off by the error of its distance, [`DISTANCE_ERROR`] times at most √3 times the
     /// largest component, and by what [`Ray::point_error`] says of the rounding.
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> Lit<S> {
+    fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> LitPoints<S> {
         const ROUNDING: f64 = 7.0 * UNIT_ROUNDOFF;
-        let from_eye = sight.point.scaled(f64x8::splat(simd, self.length));
-        let points = Vectors::splat(simd, self.viewpoint).plus(from_eye);
+        let from_eye = sight.point.times(f64x8::splat(simd, self.length));
+        let points = Vectors::splat(simd, self.viewpoint).plus(&from_eye);
         let (x, y, z) = (from_eye.x.abs(), from_eye.y.abs(), from_eye.z.abs());
         let largest = x.max(y).max(z);
         let rounding = (largest + self.viewpoint.abs().max_element()) * ROUNDING;
-        let (right, up) = self.visibility.axes(light);
-        Lit {
+        let (right, up) = self.visibility.light(light).axes();
+        LitPoints {
             points,
             errors: largest * (2.0 * DISTANCE_ERROR) + rounding,
-            right: points.dot(Vectors::splat(simd, right)),
-            up: points.dot(Vectors::splat(simd, up)),
+            right: points.dot_one(right),
+            up: points.dot_one(up),
         }
     }
 
-    /// Which of some points, as bits, other spheres darken.
+    /// Those of some points, as bits, that other spheres darken.
     #[inline(always)]
     fn darkened<S: Simd>(
         &mut self,
         simd: S,
-        lit: &Lit<S>,
+        lit: &LitPoints<S>,
         index: usize,
         light: &DirectionalLight,
-        sphere: u32,
+        sphere: usize,
         asked: u64,
     ) -> u64 {
         let visibility = self.visibility;
-        let discs = match visibility.discs(index, sphere as usize) {
+        let discs = match visibility.light(index).of_sphere(sphere) {
             Some(discs) => discs,
-            None => self.patch(lit, index, sphere, asked),
+            None => self.discs_of_region(lit, index, sphere, asked),
         };
         let mut left = asked;
         for disc in discs {
@@ -150,7 +152,7 @@ impl<'scene> Shadows<'scene> {
             let beyond = (x * x + y * y).simd_gt(reach).to_bitmask();
             let maybe = left & !beyond;
             if maybe != 0 {
-                left &= !blocked(simd, visibility, lit, light, disc.sphere, maybe);
+                left &= !blocked(simd, visibility, lit, light, disc.sphere as usize, maybe);
                 if left == 0 {
                     break;
                 }
@@ -159,68 +161,57 @@ impl<'scene> Shadows<'scene> {
         asked & !left
     }
 
-    /// What may darken some points of a sphere: of a somewhat larger part, as others are going to
-    /// ask next.
+    /// The discs that may darken some points of a sphere: of a somewhat larger region, as others are
+    /// going to ask next.
     #[cold]
     #[inline(never)]
-    fn patch<S: Simd>(&mut self, lit: &Lit<S>, light: usize, sphere: u32, asked: u64) -> &[Disc] {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for lane in lanes_of(asked) {
-            for (axis, place) in [lit.right[lane], lit.up[lane]].into_iter().enumerate() {
-                (low[axis], high[axis]) = (low[axis].min(place), high[axis].max(place));
-            }
+    fn discs_of_region<S: Simd>(
+        &mut self,
+        lit: &LitPoints<S>,
+        light: usize,
+        sphere: usize,
+        asked: u64,
+    ) -> &[Disc] {
+        let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        for lane in set_bits(asked) {
+            let place = DVec2::new(lit.right[lane], lit.up[lane]);
+            (low, high) = (low.min(place), high.max(place));
         }
-        let known = self
-            .patches
-            .iter()
-            .position(|patch| patch.light == light && patch.sphere == sphere);
-        let known = known.unwrap_or_else(|| {
-            self.patches.push(Patch {
+        let is_known = |region: &Region| region.light == light && region.sphere == sphere;
+        let known = self.regions.iter().position(is_known).unwrap_or_else(|| {
+            self.regions.push(Region {
                 light,
                 sphere,
-                low: [f64::INFINITY; 2],
-                high: [f64::NEG_INFINITY; 2],
+                low: DVec2::INFINITY,
+                high: DVec2::NEG_INFINITY,
                 discs: Vec::new(),
             });
-            self.patches.len() - 1
+            self.regions.len() - 1
         });
-        let patch = &mut self.patches[known];
-        let covers =
-            (0..2).all(|axis| patch.low[axis] <= low[axis] && high[axis] <= patch.high[axis]);
+        let region = &mut self.regions[known];
+        let covers = region.low.cmple(low).all() && high.cmple(region.high).all();
         if !covers {
-            let mut around = 0.0_f64;
-            for axis in 0..2 {
-                patch.low[axis] = patch.low[axis].min(low[axis]);
-                patch.high[axis] = patch.high[axis].max(high[axis]);
-                around = around.max(0.5 * (patch.high[axis] - patch.low[axis]));
-            }
-            let (right, up) = self.visibility.axes(light);
-            let corner = |place: [f64; 2]| right * place[0] + up * place[1];
-            let corners = [corner(patch.low), corner(patch.high)];
-            patch.discs.clear();
-            self.visibility.discs_near(
-                light,
-                sphere as usize,
-                &corners,
-                2.0 * around,
-                &mut patch.discs,
-            );
-            for axis in 0..2 {
-                patch.low[axis] -= around;
-                patch.high[axis] += around;
-            }
+            (low, high) = (region.low.min(low), region.high.max(high));
+            let around = (0.5 * (high - low)).max_element().max(0.0);
+            let light = self.visibility.light(light);
+            let (right, up) = light.axes();
+            let corner = |place: DVec2| right * place.x + up * place.y;
+            let corners = [corner(low), corner(high)];
+            region.discs.clear();
+            light.find(sphere, &corners, 2.0 * around, &mut region.discs);
+            (region.low, region.high) = (low - around, high + around);
         }
-        &patch.discs
+        &region.discs
     }
 
-    /// Which of some points, as bits, any other sphere darkens: one point after the other.
+    /// Those of some points, as bits, that any other sphere darkens: one point after the other.
     #[inline(never)]
     fn ask_all<S: Simd>(
         &self,
-        lit: &Lit<S>,
+        lit: &LitPoints<S>,
         index: usize,
         light: &DirectionalLight,
-        sphere: u32,
+        sphere: usize,
         asked: u64,
     ) -> u64 {
         let is_dark = |&lane: &usize| {
@@ -229,9 +220,9 @@ impl<'scene> Shadows<'scene> {
                 direction: light.toward(),
             };
             self.visibility
-                .is_blocked(index, &to_light, lit.errors[lane], sphere as usize)
+                .is_blocked(index, &to_light, lit.errors[lane], sphere)
         };
-        lanes_of(asked)
+        set_bits(asked)
             .filter(is_dark)
             .fold(0, |dark, lane| dark | 1 << lane)
     }
@@ -245,19 +236,19 @@ impl<'scene> Shadows<'scene> {
 fn blocked<S: Simd>(
     simd: S,
     visibility: &Visibility<'_>,
-    lit: &Lit<S>,
+    lit: &LitPoints<S>,
     light: &DirectionalLight,
-    sphere: u32,
+    sphere: usize,
     asked: u64,
 ) -> u64 {
     /// As for the first floor of decisions about spheres: the operations are the same.
     const DECISION_BOUND: f64 = 24.0 * UNIT_ROUNDOFF;
-    let caster = &visibility.spheres()[sphere as usize];
-    let (radius, toward) = (caster.radius(), light.toward());
+    let occluder = &visibility.spheres()[sphere];
+    let (radius, toward) = (occluder.radius(), light.toward());
     let direction_sq = toward.length_squared();
-    let to_center = Vectors::splat(simd, caster.center()).minus(lit.points);
-    let along = to_center.dot(Vectors::splat(simd, toward));
-    let distance_sq = to_center.dot(to_center);
+    let to_center = Vectors::splat(simd, occluder.center()).minus(&lit.points);
+    let along = to_center.dot_one(toward);
+    let distance_sq = to_center.length_squared();
     let radius_sq = radius * radius;
     let (outside, scale) = (distance_sq - radius_sq, distance_sq + radius_sq);
     let slack = lit.errors * (lit.errors + 2.0 * radius);
@@ -273,22 +264,22 @@ fn blocked<S: Simd>(
     let mut dark = asked & (decided & !behind).to_bitmask();
     let open = asked & !(missed | decided).to_bitmask();
     if open != 0 {
-        dark |= ask(lit, caster, toward, open);
+        dark |= ask(lit, occluder, toward, open);
     }
     dark
 }
 
 #[cold]
 #[inline(never)]
-fn ask<S: Simd>(lit: &Lit<S>, caster: &crate::Sphere, toward: DVec3, asked: u64) -> u64 {
+fn ask<S: Simd>(lit: &LitPoints<S>, occluder: &Sphere, toward: DVec3, asked: u64) -> u64 {
     let is_dark = |&lane: &usize| {
         let to_light = Ray {
             origin: lit.points.lane(lane),
             direction: toward,
         };
-        caster.is_met(&to_light, lit.errors[lane])
+        occluder.is_met(&to_light, lit.errors[lane])
     };
-    lanes_of(asked)
+    set_bits(asked)
         .filter(is_dark)
         .fold(0, |dark, lane| dark | 1 << lane)
 }

@@ -1,14 +1,16 @@
-//! What eight rays see.
+//! The surfaces that eight rays see.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 use glam::DVec3;
 
-use super::lanes::{LANES, Vectors, lanes_of};
-use super::near::{Near, Nearby};
-use super::rays::{Place, Rays};
+use super::rays::{LEAST_SQUARE, Place, Rays};
+use super::tile_balls::{TileBall, TileBalls};
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
-use crate::search::seen::{Candidate, Seen};
+use crate::search::view_index::ViewIndex;
 
 /// Rows of a tile.
 const SIDE: usize = Tile::SIDE as usize;
@@ -18,20 +20,18 @@ const ALL_LANES: u64 = (1 << LANES) - 1;
 
 /// The rays of a tile and all that they may meet.
 pub(super) struct Tracer<'tile> {
-    pub(super) seen: &'tile Seen<'tile>,
+    pub(super) index: &'tile ViewIndex<'tile>,
     pub(super) rays: &'tile Rays,
-    pub(super) nearby: &'tile Nearby,
+    pub(super) balls: &'tile TileBalls,
     pub(super) tile: Tile,
     /// Balls that were asked whether eight rays meet them.
     pub(super) tests: u64,
-    /// The balls for the search one ray at a time, once it is needed.
-    pub(super) candidates: Vec<Candidate>,
 }
 
 /// Rays that see the same ball, as bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Group<'tile> {
-    pub(super) near: &'tile Near,
+    pub(super) ball: &'tile TileBall,
     pub(super) lanes: u64,
 }
 
@@ -43,9 +43,9 @@ pub(super) struct Groups<'tile> {
 
 impl<'tile> Groups<'tile> {
     /// No groups, and a ball for their places.
-    pub(super) fn new(near: &'tile Near) -> Self {
+    pub(super) fn new(ball: &'tile TileBall) -> Self {
         Self {
-            list: [Group { near, lanes: 0 }; LANES],
+            list: [Group { ball, lanes: 0 }; LANES],
             count: 0,
         }
     }
@@ -55,8 +55,8 @@ impl<'tile> Groups<'tile> {
     }
 }
 
-/// What eight rays see; lanes that see nothing hold any numbers. What is cold gets copies: this stays
-/// in the processor's registers.
+/// The points that eight rays see; lanes that see nothing hold any numbers. Cold functions get copies:
+/// this stays in the processor's registers.
 #[derive(Clone, Copy)]
 pub(super) struct Sight<S: Simd> {
     pub(super) direction: Vectors<S>,
@@ -80,7 +80,7 @@ pub(super) struct RayRow<S: Simd> {
     key: f64x8<S>,
     /// The ball's place among those of the tile; −1 for none.
     place: f64x8<S>,
-    /// Where a ball may begin that was neither met nor missed for certain.
+    /// The key at which a ball may begin that was neither met nor missed for certain.
     doubtful: f64x8<S>,
 }
 
@@ -91,20 +91,65 @@ impl<S: Simd> RayRow<S> {
         let never = f64x8::splat(simd, f64::INFINITY);
         Self {
             direction,
-            length_sq: direction.dot(direction),
+            length_sq: direction.length_squared(),
             key: never,
             place: f64x8::splat(simd, -1.0),
             doubtful: never,
         }
     }
+
+    /// Takes a ball where it is nearer, or counts it as doubtful.
+    #[inline(always)]
+    fn test(&mut self, simd: S, tested: &Tested<'_, S>) {
+        let ball = &tested.ball.ball;
+        let zero = f64x8::splat(simd, 0.0);
+        let along = self.direction.dot(&tested.center);
+        let discriminant = along * along - self.length_sq * ball.outside;
+        let doubt = self.length_sq * ball.doubt;
+        let missed = discriminant.simd_lt(-doubt).to_bitmask();
+        if missed == ALL_LANES {
+            return;
+        }
+        let decided = discriminant.simd_gt(doubt);
+        let root = decided.select(discriminant, zero).sqrt();
+        let (met, key) = if tested.ball.root_sign > 0.0 {
+            (decided, along + root)
+        } else {
+            (decided & along.simd_gt(zero), along - root)
+        };
+        let open = !(missed | decided.to_bitmask()) & ALL_LANES;
+        if open != 0 {
+            let sooner = mask64x8::from_bitmask(simd, open) & tested.begin.simd_lt(self.doubtful);
+            self.doubtful = sooner.select(tested.begin, self.doubtful);
+        }
+        let close = met & (key - self.key).abs().simd_le(tested.blur);
+        let closer = met & key.simd_lt(self.key);
+        self.key = closer.select(key, self.key);
+        self.place = closer.select(tested.place, self.place);
+        if close.any_true() {
+            let sooner = close & self.key.simd_lt(self.doubtful);
+            self.doubtful = sooner.select(self.key, self.doubtful);
+        }
+    }
+}
+
+/// A ball that rows of rays are tested against, with its numbers in all lanes.
+struct Tested<'tile, S: Simd> {
+    ball: &'tile TileBall,
+    center: Vectors<S>,
+    /// Its place among those of the tile.
+    place: f64x8<S>,
+    begin: f64x8<S>,
+    /// Keys that differ by less may be in another order.
+    blur: f64x8<S>,
 }
 
 impl<'tile> Tracer<'tile> {
     /// Finds what all rows of rays see, as far as bounds of rounding errors decide it.
     ///
     /// The nearest certain hits, and from where on they are not certain. Two distances are compared
-    /// by their B ± √Q, whose errors [`Ball`](crate::sphere::Ball) bounds by |d| times its `blur`.
-    /// What lies closer together counts as doubtful from there on.
+    /// by their B ± √Q, whose errors [`Ball`](crate::hit::ball::Ball) bounds by |d| times its `blur`.
+    /// Balls that lie closer together count as doubtful from there on.
     ///
     /// Ball by ball and row by row: the rows do not wait for each other. Rows beyond the height of
     /// the tile are left alone.
@@ -112,53 +157,25 @@ impl<'tile> Tracer<'tile> {
     pub(super) fn search<S: Simd>(&mut self, simd: S, rows: &mut [RayRow<S>; SIDE]) {
         // The rows in which something may come nearer, as bits.
         let mut open = u8::MAX >> (SIDE as u32 - self.tile.height);
-        let zero = f64x8::splat(simd, 0.0);
-        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
-        for (place, near) in self.nearby.balls.iter().enumerate() {
-            let ball = &near.ball;
-            let place = f64x8::splat(simd, place as f64);
-            let begin = f64x8::splat(simd, near.begin);
-            let center = Vectors::splat(simd, ball.to_center);
-            let inside = near.root_sign > 0.0;
-            let mut left = near.rows & open;
-            while left != 0 {
-                let number = left.trailing_zeros();
-                left &= left - 1;
-                let row = &mut rows[number as usize % SIDE];
+        let blur = f64x8::splat(simd, 2.0 * self.balls.blur);
+        for (place, ball) in self.balls.list.iter().enumerate() {
+            let tested = Tested {
+                ball,
+                center: Vectors::splat(simd, ball.ball.to_center),
+                place: f64x8::splat(simd, place as f64),
+                begin: f64x8::splat(simd, ball.begin),
+                blur,
+            };
+            for number in set_bits(ball.rows & open) {
+                let row = &mut rows[number % SIDE];
                 // Whatever lies within the error of the nearest was met before, or is doubtful; and
                 // the next ones begin no sooner.
-                if begin.simd_gt(row.key + blur).all_true() {
+                if tested.begin.simd_gt(row.key + blur).all_true() {
                     open &= !(1 << number);
                     continue;
                 }
                 self.tests += 1;
-                let along = row.direction.dot(center);
-                let discriminant = along * along - row.length_sq * ball.outside;
-                let doubt = row.length_sq * ball.doubt;
-                let missed = discriminant.simd_lt(-doubt).to_bitmask();
-                if missed == ALL_LANES {
-                    continue;
-                }
-                let decided = discriminant.simd_gt(doubt);
-                let root = decided.select(discriminant, zero).sqrt();
-                let (met, key) = if inside {
-                    (decided, along + root)
-                } else {
-                    (decided & along.simd_gt(zero), along - root)
-                };
-                let open = !(missed | decided.to_bitmask()) & ALL_LANES;
-                if open != 0 {
-                    let sooner = mask64x8::from_bitmask(simd, open) & begin.simd_lt(row.doubtful);
-                    row.doubtful = sooner.select(begin, row.doubtful);
-                }
-                let close = met & (key - row.key).abs().simd_le(blur);
-                let closer = met & key.simd_lt(row.key);
-                row.key = closer.select(key, row.key);
-                row.place = closer.select(place, row.place);
-                if close.any_true() {
-                    let sooner = close & row.key.simd_lt(row.doubtful);
-                    row.doubtful = sooner.select(row.key, row.doubtful);
-                }
+                row.test(simd, &tested);
             }
             if open == 0 {
                 break;
@@ -166,12 +183,12 @@ impl<'tile> Tracer<'tile> {
         }
     }
 
-    /// What a row of rays sees after the search. Whatever that left open is asked of exact
-    /// arithmetic.
+    /// The points that a row of rays sees after the search. Exact arithmetic decides whatever that left
+    /// open.
     ///
     /// # Accuracy
-    /// What is seen is exact. Where the ray meets the ball and the normal there are functions of
-    /// the ray and the ball alone, whatever else the tile holds; see [`Tracer::meet`].
+    /// The ball that is seen is exact. The point where the ray meets it and the normal there are functions
+    /// of the ray and the ball alone, whatever else the tile holds; see [`Tracer::meet`].
     #[inline(always)]
     pub(super) fn look<S: Simd>(
         &mut self,
@@ -180,12 +197,10 @@ impl<'tile> Tracer<'tile> {
         row: &RayRow<S>,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
-        /// Far from where squares lose digits to underflow.
-        const SHORTEST_SQ: f64 = 1e-60;
         let mut places = row.place;
-        let trusted = row.length_sq.simd_gt(f64x8::splat(simd, SHORTEST_SQ));
+        let trusted = row.length_sq.simd_gt(f64x8::splat(simd, LEAST_SQUARE));
         // Both distances may be off by half of this, the one of what may be nearer too.
-        let blur = f64x8::splat(simd, 2.0 * self.nearby.blur);
+        let blur = f64x8::splat(simd, 2.0 * self.balls.blur);
         let open = row.doubtful.simd_lt(row.key + blur) | !trusted;
         if open.any_true() {
             let mut settled: [f64; LANES] = places.into();
@@ -198,25 +213,20 @@ impl<'tile> Tracer<'tile> {
     /// Settles exactly what some rays see.
     #[cold]
     #[inline(never)]
-    fn settle(&mut self, place: Place, open: u64, places: &mut [f64; LANES]) {
-        let balls = &self.nearby.balls;
-        if self.candidates.is_empty() {
-            self.candidates = self.seen.candidates(self.tile);
-        }
-        for lane in lanes_of(open) {
+    fn settle(&self, place: Place, open: u64, places: &mut [f64; LANES]) {
+        for lane in set_bits(open) {
             let lane_of_pixel = lane.min(self.tile.width as usize - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
-            let seen = self.seen.nearest(&self.candidates, ray.direction);
-            let place = seen.and_then(|(index, _)| {
-                balls
-                    .iter()
-                    .position(|near| near.ball.index as usize == index)
+            let nearest = self.index.nearest(self.tile, ray.direction);
+            let place = nearest.and_then(|(index, _)| {
+                let mut balls = self.balls.list.iter();
+                balls.position(|ball| ball.index() == index)
             });
             places[lane] = place.map_or(-1.0, |place| place as f64);
         }
     }
 
-    /// Where rays meet the balls at these places among those of the tile.
+    /// The points where rays meet the balls at these places among those of the tile.
     ///
     /// The distance is t = K / (B + √Q), the normal (t d − f) / r.
     ///
@@ -239,7 +249,6 @@ impl<'tile> Tracer<'tile> {
         places: f64x8<S>,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
-        let nearby = self.nearby;
         let covered = places.simd_ge(f64x8::splat(simd, 0.0)).to_bitmask();
         let mut sight = Sight {
             direction,
@@ -252,28 +261,10 @@ impl<'tile> Tracer<'tile> {
         if covered == 0 {
             return sight;
         }
-        let first = places[covered.trailing_zeros() as usize];
-        let mut selected = Selected::splat(simd, &nearby.balls[first as usize]);
-        let (mut left, mut count) = (covered, 0);
-        while left != 0 {
-            let number = places[left.trailing_zeros() as usize];
-            let near = &nearby.balls[number as usize];
-            let mask = places.simd_eq(f64x8::splat(simd, number));
-            let lanes = mask.to_bitmask();
-            if count > 0 {
-                selected = selected.or(!mask, Selected::splat(simd, near));
-            }
-            if near.root_sign > 0.0 {
-                sight.inner |= lanes;
-            }
-            groups.list[count] = Group { near, lanes };
-            count += 1;
-            left &= !lanes;
-        }
-        groups.count = count;
+        let selected = self.select(simd, places, &mut sight, groups);
         let center = selected.center;
-        let across = direction.cross(center);
-        let (across_sq, along) = (across.dot(across), direction.dot(center));
+        let across = direction.cross(&center);
+        let (across_sq, along) = (across.length_squared(), direction.dot(&center));
         let along_sq = along * along;
         let discriminant = across_sq.simd_lt(along_sq).select(
             length_sq * selected.radius_sq - across_sq,
@@ -282,8 +273,8 @@ impl<'tile> Tracer<'tile> {
         let sound = discriminant.simd_ge(length_sq * selected.rim);
         let one = f64x8::splat(simd, 1.0);
         let root = sound.select(discriminant, one).sqrt();
-        sight.point = direction.scaled(selected.outside / (along + root));
-        sight.normal = sight.point.minus(center).scaled(selected.inverse_radius);
+        sight.point = direction.times(selected.outside / (along + root));
+        sight.normal = sight.point.minus(&center).times(selected.inverse_radius);
         // Only the ambient light reaches inner sides, wherever they are met.
         let alone = covered & !sound.to_bitmask() & !sight.inner;
         if alone != 0 {
@@ -292,7 +283,39 @@ impl<'tile> Tracer<'tile> {
         sight
     }
 
-    /// Where single rays meet the balls that they see.
+    /// Groups the rays by the balls that they see, and selects the numbers of these.
+    #[inline(always)]
+    fn select<S: Simd>(
+        &self,
+        simd: S,
+        places: f64x8<S>,
+        sight: &mut Sight<S>,
+        groups: &mut Groups<'tile>,
+    ) -> Selected<S> {
+        let balls = &self.balls.list;
+        let first = places[sight.covered.trailing_zeros() as usize];
+        let mut selected = Selected::splat(simd, &balls[first as usize]);
+        let (mut left, mut count) = (sight.covered, 0);
+        while left != 0 {
+            let number = places[left.trailing_zeros() as usize];
+            let ball = &balls[number as usize];
+            let mask = places.simd_eq(f64x8::splat(simd, number));
+            let lanes = mask.to_bitmask();
+            if count > 0 {
+                selected = selected.or(!mask, Selected::splat(simd, ball));
+            }
+            if ball.root_sign > 0.0 {
+                sight.inner |= lanes;
+            }
+            groups.list[count] = Group { ball, lanes };
+            count += 1;
+            left &= !lanes;
+        }
+        groups.count = count;
+        selected
+    }
+
+    /// The points where single rays meet the balls that they see.
     #[cold]
     #[inline(never)]
     fn meet_alone<S: Simd>(
@@ -302,17 +325,16 @@ impl<'tile> Tracer<'tile> {
         groups: &Groups<'_>,
         mut sight: Sight<S>,
     ) -> Sight<S> {
-        let exponent = self.rays.exponent() - self.seen.length_exponent();
-        for lane in lanes_of(alone) {
+        let exponent = self.rays.exponent() - self.index.length_exponent();
+        let spheres = self.index.visibility.spheres();
+        for lane in set_bits(alone) {
             let sees = |group: &Group<'_>| group.lanes >> lane & 1 == 1;
             let Some(group) = groups.as_slice().iter().find(|group| sees(group)) else {
                 continue;
             };
             let lane_of_pixel = lane.min(self.tile.width as usize - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
-            let candidate = self.seen.candidate(group.near.ball.index);
-            let length_sq = ray.direction.length_squared();
-            let Some(hit) = self.seen.hit(&candidate, &ray, length_sq) else {
+            let Some(hit) = spheres[group.ball.index()].hit_from_viewpoint(&ray) else {
                 continue;
             };
             let t = libm::scalbn(hit.t, exponent);
@@ -342,13 +364,13 @@ struct Selected<S: Simd> {
 
 impl<S: Simd> Selected<S> {
     #[inline(always)]
-    fn splat(simd: S, near: &Near) -> Self {
+    fn splat(simd: S, ball: &TileBall) -> Self {
         Self {
-            center: Vectors::splat(simd, near.ball.to_center),
-            outside: f64x8::splat(simd, near.ball.outside),
-            radius_sq: f64x8::splat(simd, near.radius_sq),
-            inverse_radius: f64x8::splat(simd, near.inverse_radius),
-            rim: f64x8::splat(simd, near.rim),
+            center: Vectors::splat(simd, ball.ball.to_center),
+            outside: f64x8::splat(simd, ball.ball.outside),
+            radius_sq: f64x8::splat(simd, ball.radius_sq),
+            inverse_radius: f64x8::splat(simd, ball.inverse_radius),
+            rim: f64x8::splat(simd, ball.rim),
         }
     }
 
@@ -356,7 +378,7 @@ impl<S: Simd> Selected<S> {
     #[inline(always)]
     fn or(self, mask: mask64x8<S>, other: Self) -> Self {
         Self {
-            center: self.center.or(mask, other.center),
+            center: self.center.or(mask, &other.center),
             outside: mask.select(self.outside, other.outside),
             radius_sq: mask.select(self.radius_sq, other.radius_sq),
             inverse_radius: mask.select(self.inverse_radius, other.inverse_radius),

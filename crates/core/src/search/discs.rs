@@ -1,9 +1,11 @@
-//! What may keep a light from one sphere.
+//! The spheres that may keep a light from one sphere, as discs across the light.
+
+use std::sync::OnceLock;
 
 use glam::{DVec2, DVec3};
 
-use super::Visibility;
-use super::casters::slack;
+use super::occluders::{Occluders, slack};
+use crate::model::sphere::Sphere;
 
 /// A sphere as the light sees it.
 #[derive(Clone, Copy, Debug)]
@@ -16,75 +18,95 @@ pub(crate) struct Disc {
     pub(crate) sphere: u32,
 }
 
-/// Discs of all spheres that may darken one, or none where they are too many to be remembered.
-pub(super) type Remembered = Option<Box<[Disc]>>;
+/// In worlds with more spheres nothing is kept: most of them are a pixel or less. Not tuned: it
+/// bounds the memory by 2 MiB a light before the first is kept.
+const MOST_KEEPING: usize = 1 << 17;
 
-/// In worlds with more spheres nothing is remembered: most of them are a pixel or less.
-pub(super) const MOST_REMEMBERING: usize = 1 << 17;
+/// More discs than this are looked up for every patch of a surface. Not tuned: more take longer to
+/// go through than fewer take to look up.
+const MOST_KEPT: usize = 64;
 
-/// More discs than this are looked up for every patch of a surface.
-const MOST_REMEMBERED: usize = 64;
+/// The discs of what may darken a sphere; nothing where they are too many.
+type Kept = Option<Box<[Disc]>>;
 
-impl Visibility<'_> {
-    /// How far points of a sphere may be off where its discs are asked for.
-    pub(crate) fn point_allowance(&self, sphere: usize) -> f64 {
-        /// Far more than points are off, unless the viewpoint is farther away than anything is
-        /// to be seen.
-        const ALLOWANCE: f64 = 1e-9;
-        ALLOWANCE * self.spheres[sphere].radius()
+/// The occluders of a light, and the discs of those that may darken a sphere, kept once they were
+/// asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct DiscCache<'world> {
+    occluders: Occluders<'world>,
+    /// One for each sphere, or none in worlds of very many.
+    kept: Box<[OnceLock<Kept>]>,
+}
+
+/// The largest error of points of a sphere where its discs are asked for.
+pub(crate) fn point_allowance(sphere: &Sphere) -> f64 {
+    /// Far more than points are off, unless the viewpoint is farther away than anything is to be seen.
+    const ALLOWANCE: f64 = 1e-9;
+    ALLOWANCE * sphere.radius()
+}
+
+impl<'world> DiscCache<'world> {
+    pub(super) fn new(occluders: Occluders<'world>) -> Self {
+        let count = occluders.spheres().len();
+        let count = if count <= MOST_KEEPING { count } else { 0 };
+        Self {
+            occluders,
+            kept: (0..count).map(|_| OnceLock::new()).collect(),
+        }
     }
 
-    /// What may keep the light with this index from the outer side of a sphere, if it is little.
-    pub(crate) fn discs(&self, light: usize, sphere: usize) -> Option<&[Disc]> {
-        let remember = || {
-            let own = &self.spheres[sphere];
+    pub(super) fn occluders(&self) -> &Occluders<'world> {
+        &self.occluders
+    }
+
+    /// The discs of what may keep the light from the outer side of a sphere, if they are few.
+    pub(crate) fn of_sphere(&self, sphere: usize) -> Option<&[Disc]> {
+        let find = || {
+            let own = &self.occluders.spheres()[sphere];
             let mut discs = Vec::new();
-            self.discs_near(light, sphere, &[own.center()], own.radius(), &mut discs);
-            (discs.len() <= MOST_REMEMBERED).then(|| discs.into_boxed_slice())
+            self.find(sphere, &[own.center()], own.radius(), &mut discs);
+            (discs.len() <= MOST_KEPT).then(|| discs.into_boxed_slice())
         };
-        let remembered = self.discs[light].get(sphere)?;
-        remembered.get_or_init(remember).as_deref()
+        self.kept.get(sphere)?.get_or_init(find).as_deref()
     }
 
-    /// Whether [`Visibility::discs`] were asked for before.
-    pub(crate) fn knows_discs(&self, light: usize, sphere: usize) -> bool {
-        let remembered = self.discs[light].get(sphere);
-        remembered.is_some_and(|remembered| remembered.get().is_some())
+    /// True where [`DiscCache::of_sphere`] was asked for before.
+    pub(crate) fn knows(&self, sphere: usize) -> bool {
+        let kept = self.kept.get(sphere);
+        kept.is_some_and(|kept| kept.get().is_some())
     }
 
-    /// Appends what may keep the light with this index from points of a sphere that lie within
-    /// `around` of the box of `points`, seen along the light.
-    pub(crate) fn discs_near(
-        &self,
-        light: usize,
-        sphere: usize,
-        points: &[DVec3],
-        around: f64,
-        discs: &mut Vec<Disc>,
-    ) {
+    /// Appends the discs of what may keep the light from points of a sphere that lie within `around`
+    /// of the box of `points`, seen along the light.
+    pub(crate) fn find(&self, sphere: usize, points: &[DVec3], around: f64, discs: &mut Vec<Disc>) {
         /// More than the rounding of a sum of squares and of a square.
         const WIDER: f64 = 1.0 + 16.0 * f64::EPSILON;
-        let own = &self.spheres[sphere];
-        let casters = &self.casters[light];
-        let error = self.point_allowance(sphere) + slack(own.center(), 2.0 * own.radius());
+        let occluders = &self.occluders;
+        let spheres = occluders.spheres();
+        let own = &spheres[sphere];
+        let error = point_allowance(own) + slack(own.center(), 2.0 * own.radius());
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         for &point in points {
-            let place = casters.project(point);
+            let place = occluders.project(point);
             (low, high) = (low.min(place), high.max(place));
         }
         let mut indices = Vec::new();
         // From the lowest point that may be lit.
-        let bottom = casters.height(own.center()) - own.radius() - error;
-        casters.within(points, around + error, bottom, &mut indices);
+        let bottom = occluders.height(own.center()) - own.radius() - error;
+        occluders.any_within(points, around + error, bottom, |index| {
+            indices.push(index);
+            false
+        });
+        indices.sort_unstable();
         discs.extend(indices.into_iter().filter_map(|index| {
-            let caster = &self.spheres[index];
-            if index == sphere || caster == own {
+            let occluder = &spheres[index];
+            if index == sphere || occluder == own {
                 return None;
             }
-            let radius = caster.radius() + slack(caster.center(), caster.radius()) + error;
-            let center = casters.project(caster.center());
+            let radius = occluder.radius() + slack(occluder.center(), occluder.radius()) + error;
+            let center = occluders.project(occluder.center());
             let is_beyond = center.distance(center.clamp(low, high)) > (radius + around) * WIDER;
-            let is_below = casters.height(caster.center()) + radius < bottom;
+            let is_below = occluders.height(occluder.center()) + radius < bottom;
             (!is_beyond && !is_below).then_some(Disc {
                 center,
                 radius: radius * WIDER,
@@ -93,8 +115,8 @@ impl Visibility<'_> {
         }));
     }
 
-    /// The axes of the plane across a light.
-    pub(crate) fn axes(&self, light: usize) -> (DVec3, DVec3) {
-        self.casters[light].axes()
+    /// The axes of the plane across the light.
+    pub(crate) fn axes(&self) -> (DVec3, DVec3) {
+        self.occluders.axes()
     }
 }

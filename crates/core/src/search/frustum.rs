@@ -1,18 +1,24 @@
-//! Which tiles a sphere may be seen in.
+//! The tiles that a sphere may be seen in.
 
 use glam::{DVec2, DVec3};
 
 use crate::model::view::View;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
+use crate::picture::tile::Tile;
+
+/// A sphere whose center is at least so many radii ahead of the eye's plane has a silhouette that is
+/// an ellipse whose ends do not cancel; of others nothing is said of where they are seen. Not tuned:
+/// any number above 1 by many roundings serves.
+pub(crate) const CLEAR: f64 = 1.0 + 1.0 / 64.0;
 
 /// A sphere in the camera's frame, its radius with more than what rounding may cost.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct InCamera {
+pub(super) struct CameraSphere {
     center: DVec3,
     radius: f64,
 }
 
-impl InCamera {
+impl CameraSphere {
     /// From the vector to the center in the world frame.
     ///
     /// With u the unit roundoff, the rotation costs 6u |f|, the rotation's own columns are unit and
@@ -43,7 +49,7 @@ impl InCamera {
         (z > CLEAR * self.radius).then_some(corners)
     }
 
-    /// Whether all of the sphere may be behind the viewpoint, where no ray goes.
+    /// True where all of the sphere may be behind the viewpoint, where no ray goes.
     pub(super) fn is_behind(&self) -> bool {
         self.center.z < -self.radius
     }
@@ -61,23 +67,20 @@ struct Axis {
     offset: f64,
 }
 
-/// A sphere this much nearer than its radius to the eye's plane has ends too far out.
-pub(super) const CLEAR: f64 = 1.0 + 1.0 / 64.0;
-
 /// First and last tile.
 type Span = (u32, u32);
 
 impl Axis {
-    fn new(view: &View, tile_side: u32, pixels: u32, sign: f64, shift: f64) -> Self {
+    fn new(view: &View, pixels: u32, sign: f64, shift: f64) -> Self {
         let distance = view.lens.distance * view.zoom;
         let pixel = view.pixel_size();
-        let edges = (0..pixels).step_by(tile_side as usize).chain([pixels]);
+        let edges = (0..pixels).step_by(Tile::SIDE as usize).chain([pixels]);
         let plane = |edge: u32| {
             let on_retina = sign * (f64::from(edge) - 0.5 * f64::from(pixels)) * pixel + shift;
             let length = libm::hypot(distance, on_retina);
             sign * DVec2::new(distance / length, -on_retina / length)
         };
-        let side = f64::from(tile_side);
+        let side = f64::from(Tile::SIDE);
         Self {
             planes: edges.map(plane).collect(),
             tiles_per_slope: sign * (distance / pixel) / side,
@@ -126,7 +129,7 @@ impl Axis {
     }
 }
 
-/// Whether a sphere reaches between two planes; true where a number is not finite.
+/// Half-space tests: true where a sphere reaches between two planes, or a number is not finite.
 fn is_between(planes: &[DVec2], center: DVec2, radius: f64) -> bool {
     !(planes[0].dot(center) < -radius || planes[1].dot(center) > radius)
 }
@@ -153,12 +156,12 @@ impl TileRange {
 }
 
 impl Frustum {
-    /// The frustum of a view cut into tiles with this side.
-    pub(super) fn new(view: &View, tile_side: u32) -> Self {
+    /// The frustum of a view cut into tiles.
+    pub(super) fn new(view: &View) -> Self {
         let shift = view.lens.shift;
         Self {
-            columns: Axis::new(view, tile_side, view.width, 1.0, shift.x),
-            rows: Axis::new(view, tile_side, view.height, -1.0, shift.y),
+            columns: Axis::new(view, view.width, 1.0, shift.x),
+            rows: Axis::new(view, view.height, -1.0, shift.y),
         }
     }
 
@@ -173,7 +176,7 @@ impl Frustum {
     }
 
     /// A rectangle around the tiles that the sphere may be seen in.
-    pub(super) fn range(&self, sphere: &InCamera) -> Option<TileRange> {
+    pub(super) fn range(&self, sphere: &CameraSphere) -> Option<TileRange> {
         if sphere.is_behind() {
             return None;
         }

@@ -1,17 +1,23 @@
-//! What is left out can never matter: against asking every sphere, on sets of every kind.
+//! Nothing is left out that matters: against asking every sphere, on sets of every kind.
 
-use crate::search::seen::Seen;
 use std::cmp::Ordering;
+use std::num::NonZeroU32;
 
 use glam::{DVec2, DVec3};
 
-use super::*;
+use super::grid::RayPoints;
+use super::hierarchy::Hierarchy;
+use super::view_index::ViewIndex;
+use super::visibility::Visibility;
 use crate::hit::outcome::Hit;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::DirectionalLight;
 use crate::model::material::Material;
+use crate::model::ray::Ray;
+use crate::model::sphere::Sphere;
 use crate::model::view::View;
+use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::tile::Tile;
 
@@ -33,7 +39,7 @@ impl Random {
     }
 }
 
-const SIDE: u32 = 8;
+const SIDE: u32 = Tile::SIDE;
 
 fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) -> World {
     let mut world = World::new();
@@ -77,7 +83,7 @@ fn view(random: &mut Random) -> View {
 }
 
 /// The answer of every sphere, in their order.
-fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
+pub(crate) fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
     let mut nearest: Option<(usize, Hit)> = None;
     for (index, sphere) in spheres.iter().enumerate() {
         let Some(hit) = sphere.hit(ray) else { continue };
@@ -115,13 +121,12 @@ fn cells_and_edges(tile: Tile) -> Vec<(u64, u64)> {
 }
 
 /// Asks at the midpoints of divisions of every pixel, as a crowd that is asked nowhere else.
-fn midpoints_agree(few: &Seen<'_>, view: &View, hierarchy: Option<&Hierarchy>) {
+fn midpoints_agree(few: &ViewIndex<'_>, view: &View, hierarchy: Option<&Hierarchy>) {
     for divisions in 1..=5 {
         let samples = NonZeroU32::new(divisions).unwrap();
-        let tiles = (SIDE, Points::Midpoints(samples));
-        let crowd = Seen::with_hierarchy(few.visibility, view, tiles, hierarchy);
+        let points = RayPoints::Midpoints(samples);
+        let crowd = ViewIndex::with_hierarchy(few.visibility, view, points, hierarchy);
         for tile in tiles_of(view) {
-            let lists = [few.candidates(tile), crowd.candidates(tile)];
             let cells = |first: u32, count: u32| {
                 let cell = u64::from(first) * u64::from(divisions);
                 cell..cell + u64::from(count) * u64::from(divisions)
@@ -129,8 +134,8 @@ fn midpoints_agree(few: &Seen<'_>, view: &View, hierarchy: Option<&Hierarchy>) {
             for row in cells(tile.row, tile.height) {
                 for col in cells(tile.col, tile.width) {
                     let ray = view.ray(view.cell_center(col, row, divisions));
-                    let [one, other] = [(few, &lists[0]), (&crowd, &lists[1])]
-                        .map(|(seen, list)| seen.nearest(list, ray.direction));
+                    let [one, other] =
+                        [few, &crowd].map(|index| index.nearest(tile, ray.direction));
                     assert_eq!(one, other, "{divisions} × {divisions}");
                 }
             }
@@ -158,20 +163,18 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
     let visibility = Visibility::new(world);
     for _ in 0..6 {
         let view = view(random);
-        let few = Seen::new(&visibility, &view, SIDE);
+        let few = ViewIndex::new(&visibility, &view, RayPoints::All);
         // Whatever their number, but for sizes whose squares are no numbers.
         let crowd = visibility.hierarchy.as_deref();
         let crowd = crowd.filter(|_| visibility.is_moderate());
         midpoints_agree(&few, &view, crowd);
-        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), crowd);
+        let crowd = ViewIndex::with_hierarchy(&visibility, &view, RayPoints::All, crowd);
         for tile in tiles_of(&view) {
-            let candidates = few.candidates(tile);
-            let in_crowd = crowd.candidates(tile);
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                let found = few.nearest(&candidates, ray.direction);
+                let found = few.nearest(tile, ray.direction);
                 let expected = nearest_of_all(spheres, &ray);
-                assert_eq!(found, crowd.nearest(&in_crowd, ray.direction));
+                assert_eq!(found, crowd.nearest(tile, ray.direction));
                 // Distances agree to the last place; what is known from the viewpoint is rounded
                 // another way.
                 assert_eq!(
@@ -230,21 +233,22 @@ fn crowds_leave_out_what_is_hidden() {
         let mut view = view(&mut random);
         view.camera.position = middle + view.camera.world_from_camera * DVec3::NEG_Z * 4.0;
         (view.width, view.height) = (150, 90);
-        let few = Seen::new(&visibility, &view, SIDE);
+        let few = ViewIndex::new(&visibility, &view, RayPoints::All);
         let hierarchy = visibility.hierarchy.as_deref();
         midpoints_agree(&few, &view, hierarchy);
-        let crowd = Seen::with_hierarchy(&visibility, &view, (SIDE, Points::All), hierarchy);
-        let once = Points::Midpoints(NonZeroU32::MIN);
-        let sampled = Seen::with_hierarchy(&visibility, &view, (SIDE, once), hierarchy);
+        let crowd = ViewIndex::with_hierarchy(&visibility, &view, RayPoints::All, hierarchy);
+        let once = RayPoints::Midpoints(NonZeroU32::MIN);
+        let sampled = ViewIndex::with_hierarchy(&visibility, &view, once, hierarchy);
         let (mut listed, mut left, mut left_once) = (0, 0, 0);
         for tile in tiles_of(&view) {
-            let lists = [few.candidates(tile), crowd.candidates(tile)];
-            (listed, left) = (listed + lists[0].len(), left + lists[1].len());
-            left_once += sampled.candidates(tile).len();
+            (listed, left) = (
+                listed + few.balls(tile).count(),
+                left + crowd.balls(tile).count(),
+            );
+            left_once += sampled.balls(tile).count();
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                let [one, other] = [(&few, &lists[0]), (&crowd, &lists[1])]
-                    .map(|(seen, list)| seen.nearest(list, ray.direction));
+                let [one, other] = [&few, &crowd].map(|index| index.nearest(tile, ray.direction));
                 assert_eq!(one, other);
             }
         }
@@ -306,17 +310,16 @@ fn far_from_the_origin() {
         let visibility = Visibility::new(&world);
         let mut view = view(&mut random);
         view.camera.position *= scale;
-        let seen = Seen::new(&visibility, &view, SIDE);
+        let index = ViewIndex::new(&visibility, &view, RayPoints::All);
         let tile = Tile {
             col: 16,
             row: 8,
             width: SIDE,
             height: SIDE,
         };
-        let candidates = seen.candidates(tile);
         for (col, row) in tile.pixels() {
             let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
-            let found = seen.nearest(&candidates, ray.direction);
+            let found = index.nearest(tile, ray.direction);
             let expected = nearest_of_all(world.spheres(), &ray);
             assert_eq!(
                 found.map(|(index, _)| index),
@@ -350,17 +353,17 @@ fn tiles_ask_few_spheres() {
         height: 600,
         frame: 1,
     };
-    let seen = Seen::new(&visibility, &view, SIDE);
+    let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let tiles = (0..75).flat_map(|row| (0..75).map(move |col| (row * SIDE, col * SIDE)));
     let candidates: usize = tiles
         .map(|(row, col)| {
-            seen.candidates(Tile {
+            let tile = Tile {
                 col,
                 row,
                 width: SIDE,
                 height: SIDE,
-            })
-            .len()
+            };
+            index.balls(tile).count()
         })
         .sum();
     assert!(
@@ -414,17 +417,18 @@ fn spheres_that_barely_reach_into_a_tile_are_among_its_candidates() {
         let center = touch + normal * (radius * (1.0 - 1e-4));
         let world = world_of([(center, radius)], &mut random);
         let visibility = Visibility::new(&world);
-        let seen = Seen::new(&visibility, &view, SIDE);
+        let index = ViewIndex::new(&visibility, &view, RayPoints::All);
         let width = SIDE.min(view.width - col);
         let height = SIDE.min(view.height - row);
         assert_eq!(
-            seen.candidates(Tile {
-                col,
-                row,
-                width,
-                height
-            })
-            .len(),
+            index
+                .balls(Tile {
+                    col,
+                    row,
+                    width,
+                    height
+                })
+                .count(),
             1
         );
     }

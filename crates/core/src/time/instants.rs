@@ -1,24 +1,22 @@
-//! What a moving camera sees at single moments.
+//! The views of a moving camera at single moments.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, OnceLock};
 
-use crate::model::exposure::Motion;
-use crate::model::exposure::view_at;
+use crate::model::exposure::{Motion, view_at};
 use crate::model::view::View;
 use crate::picture::pixel::Method;
-use crate::picture::tile::Tile;
-use crate::search::Visibility;
-use crate::search::seen::Seen;
+use crate::search::view_index::ViewIndex;
+use crate::search::visibility::Visibility;
 
-/// What is seen at a moment.
+/// The view at a moment, and what it sees.
 #[derive(Debug)]
 pub(super) struct Instant<'world> {
     pub(super) view: View,
-    pub(super) seen: Seen<'world>,
+    pub(super) index: ViewIndex<'world>,
 }
 
-/// What is seen at the moments at which pixels are looked at, found out when it is first needed.
+/// The views at the moments at which pixels are integrated, prepared when they are first needed.
 ///
 /// As much as there is memory for is kept; the rest is found out again for each row of tiles.
 #[derive(Debug)]
@@ -32,10 +30,11 @@ pub(crate) struct Instants<'world> {
     bytes: AtomicUsize,
 }
 
-/// The memory for what is kept, in bytes.
-const ROOM: usize = 1 << 29;
+/// The memory for what is kept, in bytes: 512 MiB. Not tuned: what is not kept is prepared anew for
+/// every row of tiles.
+const MOST_BYTES: usize = 1 << 29;
 
-/// No more groups of moments are kept.
+/// No more groups of moments are kept: as many as there are panels of the first twelve levels.
 const MOST_KEPT: usize = 1 << 12;
 
 impl<'world> Instants<'world> {
@@ -56,7 +55,7 @@ impl<'world> Instants<'world> {
         }
     }
 
-    /// Has something done with what is seen at the moments of the group with this number.
+    /// Has something done with the instants of the group with this number.
     pub(super) fn with<T>(
         &self,
         group: usize,
@@ -70,11 +69,11 @@ impl<'world> Instants<'world> {
         if let Some(instants) = kept.get() {
             return act(instants);
         }
-        // Nobody waits for another thread here: that may wait for this one, which takes parts of its work.
+        // No thread waits for another here: that may wait for this one, which takes parts of its work.
         let instants = prepare();
-        let bytes = instants.iter().map(|instant| instant.seen.bytes()).sum();
+        let bytes = instants.iter().map(|instant| instant.index.bytes()).sum();
         let there_were = self.bytes.fetch_add(bytes, Ordering::Relaxed);
-        if there_were + bytes <= ROOM && kept.get().is_none() {
+        if there_were + bytes <= MOST_BYTES && kept.get().is_none() {
             return act(kept.get_or_init(|| instants));
         }
         self.bytes.fetch_sub(bytes, Ordering::Relaxed);
@@ -83,15 +82,10 @@ impl<'world> Instants<'world> {
 
     fn at(&self, time: f64) -> Instant<'world> {
         let view = view_at(&self.view, self.motion.as_ref(), time);
-        let seen = match self.method {
-            Method::Samples(samples) => {
-                Seen::by_samples(self.visibility, &view, Tile::SIDE, samples)
-            }
-            Method::Tolerance(_) => Seen::new(self.visibility, &view, Tile::SIDE),
-        };
-        Instant { view, seen }
+        let index = ViewIndex::new(self.visibility, &view, self.method.into());
+        Instant { view, index }
     }
 }
 
-/// About as many moments are in a group.
+/// The number of moments of a group, about.
 pub(super) const GROUP: usize = 8;

@@ -1,18 +1,18 @@
 //! A part of the time that the shutter is open, and the rule by which light is averaged over it.
 
 use crate::model::color::Color;
-use crate::numeric::kronrod;
-use crate::numeric::kronrod::{ABSCISSAS, WEIGHTS};
-use crate::picture::pixel::Pixel;
-use crate::picture::pixel::Status;
+use crate::numeric::kronrod::{self, ABSCISSAS, WEIGHTS};
+use crate::picture::pixel::{Pixel, Status};
 
 /// Moments of a panel.
 pub(super) const MOMENTS: usize = kronrod::POINTS;
 
-/// Shorter panels are not made: 2 to the power of minus this.
+/// Shorter panels are not made: 2 to the power of minus this. Not tuned: jumps of the light are not
+/// resolved further.
 pub(super) const DEEPEST: u32 = 14;
 
-/// The shortest panels with which a pixel begins.
+/// The level of the shortest panels with which a pixel begins. Not tuned: it bounds the work on what
+/// moves quickly.
 pub(super) const FASTEST: u32 = 8;
 
 /// No two moments of a panel of length 1 are farther apart than this.
@@ -78,17 +78,17 @@ impl Panel {
     }
 }
 
-/// What a pixel sees in a panel, on average.
+/// The average of a pixel over a panel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
     pub(super) panel: Panel,
     pub(super) value: Color,
     pub(super) alpha: f64,
-    /// What the errors of the moments amount to.
+    /// The average of the errors of the moments.
     pub(super) area_error: f64,
-    /// What may happen between them; of the whole time's average, as the panel's share of it.
+    /// The error by the rule; of the whole time's average, as the panel's share of it.
     pub(super) time_error: f64,
-    /// Whether nothing certain is known of some moment.
+    /// True where nothing certain is known of some moment.
     pub(super) is_lost: bool,
 }
 
@@ -117,9 +117,9 @@ impl Part {
             is_lost |= pixel.status == Status::OutOfBudget;
         }
         let mut off = libm::hypot(odd_alpha[0], odd_alpha[1]);
-        let [fifth, sixth] = odd.map(|odd| odd.to_array());
-        for (one, other) in fifth.into_iter().zip(sixth) {
-            off = off.max(libm::hypot(one, other));
+        let [first, second] = odd.map(|odd| odd.to_array());
+        for (first, second) in first.into_iter().zip(second) {
+            off = off.max(libm::hypot(first, second));
         }
         Self {
             panel,

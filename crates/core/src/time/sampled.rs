@@ -1,19 +1,16 @@
 //! The plain mean over moments.
 
 use std::num::NonZeroU32;
-use std::ops::ControlFlow;
 
-use super::instants::Instants;
-use super::instants::{GROUP, Instant};
-use super::paint_band;
+use super::band::paint_band;
+use super::instants::{GROUP, Instant, Instants};
 use crate::model::color::Color;
 use crate::model::world::World;
-use crate::picture::image::Band;
-use crate::picture::integrator::Integrator;
-use crate::picture::pixel::Cancelled;
+use crate::picture::band::Band;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
-use crate::sampling::Supersampling;
+use crate::sampling::{Scratch, Supersampling};
 
 /// The mean over the midpoints of N equal parts of the time, at each of which pixels are the means of
 /// N × N samples.
@@ -28,9 +25,9 @@ pub(crate) struct SampledOverTime<'scene> {
     alpha: bool,
 }
 
-/// What is known of a pixel after some moments.
+/// The sums over some moments of a pixel.
 #[derive(Clone, Copy)]
-struct Sum {
+struct MomentSum {
     first: Pixel,
     /// Sums of differences from the first.
     value: Color,
@@ -57,33 +54,43 @@ impl<'scene> SampledOverTime<'scene> {
         }
     }
 
+    /// Writes all pixels of a band; returns what they cost.
+    pub(crate) fn paint_band(
+        &self,
+        band: &mut Band<'_>,
+        scratch: &mut Scratch,
+        progress: &Progress<'_>,
+    ) -> Result<Work, Cancelled> {
+        paint_band(band, progress, |part| self.pixels(part, scratch, progress))
+    }
+
     /// The pixels of a rectangle as high as a tile, tile by tile.
-    fn pixels(
+    pub(super) fn pixels(
         &self,
         area: Tile,
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+        scratch: &mut Scratch,
+        progress: &Progress<'_>,
     ) -> Result<(Vec<Pixel>, Work), Cancelled> {
         let count = self.samples.get();
         let times: Vec<f64> = (0..count)
             .map(|moment| (f64::from(moment) + 0.5) / f64::from(count) - 0.5)
             .collect();
-        let mut sums: Vec<Sum> = Vec::new();
+        let mut sums: Vec<MomentSum> = Vec::new();
         let mut work = Work::default();
-        let mut room = Default::default();
         for (group, times) in times.chunks(GROUP).enumerate() {
             self.instants.with(group, times, |instants| {
-                for Instant { view, seen } in instants {
+                for Instant { view, index } in instants {
                     let (samples, alpha) = (self.samples, self.alpha);
-                    let integrator = Supersampling::new(self.world, view, seen, samples, alpha);
+                    let integrator = Supersampling::new(self.world, view, index, samples, alpha);
                     let mut pixels = Vec::with_capacity(area.count() as usize);
                     for tile in area.tiles() {
-                        work += integrator.integrate(tile, &mut room, &mut pixels);
+                        work += integrator.integrate(tile, scratch, &mut pixels);
                         if progress(0).is_break() {
                             return Err(Cancelled);
                         }
                     }
                     if sums.is_empty() {
-                        sums.extend(pixels.into_iter().map(Sum::new));
+                        sums.extend(pixels.into_iter().map(MomentSum::new));
                     } else {
                         for (sum, pixel) in sums.iter_mut().zip(&pixels) {
                             sum.add(pixel);
@@ -98,7 +105,7 @@ impl<'scene> SampledOverTime<'scene> {
     }
 }
 
-impl Sum {
+impl MomentSum {
     fn new(first: Pixel) -> Self {
         Self {
             first,
@@ -138,27 +145,5 @@ impl Sum {
             evidence: Evidence::Estimate,
             status: Status::NoTolerance,
         }
-    }
-}
-
-impl Integrator for SampledOverTime<'_> {
-    type Room = ();
-
-    fn integrate(&self, tile: Tile, _: &mut (), pixels: &mut Vec<Pixel>) -> Work {
-        let go = |_| ControlFlow::Continue(());
-        let Ok((found, work)) = self.pixels(tile, &go) else {
-            return Work::default();
-        };
-        pixels.extend(found);
-        work
-    }
-
-    fn paint_band(
-        &self,
-        band: &mut Band<'_>,
-        (): &mut (),
-        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
-    ) -> Result<Work, Cancelled> {
-        paint_band(band, progress, |part| self.pixels(part, progress))
     }
 }

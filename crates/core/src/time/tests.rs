@@ -1,14 +1,13 @@
 //! The same bits however the picture is cut, and nothing missed between moments.
 
-use super::exact::ExactOverTime;
-use super::instants::Instants;
-use super::sampled::SampledOverTime;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::*;
+use super::exact::ExactOverTime;
+use super::instants::Instants;
+use super::sampled::SampledOverTime;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::exposure::{Motion, Pose};
@@ -18,10 +17,10 @@ use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
-use crate::picture::integrator::Integrator;
-use crate::picture::pixel::Method;
-use crate::picture::pixel::Pixel;
-use crate::search::Visibility;
+use crate::picture::pixel::{Method, Pixel, Work};
+use crate::picture::progress::{Cancelled, Progress};
+use crate::picture::tile::Tile;
+use crate::search::visibility::Visibility;
 
 /// A pan by so many degrees, evenly.
 #[derive(Debug)]
@@ -78,15 +77,24 @@ fn pixels(world: &World, pan: f64, method: Method, side: u32) -> Vec<Pixel> {
     let instants = Instants::new(&visibility, &VIEW, Arc::new(Pan(pan)), method);
     match method {
         Method::Tolerance(tolerance) => {
-            in_tiles(&ExactOverTime::new(world, instants, tolerance, false), side)
+            let integrator = ExactOverTime::new(world, instants, tolerance, false);
+            in_tiles(side, |tile, progress| {
+                integrator.pixels(tile, &mut Default::default(), progress)
+            })
         }
         Method::Samples(samples) => {
-            in_tiles(&SampledOverTime::new(world, instants, samples, false), side)
+            let integrator = SampledOverTime::new(world, instants, samples, false);
+            in_tiles(side, |tile, progress| {
+                integrator.pixels(tile, &mut Default::default(), progress)
+            })
         }
     }
 }
 
-fn in_tiles<I: Integrator>(integrator: &I, side: u32) -> Vec<Pixel> {
+fn in_tiles(
+    side: u32,
+    pixels: impl Fn(Tile, &Progress<'_>) -> Result<(Vec<Pixel>, Work), Cancelled>,
+) -> Vec<Pixel> {
     let mut found = vec![None; (VIEW.width * VIEW.height) as usize];
     for row in (0..VIEW.height).step_by(side as usize) {
         for col in (0..VIEW.width).step_by(side as usize) {
@@ -96,8 +104,7 @@ fn in_tiles<I: Integrator>(integrator: &I, side: u32) -> Vec<Pixel> {
                 width: side.min(VIEW.width - col),
                 height: side.min(VIEW.height - row),
             };
-            let mut pixels = Vec::new();
-            integrator.integrate(tile, &mut I::Room::default(), &mut pixels);
+            let (pixels, _) = pixels(tile, &|_| ControlFlow::Continue(())).unwrap();
             for ((col, row), pixel) in tile.pixels().zip(pixels) {
                 found[(row * VIEW.width + col) as usize] = Some(pixel);
             }

@@ -17,8 +17,8 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::image::Channels;
-use crate::search::Visibility;
 use crate::search::tests::Random;
+use crate::search::visibility::Visibility;
 
 fn patch_of(cell: &Cell, ball: &Ball) -> Patch {
     Patch::new(cell, ball, &silhouette(cell, ball), &cell.dot(ball.center))

@@ -13,6 +13,7 @@ use crate::exact::glimpse::Glimpse;
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::exact::surface::Finish;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 use crate::picture::pixel::{Evidence, Pixel, Status};
@@ -74,7 +75,7 @@ impl Exact<'_> {
             evidence: Evidence::Bound,
             status: Status::Met,
         };
-        for lane in lanes(easy & !any_lit) {
+        for lane in set_bits(easy & !any_lit) {
             pixels[lane] = flat;
         }
         if any_lit != 0 {
@@ -87,7 +88,7 @@ impl Exact<'_> {
             );
             // The noise of each pixel is its own: one after the other.
             let groups = if pixel_noise {
-                lanes(any_lit).map(|lane| 1 << lane).collect()
+                set_bits(any_lit).map(|lane| 1 << lane).collect()
             } else {
                 vec![any_lit]
             };
@@ -117,7 +118,7 @@ impl Exact<'_> {
                 );
                 let work = &mut workspace.work;
                 work.samples += light.samples as u64 * u64::from(group.count_ones());
-                for lane in lanes(group) {
+                for lane in set_bits(group) {
                     let (mut value, mut error) = (light.values[lane], light.errors[lane]);
                     let is_met = |error: f64| error <= self.tolerance;
                     if !is_met(error) && light.divisible >> lane & 1 == 1 {
@@ -140,7 +141,7 @@ impl Exact<'_> {
                 }
             }
         }
-        for lane in lanes(hard) {
+        for lane in set_bits(hard) {
             let here = Tile {
                 col: start.col + lane as u32,
                 ..start
@@ -263,13 +264,4 @@ fn ends<S: Simd>(
 ) -> (f64x8<S>, f64x8<S>) {
     let along = ray.dot_one(axis);
     (along * nearest, along * farthest)
-}
-
-/// The positions of the bits that are set.
-fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = (bits != 0).then(|| bits.trailing_zeros() as usize);
-        bits &= bits.wrapping_sub(1);
-        lane
-    })
 }

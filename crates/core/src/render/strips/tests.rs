@@ -1,4 +1,3 @@
-use crate::picture::window::Window;
 use std::num::NonZeroU32;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Barrier, Mutex};
@@ -16,7 +15,6 @@ use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::image::Channels;
 use crate::picture::pixel::Method;
-use crate::render::renderer::{Renderer, Settings};
 
 /// A white ball, and where it is seen from.
 fn ball(width: u32, height: u32) -> (World, View) {

@@ -5,7 +5,6 @@ use fearless_simd::{Level, dispatch};
 use super::*;
 use crate::model::color::Color;
 use crate::model::material::Material;
-use crate::model::sphere::Sphere;
 use crate::model::world::World;
 use crate::search::tests::Random;
 
@@ -20,20 +19,20 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
         };
         visibility.is_blocked(0, &to_light, error, 0)
     };
-    let expected = lanes_of(0xff)
+    let expected = set_bits(0xff_u64)
         .filter(is_dark)
         .fold(0, |dark, lane| dark | 1 << lane);
-    let (right, up) = visibility.axes(0);
+    let (right, up) = visibility.light(0).axes();
     let found = dispatch!(Level::new(), simd => {
         let mut vectors = Vectors::splat(simd, DVec3::ZERO);
         for (lane, point) in points.into_iter().enumerate() {
             vectors.set_lane(lane, point);
         }
-        let lit = Lit {
+        let lit = LitPoints {
             points: vectors,
             errors: f64x8::splat(simd, error),
-            right: vectors.dot(Vectors::splat(simd, right)),
-            up: vectors.dot(Vectors::splat(simd, up)),
+            right: vectors.dot_one(right),
+            up: vectors.dot_one(up),
         };
         let mut shadows = Shadows::new(&visibility, DVec3::ZERO, 1.0);
         shadows.darkened(simd, &lit, 0, light, 0, 0xff)
@@ -42,10 +41,10 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
     found
 }
 
-/// Casters that barely reach the light of a point, or barely do not; few, and so many that patches
+/// Occluders that barely reach the light of a point, or barely do not; few, and so many that regions
 /// are looked up.
 #[test]
-fn casters_that_nearly_touch_the_light() {
+fn occluders_that_nearly_touch_the_light() {
     let mut random = Random(21);
     let (mut dark, mut asked) = (0, 0);
     for step in 0..600 {
@@ -62,8 +61,8 @@ fn casters_that_nearly_touch_the_light() {
             let normal = random.point().normalize();
             center + normal * (radius * normal.dot(toward).signum())
         });
-        let casters = if step % 3 == 0 { 200 } else { 8 };
-        for number in 0..casters {
+        let occluders = if step % 3 == 0 { 200 } else { 8 };
+        for number in 0..occluders {
             let point = points[number % 8];
             let aside = random.point().cross(toward).normalize();
             let size = libm::exp10(-2.0 + 2.0 * random.number());

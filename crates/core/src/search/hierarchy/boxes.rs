@@ -1,12 +1,12 @@
 //! Boxes in single precision, eight side by side.
 
-use super::order::Entry;
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
 
-/// Children of a node.
-pub(crate) const WIDTH: usize = 8;
+use super::order::{Entry, WIDTH};
 
-/// What rounding moved the center of an entry by is below half of this, relatively, and below the
-/// least number that is not 0.
+/// Twice the bound of what rounding moved the center of an entry by, relatively; it is below the
+/// least number that is not 0, too.
 const ROUNDING: f64 = f32::EPSILON as f64;
 const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
@@ -106,6 +106,12 @@ impl Group {
         }
         group
     }
+}
+
+/// Eight numbers as doubles.
+#[inline(always)]
+pub(crate) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
+    f64x8::simd_from(simd, numbers.map(f64::from))
 }
 
 /// A number that is not greater, for one that was rounded to a double.

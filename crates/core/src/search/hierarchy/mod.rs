@@ -4,16 +4,15 @@
 //! decide nothing.
 
 pub(crate) mod boxes;
-mod order;
+pub(crate) mod order;
 
-use crate::search::hierarchy::boxes::Boxes;
-use crate::search::hierarchy::boxes::Group;
-use crate::search::hierarchy::boxes::WIDTH;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
-use self::order::NOBODY;
+use self::boxes::{Boxes, Group};
+use self::order::{NO_SPHERE, WIDTH};
 use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
 
 /// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
 /// their number alone.
@@ -94,7 +93,7 @@ impl Hierarchy {
         &self.levels[node.level as usize][node.index as usize]
     }
 
-    /// What is nearly the spheres of a child of a node of the lowest level.
+    /// The spheres of a child of a node of the lowest level, nearly.
     pub(crate) fn group(&self, index: u32) -> &Group {
         &self.groups[index as usize]
     }
@@ -104,14 +103,14 @@ impl Hierarchy {
         &self.order[group as usize * WIDTH..][..WIDTH]
     }
 
-    /// Whether something `holds` for any of the groups of spheres whose boxes, and those around them,
-    /// may matter, and of others too: `look` says of the boxes of a node which ones do. Each is asked
-    /// once, and none after one for which it holds. Of siblings those are asked first that come first
-    /// by their keys.
+    /// Says whether something `holds` for any of the groups of spheres whose boxes, and those around
+    /// them, may matter, and of others too: `test` says of the boxes of a node which ones do. Each is
+    /// asked once, and none after one for which it holds. Of siblings those are asked first that come
+    /// first by their keys.
     #[inline(always)]
     pub(crate) fn any(
         &self,
-        mut look: impl FnMut(&Boxes) -> Look,
+        mut test: impl FnMut(&Boxes) -> BoxTest,
         mut holds: impl FnMut(u32) -> bool,
     ) -> bool {
         // Seven siblings wait on each of the levels: there are at most eleven.
@@ -125,15 +124,12 @@ impl Hierarchy {
             count -= 1;
             let node = waiting[count];
             let boxes = self.boxes(node);
-            let seen = look(boxes);
-            let mut left = seen.may & boxes.filled();
+            let tested = test(boxes);
             let mut places = [0; WIDTH];
             let mut known = 0;
-            while left != 0 {
-                let place = left.trailing_zeros() as usize;
-                left &= left - 1;
+            for place in set_bits(tested.may & boxes.filled()) {
                 let mut at = known;
-                while at > 0 && seen.keys[places[at - 1]] > seen.keys[place] {
+                while at > 0 && tested.keys[places[at - 1]] > tested.keys[place] {
                     places[at] = places[at - 1];
                     at -= 1;
                 }
@@ -160,18 +156,18 @@ impl Hierarchy {
     }
 }
 
-/// What a search makes of the boxes of a node.
+/// The answer of a search about the boxes of a node.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Look {
+pub(crate) struct BoxTest {
     /// The boxes that may matter, as bits.
     pub(crate) may: u8,
-    /// In which order they are to be looked at, the least first.
+    /// Their order: the least is looked at first.
     pub(crate) keys: [f64; WIDTH],
 }
 
-/// Whether a place in a group holds a sphere.
+/// True where a place in a group holds a sphere.
 pub(crate) fn is_sphere(index: u32) -> bool {
-    index != NOBODY
+    index != NO_SPHERE
 }
 
 #[cfg(test)]

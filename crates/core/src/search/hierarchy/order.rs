@@ -2,10 +2,13 @@
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use super::boxes::WIDTH;
 use crate::model::sphere::Sphere;
+use crate::numeric::lanes::LANES;
 
-/// A place in the order, and the sphere there; without one its index is [`NOBODY`].
+/// Children of a node, and spheres of a group: as many as are computed side by side.
+pub(crate) const WIDTH: usize = LANES;
+
+/// A place in the order, and the sphere there; without one its index is [`NO_SPHERE`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
     /// Rounded to the nearest that is finite.
@@ -16,12 +19,12 @@ pub(super) struct Entry {
 }
 
 /// The index of no sphere.
-pub(super) const NOBODY: u32 = u32::MAX;
+pub(super) const NO_SPHERE: u32 = u32::MAX;
 
 const EMPTY: Entry = Entry {
     center: [0.0; 3],
     radius: 0.0,
-    index: NOBODY,
+    index: NO_SPHERE,
 };
 
 /// Spheres whose radii differ by a factor of more than 2 to the power of this are kept apart: one

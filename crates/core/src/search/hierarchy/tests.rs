@@ -1,7 +1,5 @@
 //! Every sphere is found where it is, on sets of every kind.
 
-use crate::search::hierarchy::boxes::Boxes;
-use crate::search::hierarchy::boxes::WIDTH;
 use glam::DVec3;
 
 use super::*;
@@ -19,7 +17,7 @@ fn found(hierarchy: &Hierarchy, low: DVec3, high: DVec3) -> Vec<u32> {
             });
             may |= u8::from(!is_beyond) << place;
         }
-        Look {
+        BoxTest {
             may,
             keys: [0.0; WIDTH],
         }

@@ -4,16 +4,16 @@ use super::frustum::TileRange;
 
 /// For every tile the places, in rising order, of the ranges that cover it.
 #[derive(Clone, Debug)]
-pub(super) struct Bins {
+pub(super) struct TileLists {
     columns: u32,
-    /// Where the list of each tile starts in `places`; one more for the end.
+    /// The start of the list of each tile in `places`; one more for the end.
     starts: Vec<u32>,
     places: Vec<u32>,
     /// For each row of tiles the ranges that are too large to be listed in every tile.
     wide: Vec<Vec<(u32, TileRange)>>,
 }
 
-impl Bins {
+impl TileLists {
     /// The lists for a picture of `columns` by `rows` tiles.
     pub(super) fn new<Ranges: Iterator<Item = TileRange>>(
         columns: u32,
@@ -85,10 +85,10 @@ impl Bins {
 
 /// Places in rising order: those listed for a tile, and those of wide ranges that cover it.
 #[derive(Clone, Debug)]
-pub(super) struct Places<'bins> {
+pub(super) struct Places<'lists> {
     column: u32,
-    listed: &'bins [u32],
-    wide: &'bins [(u32, TileRange)],
+    listed: &'lists [u32],
+    wide: &'lists [(u32, TileRange)],
 }
 
 impl Iterator for Places<'_> {

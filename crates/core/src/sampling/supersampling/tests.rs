@@ -10,7 +10,8 @@ use crate::model::color::Color;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
-use crate::search::Visibility;
+use crate::search::grid::RayPoints;
+use crate::search::visibility::Visibility;
 
 /// A 2 × 1 picture whose right pixel is covered but for its left quarter, by a sphere so
 /// large that its outline is straight there.
@@ -44,7 +45,7 @@ fn scene() -> (World, View) {
 fn pixels(samples: u32, alpha: bool) -> Vec<Pixel> {
     let (world, view) = scene();
     let visibility = Visibility::new(&world);
-    let seen = Seen::new(&visibility, &view, 8);
+    let index = ViewIndex::new(&visibility, &view, RayPoints::All);
     let samples = NonZeroU32::new(samples).unwrap();
     let tile = Tile {
         col: 0,
@@ -53,9 +54,9 @@ fn pixels(samples: u32, alpha: bool) -> Vec<Pixel> {
         height: 1,
     };
     let mut pixels = Vec::new();
-    Supersampling::new(&world, &view, &seen, samples, alpha).integrate(
+    Supersampling::new(&world, &view, &index, samples, alpha).integrate(
         tile,
-        &mut Room::default(),
+        &mut Scratch::default(),
         &mut pixels,
     );
     pixels

@@ -1,22 +1,20 @@
 //! Rays side by side see what single rays see, exactly; on any processor, in any tile.
 
-use std::cmp::Ordering;
-
 use fearless_simd::Level;
 use glam::{DVec2, DVec3};
 
 use super::super::*;
-use crate::hit::outcome::Hit;
 use crate::light::shading::shade;
 use crate::model::camera::{Camera, Lens};
 use crate::model::light::DirectionalLight;
 use crate::model::material::Material;
-use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
-use crate::search::Visibility;
-use crate::search::seen::Seen;
-use crate::search::tests::Random;
+use crate::numeric::lanes::tests::levels;
+use crate::search::grid::RayPoints;
+use crate::search::tests::{Random, nearest_of_all};
+use crate::search::view_index::ViewIndex;
+use crate::search::visibility::Visibility;
 
 /// Spheres of which each glows in a color of its own.
 fn glowing(balls: &[(DVec3, f64)]) -> World {
@@ -49,20 +47,6 @@ fn view_from(position: DVec3, size: (u32, u32), distance: f64, turn: f64) -> Vie
     }
 }
 
-fn nearest_of_all(spheres: &[Sphere], ray: &Ray) -> Option<(usize, Hit)> {
-    let mut nearest: Option<(usize, Hit)> = None;
-    for (index, sphere) in spheres.iter().enumerate() {
-        let Some(hit) = sphere.hit(ray) else { continue };
-        let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
-            sphere.compare(&hit, &spheres[*other], other_hit, ray) == Ordering::Less
-        });
-        if is_nearer {
-            nearest = Some((index, hit));
-        }
-    }
-    nearest
-}
-
 /// The tiles of a picture with this side at most.
 fn tiles(view: &View, side: u32) -> impl Iterator<Item = Tile> {
     let rows = (0..view.height).step_by(side as usize);
@@ -79,34 +63,22 @@ fn tiles(view: &View, side: u32) -> impl Iterator<Item = Tile> {
 /// All pixels by what a processor of this level does, in tiles of this side.
 fn pixels(world: &World, view: &View, samples: u32, level: Level, side: u32) -> Vec<Pixel> {
     let visibility = Visibility::new(world);
-    let seen = Seen::new(&visibility, view, Tile::SIDE);
+    let index = ViewIndex::new(&visibility, view, RayPoints::All);
     let samples = NonZeroU32::new(samples).unwrap();
     let integrator = Supersampling {
         level,
-        ..Supersampling::new(world, view, &seen, samples, false)
+        ..Supersampling::new(world, view, &index, samples, false)
     };
     let mut found = vec![None; (view.width * view.height) as usize];
-    let mut room = Room::default();
+    let mut scratch = Scratch::default();
     for tile in tiles(view, side) {
         let mut pixels = Vec::new();
-        integrator.integrate(tile, &mut room, &mut pixels);
+        integrator.integrate(tile, &mut scratch, &mut pixels);
         for ((col, row), pixel) in tile.pixels().zip(pixels) {
             found[(row * view.width + col) as usize] = Some(pixel);
         }
     }
     found.into_iter().map(Option::unwrap).collect()
-}
-
-/// Every level that this processor has.
-fn levels() -> Vec<Level> {
-    let best = Level::new();
-    let mut levels = vec![best, Level::baseline()];
-    #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
-    {
-        levels.extend(best.as_sse4_2().map(Level::Sse4_2));
-        levels.extend(best.as_avx2().map(Level::Avx2));
-    }
-    levels
 }
 
 /// Every sample shows the sphere that exact arithmetic says; how many samples show any.
@@ -358,7 +330,7 @@ fn processors_and_tiles_do_not_change_a_bit() {
         let view = view_from(DVec3::new(0.1, 0.2, -2.0), (29, 21), 20.0, 5.0);
         for samples in [1, 3] {
             let expected = pixels(&world, &view, samples, Level::new(), Tile::SIDE);
-            for level in levels() {
+            for level in levels().into_iter().chain([Level::baseline()]) {
                 let found = pixels(&world, &view, samples, level, Tile::SIDE);
                 assert!(expected == found, "{level:?}");
             }

@@ -1,29 +1,30 @@
-//! Which cells eight boxes, or eight spheres, may be seen in.
+//! Bounds on the retina of eight boxes, or eight spheres, side by side.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DMat3, DVec3};
 
-use super::coverage::{CellRange, Grid};
 use super::frustum::CLEAR;
-use super::hierarchy::boxes::{Boxes, Group, WIDTH};
+use super::grid::{CellRange, Grid};
+use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::order::WIDTH;
 use crate::model::view::View;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
-/// What turns places in the world into places before the eye.
+/// The projection of a view, from places in the world to cells.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Eye {
+pub(super) struct Projection {
     position: DVec3,
     /// Times lengths of the world.
     scale: f64,
     camera_from_world: DMat3,
-    /// What the processor can do.
+    /// The instructions that the processor has.
     level: Level,
 }
 
-/// What is known of eight boxes or spheres.
+/// The bounds of eight boxes or spheres.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Eight {
+pub(super) struct ScreenBounds {
     /// Those that may be seen, as bits; of others nothing is known.
     pub(super) may: u8,
     /// They come no nearer than this.
@@ -34,7 +35,7 @@ pub(super) struct Eight {
     rows: ([u32; WIDTH], [u32; WIDTH]),
 }
 
-impl Eight {
+impl ScreenBounds {
     /// The cells that one of those may be seen in.
     #[inline]
     pub(super) fn range(&self, place: usize) -> CellRange {
@@ -51,8 +52,8 @@ impl Eight {
     }
 }
 
-impl Eye {
-    /// The eye of a view; lengths are multiplied by `scale`.
+impl Projection {
+    /// The projection of a view; lengths are multiplied by `scale`.
     pub(super) fn new(view: &View, scale: f64) -> Self {
         Self {
             position: view.camera.position,
@@ -72,18 +73,18 @@ impl Eye {
         self.camera_from_world * offset
     }
 
-    /// Where boxes begin, and which cells they may be seen in.
-    pub(super) fn boxes(&self, boxes: &Boxes, grid: &Grid) -> Eight {
+    /// The bounds of boxes.
+    pub(super) fn boxes(&self, boxes: &Boxes, grid: &Grid) -> ScreenBounds {
         dispatch!(self.level, simd => self.boxes_in(simd, boxes, grid))
     }
 
-    /// Where spheres begin, and which cells they may be seen in.
-    pub(super) fn spheres(&self, group: &Group, grid: &Grid) -> Eight {
+    /// The bounds of spheres.
+    pub(super) fn spheres(&self, group: &Group, grid: &Grid) -> ScreenBounds {
         dispatch!(self.level, simd => self.spheres_in(simd, group, grid))
     }
 
     #[inline(always)]
-    fn boxes_in<S: Simd>(&self, simd: S, boxes: &Boxes, grid: &Grid) -> Eight {
+    fn boxes_in<S: Simd>(&self, simd: S, boxes: &Boxes, grid: &Grid) -> ScreenBounds {
         /// More than rounding moves the box by, and the distances to the spheres in it. (Sums of
         /// neighbors in single precision are exact: the middle is rounded where the box is wide.)
         const MARGIN: f64 = 1e-9;
@@ -123,13 +124,13 @@ impl Eye {
         // Whatever single precision cannot hold may be anywhere.
         let begin = is_finite.select(begin, zero);
         let may = filled & !is_behind;
-        self.eight(simd, grid, (center, begin), may, (is_known, ends))
+        self.bounds(simd, grid, (center, begin), may, (is_known, ends))
     }
 
-    /// With the bounds of [`InCamera`](super::frustum::InCamera), which are above what rounding moves
-    /// the distance by, too.
+    /// With the bounds of [`CameraSphere`](super::frustum::CameraSphere), which are above what rounding
+    /// moves the distance by, too.
     #[inline(always)]
-    fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> Eight {
+    fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> ScreenBounds {
         let [x, y, z] = &group.center;
         let offset = [
             (doubles(simd, x) - self.position.x) * self.scale,
@@ -152,7 +153,7 @@ impl Eye {
         let is_known = z.simd_gt(radius * CLEAR);
         let distance_sq = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
         let begin = distance_sq.sqrt() - radius;
-        self.eight(simd, grid, ([x, y, z], begin), !is_behind, (is_known, ends))
+        self.bounds(simd, grid, ([x, y, z], begin), !is_behind, (is_known, ends))
     }
 
     /// Vectors of the world in the camera's directions, or boxes of these half sizes.
@@ -169,20 +170,20 @@ impl Eye {
         ]
     }
 
-    /// What is seen between these ends, low and high, on the retina at distance 1, or, where they are
-    /// not known, anywhere.
+    /// The bounds of what is seen between these ends, low and high, on the retina at distance 1, or,
+    /// where they are not known, anywhere.
     #[inline(always)]
-    fn eight<S: Simd>(
+    fn bounds<S: Simd>(
         &self,
         simd: S,
         grid: &Grid,
         (center, begin): ([f64x8<S>; 3], f64x8<S>),
         may: mask64x8<S>,
         (is_known, ends): (mask64x8<S>, Ends<S>),
-    ) -> Eight {
+    ) -> ScreenBounds {
         let (columns, across) = grid.columns(simd, ends[0].0, ends[0].1, is_known);
         let (rows, down) = grid.rows(simd, ends[1].0, ends[1].1, is_known);
-        Eight {
+        ScreenBounds {
             may: (may & across & down).to_bitmask() as u8,
             begin: begin.into(),
             center: [center[0].into(), center[1].into(), center[2].into()],
@@ -192,15 +193,10 @@ impl Eye {
     }
 }
 
-/// Where eight things begin and end on the retina, along both axes.
+/// The ends of eight things on the retina, along both axes: where they begin and where they end.
 type Ends<S> = [(f64x8<S>, f64x8<S>); 2];
 
 #[inline(always)]
 fn along<S: Simd>([x, y, z]: &[f64x8<S>; 3], row: DVec3) -> f64x8<S> {
     *x * row.x + *y * row.y + *z * row.z
-}
-
-#[inline(always)]
-pub(super) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
-    f64x8::simd_from(simd, numbers.map(f64::from))
 }

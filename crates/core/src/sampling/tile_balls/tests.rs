@@ -1,4 +1,4 @@
-//! What is left out of a row cannot be seen there.
+//! Nothing is left out of a row that may be seen there.
 
 use fearless_simd::{Level, dispatch};
 use glam::DVec2;
@@ -80,7 +80,7 @@ fn rows_without_a_ball_do_not_see_it() {
         let group: [&Ball; LANES] = std::array::from_fn(|lane| &balls[lane]);
         let bundle = rays.bundle(tile);
         let rows = dispatch!(Level::new(), simd => {
-            Eight::new(simd, &group).rows(simd, &bundle.rows)
+            BallGroup::new(simd, &group).rows(simd, &bundle.rows)
         });
         for (sphere, rows) in spheres.iter().zip(rows) {
             asked += 8 * tile.height;

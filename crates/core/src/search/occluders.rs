@@ -1,4 +1,4 @@
-//! The spheres that may keep a light from a point.
+//! The spheres that may keep a light from a point: its occluders.
 //!
 //! Seen from a directional light every sphere is a disc. What may lie in some discs is asked of the
 //! hierarchy of all spheres, whose boxes are seen along the light as well: it serves all lights.
@@ -9,15 +9,15 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
-use super::eight::doubles;
-use super::hierarchy::boxes::{Boxes, Group};
-use super::hierarchy::{Hierarchy, Look, is_sphere};
+use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
-/// Which discs a point of the plane may lie in.
+/// The spheres as discs of a plane, asked which of them a point may lie in.
 #[derive(Clone, Debug)]
-pub(super) struct Casters<'world> {
+pub(super) struct Occluders<'world> {
     spheres: &'world [Sphere],
     hierarchy: Arc<Hierarchy>,
     /// The coordinates of the plane.
@@ -25,7 +25,7 @@ pub(super) struct Casters<'world> {
     up: DVec3,
     /// Unit vector toward the light.
     toward: DVec3,
-    /// What the processor can do.
+    /// The instructions that the processor has.
     level: Level,
 }
 
@@ -37,7 +37,7 @@ struct Shaft {
     lowest: f64,
 }
 
-impl<'world> Casters<'world> {
+impl<'world> Occluders<'world> {
     /// The discs of spheres across a light in the unit direction `toward`.
     pub(super) fn new(spheres: &'world [Sphere], hierarchy: Arc<Hierarchy>, toward: DVec3) -> Self {
         let (right, up) = toward.any_orthonormal_pair();
@@ -51,7 +51,7 @@ impl<'world> Casters<'world> {
         }
     }
 
-    /// Whether something holds for any sphere in whose disc a point may lie that is known up to
+    /// Says whether something holds for any sphere in whose disc a point may lie that is known up to
     /// a distance of `error`; it is asked for some other spheres too.
     pub(super) fn any(
         &self,
@@ -69,25 +69,9 @@ impl<'world> Casters<'world> {
         self.any_in(&shaft, &mut holds)
     }
 
-    /// Appends the indices of all spheres that [`Self::any_within`] asks, in their order.
-    pub(super) fn within(
-        &self,
-        points: &[DVec3],
-        around: f64,
-        lowest: f64,
-        indices: &mut Vec<usize>,
-    ) {
-        let first = indices.len();
-        self.any_within(points, around, lowest, |index| {
-            indices.push(index);
-            false
-        });
-        indices[first..].sort_unstable();
-    }
-
-    /// Whether something holds for any sphere whose disc may reach into the box of some points, made
-    /// larger by `around`, and which may lie toward the light from the height `lowest`; each is asked
-    /// once.
+    /// Says whether something holds for any sphere whose disc may reach into the box of some points,
+    /// made larger by `around`, and which may lie toward the light from the height `lowest`; each is
+    /// asked once.
     pub(super) fn any_within(
         &self,
         points: &[DVec3],
@@ -116,7 +100,7 @@ impl<'world> Casters<'world> {
         self.any_in(&shaft, &mut holds)
     }
 
-    /// Whether something holds for any sphere that may reach into a shaft.
+    /// Says whether something holds for any sphere that may reach into a shaft.
     fn any_in(&self, shaft: &Shaft, holds: &mut dyn FnMut(usize) -> bool) -> bool {
         dispatch!(self.level, simd => self.any_lanes(simd, shaft, holds))
     }
@@ -129,13 +113,12 @@ impl<'world> Casters<'world> {
         holds: &mut dyn FnMut(usize) -> bool,
     ) -> bool {
         self.hierarchy.any(
-            |boxes| self.reaching(simd, boxes, shaft),
+            |boxes| self.reaching_boxes(simd, boxes, shaft),
             |number| {
-                let mut left = self.reaching_of(simd, self.hierarchy.group(number), shaft);
+                let reaching = self.reaching_spheres(simd, self.hierarchy.group(number), shaft);
                 let indices = self.hierarchy.indices(number);
-                while left != 0 {
-                    let index = indices[left.trailing_zeros() as usize];
-                    left &= left - 1;
+                for place in set_bits(reaching) {
+                    let index = indices[place];
                     if is_sphere(index) && self.reaches(index, shaft) && holds(index as usize) {
                         return true;
                     }
@@ -145,9 +128,10 @@ impl<'world> Casters<'world> {
         )
     }
 
-    /// Which spheres of a group may reach into a shaft; places without a sphere may seem to.
+    /// The spheres of a group that may reach into a shaft, as bits; places without a sphere may seem
+    /// to.
     #[inline(always)]
-    fn reaching_of<S: Simd>(&self, simd: S, group: &Group, shaft: &Shaft) -> u8 {
+    fn reaching_spheres<S: Simd>(&self, simd: S, group: &Group, shaft: &Shaft) -> u8 {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
         let radius = doubles(simd, &group.radius);
@@ -163,9 +147,9 @@ impl<'world> Casters<'world> {
         !(beyond(shaft, [x, y, z], [radius; 3]).to_bitmask() as u8)
     }
 
-    /// Which boxes may reach into a shaft; those first that begin lowest.
+    /// The boxes that may reach into a shaft; those first that begin lowest.
     #[inline(always)]
-    fn reaching<S: Simd>(&self, simd: S, boxes: &Boxes, shaft: &Shaft) -> Look {
+    fn reaching_boxes<S: Simd>(&self, simd: S, boxes: &Boxes, shaft: &Shaft) -> BoxTest {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
         let (mut wide, mut tall, mut deep) = (zero, zero, zero);
@@ -186,13 +170,13 @@ impl<'world> Casters<'world> {
         let slack = size * SLACK + f64::MIN_POSITIVE;
         let (wide, tall, deep) = (wide + slack, tall + slack, deep + slack);
         let is_beyond = beyond(shaft, [x, y, z], [wide, tall, deep]);
-        Look {
+        BoxTest {
             may: !(is_beyond.to_bitmask() as u8),
             keys: (z - deep).into(),
         }
     }
 
-    /// Whether a sphere may reach into a shaft.
+    /// True where a sphere may reach into a shaft.
     fn reaches(&self, index: u32, shaft: &Shaft) -> bool {
         let sphere = &self.spheres[index as usize];
         let center = self.project(sphere.center());
@@ -205,16 +189,22 @@ impl<'world> Casters<'world> {
         !is_beyond
     }
 
+    /// The spheres, by their indices.
+    pub(super) fn spheres(&self) -> &'world [Sphere] {
+        self.spheres
+    }
+
     /// The axes of the plane.
     pub(super) fn axes(&self) -> (DVec3, DVec3) {
         (self.right, self.up)
     }
 
-    /// How far toward the light a point lies.
+    /// The place of a point along the light.
     pub(super) fn height(&self, point: DVec3) -> f64 {
         point.dot(self.toward)
     }
 
+    /// The place of a point across the light.
     pub(super) fn project(&self, point: DVec3) -> DVec2 {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }
@@ -223,7 +213,7 @@ impl<'world> Casters<'world> {
 /// Four times what rounding moves spheres by: also the projections of a box around them.
 const SLACK: f64 = 4.0 * 32.0 * UNIT_ROUNDOFF;
 
-/// What lies outside of a shaft: across it or too low, by the middles and what they reach to either
+/// The things that lie outside of a shaft: across it or too low, by the middles and what they reach to either
 /// side. What is not a number, because single precision does not hold it, may reach anywhere.
 #[inline(always)]
 fn beyond<S: Simd>(
@@ -252,13 +242,13 @@ mod tests {
     use super::*;
     use crate::search::tests::Random;
 
-    fn casters(spheres: &[Sphere], toward: DVec3) -> Casters<'_> {
-        Casters::new(spheres, Arc::new(Hierarchy::new(spheres)), toward)
+    fn occluders(spheres: &[Sphere], toward: DVec3) -> Occluders<'_> {
+        Occluders::new(spheres, Arc::new(Hierarchy::new(spheres)), toward)
     }
 
-    fn asked(casters: &Casters<'_>, point: DVec3, error: f64) -> Vec<usize> {
+    fn asked(occluders: &Occluders<'_>, point: DVec3, error: f64) -> Vec<usize> {
         let mut asked = Vec::new();
-        casters.any(point, error, |index| {
+        occluders.any(point, error, |index| {
             asked.push(index);
             false
         });
@@ -277,14 +267,14 @@ mod tests {
                     Sphere::new(random.point() * 3.0, radius).unwrap()
                 })
                 .collect();
-            let casters = casters(&spheres, toward);
+            let occluders = occluders(&spheres, toward);
             for (index, sphere) in spheres.iter().enumerate() {
                 let outward = random.point().reject_from_normalized(toward).normalize();
                 let below = -20.0 * random.number() * toward;
                 let point = sphere.center() + outward * sphere.radius() + below;
-                assert!(asked(&casters, point, 0.0).contains(&index));
+                assert!(asked(&occluders, point, 0.0).contains(&index));
                 for error in [1e-9, 0.1, 100.0] {
-                    assert!(asked(&casters, point + outward * error, error).contains(&index));
+                    assert!(asked(&occluders, point + outward * error, error).contains(&index));
                 }
             }
         }
@@ -301,10 +291,10 @@ mod tests {
         let speck = Sphere::new(DVec3::splat(1e6), 0.01).unwrap();
         for extra in [vec![], vec![floor], vec![speck], vec![floor, speck]] {
             let spheres = [&balls[..], &extra[..]].concat();
-            let casters = casters(&spheres, DVec3::new(0.6, 0.64, -0.48));
+            let occluders = occluders(&spheres, DVec3::new(0.6, 0.64, -0.48));
             let count: usize = balls
                 .iter()
-                .map(|ball| asked(&casters, ball.center(), 1e-13).len())
+                .map(|ball| asked(&occluders, ball.center(), 1e-13).len())
                 .sum();
             assert!(count < 4 * balls.len(), "{} a point", count as f64 / 1e4);
         }

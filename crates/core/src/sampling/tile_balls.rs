@@ -5,19 +5,22 @@ use std::f64::consts::PI;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
-use super::lanes::{LANES, Vectors, lanes_of};
 use super::rays::{Bundle, Cone, Rows};
 use crate::hit::ball::Ball;
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
+use crate::search::frustum::CLEAR;
 
-/// A ball with what every ray asks of it.
+/// A ball as the rays of a tile see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Near {
+pub(super) struct TileBall {
     pub(super) ball: Ball,
     /// No ray of the tile meets the ball at a B ± √Q below this.
     pub(super) begin: f64,
     pub(super) radius_sq: f64,
     pub(super) inverse_radius: f64,
-    /// Where Q is at least this times A, distance and normal are computed side by side.
+    /// Distance and normal are computed side by side where Q is at least this times A.
     pub(super) rim: f64,
     /// −1 where rays meet the outer side, at the near root; 1 where they start inside.
     pub(super) root_sign: f64,
@@ -27,10 +30,18 @@ pub(super) struct Near {
     pub(super) rows: u8,
 }
 
-/// The cosine of the incidence, squared, below which distance and normal are computed alone.
+/// The cosine of the incidence, squared, below which distance and normal are computed alone: 1/64, from
+/// which [`DISTANCE_ERROR`](super::trace::DISTANCE_ERROR) is derived. Not tuned: with less the bound
+/// grows, with more it is more rays.
 const RIM: f64 = 1.0 / 4096.0;
 
-impl Near {
+impl TileBall {
+    /// The index of the sphere in the world.
+    #[inline(always)]
+    pub(super) fn index(&self) -> usize {
+        self.ball.index as usize
+    }
+
     /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1.
     #[inline(always)]
     fn new(ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
@@ -59,16 +70,17 @@ impl Near {
 
 /// The balls that may be seen in a tile, those that come nearest first.
 #[derive(Debug, Default)]
-pub(super) struct Nearby {
-    pub(super) balls: Vec<Near>,
+pub(super) struct TileBalls {
+    pub(super) list: Vec<TileBall>,
     /// The largest error of a B ± √Q.
     pub(super) blur: f64,
 }
 
-/// More than rounding moves anything below, relative to distance and radius.
+/// More than rounding moves anything below, relative to distance and radius: some ten thousand units
+/// in the last place, where a dozen operations cost some ten.
 const MARGIN: f64 = 1e-12;
 
-impl Nearby {
+impl TileBalls {
     /// Leaves out what a cone around the rays misses, and what is behind a ball that fills it.
     #[inline(always)]
     pub(super) fn gather<'a, S: Simd>(
@@ -78,7 +90,7 @@ impl Nearby {
         bundle: &Bundle,
         mut balls: impl Iterator<Item = &'a Ball>,
     ) {
-        self.balls.clear();
+        self.list.clear();
         // No ray of the tile sees anything that is farther away.
         let mut farthest = f64::INFINITY;
         let mut blur = 0.0_f64;
@@ -96,44 +108,39 @@ impl Nearby {
             let mut kept: u64 = (1 << count) - 1;
             let mut rows = [u8::MAX; LANES];
             if let Some(cone) = &bundle.cone {
-                let eight = Eight::new(simd, &group);
-                let (missed, far) = eight.classify(simd, cone);
+                let group = BallGroup::new(simd, &group);
+                let (missed, far) = group.classify(simd, cone);
                 kept &= !missed;
                 farthest = farthest.min(far);
                 // Of few balls each fills more rows than it is worth to find out.
                 if count == LANES {
-                    rows = eight.rows(simd, &bundle.rows);
+                    rows = group.rows(simd, &bundle.rows);
                 }
             }
-            while kept != 0 {
-                let lane = kept.trailing_zeros() as usize;
-                kept &= kept - 1;
+            for lane in set_bits(kept) {
                 let (ball, rows) = (group[lane], rows[lane]);
                 if ball.nearest <= farthest && rows != 0 {
-                    self.balls.push(Near::new(ball, bundle, cells, rows));
+                    self.list.push(TileBall::new(ball, bundle, cells, rows));
                     blur = blur.max(ball.blur);
                 }
             }
         }
-        while self
-            .balls
-            .last()
-            .is_some_and(|last| last.ball.nearest > farthest)
-        {
-            self.balls.pop();
+        let is_hidden = |last: &TileBall| last.ball.nearest > farthest;
+        while self.list.last().is_some_and(is_hidden) {
+            self.list.pop();
         }
         self.blur = blur * bundle.longest;
     }
 }
 
 /// Eight balls side by side.
-struct Eight<S: Simd> {
+struct BallGroup<S: Simd> {
     center: Vectors<S>,
     radius: f64x8<S>,
     outside: f64x8<S>,
 }
 
-impl<S: Simd> Eight<S> {
+impl<S: Simd> BallGroup<S> {
     #[inline(always)]
     fn new(simd: S, group: &[&Ball; LANES]) -> Self {
         let mut parts = [[0.0; LANES]; 5];
@@ -155,7 +162,7 @@ impl<S: Simd> Eight<S> {
         }
     }
 
-    /// Which balls lie outside a cone, as bits, and the distance of the farthest point that any ray
+    /// The balls that lie outside a cone, as bits, and the distance of the farthest point that any ray
     /// of the cone can see, if one of them fills it.
     ///
     /// With x and y the center's coordinates along and across the axis and w the cone's angle, the
@@ -167,8 +174,8 @@ impl<S: Simd> Eight<S> {
     fn classify(&self, simd: S, cone: &Cone) -> (u64, f64) {
         let (center, radius) = (self.center, self.radius);
         let axis = Vectors::splat(simd, cone.axis);
-        let cross = center.cross(axis);
-        let (x, y) = (center.dot(axis), cross.dot(cross).sqrt());
+        let cross = center.cross(&axis);
+        let (x, y) = (center.dot(&axis), cross.length_squared().sqrt());
         let margin = (x.abs() + y + radius) * MARGIN;
         let missed = (y * cone.cosine - x * cone.sine).simd_gt(radius + margin);
 
@@ -181,7 +188,7 @@ impl<S: Simd> Eight<S> {
             let chord_sq = (radius - across) * (radius + across) - radius * radius * MARGIN;
             let chord = chord_sq.simd_gt(zero).select(chord_sq, zero).sqrt();
             let far = along - chord + margin;
-            for lane in lanes_of(fills.to_bitmask()) {
+            for lane in set_bits(fills.to_bitmask()) {
                 farthest = farthest.min(far[lane]);
             }
         }
@@ -201,13 +208,12 @@ impl<S: Simd> Eight<S> {
     /// places, of all that is added up in them: in rows less than the margin.
     #[inline(always)]
     fn rows(&self, simd: S, rows: &Rows) -> [u8; LANES] {
-        const CLEAR: f64 = 1.0 + 1.0 / 64.0;
         let (zero, end) = (
             f64x8::splat(simd, 0.0),
             f64x8::splat(simd, f64::from(rows.count)),
         );
-        let y = self.center.dot(Vectors::splat(simd, rows.up));
-        let z = self.center.dot(Vectors::splat(simd, rows.forward));
+        let y = self.center.dot_one(rows.up);
+        let z = self.center.dot_one(rows.forward);
         let size = self.center.x.abs() + self.center.y.abs() + self.center.z.abs();
         let radius = self.radius + (size + self.radius) * MARGIN;
         let product = (z - radius) * (z + radius);

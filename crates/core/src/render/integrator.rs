@@ -1,0 +1,107 @@
+//! The ways to average light over pixels, for a band of a picture at a time.
+
+use super::settings::Settings;
+use crate::exact::{Exact, Room};
+use crate::model::exposure::Exposure;
+use crate::model::world::World;
+use crate::picture::band::Band;
+use crate::picture::pixel::{Method, Work};
+use crate::picture::progress::{Cancelled, Progress};
+use crate::picture::tile::Tile;
+use crate::sampling::{self, Supersampling};
+use crate::search::view_index::ViewIndex;
+use crate::search::visibility::Visibility;
+use crate::time::exact::ExactOverTime;
+use crate::time::instants::Instants;
+use crate::time::sampled::SampledOverTime;
+
+/// An average of the light over pixels: to a tolerance or by samples, of one view or of a moving
+/// camera.
+pub(super) enum Integrator<'scene> {
+    Exact(Box<Exact<'scene>>),
+    Sampled(Box<Supersampling<'scene>>),
+    ExactOverTime(Box<ExactOverTime<'scene>>),
+    SampledOverTime(Box<SampledOverTime<'scene>>),
+}
+
+/// Memory that a thread works in, for band after band.
+#[derive(Default)]
+pub(super) struct Scratch {
+    exact: Room,
+    sampled: sampling::Scratch,
+}
+
+impl<'scene> Integrator<'scene> {
+    /// The integrator that `settings` ask for.
+    pub(super) fn new(
+        world: &'scene World,
+        visibility: &'scene Visibility<'scene>,
+        exposure: &Exposure<'scene>,
+        settings: &Settings,
+    ) -> Self {
+        let Settings { method, alpha } = *settings;
+        let view = exposure.view();
+        if let Some(motion) = exposure.motion() {
+            let instants = Instants::new(visibility, view, motion, method);
+            return match method {
+                Method::Tolerance(tolerance) => {
+                    let exact = ExactOverTime::new(world, instants, tolerance, alpha);
+                    Self::ExactOverTime(Box::new(exact))
+                }
+                Method::Samples(samples) => {
+                    let sampled = SampledOverTime::new(world, instants, samples, alpha);
+                    Self::SampledOverTime(Box::new(sampled))
+                }
+            };
+        }
+        let index = ViewIndex::new(visibility, view, method.into());
+        match method {
+            Method::Tolerance(tolerance) => {
+                let exact = Exact::new(world, view, &index, tolerance, alpha);
+                Self::Exact(Box::new(exact))
+            }
+            Method::Samples(samples) => {
+                let sampled = Supersampling::new(world, view, &index, samples, alpha);
+                Self::Sampled(Box::new(sampled))
+            }
+        }
+    }
+
+    /// Writes all pixels of a band; returns what they cost.
+    pub(super) fn paint_band(
+        &self,
+        band: &mut Band<'_>,
+        scratch: &mut Scratch,
+        progress: &Progress<'_>,
+    ) -> Result<Work, Cancelled> {
+        let Scratch { exact, sampled } = scratch;
+        match self {
+            Self::Exact(integrator) => {
+                let paint = |tile, band: &mut _| integrator.paint(tile, exact, band);
+                paint_tiles(band, progress, paint)
+            }
+            Self::Sampled(integrator) => {
+                let paint = |tile, band: &mut _| integrator.paint(tile, sampled, band);
+                paint_tiles(band, progress, paint)
+            }
+            Self::ExactOverTime(integrator) => integrator.paint_band(band, exact, progress),
+            Self::SampledOverTime(integrator) => integrator.paint_band(band, sampled, progress),
+        }
+    }
+}
+
+/// Writes a band tile by tile.
+fn paint_tiles<'image>(
+    band: &mut Band<'image>,
+    progress: &Progress<'_>,
+    mut paint: impl FnMut(Tile, &mut Band<'image>) -> Work,
+) -> Result<Work, Cancelled> {
+    let mut work = Work::default();
+    for tile in band.area.tiles() {
+        work += paint(tile, band);
+        if progress(tile.count()).is_break() {
+            return Err(Cancelled);
+        }
+    }
+    Ok(work)
+}

@@ -1,0 +1,87 @@
+//! The samples of eight pixels, summed.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8};
+
+use super::light::Light;
+use crate::picture::tile::RowLight;
+
+/// A sample of each of eight pixels.
+#[derive(Clone, Copy)]
+pub(super) struct Sample<S: Simd, const CHANNELS: usize> {
+    pub(super) light: Light<S, CHANNELS>,
+    /// The pixels in which anything is seen, as bits.
+    pub(super) covered: u64,
+}
+
+impl<S: Simd, const CHANNELS: usize> Sample<S, CHANNELS> {
+    /// Stores the only sample that is taken.
+    #[inline(always)]
+    pub(super) fn store(&self, simd: S, pixels: &mut RowLight) {
+        for channel in 0..CHANNELS {
+            self.light[channel].store_slice(&mut pixels.channels[channel]);
+        }
+        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        let covered = mask64x8::from_bitmask(simd, self.covered);
+        covered.select(one, zero).store_slice(&mut pixels.alpha);
+        f64x8::splat(simd, f64::INFINITY).store_slice(&mut pixels.errors);
+    }
+}
+
+/// The sums and ranges of some samples of eight pixels.
+#[derive(Clone, Copy)]
+pub(super) struct Sums<S: Simd, const CHANNELS: usize> {
+    sum: Light<S, CHANNELS>,
+    low: Light<S, CHANNELS>,
+    high: Light<S, CHANNELS>,
+    covered: f64x8<S>,
+}
+
+impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self {
+            sum: [f64x8::splat(simd, 0.0); CHANNELS],
+            low: [f64x8::splat(simd, f64::INFINITY); CHANNELS],
+            high: [f64x8::splat(simd, f64::NEG_INFINITY); CHANNELS],
+            covered: f64x8::splat(simd, 0.0),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, simd: S, light: Light<S, CHANNELS>, covered: u64) {
+        for channel in 0..CHANNELS {
+            let light = light[channel];
+            let (low, high) = (self.low[channel], self.high[channel]);
+            self.sum[channel] += light;
+            self.low[channel] = light.simd_lt(low).select(light, low);
+            self.high[channel] = light.simd_gt(high).select(light, high);
+        }
+        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        self.covered += mask64x8::from_bitmask(simd, covered).select(one, zero);
+    }
+
+    /// The means, and their errors: the spread of the samples, alpha being one more channel, over
+    /// twice the samples a side.
+    #[inline(always)]
+    pub(super) fn store(self, simd: S, side: u32, alpha: bool, pixels: &mut RowLight) {
+        let count = (u64::from(side) * u64::from(side)) as f64;
+        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        let mut spread = zero;
+        if alpha {
+            let all = f64x8::splat(simd, count);
+            let partly = self.covered.simd_gt(zero) & self.covered.simd_lt(all);
+            spread = partly.select(one, zero);
+        }
+        for channel in 0..CHANNELS {
+            let range = self.high[channel] - self.low[channel];
+            spread = range.simd_gt(spread).select(range, spread);
+            // Equal samples are their mean, which rounding would move.
+            let mean = self.sum[channel] * (1.0 / count);
+            let mean = range.simd_eq(zero).select(self.low[channel], mean);
+            mean.store_slice(&mut pixels.channels[channel]);
+        }
+        (self.covered / count).store_slice(&mut pixels.alpha);
+        (spread / (2.0 * f64::from(side))).store_slice(&mut pixels.errors);
+    }
+}

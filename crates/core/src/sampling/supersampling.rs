@@ -1,0 +1,326 @@
+//! The mean over a regular grid of samples, tile by tile.
+
+use std::num::NonZeroU32;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, mask64x8};
+use glam::DVec3;
+
+use super::light::{Light, Looks, Shading, splat};
+use super::rays::{Place, Rays};
+use super::shadow::Shadows;
+use super::sums::{Sample, Sums};
+use super::tile_balls::{TileBall, TileBalls};
+use super::trace::{Groups, RayRow, Tracer};
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::numeric::vectors::Vectors;
+use crate::picture::band::Band;
+use crate::picture::image::{Channels, Uniform};
+use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::tile::{Tile, TileLight};
+use crate::search::view_index::ViewIndex;
+
+/// Rows of a tile.
+const ROWS: usize = Tile::SIDE as usize;
+
+/// The mean over the midpoints of a regular N × N division of every pixel.
+///
+/// # Accuracy
+/// An estimate: the spread of the samples over 2N, which is what one straight edge along the
+/// grid costs at the worst. An edge that passes between the samples and the pixel's border is not
+/// in it, which happens in one edge pixel of five, and then costs less than 1/(2N) too; the largest
+/// estimate of a picture covers its largest error. `tests/tests/truth.rs` measures all three. One
+/// sample alone says nothing: its error is infinite.
+#[derive(Clone, Debug)]
+pub(crate) struct Supersampling<'scene> {
+    index: ViewIndex<'scene>,
+    samples: NonZeroU32,
+    channels: Channels,
+    alpha: bool,
+    rays: Rays,
+    shading: Shading<'scene>,
+    view: View,
+    /// The instructions that the processor has.
+    level: Level,
+}
+
+impl<'scene> Supersampling<'scene> {
+    /// Prepares `samples` × `samples` points in every pixel; with `alpha` the background sends
+    /// no light.
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        samples: NonZeroU32,
+        alpha: bool,
+    ) -> Self {
+        Self {
+            index: index.clone(),
+            samples,
+            channels: Channels::of(world, alpha),
+            alpha,
+            rays: Rays::new(view, samples.get()),
+            shading: Shading::new(world, view.frame),
+            view: *view,
+            level: Level::new(),
+        }
+    }
+
+    /// The numbers that are known of all pixels before they are sampled.
+    pub(crate) fn uniform(samples: NonZeroU32) -> Uniform {
+        Uniform {
+            error: (samples.get() == 1).then_some(f64::INFINITY),
+            outcome: Some((Evidence::Estimate, Status::NoTolerance)),
+        }
+    }
+
+    /// A pixel for which a tolerance was asked that cannot be met.
+    pub(crate) fn pixel_of_last_resort(&self, key: PixelKey) -> Pixel {
+        let PixelKey { col, row, .. } = key;
+        let (width, height) = (1, 1);
+        let tile = Tile {
+            col,
+            row,
+            width,
+            height,
+        };
+        let mut pixels = Vec::with_capacity(1);
+        self.integrate(tile, &mut Scratch::default(), &mut pixels);
+        Pixel {
+            status: Status::OutOfBudget,
+            ..pixels[0]
+        }
+    }
+
+    /// The light of rays that meet nothing.
+    fn background(&self) -> Color {
+        if self.alpha {
+            Color::ZERO
+        } else {
+            self.shading.world.background
+        }
+    }
+
+    /// Averages the light of a tile; how many balls were asked whether eight rays meet them, or
+    /// none, and no light, where all rays meet nothing.
+    fn sample(&self, tile: Tile, scratch: &mut Scratch) -> Option<u64> {
+        match self.channels {
+            Channels::Grey => self.sample_channels::<1>(tile, scratch),
+            Channels::Rgb => self.sample_channels::<3>(tile, scratch),
+        }
+    }
+
+    fn sample_channels<const CHANNELS: usize>(
+        &self,
+        tile: Tile,
+        scratch: &mut Scratch,
+    ) -> Option<u64> {
+        // Most pictures have empty tiles.
+        self.index.balls(tile).next()?;
+        dispatch!(self.level, simd => self.sample_lanes::<_, CHANNELS>(simd, tile, scratch))
+    }
+
+    /// The work on a tile, from the tests of eight rays.
+    fn work(&self, tile: Tile, tests: u64) -> Work {
+        let side = u64::from(self.samples.get());
+        let width = u64::from(tile.width);
+        Work {
+            samples: width * u64::from(tile.height) * side * side,
+            lines: 0,
+            candidate_tests: tests * width,
+        }
+    }
+
+    /// The error of a pixel whose samples are all the same.
+    fn error_of_equal_samples(&self) -> f64 {
+        if self.samples.get() == 1 {
+            f64::INFINITY
+        } else {
+            0.0
+        }
+    }
+
+    /// One of the pixels of a tile's light.
+    fn pixel(&self, light: &TileLight, col: u32, row: u32) -> Pixel {
+        let (row, place) = (light.row(row), col as usize);
+        let [red, green, blue] = row.channels.map(|channel| channel[place]);
+        Pixel {
+            value: match self.channels {
+                Channels::Grey => Color::splat(red),
+                Channels::Rgb => Color::new(red, green, blue),
+            },
+            alpha: row.alpha[place],
+            error: row.errors[place],
+            evidence: Evidence::Estimate,
+            status: Status::NoTolerance,
+        }
+    }
+
+    /// Averages the light of a tile, eight pixels side by side.
+    #[inline(always)]
+    fn sample_lanes<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        tile: Tile,
+        Scratch { balls, light }: &mut Scratch,
+    ) -> Option<u64> {
+        let bundle = self.rays.bundle(tile);
+        let cells = self.rays.cells_on_unit();
+        balls.gather(simd, cells, &bundle, self.index.balls(tile));
+        let first = balls.list.first()?;
+        let mut sampler = self.sampler(tile, balls, first);
+        let nothing = Sample {
+            light: splat(simd, self.background()),
+            covered: 0,
+        };
+        let side = self.samples.get();
+        let height = tile.height as usize;
+        let mut samples = [nothing; ROWS];
+        let mut sums = None;
+        if side > 1 {
+            sums = Some([Sums::<S, CHANNELS>::new(simd); ROWS]);
+        }
+        for cell_row in 0..side {
+            for cell_col in 0..side {
+                let place = Place {
+                    col: tile.col,
+                    row: tile.row,
+                    cell_col,
+                    cell_row,
+                };
+                self.sample_cell(simd, place, &nothing, &mut sampler, &mut samples);
+                if let Some(sums) = &mut sums {
+                    for (sums, sample) in sums.iter_mut().zip(&samples) {
+                        sums.add(simd, sample.light, sample.covered);
+                    }
+                }
+            }
+        }
+        for row in 0..height {
+            let pixels = light.row_mut(row as u32);
+            match &sums {
+                Some(sums) => sums[row].store(simd, side, self.alpha, pixels),
+                None => samples[row].store(simd, pixels),
+            }
+        }
+        Some(sampler.tracer.tests)
+    }
+
+    /// Prepares the search among the balls of a tile, of which `first` is one.
+    fn sampler<'tile>(
+        &'tile self,
+        tile: Tile,
+        balls: &'tile TileBalls,
+        first: &'tile TileBall,
+    ) -> Sampler<'tile> {
+        Sampler {
+            tracer: Tracer {
+                index: &self.index,
+                rays: &self.rays,
+                balls,
+                tile,
+                tests: 0,
+            },
+            groups: Groups::new(first),
+            looks: Looks::new(&self.shading),
+            shadows: self.shading.world.shadows.then(|| {
+                let length = libm::scalbn(1.0, self.index.length_exponent());
+                Shadows::new(self.index.visibility, self.view.camera.position, length)
+            }),
+        }
+    }
+
+    /// Takes a sample of each pixel of a tile, `nothing` where no sphere is seen.
+    #[inline(always)]
+    fn sample_cell<'tile, S: Simd, const CHANNELS: usize>(
+        &'tile self,
+        simd: S,
+        mut place: Place,
+        nothing: &Sample<S, CHANNELS>,
+        sampler: &mut Sampler<'tile>,
+        samples: &mut [Sample<S, CHANNELS>; ROWS],
+    ) {
+        let Sampler {
+            tracer,
+            groups,
+            looks,
+            shadows,
+        } = sampler;
+        let height = tracer.tile.height as usize;
+        let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
+        let mut rows = [dark; ROWS];
+        let across = self.rays.across(simd, place, tracer.tile.width);
+        for row in &mut rows[..height] {
+            *row = RayRow::new(simd, self.rays.directions(across, place));
+            place.row += 1;
+        }
+        tracer.search(simd, &mut rows);
+        place.row = tracer.tile.row;
+        for (row, sample) in rows[..height].iter().zip(samples) {
+            let sight = tracer.look(simd, place, row, groups);
+            *sample = *nothing;
+            if sight.covered != 0 {
+                looks.see(&self.shading, groups);
+                let seen = (&sight, &*groups, &*looks);
+                let light: Light<S, CHANNELS> = self.shading.light(simd, seen, place, shadows);
+                let covered = mask64x8::from_bitmask(simd, sight.covered);
+                let background = &nothing.light;
+                for channel in 0..CHANNELS {
+                    sample.light[channel] = covered.select(light[channel], background[channel]);
+                }
+                sample.covered = sight.covered;
+            }
+            place.row += 1;
+        }
+    }
+
+    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
+    pub(crate) fn integrate(
+        &self,
+        tile: Tile,
+        scratch: &mut Scratch,
+        pixels: &mut Vec<Pixel>,
+    ) -> Work {
+        let tests = self.sample(tile, scratch);
+        let light = &mut scratch.light;
+        if tests.is_none() {
+            light.fill(self.background(), self.error_of_equal_samples());
+        }
+        let tile_pixels = tile.pixels();
+        let pixel = |(col, row)| self.pixel(light, col - tile.col, row - tile.row);
+        pixels.extend(tile_pixels.map(pixel));
+        self.work(tile, tests.unwrap_or(0))
+    }
+
+    /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
+    pub(crate) fn paint(&self, tile: Tile, scratch: &mut Scratch, band: &mut Band<'_>) -> Work {
+        let tests = self.sample(tile, scratch);
+        if tests.is_some() {
+            band.write_light(tile, &scratch.light);
+        } else {
+            band.write_even_light(tile, self.background(), self.error_of_equal_samples());
+        }
+        self.work(tile, tests.unwrap_or(0))
+    }
+}
+
+/// Memory to work in.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    balls: TileBalls,
+    light: TileLight,
+}
+
+/// The search for what the rays of a tile see, and for its light.
+struct Sampler<'tile> {
+    tracer: Tracer<'tile>,
+    groups: Groups<'tile>,
+    looks: Looks<'tile>,
+    shadows: Option<Shadows<'tile>>,
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,173 @@
+//! A world, ready to be asked what stands between a point and a light.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::discs::DiscCache;
+use super::hierarchy::Hierarchy;
+use super::occluders::Occluders;
+use crate::model::light::DirectionalLight;
+use crate::model::ray::Ray;
+use crate::model::sphere::Sphere;
+use crate::model::world::World;
+
+/// Lengths whose squares are far from over- and underflow.
+const MODERATE: Range<f64> = 1e-35..1e35;
+
+/// In worlds of so many spheres views are searched from front to back: most spheres are hidden, or
+/// not in the picture. Not tuned: with fewer the hierarchy costs more than it leaves out, and with
+/// more the sorting of all spheres does.
+const CROWD: usize = 1 << 15;
+
+/// The spheres of a world, and for every light those that may keep it from a point.
+#[derive(Clone, Debug)]
+pub(crate) struct Visibility<'world> {
+    spheres: &'world [Sphere],
+    /// In a world of shadows, or of very many spheres.
+    pub(super) hierarchy: Option<Arc<Hierarchy>>,
+    /// One for each light; none in a world without shadows.
+    lights: Vec<DiscCache<'world>>,
+    /// True where squares of all lengths are far from over- and underflow.
+    is_moderate: bool,
+    extent: Extent,
+}
+
+/// Bounds of all spheres together.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    /// The least and the greatest coordinates of centers; infinite where there are none.
+    low: DVec3,
+    high: DVec3,
+    smallest_radius: f64,
+    largest_radius: f64,
+}
+
+impl Extent {
+    fn new(spheres: &[Sphere]) -> Self {
+        let mut extent = Self {
+            low: DVec3::INFINITY,
+            high: DVec3::NEG_INFINITY,
+            smallest_radius: f64::INFINITY,
+            largest_radius: 0.0,
+        };
+        for sphere in spheres {
+            extent.low = extent.low.min(sphere.center());
+            extent.high = extent.high.max(sphere.center());
+            extent.smallest_radius = extent.smallest_radius.min(sphere.radius());
+            extent.largest_radius = extent.largest_radius.max(sphere.radius());
+        }
+        extent
+    }
+
+    fn is_moderate(&self) -> bool {
+        let largest = self.low.abs().max(self.high.abs()).max_element();
+        MODERATE.contains(&self.smallest_radius)
+            && MODERATE.contains(&self.largest_radius)
+            && largest < MODERATE.end
+    }
+}
+
+impl<'world> Visibility<'world> {
+    /// Prepares the search in a world.
+    pub(crate) fn new(world: &'world World) -> Self {
+        let spheres = world.spheres();
+        let lights = if world.shadows {
+            &world.lights[..]
+        } else {
+            &[]
+        };
+        let is_asked = !lights.is_empty() || spheres.len() >= CROWD;
+        let hierarchy = is_asked.then(|| Arc::new(Hierarchy::new(spheres)));
+        let of_light = |light: &DirectionalLight| {
+            let hierarchy = hierarchy.clone()?;
+            let occluders = Occluders::new(spheres, hierarchy, light.toward());
+            Some(DiscCache::new(occluders))
+        };
+        let lights = lights.iter().filter_map(of_light).collect();
+        let extent = Extent::new(spheres);
+        Self {
+            spheres,
+            hierarchy,
+            lights,
+            is_moderate: spheres.is_empty() || extent.is_moderate(),
+            extent,
+        }
+    }
+
+    /// The hierarchy that finds what a view sees, where asking sphere by sphere takes too long.
+    pub(super) fn hierarchy_of_crowd(&self) -> Option<&Hierarchy> {
+        let is_crowd = self.spheres.len() >= CROWD && self.is_moderate;
+        self.hierarchy.as_deref().filter(|_| is_crowd)
+    }
+
+    /// True where squares of all lengths of the spheres are far from over- and underflow.
+    pub(crate) fn is_moderate(&self) -> bool {
+        self.is_moderate
+    }
+
+    /// The spheres, by their indices.
+    pub(crate) fn spheres(&self) -> &'world [Sphere] {
+        self.spheres
+    }
+
+    /// The spheres as the light with this index sees them.
+    pub(crate) fn light(&self, index: usize) -> &DiscCache<'world> {
+        &self.lights[index]
+    }
+
+    /// Says whether any sphere but the one with the index `except` stands between a point of that
+    /// one's surface, known up to a distance of `point_error`, and the light with this index.
+    ///
+    /// Another sphere whose surface passes through the point within that error hides the light if
+    /// it lies toward it: coincident spheres do not darken each other, touching ones do not leak.
+    pub(crate) fn is_blocked(
+        &self,
+        light: usize,
+        to_light: &Ray,
+        point_error: f64,
+        except: usize,
+    ) -> bool {
+        let own = &self.spheres[except];
+        let occluders = self.lights[light].occluders();
+        occluders.any(to_light.origin, point_error, |index| {
+            let occluder = &self.spheres[index];
+            // A sphere that coincides with the point's own is settled by n·l as that one is.
+            index != except && occluder.is_met(to_light, point_error) && occluder != own
+        })
+    }
+
+    /// Says whether something `holds` for any of the spheres that may keep the light with this index
+    /// from points of space that lie within `around` of `points` or between them: each is asked once,
+    /// those sooner, by and large, that lie nearer, until it does.
+    pub(crate) fn any_occluder(
+        &self,
+        light: usize,
+        points: &[DVec3],
+        around: f64,
+        holds: impl FnMut(usize) -> bool,
+    ) -> bool {
+        let occluders = self.lights[light].occluders();
+        let heights = points.iter().map(|&point| occluders.height(point));
+        let lowest = heights.fold(f64::INFINITY, f64::min) - around;
+        occluders.any_within(points, around, lowest, holds)
+    }
+
+    /// The largest finite radius or coordinate of a center as seen from the viewpoint.
+    pub(super) fn largest_size(&self, viewpoint: DVec3) -> f64 {
+        let Extent { low, high, .. } = self.extent;
+        // Differences round in the order of the numbers: none is larger than that of a bound.
+        let farthest = (low - viewpoint).abs().max((high - viewpoint).abs());
+        let largest = farthest.max_element().max(self.extent.largest_radius);
+        if largest.is_finite() {
+            return largest;
+        }
+        let size = |sphere: &Sphere| {
+            let to_center = (sphere.center() - viewpoint).abs().max_element();
+            to_center.max(sphere.radius())
+        };
+        let sizes = self.spheres.iter().map(size);
+        sizes.filter(|size| size.is_finite()).fold(0.0, f64::max)
+    }
+}
