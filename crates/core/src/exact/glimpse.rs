@@ -7,7 +7,6 @@ use super::Exact;
 use super::contents::Patch;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
-use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
 /// How eight pixels of a row see a sphere.
@@ -41,7 +40,7 @@ impl Exact<'_> {
     ) {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let (ray, size) = self.rays(simd, start);
+        let (ray, size) = self.context.rays(simd, start);
         let (u, v) = (ray.x, ray.y);
         let ray_sq = u * u + v * v + 1.0;
         let all = (1_u64 << width) - 1;
@@ -115,24 +114,6 @@ impl Exact<'_> {
             }
         }
         glimpses.retain(|glimpse| glimpse.touched != 0);
-    }
-
-    /// The rays through the middles of eight pixels of a row, and the side of a pixel on the
-    /// retina at distance 1.
-    #[inline(always)]
-    pub(crate) fn rays<S: Simd>(&self, simd: S, start: Tile) -> (Vectors<S>, f64) {
-        let cell = self.cell(start);
-        let distance = self.view.lens.distance * self.view.zoom;
-        let mut u = [0.0; 8];
-        for (lane, u) in u.iter_mut().enumerate() {
-            let col = u64::from(start.col) + lane as u64;
-            *u = self.view.cell_center(col, u64::from(start.row), 1).x / distance;
-        }
-        let ray = Vectors {
-            x: u.simd_into(simd),
-            ..Vectors::splat(simd, cell.middle)
-        };
-        (ray, cell.size[0])
     }
 
     /// The spheres of a pixel that are not hidden by one that fills it.

@@ -10,7 +10,6 @@ use super::edged::cell::{Goal, Workspace};
 use super::edged::piece::Part;
 use crate::edges::cell::{Ball, Cell};
 use crate::model::material::Material;
-use crate::model::roughness::PixelKey;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::picture::tile::Tile;
 
@@ -34,14 +33,6 @@ const BROAD: f64 = 60.0;
 const DEEPEST: i32 = 12;
 
 impl Exact<'_> {
-    pub(crate) fn key(&self, start: Tile, lane: u32) -> PixelKey {
-        PixelKey {
-            col: start.col + lane,
-            row: start.row,
-            frame: self.view.frame,
-        }
-    }
-
     /// A pixel with edges.
     pub(crate) fn pixel<S: Simd>(
         &self,
@@ -51,23 +42,23 @@ impl Exact<'_> {
         cache: &mut CasterCache,
         workspace: &mut Workspace,
     ) -> Pixel {
-        let key = self.key(here, 0);
+        let key = self.context.key(here, 0);
         workspace.contents.pixel = Some(key);
-        let cell = self.cell(here);
+        let cell = self.context.cell(here);
         let mut part = Part {
             error: f64::INFINITY,
             ..Part::NOTHING
         };
         if let Some(found) = self.along_edges(simd, &cell, spheres, cache, workspace) {
             part = found;
-            if part.error <= self.tolerance {
+            if part.error <= self.context.tolerance {
                 return self.of_part(&part);
             }
         }
         // What is given up is better known to a tolerance that can be met.
         for looser in LOOSER {
             workspace.begin_pixel();
-            let tolerance = looser * self.tolerance;
+            let tolerance = looser * self.context.tolerance;
             let found = simd.vectorize(
                 #[inline(always)]
                 || self.parts(simd, cell, spheres, cache, workspace, tolerance),
@@ -81,8 +72,8 @@ impl Exact<'_> {
         }
         // Samples at least see exactly.
         let is_lost = !(part.error.is_finite() && part.value.is_finite())
-            || part.error > self.tolerance.max(LOST);
-        if is_lost || part.rounding > self.tolerance.max(LOST) {
+            || part.error > self.context.tolerance.max(LOST);
+        if is_lost || part.rounding > self.context.tolerance.max(LOST) {
             return Pixel::LOST;
         }
         self.of_part(&part)
@@ -91,11 +82,11 @@ impl Exact<'_> {
     fn of_part(&self, part: &Part) -> Pixel {
         let error = part.error;
         Pixel {
-            value: self.scene.spread(part.value),
+            value: self.context.scene.spread(part.value),
             alpha: part.covered,
             error,
             evidence: Evidence::Estimate,
-            status: if error <= self.tolerance {
+            status: if error <= self.context.tolerance {
                 Status::Met
             } else if part.rounding > 0.5 * error {
                 Status::AtRoundoff
@@ -115,20 +106,22 @@ impl Exact<'_> {
         workspace: &mut Workspace,
     ) -> Option<Part> {
         let goal = Goal {
-            tolerance: self.tolerance,
-            background: self.background(),
-            contrast: self.contrast,
+            tolerance: self.context.tolerance,
+            background: self.context.background,
+            contrast: self.context.contrast,
         };
         let mut found = None;
         workspace.work.candidate_tests += spheres.len() as u64;
-        workspace.contents.see(&self.scene, cell, spheres, cache);
+        workspace
+            .contents
+            .see(&self.context.scene, cell, spheres, cache);
         workspace.is_seen = true;
         let contents = &workspace.contents;
         if contents.conics.len() + contents.casters.len() <= FEW {
             return None;
         }
         let materials = contents.active.iter().map(|active| active.sphere);
-        let mut materials = materials.map(|sphere| self.scene.world.material(sphere));
+        let mut materials = materials.map(|sphere| self.context.scene.world.material(sphere));
         let is_narrow = |material: &Material| {
             let shininess = material
                 .highlight
@@ -136,10 +129,10 @@ impl Exact<'_> {
             material.exponent.max(shininess) > BROAD
         };
         if materials.any(is_narrow) {
-            let negligible = 0.01 * self.tolerance;
+            let negligible = 0.01 * self.context.tolerance;
             let is_sharp = simd.vectorize(
                 #[inline(always)]
-                || contents.is_sharp(simd, &self.scene, cell, negligible),
+                || contents.is_sharp(simd, &self.context.scene, cell, negligible),
             );
             if is_sharp {
                 return None;
@@ -153,12 +146,12 @@ impl Exact<'_> {
                         contents, boundary, ..
                     } = workspace;
                     boundary.parts = finer;
-                    boundary.integrate(simd, &self.scene, cell, contents, &goal)
+                    boundary.integrate(simd, &self.context.scene, cell, contents, &goal)
                 },
             );
             workspace.work.samples += std::mem::take(&mut workspace.boundary.samples);
             let part = part?;
-            let is_met = part.error <= self.tolerance;
+            let is_met = part.error <= self.context.tolerance;
             if found.is_none_or(|known: Part| part.error < known.error) {
                 found = Some(part);
             }
@@ -192,7 +185,7 @@ impl Exact<'_> {
             match part {
                 Some(part) => sum.add(&part, share),
                 None if depth == DEEPEST || workspace.is_over_budget() => {
-                    sum.error += self.contrast * share;
+                    sum.error += self.context.contrast * share;
                 }
                 None => {
                     for y in [[-0.5, 0.0], [0.0, 0.5]] {
@@ -223,8 +216,8 @@ impl Exact<'_> {
     ) -> Option<Part> {
         let goal = Goal {
             tolerance,
-            background: self.background(),
-            contrast: self.contrast,
+            background: self.context.background,
+            contrast: self.context.contrast,
         };
         simd.vectorize(
             #[inline(always)]
@@ -232,22 +225,30 @@ impl Exact<'_> {
                 // The whole pixel was seen when its edges were counted.
                 if !std::mem::take(&mut workspace.is_seen) {
                     workspace.work.candidate_tests += spheres.len() as u64;
-                    workspace.contents.see(&self.scene, cell, spheres, cache);
+                    workspace
+                        .contents
+                        .see(&self.context.scene, cell, spheres, cache);
                 }
                 workspace.spend_on_cell();
                 let negligible = 0.01 * goal.tolerance;
-                let is_sharp = workspace
-                    .contents
-                    .is_sharp(simd, &self.scene, cell, negligible);
+                let is_sharp =
+                    workspace
+                        .contents
+                        .is_sharp(simd, &self.context.scene, cell, negligible);
                 if is_sharp && depth < DEEPEST {
                     return None;
                 }
                 let mut cell = *cell;
-                if workspace.contents.prefers_transposed(&self.scene, &cell) {
+                if workspace
+                    .contents
+                    .prefers_transposed(&self.context.scene, &cell)
+                {
                     cell = cell.transposed();
                     workspace.contents.transpose();
                 }
-                workspace.integrate(simd, &self.scene, &cell, &goal).ok()
+                workspace
+                    .integrate(simd, &self.context.scene, &cell, &goal)
+                    .ok()
             },
         )
     }

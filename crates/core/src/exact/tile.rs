@@ -8,7 +8,6 @@ use super::edged::cell::Workspace;
 use super::glimpse::Glimpse;
 use super::trust::trusts;
 use crate::edges::cell::Ball;
-use crate::model::color::Color;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 
@@ -24,7 +23,7 @@ impl Exact<'_> {
     ) -> Work {
         workspace.balls.clear();
         for &sphere in candidates {
-            workspace.balls.push(self.scene.ball(sphere));
+            workspace.balls.push(self.context.scene.ball(sphere));
         }
         let trusts_all = self.is_trusted && workspace.balls.iter().all(trusts);
         if !trusts_all && !candidates.is_empty() {
@@ -39,13 +38,14 @@ impl Exact<'_> {
             return Work::default();
         }
         let pixel = self
+            .context
             .cell(Tile {
                 width: 1,
                 height: 1,
                 ..tile
             })
             .size[0];
-        let mut cache = CasterCache::new(self.cell(tile), pixel);
+        let mut cache = CasterCache::new(self.context.cell(tile), pixel);
         let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<(usize, Ball)> = Vec::new();
         for row in 0..tile.height {
@@ -82,7 +82,7 @@ impl Exact<'_> {
                             col: start.col + index as u32,
                             ..start
                         };
-                        let cell = self.cell(here);
+                        let cell = self.context.cell(here);
                         self.visible(&cell, index, &glimpses, &mut spheres);
                         let covers = |sphere: usize| {
                             glimpses.iter().any(|glimpse| {
@@ -114,19 +114,11 @@ impl Exact<'_> {
 
     pub(crate) fn empty(&self) -> Pixel {
         Pixel {
-            value: self.background(),
+            value: self.context.background,
             alpha: 0.0,
             error: 0.0,
             evidence: Evidence::Bound,
             status: Status::Met,
-        }
-    }
-
-    pub(crate) fn background(&self) -> Color {
-        if self.alpha || self.group > 0 {
-            Color::ZERO
-        } else {
-            self.scene.world.background
         }
     }
 }

@@ -39,7 +39,7 @@ impl Exact<'_> {
         workspace: &mut Workspace,
         pixels: &mut [Pixel],
     ) {
-        let scene = &self.scene;
+        let scene = &self.context.scene;
         let world = scene.world;
         let material = world.material(sphere);
         let Some(glimpse) = glimpses.iter().find(|glimpse| glimpse.sphere == sphere) else {
@@ -53,7 +53,7 @@ impl Exact<'_> {
             pace: f64x8::splat(simd, 0.0),
         };
         if ball.outside > 0.0 && !scene.is_enclosed {
-            let finish = Finish::new(scene, sphere, self.key(start, 0));
+            let finish = Finish::new(scene, sphere, self.context.key(start, 0));
             simd.vectorize(
                 #[inline(always)]
                 || {
@@ -93,13 +93,13 @@ impl Exact<'_> {
             };
             for group in groups {
                 let lane = group.trailing_zeros();
-                let finish = Finish::new(scene, sphere, self.key(start, lane));
+                let finish = Finish::new(scene, sphere, self.context.key(start, lane));
                 let mut group_lit = lit;
                 for lit in &mut group_lit {
                     *lit &= group;
                 }
                 let noise = &mut workspace.noise;
-                let (middle, size) = self.rays(simd, start);
+                let (middle, size) = self.context.rays(simd, start);
                 let filled = Filled {
                     ball,
                     finish: &finish,
@@ -109,7 +109,7 @@ impl Exact<'_> {
                     turn: manner.turn,
                     pace: manner.pace,
                     which: group,
-                    tolerance: self.tolerance,
+                    tolerance: self.context.tolerance,
                 };
                 let light = simd.vectorize(
                     #[inline(always)]
@@ -119,7 +119,7 @@ impl Exact<'_> {
                 work.samples += light.samples as u64 * u64::from(group.count_ones());
                 for lane in lanes(group) {
                     let (mut value, mut error) = (light.values[lane], light.errors[lane]);
-                    let is_met = |error: f64| error <= self.tolerance;
+                    let is_met = |error: f64| error <= self.context.tolerance;
                     if !is_met(error) && light.divisible >> lane & 1 == 1 {
                         work.samples += SAMPLES_OF_PARTS;
                         if let Some(found) = in_parts(simd, scene, &filled, lane, noise) {
@@ -128,7 +128,7 @@ impl Exact<'_> {
                     }
                     if is_met(error) {
                         pixels[lane] = Pixel {
-                            value: self.scene.spread(value),
+                            value: self.context.scene.spread(value),
                             alpha: 1.0,
                             error,
                             evidence: Evidence::Estimate,
@@ -167,11 +167,11 @@ impl Exact<'_> {
         hard: &mut u64,
         lit: &mut [u64; MOST_LIGHTS],
     ) -> Manner<S> {
-        let scene = &self.scene;
+        let scene = &self.context.scene;
         let ball = &glimpse.ball;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let (ray, size) = self.rays(simd, start);
+        let (ray, size) = self.context.rays(simd, start);
         let points = Points::new(simd, ball, ray);
         let nearest: f64x8<S> = glimpse.nearest.simd_into(simd);
         let farthest: f64x8<S> = glimpse.farthest.simd_into(simd);
@@ -234,7 +234,7 @@ impl Exact<'_> {
                 }
             }
             if reached != 0 {
-                let negligible = 0.01 * self.tolerance;
+                let negligible = 0.01 * self.context.tolerance;
                 let turn = turn + size;
                 let sharp = finish.too_sharp(simd, &points, in_camera, turn, SHARPEST, negligible);
                 *hard |= sharp & reached;
