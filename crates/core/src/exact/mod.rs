@@ -3,29 +3,25 @@
 //! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
 //! known as curves, between whose events the light is smooth.
 
-mod casters;
-mod contents;
+mod classify;
 mod context;
+mod costs;
 mod edged;
-mod glimpse;
 mod interior;
 mod pixel;
 mod points;
-mod relief;
 mod scene;
-mod squares;
 mod surface;
 mod tile;
-mod trust;
 
 use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
+use self::classify::magnitude::is_view_moderate;
 use self::context::Context;
 use self::edged::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
-use self::trust::trusts_view;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
@@ -43,7 +39,7 @@ pub(crate) struct Exact<'scene> {
     context: Context<'scene>,
     seen: Seen<'scene>,
     /// Whether doubles can be trusted with the view.
-    is_trusted: bool,
+    is_view_moderate: bool,
     /// For pixels that cannot be integrated.
     fallback: Supersampling<'scene>,
     /// The other groups.
@@ -90,7 +86,7 @@ impl<'scene> Exact<'scene> {
             + world.background.max_element()
             + lights.sum::<f64>();
         Self {
-            is_trusted: trusts_view(view),
+            is_view_moderate: is_view_moderate(view),
             context: Context {
                 scene,
                 view: *view,

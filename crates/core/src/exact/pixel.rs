@@ -5,7 +5,7 @@ use std::collections::VecDeque;
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::casters::CasterCache;
+use super::classify::occluder_cache::OccluderCache;
 use super::edged::cell::{Goal, Workspace};
 use super::edged::piece::Part;
 use crate::edges::cell::{Ball, Cell};
@@ -39,11 +39,10 @@ impl Exact<'_> {
         simd: S,
         here: Tile,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
     ) -> Pixel {
-        let key = self.context.key(here, 0);
-        workspace.contents.pixel = Some(key);
+        workspace.contents.pixel = self.context.key(here, 0);
         let cell = self.context.cell(here);
         let mut part = Part {
             error: f64::INFINITY,
@@ -102,7 +101,7 @@ impl Exact<'_> {
         simd: S,
         cell: &Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
     ) -> Option<Part> {
         let goal = Goal {
@@ -117,7 +116,7 @@ impl Exact<'_> {
             .see(&self.context.scene, cell, spheres, cache);
         workspace.is_seen = true;
         let contents = &workspace.contents;
-        if contents.conics.len() + contents.casters.len() <= FEW {
+        if contents.conics.len() + contents.occluders.len() <= FEW {
             return None;
         }
         let materials = contents.active.iter().map(|active| active.sphere);
@@ -169,7 +168,7 @@ impl Exact<'_> {
         simd: S,
         cell: Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
         tolerance: f64,
     ) -> Part {
@@ -209,7 +208,7 @@ impl Exact<'_> {
         simd: S,
         cell: &Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
         tolerance: f64,
         depth: i32,

@@ -5,10 +5,12 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 
 use crate::edges::cell::Ball;
 use crate::edges::shadow::Caster;
+use crate::light::reflection::Source;
 use crate::model::color::Color;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::numeric::rounding::WIDER;
 use crate::picture::image::Channels;
 use crate::search::Visibility;
 
@@ -56,6 +58,16 @@ pub(crate) struct Light {
 }
 
 impl Light {
+    /// The light that is reflected, with its index in its group.
+    #[inline(always)]
+    pub(crate) fn source(&self, index: usize) -> Source {
+        Source {
+            index,
+            toward: self.toward,
+            intensity: self.intensity,
+        }
+    }
+
     /// A ball as the light sees it.
     pub(crate) fn caster(&self, center: DVec3, radius: f64) -> Caster {
         Caster {
@@ -86,12 +98,10 @@ impl<'scene> InCamera<'scene> {
             Vec::new()
         };
         let encloses = |sphere: &Sphere| {
-            /// Far more than rounding.
-            const NEARLY: f64 = 1.0 + 1e-9;
             let distance_sq = (sphere.center() - viewpoint).length_squared();
             let radius_sq = sphere.radius() * sphere.radius();
             // What is not a number may be anything.
-            let is_far = distance_sq > radius_sq * NEARLY && radius_sq > 0.0;
+            let is_far = distance_sq > radius_sq * WIDER && radius_sq > 0.0;
             !is_far && sphere.relative_to(viewpoint).outside() <= 0.0
         };
         let of_group = world.lights.iter().enumerate();

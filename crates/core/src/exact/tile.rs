@@ -3,10 +3,11 @@
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::casters::CasterCache;
+use super::classify::magnitude::is_ball_moderate;
+use super::classify::occluder_cache::OccluderCache;
+use super::classify::row::{Coverage, classify_row, visible_spheres};
 use super::edged::cell::Workspace;
-use super::glimpse::Glimpse;
-use super::trust::trusts;
+use super::interior::fill::{FilledRow, fill, lanes};
 use crate::edges::cell::Ball;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
@@ -25,8 +26,8 @@ impl Exact<'_> {
         for &sphere in candidates {
             workspace.balls.push(self.context.scene.ball(sphere));
         }
-        let trusts_all = self.is_trusted && workspace.balls.iter().all(trusts);
-        if !trusts_all && !candidates.is_empty() {
+        let is_moderate = self.is_view_moderate && workspace.balls.iter().all(is_ball_moderate);
+        if !is_moderate && !candidates.is_empty() {
             let count = tile.width as usize * tile.height as usize;
             pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
             return Work::default();
@@ -45,8 +46,8 @@ impl Exact<'_> {
                 ..tile
             })
             .size[0];
-        let mut cache = CasterCache::new(self.context.cell(tile), pixel);
-        let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
+        let mut cache = OccluderCache::new(self.context.cell(tile), pixel);
+        let mut coverages: Vec<Coverage> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<(usize, Ball)> = Vec::new();
         for row in 0..tile.height {
             for left in (0..tile.width).step_by(8) {
@@ -59,19 +60,20 @@ impl Exact<'_> {
                 };
                 let at = first + (row * tile.width + left) as usize;
                 let pixels = &mut pixels[at..at + width as usize];
-                glimpses.clear();
+                coverages.clear();
                 workspace.work.candidate_tests += candidates.len() as u64 * u64::from(width);
                 simd.vectorize(
                     #[inline(always)]
                     || {
-                        let balls = &workspace.balls;
-                        self.glimpse(simd, start, width, candidates, balls, &mut glimpses);
+                        let candidates = (candidates, workspace.balls.as_slice());
+                        let (context, pixels) = (&self.context, (start, width));
+                        classify_row(simd, context, pixels, candidates, &mut coverages);
                     },
                 );
                 let mut singles: Vec<(usize, u64)> = Vec::new();
                 for (index, pixel) in pixels.iter_mut().enumerate() {
-                    let seen = |glimpse: &&Glimpse| glimpse.touched >> index & 1 == 1;
-                    let mut touching = glimpses.iter().filter(seen);
+                    let seen = |coverage: &&Coverage| coverage.touched >> index & 1 == 1;
+                    let mut touching = coverages.iter().filter(seen);
                     let Some(one) = touching.next() else { continue };
                     let is_single = touching.next().is_none() && one.covered >> index & 1 == 1;
                     spheres.clear();
@@ -83,10 +85,10 @@ impl Exact<'_> {
                             ..start
                         };
                         let cell = self.context.cell(here);
-                        self.visible(&cell, index, &glimpses, &mut spheres);
+                        visible_spheres(&cell, index, &coverages, &mut spheres);
                         let covers = |sphere: usize| {
-                            glimpses.iter().any(|glimpse| {
-                                glimpse.sphere == sphere && glimpse.covered >> index & 1 == 1
+                            coverages.iter().any(|coverage| {
+                                coverage.sphere == sphere && coverage.covered >> index & 1 == 1
                             })
                         };
                         if spheres.len() != 1 || !covers(spheres[0].0) {
@@ -101,9 +103,25 @@ impl Exact<'_> {
                     }
                 }
                 for (sphere, which) in singles {
-                    self.fill(
-                        simd, start, sphere, which, &glimpses, &mut cache, workspace, pixels,
-                    );
+                    let Some(coverage) = coverages.iter().find(|one| one.sphere == sphere) else {
+                        continue;
+                    };
+                    let row = FilledRow {
+                        start,
+                        which,
+                        coverage,
+                    };
+                    let noise = &mut workspace.noise;
+                    let filled = fill(simd, &self.context, &row, &mut cache, noise, pixels);
+                    workspace.work.samples += filled.samples;
+                    for lane in lanes(filled.hard) {
+                        let here = Tile {
+                            col: start.col + lane as u32,
+                            ..start
+                        };
+                        let spheres = [(sphere, coverage.ball)];
+                        pixels[lane] = self.pixel(simd, here, &spheres, &mut cache, workspace);
+                    }
                 }
             }
         }

@@ -1,4 +1,4 @@
-//! Where pixels that one sphere fills are sampled.
+//! The places and weights of samples in pixels that one sphere fills.
 
 /// A sample of a pixel, at (u, v) from its middle.
 #[derive(Clone, Copy, Debug)]
@@ -12,7 +12,7 @@ pub(crate) struct Sample {
     pub(crate) star: f64,
     /// Weights, along both diagonals, in what Kronrod's rule with seven points finds more than
     /// Gauss's.
-    pub(crate) apart: [f64; 2],
+    pub(crate) excess: [f64; 2],
 }
 
 /// Samples that a pixel takes, at most: those of the star, the rest of Gauss's grid, and Kronrod's
@@ -55,7 +55,7 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
         v: 0.0,
         gauss: 0.0,
         star: 0.0,
-        apart: [0.0; 2],
+        excess: [0.0; 2],
     }; SAMPLES];
     let mut index = 0;
     while index < GAUSS_SAMPLES {
@@ -73,7 +73,7 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
             } else {
                 0.0
             },
-            apart: [
+            excess: [
                 if row == col { EXCESS[col] } else { 0.0 },
                 if row + col == 2 { EXCESS[col] } else { 0.0 },
             ],
@@ -85,10 +85,10 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
         let (place, weight) = OTHERS[other];
         points[index].u = place;
         points[index].v = place;
-        points[index].apart[0] = weight;
+        points[index].excess[0] = weight;
         points[index + 4].u = place;
         points[index + 4].v = -place;
-        points[index + 4].apart[1] = weight;
+        points[index + 4].excess[1] = weight;
         index += 1;
         other += 1;
     }
@@ -112,11 +112,11 @@ mod tests {
             let star = sum(&|at| at.star * at.v.powi(power));
             assert!((gauss - star).abs() < 1e-15);
             for axis in 0..2 {
-                let apart = sum(&|at| at.apart[axis] * at.u.powi(power));
-                let error = gauss + apart - exact;
+                let excess = sum(&|at| at.excess[axis] * at.u.powi(power));
+                let error = gauss + excess - exact;
                 assert!(error.abs() < 1e-15 * exact.max(0.1), "{power}");
-                let is_nothing = apart.abs() < 1e-15 * exact.max(0.1);
-                assert_eq!(is_nothing, power <= 4, "{power}: {apart}");
+                let is_nothing = excess.abs() < 1e-15 * exact.max(0.1);
+                assert_eq!(is_nothing, power <= 4, "{power}: {excess}");
             }
         }
         let mixed = sum(&|at| at.gauss * at.u.powi(4) * at.v.powi(4));

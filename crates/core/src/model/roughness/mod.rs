@@ -13,8 +13,8 @@ use crate::numeric::lanes::Lanes;
 /// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
 const MOST_CELLS: f64 = (1_u64 << 50) as f64;
 
-/// What the numbers of [`Grain::Pixel`] are drawn for.
-#[derive(Clone, Copy, Debug)]
+/// The pixel that the numbers of [`Grain::Pixel`] are drawn for.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PixelKey {
     pub(crate) col: u32,
     pub(crate) row: u32,

@@ -1,0 +1,273 @@
+//! The light that points of surfaces reflect toward the eye, eight points at a time.
+//!
+//! A point with the normal n, seen in the direction −v, sends
+//!
+//!     albedo · (ambient + Σ intensity · max(0, n·l)^exponent) + Σ intensity · strength · max(0, n·h)^shininess
+//!
+//! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
+//! half-way between l and v. Sampling and the exact integrator both compute it here.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+use glam::DVec3;
+
+use crate::model::color::Color;
+use crate::model::material::Material;
+use crate::numeric::power::Power;
+use crate::numeric::vectors::Vectors;
+
+/// A material, prepared.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflectance {
+    pub(crate) albedo: Color,
+    pub(crate) diffuse: Falloff,
+    /// Its strength and falloff.
+    pub(crate) highlight: Option<(f64, Falloff)>,
+}
+
+/// A power of a cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Falloff {
+    pub(crate) exponent: f64,
+    power: Power,
+}
+
+/// The surfaces that are seen in the lanes.
+pub(crate) trait Surface<S: Simd> {
+    /// A number of the surfaces.
+    type Number: Factor<S>;
+
+    fn albedo(&self, channel: usize) -> Self::Number;
+
+    /// The power of n·l, which may be negative, or a little above 1 by rounding.
+    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S>;
+
+    /// The strength of highlights; nothing where none of the surfaces has any.
+    fn strength(&self) -> Option<Self::Number>;
+
+    /// The power of n·h, which may be negative, or a little above 1.
+    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S>;
+}
+
+/// A number of surfaces: the same in all lanes, or one in each.
+pub(crate) trait Factor<S: Simd>: Copy {
+    fn scaled(self, by: f64) -> Self;
+    fn times(self, lanes: f64x8<S>) -> f64x8<S>;
+}
+
+/// Takes in the highlights of the light that is computed.
+pub(crate) trait Observer<S: Simd> {
+    /// The power of n·h under the light with this index, and n·h.
+    fn observe_highlight(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>);
+}
+
+/// A light: the unit vector toward it, and its intensity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source {
+    pub(crate) index: usize,
+    pub(crate) toward: DVec3,
+    pub(crate) intensity: Color,
+}
+
+/// Points as the eye sees them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ViewedPoints<'a, S: Simd> {
+    normal: &'a Vectors<S>,
+    ray: &'a Vectors<S>,
+    /// −1 / |ray|; with it, v = ray · scale.
+    scale: f64x8<S>,
+    /// n · v.
+    view_cosine: f64x8<S>,
+}
+
+impl Falloff {
+    pub(crate) fn new(exponent: f64) -> Self {
+        Self {
+            exponent,
+            power: Power::new(exponent),
+        }
+    }
+
+    /// The power of cosines, which may be negative, or a little above 1 by rounding.
+    #[inline(always)]
+    pub(crate) fn of<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+        let zero = f64x8::splat(cosine.simd, 0.0);
+        let one = f64x8::splat(cosine.simd, 1.0);
+        self.of_clamped(cosine.max(zero).min(one))
+    }
+
+    /// The power of cosines from 0 to 1.
+    #[inline(always)]
+    pub(crate) fn of_clamped<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+        self.power.lanes(cosine)
+    }
+}
+
+impl Reflectance {
+    pub(crate) fn new(material: &Material) -> Self {
+        let highlight = material.highlight.as_ref();
+        Self {
+            albedo: material.albedo,
+            diffuse: Falloff::new(material.exponent),
+            highlight: highlight
+                .map(|highlight| (highlight.strength, Falloff::new(highlight.shininess))),
+        }
+    }
+
+    /// The exponents of diffuse light and of the highlight, which is 0 without one.
+    pub(crate) fn exponents(&self) -> [f64; 2] {
+        let shininess = self.highlight.map_or(0.0, |(_, falloff)| falloff.exponent);
+        [self.diffuse.exponent, shininess]
+    }
+
+    /// The diffuse light of a light in the brightest channel, where the surface faces it.
+    pub(crate) fn brightest_diffuse(&self, intensity: Color) -> f64 {
+        (self.albedo * intensity).max_element()
+    }
+
+    /// The highest light of a highlight in the brightest channel.
+    pub(crate) fn brightest_highlight(&self, intensity: Color) -> f64 {
+        self.highlight.map_or(0.0, |(strength, _)| strength) * intensity.max_element()
+    }
+}
+
+impl<S: Simd> Surface<S> for Reflectance {
+    type Number = f64;
+
+    #[inline(always)]
+    fn albedo(&self, channel: usize) -> f64 {
+        self.albedo[channel]
+    }
+
+    #[inline(always)]
+    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S> {
+        self.diffuse.of(cosine)
+    }
+
+    #[inline(always)]
+    fn strength(&self) -> Option<f64> {
+        match self.highlight {
+            Some((strength, _)) => Some(strength),
+            None => None,
+        }
+    }
+
+    #[inline(always)]
+    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S> {
+        match &self.highlight {
+            Some((_, falloff)) => falloff.of(half_cosine),
+            None => f64x8::splat(half_cosine.simd, 0.0),
+        }
+    }
+}
+
+impl<S: Simd> Factor<S> for f64 {
+    #[inline(always)]
+    fn scaled(self, by: f64) -> Self {
+        self * by
+    }
+
+    #[inline(always)]
+    fn times(self, lanes: f64x8<S>) -> f64x8<S> {
+        lanes * self
+    }
+}
+
+impl<S: Simd> Factor<S> for f64x8<S> {
+    #[inline(always)]
+    fn scaled(self, by: f64) -> Self {
+        self * by
+    }
+
+    #[inline(always)]
+    fn times(self, lanes: f64x8<S>) -> f64x8<S> {
+        lanes * self
+    }
+}
+
+/// Takes in nothing.
+impl<S: Simd> Observer<S> for () {
+    #[inline(always)]
+    fn observe_highlight(&mut self, _: usize, _: f64x8<S>, _: f64x8<S>) {}
+}
+
+impl<S: Simd, O: Observer<S>> Observer<S> for Option<&mut O> {
+    #[inline(always)]
+    fn observe_highlight(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>) {
+        if let Some(observer) = self {
+            observer.observe_highlight(light, power, half_cosine);
+        }
+    }
+}
+
+impl<'a, S: Simd> ViewedPoints<'a, S> {
+    /// Points with these normals in the directions `ray`, whose squared lengths are `ray_sq`. What only
+    /// highlights need is left out without them.
+    #[inline(always)]
+    pub(crate) fn new(
+        normal: &'a Vectors<S>,
+        ray: &'a Vectors<S>,
+        ray_sq: f64x8<S>,
+        has_highlight: bool,
+    ) -> Self {
+        let zero = f64x8::splat(ray_sq.simd, 0.0);
+        let (mut scale, mut view_cosine) = (zero, zero);
+        if has_highlight {
+            scale = f64x8::splat(ray_sq.simd, -1.0) / ray_sq.sqrt();
+            view_cosine = normal.dot(ray) * scale;
+        }
+        Self {
+            normal,
+            ray,
+            scale,
+            view_cosine,
+        }
+    }
+
+    /// n · l.
+    #[inline(always)]
+    pub(crate) fn cosine(&self, toward: DVec3) -> f64x8<S> {
+        self.normal.dot_one(toward)
+    }
+
+    /// n · h = (n·l + n·v) / |l + v|, with |l + v|² = 2 + 2 l·v, from n · l.
+    ///
+    /// # Accuracy
+    /// The error is some units in the last place over |l + v|²: large where the eye looks along the light,
+    /// which only reaches outlines there.
+    #[inline(always)]
+    pub(crate) fn half_cosine(&self, toward: DVec3, cosine: f64x8<S>) -> f64x8<S> {
+        let along = self.ray.dot_one(toward) * self.scale;
+        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
+        let length_sq = (along * 2.0 + 2.0).max(least);
+        (cosine + self.view_cosine) / length_sq.sqrt()
+    }
+
+    /// Adds the light of one source that the points reflect where `lit` holds, in as many channels as
+    /// `sum` has; `cosine` is n · l.
+    #[inline(always)]
+    pub(crate) fn add_light<M: Surface<S>>(
+        &self,
+        surface: &M,
+        source: &Source,
+        (cosine, lit): (f64x8<S>, mask64x8<S>),
+        sum: &mut [f64x8<S>],
+        observer: &mut impl Observer<S>,
+    ) {
+        let zero = f64x8::splat(cosine.simd, 0.0);
+        let diffuse = lit.select(surface.diffuse(cosine), zero);
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            let color = surface.albedo(channel).scaled(source.intensity[channel]);
+            *sum += color.times(diffuse);
+        }
+        if let Some(strength) = surface.strength() {
+            let half_cosine = self.half_cosine(source.toward, cosine);
+            let highlight = surface.highlight(half_cosine);
+            observer.observe_highlight(source.index, highlight, half_cosine);
+            let highlight = lit.select(highlight, zero);
+            for (channel, sum) in sum.iter_mut().enumerate() {
+                *sum += strength.scaled(source.intensity[channel]).times(highlight);
+            }
+        }
+    }
+}
