@@ -7,8 +7,10 @@ use super::classify::magnitude::is_ball_moderate;
 use super::classify::occluder_cache::OccluderCache;
 use super::classify::row::{Coverage, classify_row, visible_spheres};
 use super::edged::cell::Workspace;
-use super::interior::fill::{FilledRow, fill, lanes};
+use super::interior::fill::fill;
+use super::interior::filled::FilledRow;
 use crate::edges::cell::Ball;
+use crate::numeric::bits::set_bits;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 
@@ -114,7 +116,7 @@ impl Exact<'_> {
                     let noise = &mut workspace.noise;
                     let filled = fill(simd, &self.context, &row, &mut cache, noise, pixels);
                     workspace.work.samples += filled.samples;
-                    for lane in lanes(filled.hard) {
+                    for lane in set_bits(filled.hard) {
                         let here = Tile {
                             col: start.col + lane as u32,
                             ..start

@@ -120,6 +120,15 @@ impl Reflectance {
         [self.diffuse.exponent, shininess]
     }
 
+    /// The strength of the highlight, 0 without one.
+    #[inline(always)]
+    pub(crate) fn strength(&self) -> f64 {
+        match self.highlight {
+            Some((strength, _)) => strength,
+            None => 0.0,
+        }
+    }
+
     /// The diffuse light of a light in the brightest channel, where the surface faces it.
     pub(crate) fn brightest_diffuse(&self, intensity: Color) -> f64 {
         (self.albedo * intensity).max_element()
@@ -127,7 +136,7 @@ impl Reflectance {
 
     /// The highest light of a highlight in the brightest channel.
     pub(crate) fn brightest_highlight(&self, intensity: Color) -> f64 {
-        self.highlight.map_or(0.0, |(strength, _)| strength) * intensity.max_element()
+        self.strength() * intensity.max_element()
     }
 }
 

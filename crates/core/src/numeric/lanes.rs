@@ -23,6 +23,9 @@ const COUNTER_BITS: u64 = COUNTER.to_bits();
 /// What is added to exponents where they are stored.
 const EXPONENT_BIAS: f64 = 1023.0;
 
+/// Numbers side by side.
+pub(crate) const LANES: usize = 8;
+
 /// A double, or eight.
 pub(crate) trait Lanes:
     Copy

@@ -1,12 +1,13 @@
 //! Eight vectors at a time.
 //!
-//! As in [`crate::lanes`] there are no closures in what computes with them.
+//! As in [`crate::numeric::lanes`] there are no closures in what computes with them.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
-/// Eight vectors.
+/// Eight vectors, component by component. Sums of three add from left to right, as glam does for one
+/// vector.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Vectors<S: Simd> {
     pub(crate) x: f64x8<S>,
@@ -22,6 +23,29 @@ impl<S: Simd> Vectors<S> {
             x: f64x8::splat(simd, vector.x),
             y: f64x8::splat(simd, vector.y),
             z: f64x8::splat(simd, vector.z),
+        }
+    }
+
+    /// The vector in one lane.
+    #[inline(always)]
+    pub(crate) fn lane(&self, lane: usize) -> DVec3 {
+        DVec3::new(self.x[lane], self.y[lane], self.z[lane])
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_lane(&mut self, lane: usize, vector: DVec3) {
+        self.x[lane] = vector.x;
+        self.y[lane] = vector.y;
+        self.z[lane] = vector.z;
+    }
+
+    /// `self` where the mask holds, else `other`.
+    #[inline(always)]
+    pub(crate) fn or(&self, mask: mask64x8<S>, other: &Self) -> Self {
+        Self {
+            x: mask.select(self.x, other.x),
+            y: mask.select(self.y, other.y),
+            z: mask.select(self.z, other.z),
         }
     }
 

@@ -3,50 +3,29 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 
-use super::lanes::{LANES, Vectors, lanes_of};
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
+use crate::light::reflection::{Reflectance, Source, Surface, ViewedPoints};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
-use crate::model::material::{Highlight, Material};
 use crate::model::roughness::PixelKey;
 use crate::model::world::World;
-use crate::numeric::power::Power;
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
 
 /// Light of eight rays, in one channel or in three.
 pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 
-/// What shading asks of a world; the same light as [`shade`](crate::shading::shade), but for
-/// rounding.
+/// The materials and lights of a world, prepared.
 #[derive(Clone, Debug)]
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     pub(super) frame: i64,
     /// Whether no surface is rough.
     is_smooth: bool,
-    /// What the materials say, in the world's order.
-    finishes: Vec<Finish>,
-}
-
-/// A material, prepared.
-#[derive(Clone, Copy, Debug)]
-struct Finish {
-    albedo: Color,
-    diffuse: Power,
-    /// Its falloff and strength.
-    highlight: Option<(Power, f64)>,
-}
-
-impl Finish {
-    fn new(material: &Material) -> Self {
-        let prepare = |highlight: &Highlight| (Power::new(highlight.shininess), highlight.strength);
-        Self {
-            albedo: material.albedo,
-            diffuse: Power::new(material.exponent),
-            highlight: material.highlight.as_ref().map(prepare),
-        }
-    }
+    /// Those of the materials, in the world's order.
+    reflectances: Vec<Reflectance>,
 }
 
 /// The same color in all lanes. A loop: closures are not compiled for the processor's level.
@@ -61,15 +40,14 @@ pub(super) fn splat<S: Simd, const CHANNELS: usize>(simd: S, color: Color) -> Li
 
 impl<'scene> Shading<'scene> {
     pub(super) fn new(world: &'scene World, frame: i64) -> Self {
-        let is_smooth = !world
-            .materials()
-            .iter()
-            .any(|material| material.roughness.is_some());
+        let materials = world.materials();
         Self {
             world,
             frame,
-            is_smooth,
-            finishes: world.materials().iter().map(Finish::new).collect(),
+            is_smooth: materials
+                .iter()
+                .all(|material| material.roughness.is_none()),
+            reflectances: materials.iter().map(Reflectance::new).collect(),
         }
     }
 
@@ -83,19 +61,22 @@ impl<'scene> Shading<'scene> {
         shadows: &mut Option<Shadows<'_>>,
     ) -> Light<S, CHANNELS> {
         let world = self.world;
-        let zero = f64x8::splat(simd, 0.0);
         let normal = if self.is_smooth {
             sight.normal
         } else {
-            self.roughened(*sight, place, groups)
+            self.shading_normals(*sight, place, groups)
         };
         let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
-        let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
-        let mut mirrored = [zero; CHANNELS];
+        let surfaces: Surfaces<'_, S, CHANNELS> = self.surfaces(simd, groups, looks);
+        let has_highlight = looks.has_highlight;
+        let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
+        let mut sum: Light<S, CHANNELS> = splat(simd, world.ambient);
+        for channel in 0..CHANNELS {
+            sum[channel] *= surfaces.albedo[channel];
+        }
         for (index, light) in world.lights.iter().enumerate() {
-            let toward = Vectors::splat(simd, light.toward());
-            let facing = normal.dot(toward);
-            let mut lit = facing.simd_gt(zero) & outer;
+            let cosine = points.cosine(light.toward());
+            let mut lit = cosine.simd_gt(0.0) & outer;
             if !lit.any_true() {
                 continue;
             }
@@ -106,26 +87,44 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let intensity: Light<S, CHANNELS> = splat(simd, light.intensity());
-            let spread = lit.select(looks.spread(simd, facing), zero);
-            for channel in 0..CHANNELS {
-                diffuse[channel] += spread * intensity[channel];
-            }
-            if looks.has_highlight {
-                let spot = looks.spots(simd, lit, light, normal, sight);
-                for channel in 0..CHANNELS {
-                    mirrored[channel] += spot * intensity[channel];
-                }
-            }
+            let source = Source {
+                index,
+                toward: light.toward(),
+                intensity: light.intensity(),
+            };
+            points.add_light(&surfaces, &source, (cosine, lit), &mut sum, &mut ());
         }
-        let mut albedo: Light<S, CHANNELS> = looks.albedo(simd);
-        if world.has_own_albedos() {
+        sum
+    }
+
+    /// The surfaces that eight rays see.
+    #[inline(always)]
+    fn surfaces<'a, S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        groups: &Groups<'_>,
+        looks: &'a Looks<'_>,
+    ) -> Surfaces<'a, S, CHANNELS> {
+        let first = looks.list[0].reflectance;
+        let mut albedo: Light<S, CHANNELS> = splat(simd, first.albedo);
+        let mut strengths = f64x8::splat(simd, first.strength());
+        for look in &looks.list[1..looks.count] {
+            let mask = mask64x8::from_bitmask(simd, look.lanes);
+            let other: Light<S, CHANNELS> = splat(simd, look.reflectance.albedo);
+            for channel in 0..CHANNELS {
+                albedo[channel] = mask.select(other[channel], albedo[channel]);
+            }
+            let other = f64x8::splat(simd, look.reflectance.strength());
+            strengths = mask.select(other, strengths);
+        }
+        if self.world.has_own_albedos() {
             albedo = self.own_albedos(simd, groups, albedo);
         }
-        for channel in 0..CHANNELS {
-            diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
+        Surfaces {
+            looks,
+            albedo,
+            strengths,
         }
-        diffuse
     }
 
     /// Takes the albedos from the spheres that have their own.
@@ -151,10 +150,15 @@ impl<'scene> Shading<'scene> {
         albedo
     }
 
-    /// The normals with the bumps of rough surfaces.
+    /// The shading normals.
     #[cold]
     #[inline(never)]
-    fn roughened<S: Simd>(&self, sight: Sight<S>, place: Place, groups: &Groups<'_>) -> Vectors<S> {
+    fn shading_normals<S: Simd>(
+        &self,
+        sight: Sight<S>,
+        place: Place,
+        groups: &Groups<'_>,
+    ) -> Vectors<S> {
         let mut normal = sight.normal;
         for Group { near, lanes } in groups.as_slice() {
             let index = near.ball.index as usize;
@@ -162,7 +166,7 @@ impl<'scene> Shading<'scene> {
                 continue;
             };
             let radius = self.world.spheres()[index].radius();
-            for lane in lanes_of(lanes & !sight.inner) {
+            for lane in set_bits(lanes & !sight.inner) {
                 let key = PixelKey {
                     col: place.col + lane as u32,
                     row: place.row,
@@ -186,7 +190,7 @@ pub(super) struct Looks<'scene> {
 /// A material, and the rays that see it as bits.
 #[derive(Clone, Copy)]
 struct Look<'scene> {
-    finish: &'scene Finish,
+    reflectance: &'scene Reflectance,
     number: u32,
     lanes: u64,
 }
@@ -194,23 +198,23 @@ struct Look<'scene> {
 impl<'scene> Looks<'scene> {
     /// One look: that of the world's only material, or any, where there is a sphere.
     pub(super) fn new(shading: &'scene Shading<'_>) -> Self {
-        let finish = &shading.finishes[0];
+        let reflectance = &shading.reflectances[0];
         let look = Look {
-            finish,
+            reflectance,
             number: 0,
             lanes: 0,
         };
         Self {
             list: [look; LANES],
             count: 1,
-            has_highlight: finish.highlight.is_some(),
+            has_highlight: reflectance.highlight.is_some(),
         }
     }
 
     /// Takes in what is seen.
     #[inline(always)]
     pub(super) fn see(&mut self, shading: &'scene Shading<'_>, groups: &Groups<'_>) {
-        if shading.finishes.len() > 1 {
+        if shading.reflectances.len() > 1 {
             self.see_any(shading, groups);
         }
     }
@@ -225,77 +229,59 @@ impl<'scene> Looks<'scene> {
                 look.lanes |= group.lanes;
                 continue;
             }
-            let finish = &shading.finishes[number as usize];
+            let reflectance = &shading.reflectances[number as usize];
             self.list[self.count] = Look {
-                finish,
+                reflectance,
                 number,
                 lanes: group.lanes,
             };
             self.count += 1;
-            self.has_highlight |= finish.highlight.is_some();
+            self.has_highlight |= reflectance.highlight.is_some();
         }
-    }
-
-    /// What the first material says, or what the others say where they are seen.
-    #[inline(always)]
-    fn albedo<S: Simd, const CHANNELS: usize>(&self, simd: S) -> Light<S, CHANNELS> {
-        let mut albedo: Light<S, CHANNELS> = splat(simd, self.list[0].finish.albedo);
-        for look in &self.list[1..self.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            let other: Light<S, CHANNELS> = splat(simd, look.finish.albedo);
-            for channel in 0..CHANNELS {
-                albedo[channel] = mask.select(other[channel], albedo[channel]);
-            }
-        }
-        albedo
-    }
-
-    /// The powers of n·l.
-    #[inline(always)]
-    fn spread<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
-        let mut spread = self.list[0].finish.diffuse.lanes(facing);
-        for look in &self.list[1..self.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            spread = mask.select(look.finish.diffuse.lanes(facing), spread);
-        }
-        spread
-    }
-
-    /// The highlights of a light of intensity 1, where `lit` holds; else 0.
-    #[inline(always)]
-    fn spots<S: Simd>(
-        &self,
-        simd: S,
-        lit: mask64x8<S>,
-        light: &DirectionalLight,
-        normal: Vectors<S>,
-        sight: &Sight<S>,
-    ) -> f64x8<S> {
-        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let toward = Vectors::splat(simd, light.toward());
-        let view = sight.direction.scaled(one / sight.length_sq.sqrt());
-        let half = toward.minus(view);
-        let half_sq = half.dot(half);
-        // Zero where the viewer looks along the light.
-        let inverse = half_sq.simd_gt(zero).select(one / half_sq.sqrt(), zero);
-        let facing = normal.dot(half) * inverse;
-        let facing = facing.simd_gt(zero).select(facing, zero);
-        let mut spots = self.list[0].finish.spot(simd, facing);
-        for look in &self.list[1..self.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            spots = mask.select(look.finish.spot(simd, facing), spots);
-        }
-        lit.select(spots, zero)
     }
 }
 
-impl Finish {
-    /// The highlight where the half vector has this cosine.
+/// The surfaces that eight rays see: in each lane that of the look that it belongs to.
+struct Surfaces<'a, S: Simd, const CHANNELS: usize> {
+    looks: &'a Looks<'a>,
+    albedo: Light<S, CHANNELS>,
+    strengths: f64x8<S>,
+}
+
+impl<S: Simd, const CHANNELS: usize> Surface<S> for Surfaces<'_, S, CHANNELS> {
+    type Number = f64x8<S>;
+
     #[inline(always)]
-    fn spot<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
-        match &self.highlight {
-            Some((falloff, strength)) => falloff.lanes(facing) * *strength,
-            None => f64x8::splat(simd, 0.0),
+    fn albedo(&self, channel: usize) -> f64x8<S> {
+        self.albedo[channel]
+    }
+
+    #[inline(always)]
+    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S> {
+        let mut diffuse = self.looks.list[0].reflectance.diffuse(cosine);
+        for look in &self.looks.list[1..self.looks.count] {
+            let mask = mask64x8::from_bitmask(cosine.simd, look.lanes);
+            diffuse = mask.select(look.reflectance.diffuse(cosine), diffuse);
         }
+        diffuse
+    }
+
+    #[inline(always)]
+    fn strength(&self) -> Option<f64x8<S>> {
+        if self.looks.has_highlight {
+            Some(self.strengths)
+        } else {
+            None
+        }
+    }
+
+    #[inline(always)]
+    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S> {
+        let mut highlight = self.looks.list[0].reflectance.highlight(half_cosine);
+        for look in &self.looks.list[1..self.looks.count] {
+            let mask = mask64x8::from_bitmask(half_cosine.simd, look.lanes);
+            highlight = mask.select(look.reflectance.highlight(half_cosine), highlight);
+        }
+        highlight
     }
 }

@@ -6,7 +6,6 @@
 //! one rounding an operation, so that a picture is the same to the bit on any processor, and
 //! however it is cut into tiles.
 
-mod lanes;
 mod light;
 mod near;
 mod rays;
@@ -19,7 +18,6 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::DVec3;
 
-use self::lanes::Vectors;
 use self::light::{Light, Looks, Shading, splat};
 use self::near::Nearby;
 use self::rays::{Place, Rays};
@@ -29,6 +27,7 @@ use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::numeric::vectors::Vectors;
 use crate::picture::image::{Band, Channels, Prospect};
 use crate::picture::integrator::Integrator;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};

@@ -5,9 +5,11 @@ use std::f64::consts::PI;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 
-use super::lanes::{LANES, Vectors, lanes_of};
 use super::rays::{Bundle, Cone, Rows};
 use crate::hit::ball::Ball;
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
 
 /// A ball with what every ray asks of it.
 #[derive(Clone, Copy, Debug)]
@@ -105,9 +107,7 @@ impl Nearby {
                     rows = eight.rows(simd, &bundle.rows);
                 }
             }
-            while kept != 0 {
-                let lane = kept.trailing_zeros() as usize;
-                kept &= kept - 1;
+            for lane in set_bits(kept) {
                 let (ball, rows) = (group[lane], rows[lane]);
                 if ball.nearest <= farthest && rows != 0 {
                     self.balls.push(Near::new(ball, bundle, cells, rows));
@@ -167,8 +167,8 @@ impl<S: Simd> Eight<S> {
     fn classify(&self, simd: S, cone: &Cone) -> (u64, f64) {
         let (center, radius) = (self.center, self.radius);
         let axis = Vectors::splat(simd, cone.axis);
-        let cross = center.cross(axis);
-        let (x, y) = (center.dot(axis), cross.dot(cross).sqrt());
+        let cross = center.cross(&axis);
+        let (x, y) = (center.dot(&axis), cross.length_squared().sqrt());
         let margin = (x.abs() + y + radius) * MARGIN;
         let missed = (y * cone.cosine - x * cone.sine).simd_gt(radius + margin);
 
@@ -181,7 +181,7 @@ impl<S: Simd> Eight<S> {
             let chord_sq = (radius - across) * (radius + across) - radius * radius * MARGIN;
             let chord = chord_sq.simd_gt(zero).select(chord_sq, zero).sqrt();
             let far = along - chord + margin;
-            for lane in lanes_of(fills.to_bitmask()) {
+            for lane in set_bits(fills.to_bitmask()) {
                 farthest = farthest.min(far[lane]);
             }
         }
@@ -206,8 +206,8 @@ impl<S: Simd> Eight<S> {
             f64x8::splat(simd, 0.0),
             f64x8::splat(simd, f64::from(rows.count)),
         );
-        let y = self.center.dot(Vectors::splat(simd, rows.up));
-        let z = self.center.dot(Vectors::splat(simd, rows.forward));
+        let y = self.center.dot_one(rows.up);
+        let z = self.center.dot_one(rows.forward);
         let size = self.center.x.abs() + self.center.y.abs() + self.center.z.abs();
         let radius = self.radius + (size + self.radius) * MARGIN;
         let product = (z - radius) * (z + radius);

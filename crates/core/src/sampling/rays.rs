@@ -4,9 +4,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
-use super::lanes::Vectors;
 use crate::model::ray::Ray;
 use crate::model::view::View;
+use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
 /// Where the samples of a view lie: those of [`View::cell_center`] to the bit.

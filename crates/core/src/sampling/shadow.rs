@@ -4,11 +4,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::DVec3;
 
-use super::lanes::{Vectors, lanes_of};
 use super::trace::{DISTANCE_ERROR, Groups, Sight};
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
+use crate::numeric::vectors::Vectors;
 use crate::search::Visibility;
 use crate::search::discs::Disc;
 
@@ -113,8 +114,8 @@ impl<'scene> Shadows<'scene> {
     #[inline(always)]
     fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> Lit<S> {
         const ROUNDING: f64 = 7.0 * UNIT_ROUNDOFF;
-        let from_eye = sight.point.scaled(f64x8::splat(simd, self.length));
-        let points = Vectors::splat(simd, self.viewpoint).plus(from_eye);
+        let from_eye = sight.point.times(f64x8::splat(simd, self.length));
+        let points = Vectors::splat(simd, self.viewpoint).plus(&from_eye);
         let (x, y, z) = (from_eye.x.abs(), from_eye.y.abs(), from_eye.z.abs());
         let largest = x.max(y).max(z);
         let rounding = (largest + self.viewpoint.abs().max_element()) * ROUNDING;
@@ -122,8 +123,8 @@ impl<'scene> Shadows<'scene> {
         Lit {
             points,
             errors: largest * (2.0 * DISTANCE_ERROR) + rounding,
-            right: points.dot(Vectors::splat(simd, right)),
-            up: points.dot(Vectors::splat(simd, up)),
+            right: points.dot_one(right),
+            up: points.dot_one(up),
         }
     }
 
@@ -165,7 +166,7 @@ impl<'scene> Shadows<'scene> {
     #[inline(never)]
     fn patch<S: Simd>(&mut self, lit: &Lit<S>, light: usize, sphere: u32, asked: u64) -> &[Disc] {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for lane in lanes_of(asked) {
+        for lane in set_bits(asked) {
             for (axis, place) in [lit.right[lane], lit.up[lane]].into_iter().enumerate() {
                 (low[axis], high[axis]) = (low[axis].min(place), high[axis].max(place));
             }
@@ -231,7 +232,7 @@ impl<'scene> Shadows<'scene> {
             self.visibility
                 .is_blocked(index, &to_light, lit.errors[lane], sphere as usize)
         };
-        lanes_of(asked)
+        set_bits(asked)
             .filter(is_dark)
             .fold(0, |dark, lane| dark | 1 << lane)
     }
@@ -255,9 +256,9 @@ fn blocked<S: Simd>(
     let caster = &visibility.spheres()[sphere as usize];
     let (radius, toward) = (caster.radius(), light.toward());
     let direction_sq = toward.length_squared();
-    let to_center = Vectors::splat(simd, caster.center()).minus(lit.points);
-    let along = to_center.dot(Vectors::splat(simd, toward));
-    let distance_sq = to_center.dot(to_center);
+    let to_center = Vectors::splat(simd, caster.center()).minus(&lit.points);
+    let along = to_center.dot_one(toward);
+    let distance_sq = to_center.length_squared();
     let radius_sq = radius * radius;
     let (outside, scale) = (distance_sq - radius_sq, distance_sq + radius_sq);
     let slack = lit.errors * (lit.errors + 2.0 * radius);
@@ -288,7 +289,7 @@ fn ask<S: Simd>(lit: &Lit<S>, caster: &crate::Sphere, toward: DVec3, asked: u64)
         };
         caster.is_met(&to_light, lit.errors[lane])
     };
-    lanes_of(asked)
+    set_bits(asked)
         .filter(is_dark)
         .fold(0, |dark, lane| dark | 1 << lane)
 }

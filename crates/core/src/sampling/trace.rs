@@ -4,9 +4,11 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 use glam::DVec3;
 
-use super::lanes::{LANES, Vectors, lanes_of};
 use super::near::{Near, Nearby};
 use super::rays::{Place, Rays};
+use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 use crate::search::seen::{Candidate, Seen};
 
@@ -91,7 +93,7 @@ impl<S: Simd> RayRow<S> {
         let never = f64x8::splat(simd, f64::INFINITY);
         Self {
             direction,
-            length_sq: direction.dot(direction),
+            length_sq: direction.length_squared(),
             key: never,
             place: f64x8::splat(simd, -1.0),
             doubtful: never,
@@ -120,11 +122,8 @@ impl<'tile> Tracer<'tile> {
             let begin = f64x8::splat(simd, near.begin);
             let center = Vectors::splat(simd, ball.to_center);
             let inside = near.root_sign > 0.0;
-            let mut left = near.rows & open;
-            while left != 0 {
-                let number = left.trailing_zeros();
-                left &= left - 1;
-                let row = &mut rows[number as usize % SIDE];
+            for number in set_bits(near.rows & open) {
+                let row = &mut rows[number % SIDE];
                 // Whatever lies within the error of the nearest was met before, or is doubtful; and
                 // the next ones begin no sooner.
                 if begin.simd_gt(row.key + blur).all_true() {
@@ -132,7 +131,7 @@ impl<'tile> Tracer<'tile> {
                     continue;
                 }
                 self.tests += 1;
-                let along = row.direction.dot(center);
+                let along = row.direction.dot(&center);
                 let discriminant = along * along - row.length_sq * ball.outside;
                 let doubt = row.length_sq * ball.doubt;
                 let missed = discriminant.simd_lt(-doubt).to_bitmask();
@@ -203,7 +202,7 @@ impl<'tile> Tracer<'tile> {
         if self.candidates.is_empty() {
             self.candidates = self.seen.candidates(self.tile);
         }
-        for lane in lanes_of(open) {
+        for lane in set_bits(open) {
             let lane_of_pixel = lane.min(self.tile.width as usize - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
             let seen = self.seen.nearest(&self.candidates, ray.direction);
@@ -272,8 +271,8 @@ impl<'tile> Tracer<'tile> {
         }
         groups.count = count;
         let center = selected.center;
-        let across = direction.cross(center);
-        let (across_sq, along) = (across.dot(across), direction.dot(center));
+        let across = direction.cross(&center);
+        let (across_sq, along) = (across.length_squared(), direction.dot(&center));
         let along_sq = along * along;
         let discriminant = across_sq.simd_lt(along_sq).select(
             length_sq * selected.radius_sq - across_sq,
@@ -282,8 +281,8 @@ impl<'tile> Tracer<'tile> {
         let sound = discriminant.simd_ge(length_sq * selected.rim);
         let one = f64x8::splat(simd, 1.0);
         let root = sound.select(discriminant, one).sqrt();
-        sight.point = direction.scaled(selected.outside / (along + root));
-        sight.normal = sight.point.minus(center).scaled(selected.inverse_radius);
+        sight.point = direction.times(selected.outside / (along + root));
+        sight.normal = sight.point.minus(&center).times(selected.inverse_radius);
         // Only the ambient light reaches inner sides, wherever they are met.
         let alone = covered & !sound.to_bitmask() & !sight.inner;
         if alone != 0 {
@@ -303,7 +302,7 @@ impl<'tile> Tracer<'tile> {
         mut sight: Sight<S>,
     ) -> Sight<S> {
         let exponent = self.rays.exponent() - self.seen.length_exponent();
-        for lane in lanes_of(alone) {
+        for lane in set_bits(alone) {
             let sees = |group: &Group<'_>| group.lanes >> lane & 1 == 1;
             let Some(group) = groups.as_slice().iter().find(|group| sees(group)) else {
                 continue;
@@ -356,7 +355,7 @@ impl<S: Simd> Selected<S> {
     #[inline(always)]
     fn or(self, mask: mask64x8<S>, other: Self) -> Self {
         Self {
-            center: self.center.or(mask, other.center),
+            center: self.center.or(mask, &other.center),
             outside: mask.select(self.outside, other.outside),
             radius_sq: mask.select(self.radius_sq, other.radius_sq),
             inverse_radius: mask.select(self.inverse_radius, other.inverse_radius),

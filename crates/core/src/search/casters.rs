@@ -13,6 +13,7 @@ use super::eight::doubles;
 use super::hierarchy::boxes::{Boxes, Group};
 use super::hierarchy::{Hierarchy, Look, is_sphere};
 use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// Which discs a point of the plane may lie in.
@@ -131,11 +132,10 @@ impl<'world> Casters<'world> {
         self.hierarchy.any(
             |boxes| self.reaching(simd, boxes, shaft),
             |number| {
-                let mut left = self.reaching_of(simd, self.hierarchy.group(number), shaft);
+                let reaching = self.reaching_of(simd, self.hierarchy.group(number), shaft);
                 let indices = self.hierarchy.indices(number);
-                while left != 0 {
-                    let index = indices[left.trailing_zeros() as usize];
-                    left &= left - 1;
+                for place in set_bits(reaching) {
+                    let index = indices[place];
                     if is_sphere(index) && self.reaches(index, shaft) && holds(index as usize) {
                         return true;
                     }

@@ -16,6 +16,7 @@ use super::hierarchy::{Hierarchy, Node, is_sphere};
 use crate::hit::ball::Ball;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
+use crate::numeric::bits::set_bits;
 use crate::picture::tile::Tile;
 
 /// For every tile the spheres that may be seen in it, those that come nearest first.
@@ -217,7 +218,7 @@ impl Search<'_> {
     /// Puts what a node holds among what waits, as far as it may be seen.
     fn open(&self, node: Node, nearest: u64, grid: &Grid, coverage: &Coverage, open: &mut Open) {
         let eight = self.eye.boxes(self.hierarchy.boxes(node), grid);
-        for place in places(eight.may) {
+        for place in set_bits(eight.may) {
             if coverage.is_covered(eight.range(place)) {
                 continue;
             }
@@ -242,7 +243,7 @@ impl Search<'_> {
         let spheres = self.hierarchy.group(group);
         let eight = self.eye.spheres(spheres, grid);
         let indices = self.hierarchy.indices(group);
-        for place in places(eight.may) {
+        for place in set_bits(eight.may) {
             let index = indices[place];
             if !is_sphere(index) || coverage.is_covered(eight.range(place)) {
                 continue;
@@ -361,15 +362,6 @@ fn gathered(places: &mut [u32], old: &[u32]) -> Vec<u32> {
 fn of_rising_bits(bits: u64) -> f64 {
     const SIGN: u64 = 1 << 63;
     f64::from_bits(if bits & SIGN == 0 { !bits } else { bits ^ SIGN })
-}
-
-/// The places of the bits that are set.
-fn places(mut bits: u8) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let place = bits.trailing_zeros() as usize;
-        bits &= bits.wrapping_sub(1);
-        (place < WIDTH).then_some(place)
-    })
 }
 
 /// Bits that rise with the number.

@@ -117,8 +117,9 @@ impl Part {
             is_lost |= pixel.status == Status::OutOfBudget;
         }
         let mut off = libm::hypot(odd_alpha[0], odd_alpha[1]);
-        for channel in 0..3 {
-            off = off.max(libm::hypot(odd[0][channel], odd[1][channel]));
+        let [first, second] = odd.map(|odd| odd.to_array());
+        for (first, second) in first.into_iter().zip(second) {
+            off = off.max(libm::hypot(first, second));
         }
         Self {
             panel,

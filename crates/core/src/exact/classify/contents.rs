@@ -6,6 +6,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
+use super::active::Active;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
@@ -18,22 +19,9 @@ use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::roughness::PixelKey;
-use crate::numeric::polynomial::{Linear, Quadratic};
+use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
-
-/// A sphere that may be seen in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Active {
-    pub(crate) sphere: usize,
-    pub(crate) ball: Ball,
-    /// The discriminant Q of the ray.
-    pub(crate) discriminant: Quadratic,
-    /// d · c.
-    pub(crate) along: Linear,
-    /// Whether the terminators belong to a surface without bumps.
-    pub(crate) is_smooth: bool,
-}
 
 /// How a light may reach a sphere in a cell.
 #[derive(Clone, Debug)]

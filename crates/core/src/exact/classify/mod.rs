@@ -1,5 +1,6 @@
 //! The spheres, edges and lights that pixels and their parts may see.
 
+pub(crate) mod active;
 pub(crate) mod contents;
 mod hidden;
 pub(crate) mod magnitude;

@@ -11,6 +11,7 @@ use super::shade_mask::ShadeMask;
 use crate::edges::cell::Cell;
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
 /// The radius in pixels of spheres whose occluders are sought for all of the sphere, not for what a tile
@@ -216,10 +217,7 @@ impl OccluderCache {
             if is_over.to_bitmask() & valid != 0 {
                 return true;
             }
-            let mut near = is_near.to_bitmask() & valid;
-            while near != 0 {
-                let lane = near.trailing_zeros() as usize;
-                near &= near - 1;
+            for lane in set_bits(is_near.to_bitmask() & valid) {
                 self.edges.push((first + lane) as u32);
             }
             first += count;

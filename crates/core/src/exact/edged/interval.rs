@@ -9,7 +9,7 @@ use super::cut::{is_lit, sphere_of};
 use super::piece::Surroundings;
 use super::rule::{CAUTION, NODES, Roots, Rule};
 use super::turns::{Look, Nearest, Search, Seeker, Turn, Turns};
-use crate::exact::classify::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::exact::surface::Finish;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::cut;
 use super::piece::Surroundings;
 use super::rule::NODES;
-use crate::exact::classify::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;

@@ -4,9 +4,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::estimate::{Estimate, MOST_NEARNESS, ROUNDING, Rule, bend_of_grid};
-use super::filled::{Filled, Radiance};
+use super::filled::{Filled, Radiance, SIZE_OF_PARTS};
 use super::light_cosines::LightCosines;
-use super::parts::SIZE_OF_PARTS;
 use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
 use super::terminators::SMALL;
 use crate::model::color::Color;

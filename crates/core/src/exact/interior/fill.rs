@@ -2,8 +2,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::filled::Filled;
-use super::parts::SAMPLES_OF_PARTS;
+use super::filled::{Filled, FilledRow, SAMPLES_OF_PARTS};
 use super::reached::Reached;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::row::Coverage;
@@ -12,19 +11,9 @@ use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::material::Grain;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::picture::pixel::{Evidence, Pixel, Status};
-use crate::picture::tile::Tile;
-
-/// Up to eight pixels of a row that one sphere fills.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FilledRow<'a> {
-    /// The first of the eight pixels.
-    pub(crate) start: Tile,
-    /// Those that count, bit by bit.
-    pub(crate) which: u64,
-    pub(crate) coverage: &'a Coverage,
-}
 
 /// The outcome for the pixels of a row.
 #[derive(Clone, Copy, Debug)]
@@ -65,7 +54,7 @@ pub(crate) fn fill<S: Simd>(
 
     // Pixels without light.
     let ambient = scene.world.albedo(*sphere) * scene.ambient;
-    for lane in lanes(easy & !lit) {
+    for lane in set_bits(easy & !lit) {
         pixels[lane] = Pixel {
             evidence: Evidence::Bound,
             ..met(ambient, ambient.max_element() * UNIT_ROUNDOFF)
@@ -75,7 +64,7 @@ pub(crate) fn fill<S: Simd>(
     // The noise of each pixel is its own: one after the other.
     let roughness = material.roughness.as_ref();
     if roughness.is_some_and(|roughness| matches!(roughness.grain, Grain::Pixel)) {
-        for lane in lanes(lit) {
+        for lane in set_bits(lit) {
             filled.add(&fill_lit(
                 simd,
                 context,
@@ -129,7 +118,7 @@ fn fill_lit<S: Simd>(
     let mut samples = averages.samples as u64 * u64::from(which.count_ones());
     let mut hard = 0;
     let is_met = |error: f64| error <= context.tolerance;
-    for lane in lanes(which) {
+    for lane in set_bits(which) {
         let (mut value, mut error) = (averages.values[lane], averages.errors[lane]);
         if !is_met(error) && averages.divisible >> lane & 1 == 1 {
             samples += SAMPLES_OF_PARTS;
@@ -162,13 +151,4 @@ fn met(value: Color, error: f64) -> Pixel {
         evidence: Evidence::Estimate,
         status: Status::Met,
     }
-}
-
-/// The positions of the bits that are set.
-pub(crate) fn lanes(mut bits: u64) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        let lane = (bits != 0).then(|| bits.trailing_zeros() as usize);
-        bits &= bits.wrapping_sub(1);
-        lane
-    })
 }

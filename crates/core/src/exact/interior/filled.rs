@@ -4,16 +4,36 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::light_cosines::LightCosines;
-use super::samples::POINTS;
+use super::samples::{POINTS, STAR_SAMPLES};
 use crate::edges::cell::Ball;
+use crate::exact::classify::row::Coverage;
 use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
+use crate::picture::tile::Tile;
 
 /// Light in up to three channels, eight samples at a time.
 pub(super) type Radiance<S> = [f64x8<S>; 3];
+
+/// Up to eight pixels of a row that one sphere fills.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FilledRow<'a> {
+    /// The first of the eight pixels.
+    pub(crate) start: Tile,
+    /// Those that count, bit by bit.
+    pub(crate) which: u64,
+    pub(crate) coverage: &'a Coverage,
+}
+
+/// How far normals turn from the middle of a part to its corners, over how far they do in its pixel:
+/// parts are a half by a quarter, quarters where the surface recedes; and a little more, as it does
+/// not recede evenly.
+pub(super) const SIZE_OF_PARTS: f64 = 0.45;
+
+/// Samples that the parts of a pixel take.
+pub(super) const SAMPLES_OF_PARTS: u64 = 8 * STAR_SAMPLES as u64;
 
 /// Eight pixels, or parts of one, that one sphere fills.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,9 @@
 //! Pixels that one sphere fills: by rules with few samples, where light is smooth.
 
-pub(crate) mod average;
+mod average;
 mod estimate;
 pub(crate) mod fill;
-mod filled;
+pub(crate) mod filled;
 mod light_cosines;
 mod parts;
 mod reached;

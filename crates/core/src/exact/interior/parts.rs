@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::estimate::Rule;
-use super::filled::Filled;
+use super::filled::{Filled, SIZE_OF_PARTS};
 use super::light_cosines::LightCosines;
 use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
 use crate::exact::points::Points;
@@ -12,14 +12,6 @@ use crate::exact::scene::MOST_LIGHTS;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
-
-/// How far normals turn from the middle of a part to its corners, over how far they do in its pixel:
-/// parts are a half by a quarter, quarters where the surface recedes; and a little more, as it does
-/// not recede evenly.
-pub(super) const SIZE_OF_PARTS: f64 = 0.45;
-
-/// Samples that the parts of a pixel take.
-pub(super) const SAMPLES_OF_PARTS: u64 = 8 * STAR_SAMPLES as u64;
 
 /// All eight parts, bit by bit.
 const ALL: u64 = 0xff;

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use super::fill::FilledRow;
+use super::filled::FilledRow;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::occluders::Occluder;
 use crate::exact::context::Context;

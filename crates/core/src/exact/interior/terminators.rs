@@ -3,9 +3,8 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::filled::Filled;
+use super::filled::{Filled, SIZE_OF_PARTS};
 use super::light_cosines::{CosineRange, LightCosines};
-use super::parts::SIZE_OF_PARTS;
 
 /// The half diagonal over a cell of the noise below which five samples of a pixel are enough to know bumps
 /// by. By more samples, or in parts, larger pixels are known. It trades samples for false claims; not

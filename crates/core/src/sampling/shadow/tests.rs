@@ -20,7 +20,7 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
         };
         visibility.is_blocked(0, &to_light, error, 0)
     };
-    let expected = lanes_of(0xff)
+    let expected = set_bits(0xff_u64)
         .filter(is_dark)
         .fold(0, |dark, lane| dark | 1 << lane);
     let (right, up) = visibility.axes(0);
@@ -32,8 +32,8 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
         let lit = Lit {
             points: vectors,
             errors: f64x8::splat(simd, error),
-            right: vectors.dot(Vectors::splat(simd, right)),
-            up: vectors.dot(Vectors::splat(simd, up)),
+            right: vectors.dot_one(right),
+            up: vectors.dot_one(up),
         };
         let mut shadows = Shadows::new(&visibility, DVec3::ZERO, 1.0);
         shadows.darkened(simd, &lit, 0, light, 0, 0xff)

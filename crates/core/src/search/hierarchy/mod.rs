@@ -6,14 +6,13 @@
 pub(crate) mod boxes;
 mod order;
 
-use crate::search::hierarchy::boxes::Boxes;
-use crate::search::hierarchy::boxes::Group;
-use crate::search::hierarchy::boxes::WIDTH;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
+use self::boxes::{Boxes, Group, WIDTH};
 use self::order::NOBODY;
 use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
 
 /// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
 /// their number alone.
@@ -126,12 +125,9 @@ impl Hierarchy {
             let node = waiting[count];
             let boxes = self.boxes(node);
             let seen = look(boxes);
-            let mut left = seen.may & boxes.filled();
             let mut places = [0; WIDTH];
             let mut known = 0;
-            while left != 0 {
-                let place = left.trailing_zeros() as usize;
-                left &= left - 1;
+            for place in set_bits(seen.may & boxes.filled()) {
                 let mut at = known;
                 while at > 0 && seen.keys[places[at - 1]] > seen.keys[place] {
                     places[at] = places[at - 1];

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use crate::edges::cell::Cell;
-use crate::exact::classify::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
