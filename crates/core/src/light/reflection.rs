@@ -155,10 +155,8 @@ impl<S: Simd> Surface<S> for Reflectance {
 
     #[inline(always)]
     fn strength(&self) -> Option<f64> {
-        match self.highlight {
-            Some((strength, _)) => Some(strength),
-            None => None,
-        }
+        let (strength, _) = self.highlight?;
+        Some(strength)
     }
 
     #[inline(always)]

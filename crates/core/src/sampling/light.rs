@@ -2,13 +2,15 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
+use glam::DVec3;
 
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
 use crate::light::reflection::{Reflectance, Source, Surface, ViewedPoints};
 use crate::model::color::Color;
-use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
+use crate::model::roughness::{PixelKey, unit};
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::LANES;
@@ -56,7 +58,7 @@ impl<'scene> Shading<'scene> {
     pub(super) fn light<S: Simd, const CHANNELS: usize>(
         &self,
         simd: S,
-        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &Looks<'_>),
+        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &mut Looks<'_>),
         place: Place,
         shadows: &mut Option<Shadows<'_>>,
     ) -> Light<S, CHANNELS> {
@@ -64,15 +66,15 @@ impl<'scene> Shading<'scene> {
         let normal = if self.is_smooth {
             sight.normal
         } else {
-            self.shading_normals(*sight, place, groups)
+            self.shading_normals(simd, sight, groups, place, &mut looks.noise)
         };
         let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
         let surfaces: Surfaces<'_, S, CHANNELS> = self.surfaces(simd, groups, looks);
         let has_highlight = looks.has_highlight;
         let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
         let mut sum: Light<S, CHANNELS> = splat(simd, world.ambient);
-        for channel in 0..CHANNELS {
-            sum[channel] *= surfaces.albedo[channel];
+        for (sum, albedo) in sum.iter_mut().zip(surfaces.albedo) {
+            *sum *= albedo;
         }
         for (index, light) in world.lights.iter().enumerate() {
             let cosine = points.cosine(light.toward());
@@ -155,36 +157,59 @@ impl<'scene> Shading<'scene> {
     #[inline(never)]
     fn shading_normals<S: Simd>(
         &self,
-        sight: Sight<S>,
-        place: Place,
+        simd: S,
+        sight: &Sight<S>,
         groups: &Groups<'_>,
+        place: Place,
+        noise: &mut Option<Box<NoiseCells>>,
     ) -> Vectors<S> {
         let mut normal = sight.normal;
         for Group { near, lanes } in groups.as_slice() {
-            let index = near.ball.index as usize;
-            let Some(roughness) = &self.world.material(index).roughness else {
-                continue;
-            };
-            let radius = self.world.spheres()[index].radius();
-            for lane in set_bits(lanes & !sight.inner) {
-                let key = PixelKey {
-                    col: place.col + lane as u32,
-                    row: place.row,
-                    frame: self.frame,
-                };
-                let bumpy = roughness.perturb(sight.normal.lane(lane), radius, index, key);
-                normal.set_lane(lane, bumpy);
+            let (sphere, lanes) = (near.ball.index as usize, lanes & !sight.inner);
+            if let (Some(roughness), 1..) = (&self.world.material(sphere).roughness, lanes) {
+                simd.vectorize(
+                    #[inline(always)]
+                    || {
+                        let mask = mask64x8::from_bitmask(simd, lanes);
+                        let first = sight.normal.lane(lanes.trailing_zeros() as usize);
+                        // The lanes of other spheres repeat one: so they cost no cells of noise.
+                        let own = sight.normal.or(mask, &Vectors::splat(simd, first));
+                        let radius = self.world.spheres()[sphere].radius();
+                        let mut rough = [own.x, own.y, own.z];
+                        if let Some(bumps) = roughness.bumps(radius, sphere) {
+                            let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                            rough = bumps.scale_lanes(rough, noise);
+                        } else {
+                            let mut factors = Vectors::splat(simd, DVec3::ONE);
+                            for lane in set_bits(lanes) {
+                                let key = PixelKey {
+                                    col: place.col + lane as u32,
+                                    row: place.row,
+                                    frame: self.frame,
+                                };
+                                factors.set_lane(lane, roughness.pixel_factors(sphere, key));
+                            }
+                            rough[0] *= factors.x;
+                            rough[1] *= factors.y;
+                            rough[2] *= factors.z;
+                        }
+                        let [x, y, z] = unit(rough);
+                        normal = Vectors { x, y, z }.or(mask, &normal);
+                    },
+                );
             }
         }
         normal
     }
 }
 
-/// The materials that eight rays see, each once.
+/// The materials that eight rays see, each once, and memory of their noise.
 pub(super) struct Looks<'scene> {
     list: [Look<'scene>; LANES],
     count: usize,
     has_highlight: bool,
+    /// Cells of the noise of rough surfaces.
+    noise: Option<Box<NoiseCells>>,
 }
 
 /// A material, and the rays that see it as bits.
@@ -208,6 +233,7 @@ impl<'scene> Looks<'scene> {
             list: [look; LANES],
             count: 1,
             has_highlight: reflectance.highlight.is_some(),
+            noise: None,
         }
     }
 

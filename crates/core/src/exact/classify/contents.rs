@@ -23,27 +23,27 @@ use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
 
-/// How a light may reach a sphere in a cell.
+/// The way of a light to a sphere in a cell.
 #[derive(Clone, Debug)]
 pub(crate) enum Reach {
-    /// Nowhere.
+    /// The light reaches it nowhere.
     Nowhere,
-    /// Where none of these occluders is in the way.
+    /// The light reaches it where none of these occluders is in the way.
     Past(Range<usize>),
 }
 
 /// A curve on which light may change abruptly.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Kind {
-    /// Of the active sphere with this position.
+    /// The outline of the active sphere with this position.
     Silhouette(usize),
-    /// Between two active spheres.
+    /// The intersection of two active spheres.
     Seam(usize, usize),
-    /// On an active sphere, of a light.
+    /// The great circle of an active sphere that faces a light edge-on.
     Terminator(usize, usize),
 }
 
-/// All that matters in a cell.
+/// The spheres, curves and occluders that matter in a cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contents {
     pub(crate) active: Vec<Active>,
@@ -58,8 +58,8 @@ pub(crate) struct Contents {
     hidden: HiddenSpheres,
 }
 
-/// What rounding moves points by, relative to the largest numbers that they are computed from: some
-/// units in the last place.
+/// A bound of what rounding moves points by, relative to the largest numbers that they are computed from:
+/// some units in the last place.
 const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
@@ -131,7 +131,7 @@ impl Contents {
         }
     }
 
-    /// Adds where an active sphere intersects those before it.
+    /// Adds the curves in which an active sphere intersects those before it.
     fn add_seams(&mut self, cell: &Cell, position: usize) {
         let ball = self.active[position].ball;
         for (index, other) in self.active[..position].iter().enumerate() {
@@ -166,7 +166,7 @@ impl Contents {
         }
     }
 
-    /// How a light reaches a sphere that the eye is outside of.
+    /// The way of a light to a sphere that the eye is outside of.
     fn reach_of(
         &mut self,
         scene: &InCamera<'_>,
@@ -202,7 +202,7 @@ impl Contents {
         Reach::Past(first..self.occluders.len())
     }
 
-    /// How much there is to look at on a line: in each gap between edges every sphere may be seen.
+    /// The work on a line: in each gap between edges every sphere may be seen.
     pub(crate) fn extent(&self) -> u64 {
         let edges = self.conics.len() + 4 * self.occluders.len();
         (8 + edges + self.active.len() * (1 + self.conics.len() / 4)) as u64

@@ -10,8 +10,7 @@ pub(crate) struct Sample {
     /// Weight in the rule of the middle and the corners of Gauss's grid: exact for sums of functions
     /// of u and of v that Gauss's rule is exact for.
     pub(crate) star: f64,
-    /// Weights, along both diagonals, in what Kronrod's rule with seven points finds more than
-    /// Gauss's.
+    /// Weights, along both diagonals, in the excess of Kronrod's rule with seven points over Gauss's.
     pub(crate) excess: [f64; 2],
 }
 
@@ -27,14 +26,16 @@ pub(crate) const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 /// The numbers of Gauss's samples, row by row.
 pub(crate) const GRID: [[usize; 3]; 3] = [[1, 5, 2], [6, 0, 7], [3, 8, 4]];
 
-/// How far a point of a pixel is from the nearest sample of the star, and of Gauss's grid, at most,
-/// in half diagonals.
+/// Bounds of the distance of a point of a pixel from the nearest sample of the star, and of Gauss's grid, in
+/// half diagonals.
 pub(crate) const FROM_STAR: f64 = 0.6;
 pub(crate) const FROM_GRID: f64 = 0.4;
 
-/// How far a corner is from the middle, in distances of the star's other samples.
+/// The distance of a corner from the middle over that of the star's other samples: √(5/3).
 pub(crate) const TO_CORNER: f64 = 1.290_994_448_735_805_6;
 
+/// The samples: the star's, the rest of Gauss's grid, then those of Kronrod's rule on either diagonal. The
+/// numbers are those of the rules for [−½, ½], half of the tabulated ones for [−1, 1].
 pub(crate) const POINTS: [Sample; SAMPLES] = {
     const OUTER: f64 = 0.387_298_334_620_741_7;
     const GAUSS: [f64; 3] = [-OUTER, 0.0, OUTER];
