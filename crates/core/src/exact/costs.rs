@@ -34,7 +34,7 @@ impl Finish {
         let viewed = self.viewed(points, &points.normal);
         let cosine = viewed.cosine(light.toward);
         let falloff = &reflectance.diffuse;
-        let brightest = reflectance.brightest_diffuse(light.intensity);
+        let [brightest, _] = reflectance.brightest(light.intensity);
         let height = falloff.of_clamped(highest_cosine(simd, cosine, turn)) * brightest;
         let is_turning = (turn_sq * falloff.exponent).simd_gt(2.0 * most);
         let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
@@ -70,8 +70,7 @@ impl Finish {
         highlight: f64x8<S>,
         shares: [f64x8<S>; 2],
     ) -> f64x8<S> {
-        let diffuse = self.reflectance.brightest_diffuse(light.intensity);
-        let specular = self.reflectance.brightest_highlight(light.intensity);
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
         let cosine = cosine.max(cosine * 0.0);
         let falloff = &self.reflectance.diffuse;
         falloff.of_clamped(cosine) * diffuse * shares[0] + highlight * specular * shares[1]
@@ -88,8 +87,7 @@ impl Finish {
         highlight: f64x8<S>,
     ) -> f64x8<S> {
         let falloff = &self.reflectance.diffuse;
-        let diffuse = self.reflectance.brightest_diffuse(light.intensity);
-        let specular = self.reflectance.brightest_highlight(light.intensity);
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
         let range = range.min(range * 0.0 + 1.0);
         falloff.of_clamped(range) * (diffuse * cost_of_kink(falloff.exponent))
             + highlight * specular
@@ -142,13 +140,10 @@ impl Finish {
         const BEYOND: f64 = 0.04;
         let range = f64x8::splat(simd, range.min(1.0));
         let falloff = &self.reflectance.diffuse;
-        let diffuse = self.reflectance.brightest_diffuse(light.intensity);
-        let specular = match self.reflectance.highlight {
-            Some((strength, _)) if jumps => strength,
-            _ => 0.0,
-        };
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
+        let specular = if jumps { specular } else { 0.0 };
         (falloff.of_clamped(range) * (diffuse * cost_of_kink(falloff.exponent)))[0]
-            + specular * light.intensity.max_element() * BEYOND
+            + specular * BEYOND
     }
 
     /// A bound of what is missed where in a pixel a highlight ends, when n·h changes by `range` there.

@@ -5,7 +5,6 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 
 use crate::edges::cell::Ball;
 use crate::edges::shadow::Caster;
-use crate::light::reflection::Source;
 use crate::model::color::Color;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -61,16 +60,6 @@ pub(crate) struct Light {
 }
 
 impl Light {
-    /// The light that is reflected, with its index in its group.
-    #[inline(always)]
-    pub(crate) fn source(&self, index: usize) -> Source {
-        Source {
-            index,
-            toward: self.toward,
-            intensity: self.intensity,
-        }
-    }
-
     /// A ball as the light sees it.
     pub(crate) fn caster(&self, center: DVec3, radius: f64) -> Caster {
         Caster {

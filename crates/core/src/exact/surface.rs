@@ -5,7 +5,7 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::points::Points;
 use super::scene::{InCamera, MOST_LIGHTS};
-use crate::light::reflection::{Observer, Reflectance, Surface, ViewedPoints};
+use crate::light::reflection::{Reflectance, Surface, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
@@ -16,6 +16,33 @@ use crate::numeric::vectors::Vectors;
 pub(crate) struct Finish {
     pub(super) reflectance: Reflectance,
     pub(super) shading_normal: ShadingNormal,
+}
+
+/// The cosines n · h of points so far, of each light.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfCosines<S: Simd> {
+    /// The highest powers, on either side of terminators.
+    pub(super) powers: [f64x8<S>; MOST_LIGHTS],
+    pub(super) lowest: [f64x8<S>; MOST_LIGHTS],
+    pub(super) highest: [f64x8<S>; MOST_LIGHTS],
+}
+
+impl<S: Simd> HalfCosines<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S) -> Self {
+        Self {
+            powers: [f64x8::splat(simd, 0.0); MOST_LIGHTS],
+            lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
+            highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
+        }
+    }
+
+    #[inline(always)]
+    fn add(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>) {
+        self.powers[light] = self.powers[light].max(power);
+        self.lowest[light] = self.lowest[light].min(half_cosine);
+        self.highest[light] = self.highest[light].max(half_cosine);
+    }
 }
 
 impl Finish {
@@ -46,7 +73,8 @@ impl Finish {
         let mut sum = 0.0;
         for (index, light) in scene.lights.iter().enumerate() {
             if lights >> index & 1 == 1 {
-                sum += self.reflectance.brightest_diffuse(light.intensity);
+                let [diffuse, _] = self.reflectance.brightest(light.intensity);
+                sum += diffuse;
             }
         }
         sum
@@ -104,16 +132,16 @@ impl Finish {
             if lights >> index & 1 == 0 {
                 continue;
             }
-            let lit = mask64x8::splat(simd, true);
-            let cosine = viewed.cosine(light.toward);
-            let sum = &mut sum[..scene.channels];
-            viewed.add_light(&surface, &light.source(index), (cosine, lit), sum, &mut ());
+            let (cosine, lit) = (viewed.cosine(light.toward), mask64x8::splat(simd, true));
+            let light = (light.toward, light.intensity);
+            viewed.add_light(&surface, light, cosine, lit, &mut sum[..scene.channels]);
         }
         sum
     }
 
     /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels
-    /// that the scene counts; `lit` tells for each light, bit by bit, which of the points it reaches.
+    /// that the scene counts; `lit` tells for each light, bit by bit, which of the points it reaches. What
+    /// highlights depend on is added to `halves`.
     #[inline(always)]
     pub(crate) fn radiance<S: Simd>(
         &self,
@@ -122,7 +150,7 @@ impl Finish {
         points: &Points<S>,
         normal: &Vectors<S>,
         lit: &[u64; MOST_LIGHTS],
-        observer: &mut impl Observer<S>,
+        mut halves: Option<&mut HalfCosines<S>>,
     ) -> [f64x8<S>; 3] {
         let constant = self.reflectance.albedo * scene.ambient;
         let mut sum = [
@@ -137,8 +165,11 @@ impl Finish {
             }
             let cosine = viewed.cosine(light.toward);
             let lit = cosine.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
-            let (source, sum) = (light.source(index), &mut sum[..scene.channels]);
-            viewed.add_light(&self.reflectance, &source, (cosine, lit), sum, observer);
+            let (light, sum) = ((light.toward, light.intensity), &mut sum[..scene.channels]);
+            let half = viewed.add_light(&self.reflectance, light, cosine, lit, sum);
+            if let (Some(halves), Some([power, half_cosine])) = (&mut halves, half) {
+                halves.add(index, power, half_cosine);
+            }
         }
         sum
     }
@@ -159,11 +190,9 @@ impl Finish {
 struct Unclamped<'a>(&'a Reflectance);
 
 impl<S: Simd> Surface<S> for Unclamped<'_> {
-    type Number = f64;
-
     #[inline(always)]
-    fn albedo(&self, channel: usize) -> f64 {
-        Surface::<S>::albedo(self.0, channel)
+    fn albedo(&self, simd: S, channel: usize) -> f64x8<S> {
+        self.0.albedo(simd, channel)
     }
 
     #[inline(always)]
@@ -176,8 +205,8 @@ impl<S: Simd> Surface<S> for Unclamped<'_> {
     }
 
     #[inline(always)]
-    fn strength(&self) -> Option<f64> {
-        Surface::<S>::strength(self.0)
+    fn strength(&self, simd: S) -> Option<f64x8<S>> {
+        Surface::strength(self.0, simd)
     }
 
     #[inline(always)]

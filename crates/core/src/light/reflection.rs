@@ -16,6 +16,13 @@ use crate::model::material::Material;
 use crate::numeric::power::Power;
 use crate::numeric::vectors::Vectors;
 
+/// A power of a cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Falloff {
+    pub(crate) exponent: f64,
+    power: Power,
+}
+
 /// A material, prepared.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflectance {
@@ -25,48 +32,18 @@ pub(crate) struct Reflectance {
     pub(crate) highlight: Option<(f64, Falloff)>,
 }
 
-/// A power of a cosine.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Falloff {
-    pub(crate) exponent: f64,
-    power: Power,
-}
-
 /// The surfaces that are seen in the lanes.
 pub(crate) trait Surface<S: Simd> {
-    /// A number of the surfaces.
-    type Number: Factor<S>;
-
-    fn albedo(&self, channel: usize) -> Self::Number;
+    fn albedo(&self, simd: S, channel: usize) -> f64x8<S>;
 
     /// The power of n·l, which may be negative, or a little above 1 by rounding.
     fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S>;
 
     /// The strength of highlights; nothing where none of the surfaces has any.
-    fn strength(&self) -> Option<Self::Number>;
+    fn strength(&self, simd: S) -> Option<f64x8<S>>;
 
     /// The power of n·h, which may be negative, or a little above 1.
     fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S>;
-}
-
-/// A number of surfaces: the same in all lanes, or one in each.
-pub(crate) trait Factor<S: Simd>: Copy {
-    fn scaled(self, by: f64) -> Self;
-    fn times(self, lanes: f64x8<S>) -> f64x8<S>;
-}
-
-/// Takes in the highlights of the light that is computed.
-pub(crate) trait Observer<S: Simd> {
-    /// The power of n·h under the light with this index, and n·h.
-    fn observe_highlight(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>);
-}
-
-/// A light: the unit vector toward it, and its intensity.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Source {
-    pub(crate) index: usize,
-    pub(crate) toward: DVec3,
-    pub(crate) intensity: Color,
 }
 
 /// Points as the eye sees them.
@@ -109,15 +86,8 @@ impl Reflectance {
         Self {
             albedo: material.albedo,
             diffuse: Falloff::new(material.exponent),
-            highlight: highlight
-                .map(|highlight| (highlight.strength, Falloff::new(highlight.shininess))),
+            highlight: highlight.map(|of| (of.strength, Falloff::new(of.shininess))),
         }
-    }
-
-    /// The exponents of diffuse light and of the highlight, which is 0 without one.
-    pub(crate) fn exponents(&self) -> [f64; 2] {
-        let shininess = self.highlight.map_or(0.0, |(_, falloff)| falloff.exponent);
-        [self.diffuse.exponent, shininess]
     }
 
     /// The strength of the highlight, 0 without one.
@@ -129,23 +99,23 @@ impl Reflectance {
         }
     }
 
-    /// The diffuse light of a light in the brightest channel, where the surface faces it.
-    pub(crate) fn brightest_diffuse(&self, intensity: Color) -> f64 {
-        (self.albedo * intensity).max_element()
+    /// The exponents of diffuse light and of the highlight, which is 0 without one.
+    pub(crate) fn exponents(&self) -> [f64; 2] {
+        let shininess = self.highlight.map_or(0.0, |(_, falloff)| falloff.exponent);
+        [self.diffuse.exponent, shininess]
     }
 
-    /// The highest light of a highlight in the brightest channel.
-    pub(crate) fn brightest_highlight(&self, intensity: Color) -> f64 {
-        self.strength() * intensity.max_element()
+    /// The light in the brightest channel where the surface faces a light, and at the top of the highlight.
+    pub(crate) fn brightest(&self, intensity: Color) -> [f64; 2] {
+        let diffuse = (self.albedo * intensity).max_element();
+        [diffuse, self.strength() * intensity.max_element()]
     }
 }
 
 impl<S: Simd> Surface<S> for Reflectance {
-    type Number = f64;
-
     #[inline(always)]
-    fn albedo(&self, channel: usize) -> f64 {
-        self.albedo[channel]
+    fn albedo(&self, simd: S, channel: usize) -> f64x8<S> {
+        f64x8::splat(simd, self.albedo[channel])
     }
 
     #[inline(always)]
@@ -154,9 +124,9 @@ impl<S: Simd> Surface<S> for Reflectance {
     }
 
     #[inline(always)]
-    fn strength(&self) -> Option<f64> {
+    fn strength(&self, simd: S) -> Option<f64x8<S>> {
         let (strength, _) = self.highlight?;
-        Some(strength)
+        Some(f64x8::splat(simd, strength))
     }
 
     #[inline(always)]
@@ -164,45 +134,6 @@ impl<S: Simd> Surface<S> for Reflectance {
         match &self.highlight {
             Some((_, falloff)) => falloff.of(half_cosine),
             None => f64x8::splat(half_cosine.simd, 0.0),
-        }
-    }
-}
-
-impl<S: Simd> Factor<S> for f64 {
-    #[inline(always)]
-    fn scaled(self, by: f64) -> Self {
-        self * by
-    }
-
-    #[inline(always)]
-    fn times(self, lanes: f64x8<S>) -> f64x8<S> {
-        lanes * self
-    }
-}
-
-impl<S: Simd> Factor<S> for f64x8<S> {
-    #[inline(always)]
-    fn scaled(self, by: f64) -> Self {
-        self * by
-    }
-
-    #[inline(always)]
-    fn times(self, lanes: f64x8<S>) -> f64x8<S> {
-        lanes * self
-    }
-}
-
-/// Takes in nothing.
-impl<S: Simd> Observer<S> for () {
-    #[inline(always)]
-    fn observe_highlight(&mut self, _: usize, _: f64x8<S>, _: f64x8<S>) {}
-}
-
-impl<S: Simd, O: Observer<S>> Observer<S> for Option<&mut O> {
-    #[inline(always)]
-    fn observe_highlight(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>) {
-        if let Some(observer) = self {
-            observer.observe_highlight(light, power, half_cosine);
         }
     }
 }
@@ -217,8 +148,8 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         ray_sq: f64x8<S>,
         has_highlight: bool,
     ) -> Self {
-        let zero = f64x8::splat(ray_sq.simd, 0.0);
-        let (mut scale, mut view_cosine) = (zero, zero);
+        let mut scale = f64x8::splat(ray_sq.simd, 0.0);
+        let mut view_cosine = scale;
         if has_highlight {
             scale = f64x8::splat(ray_sq.simd, -1.0) / ray_sq.sqrt();
             view_cosine = normal.dot(ray) * scale;
@@ -250,31 +181,30 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         (cosine + self.view_cosine) / length_sq.sqrt()
     }
 
-    /// Adds the light of one source that the points reflect where `lit` holds, in as many channels as
-    /// `sum` has; `cosine` is n · l.
+    /// Adds the light that the points reflect of one light where `lit` holds, in as many channels as
+    /// `sum` has. `cosine` is n · l. Returns the power of n · h, and n · h, where there is a highlight.
     #[inline(always)]
-    pub(crate) fn add_light<M: Surface<S>>(
+    pub(crate) fn add_light(
         &self,
-        surface: &M,
-        source: &Source,
-        (cosine, lit): (f64x8<S>, mask64x8<S>),
+        surface: &impl Surface<S>,
+        (toward, intensity): (DVec3, Color),
+        cosine: f64x8<S>,
+        lit: mask64x8<S>,
         sum: &mut [f64x8<S>],
-        observer: &mut impl Observer<S>,
-    ) {
-        let zero = f64x8::splat(cosine.simd, 0.0);
+    ) -> Option<[f64x8<S>; 2]> {
+        let simd = cosine.simd;
+        let zero = f64x8::splat(simd, 0.0);
         let diffuse = lit.select(surface.diffuse(cosine), zero);
         for (channel, sum) in sum.iter_mut().enumerate() {
-            let color = surface.albedo(channel).scaled(source.intensity[channel]);
-            *sum += color.times(diffuse);
+            *sum += diffuse * (surface.albedo(simd, channel) * intensity[channel]);
         }
-        if let Some(strength) = surface.strength() {
-            let half_cosine = self.half_cosine(source.toward, cosine);
-            let highlight = surface.highlight(half_cosine);
-            observer.observe_highlight(source.index, highlight, half_cosine);
-            let highlight = lit.select(highlight, zero);
-            for (channel, sum) in sum.iter_mut().enumerate() {
-                *sum += strength.scaled(source.intensity[channel]).times(highlight);
-            }
+        let strength = surface.strength(simd)?;
+        let half_cosine = self.half_cosine(toward, cosine);
+        let power = surface.highlight(half_cosine);
+        let highlight = lit.select(power, zero);
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            *sum += highlight * (strength * intensity[channel]);
         }
+        Some([power, half_cosine])
     }
 }

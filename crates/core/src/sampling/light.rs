@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
-use crate::light::reflection::{Reflectance, Source, Surface, ViewedPoints};
+use crate::light::reflection::{Reflectance, Surface, ViewedPoints};
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
@@ -89,12 +89,8 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let source = Source {
-                index,
-                toward: light.toward(),
-                intensity: light.intensity(),
-            };
-            points.add_light(&surfaces, &source, (cosine, lit), &mut sum, &mut ());
+            let light = (light.toward(), light.intensity());
+            points.add_light(&surfaces, light, cosine, lit, &mut sum);
         }
         sum
     }
@@ -275,10 +271,8 @@ struct Surfaces<'a, S: Simd, const CHANNELS: usize> {
 }
 
 impl<S: Simd, const CHANNELS: usize> Surface<S> for Surfaces<'_, S, CHANNELS> {
-    type Number = f64x8<S>;
-
     #[inline(always)]
-    fn albedo(&self, channel: usize) -> f64x8<S> {
+    fn albedo(&self, _: S, channel: usize) -> f64x8<S> {
         self.albedo[channel]
     }
 
@@ -293,12 +287,8 @@ impl<S: Simd, const CHANNELS: usize> Surface<S> for Surfaces<'_, S, CHANNELS> {
     }
 
     #[inline(always)]
-    fn strength(&self) -> Option<f64x8<S>> {
-        if self.looks.has_highlight {
-            Some(self.strengths)
-        } else {
-            None
-        }
+    fn strength(&self, _: S) -> Option<f64x8<S>> {
+        self.looks.has_highlight.then_some(self.strengths)
     }
 
     #[inline(always)]

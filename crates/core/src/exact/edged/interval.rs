@@ -259,7 +259,7 @@ impl Surroundings<'_> {
                 let normals = finish.normals(simd, scene, &points, noise);
                 for node in 0..NODES {
                     let (points, normal) = (&points[node], &normals[node]);
-                    let light = finish.radiance(simd, scene, points, normal, lit, &mut ());
+                    let light = finish.radiance(simd, scene, points, normal, lit, None);
                     for channel in 0..scene.channels {
                         fine[channel] += light[channel] * rule.fine[node];
                         coarse[channel] += light[channel] * rule.coarse[node];

@@ -78,11 +78,12 @@ impl<S: Simd> Filled<'_, S> {
         let mut lights = [[f64x8::splat(simd, 0.0); 3]; COUNT];
         for index in 0..COUNT {
             let (points, normal) = (&points[index], &normals[index]);
-            let mut cosines = finish.needs_cosines().then_some(&mut *cosines);
-            if let Some(cosines) = &mut cosines {
+            let mut halves = None;
+            if finish.needs_cosines() {
                 cosines.add_sample(&scene.lights, normal);
+                halves = Some(&mut cosines.halves);
             }
-            lights[index] = finish.radiance(simd, scene, points, normal, self.lit, &mut cosines);
+            lights[index] = finish.radiance(simd, scene, points, normal, self.lit, halves);
         }
         lights
     }

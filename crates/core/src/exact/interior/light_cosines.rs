@@ -6,7 +6,7 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::samples::{GRID, STAR_SAMPLES, TO_CORNER};
 use crate::exact::scene::{Light, MOST_LIGHTS};
-use crate::light::reflection::Observer;
+use crate::exact::surface::HalfCosines;
 use crate::numeric::vectors::Vectors;
 
 /// The cosines n · l and n · h of the samples so far, of each light.
@@ -16,10 +16,7 @@ pub(crate) struct LightCosines<S: Simd> {
     highest: [f64x8<S>; MOST_LIGHTS],
     /// At the samples of the star.
     star: [[f64x8<S>; STAR_SAMPLES]; MOST_LIGHTS],
-    /// The highest powers of n · h, on either side of terminators.
-    highlights: [f64x8<S>; MOST_LIGHTS],
-    half_lowest: [f64x8<S>; MOST_LIGHTS],
-    half_highest: [f64x8<S>; MOST_LIGHTS],
+    pub(super) halves: HalfCosines<S>,
     /// The number of samples so far.
     taken: usize,
 }
@@ -47,15 +44,6 @@ impl<S: Simd> CosineRange<S> {
     }
 }
 
-impl<S: Simd> Observer<S> for LightCosines<S> {
-    #[inline(always)]
-    fn observe_highlight(&mut self, light: usize, power: f64x8<S>, half_cosine: f64x8<S>) {
-        self.highlights[light] = self.highlights[light].max(power);
-        self.half_lowest[light] = self.half_lowest[light].min(half_cosine);
-        self.half_highest[light] = self.half_highest[light].max(half_cosine);
-    }
-}
-
 impl<S: Simd> LightCosines<S> {
     /// Of no samples yet.
     #[inline(always)]
@@ -64,9 +52,7 @@ impl<S: Simd> LightCosines<S> {
             lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
             highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
             star: [[f64x8::splat(simd, 0.0); STAR_SAMPLES]; MOST_LIGHTS],
-            highlights: [f64x8::splat(simd, 0.0); MOST_LIGHTS],
-            half_lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
-            half_highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
+            halves: HalfCosines::new(simd),
             taken: 0,
         }
     }
@@ -122,9 +108,9 @@ impl<S: Simd> LightCosines<S> {
     #[inline(always)]
     pub(crate) fn half_range(&self, light: usize) -> CosineRange<S> {
         CosineRange {
-            lowest: self.half_lowest[light],
-            highest: self.half_highest[light],
-            bend: self.half_lowest[light] * 0.0,
+            lowest: self.halves.lowest[light],
+            highest: self.halves.highest[light],
+            bend: self.halves.lowest[light] * 0.0,
         }
     }
 
@@ -137,7 +123,7 @@ impl<S: Simd> LightCosines<S> {
     /// The highest power of n · h.
     #[inline(always)]
     pub(crate) fn highlight(&self, light: usize) -> f64x8<S> {
-        self.highlights[light]
+        self.halves.powers[light]
     }
 }
 
