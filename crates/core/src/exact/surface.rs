@@ -5,8 +5,9 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::points::Points;
 use super::scene::{InCamera, MOST_LIGHTS};
-use crate::light::reflection::{Reflectance, Surface, ViewedPoints};
+use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
+use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
@@ -125,16 +126,15 @@ impl Finish {
         points: &Points<S>,
         lights: u64,
     ) -> [f64x8<S>; 3] {
-        let surface = Unclamped(&self.reflectance);
+        let albedo = splat(simd, self.reflectance.albedo);
         let mut sum = [f64x8::splat(simd, 0.0); 3];
         let viewed = self.viewed(points, &points.normal);
         for (index, light) in scene.lights.iter().enumerate() {
-            if lights >> index & 1 == 0 {
-                continue;
+            if lights >> index & 1 == 1 {
+                let (cosines, sum) = (viewed.cosines(light.toward), &mut sum[..scene.channels]);
+                self.reflectance
+                    .add_light(&albedo, light.intensity, cosines, None, sum);
             }
-            let (cosine, lit) = (viewed.cosine(light.toward), mask64x8::splat(simd, true));
-            let light = (light.toward, light.intensity);
-            viewed.add_light(&surface, light, cosine, lit, &mut sum[..scene.channels]);
         }
         sum
     }
@@ -152,23 +152,21 @@ impl Finish {
         lit: &[u64; MOST_LIGHTS],
         mut halves: Option<&mut HalfCosines<S>>,
     ) -> [f64x8<S>; 3] {
-        let constant = self.reflectance.albedo * scene.ambient;
-        let mut sum = [
-            f64x8::splat(simd, constant.x),
-            f64x8::splat(simd, constant.y),
-            f64x8::splat(simd, constant.z),
-        ];
+        let mut sum = splat(simd, self.reflectance.albedo * scene.ambient);
+        let albedo = splat(simd, self.reflectance.albedo);
         let viewed = self.viewed(points, normal);
         for (index, light) in scene.lights.iter().enumerate() {
             if lit[index] == 0 {
                 continue;
             }
-            let cosine = viewed.cosine(light.toward);
-            let lit = cosine.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
-            let (light, sum) = ((light.toward, light.intensity), &mut sum[..scene.channels]);
-            let half = viewed.add_light(&self.reflectance, light, cosine, lit, sum);
-            if let (Some(halves), Some([power, half_cosine])) = (&mut halves, half) {
-                halves.add(index, power, half_cosine);
+            let cosines = viewed.cosines(light.toward);
+            let lit = cosines[0].simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
+            let (intensity, sum) = (light.intensity, &mut sum[..scene.channels]);
+            let power = self
+                .reflectance
+                .add_light(&albedo, intensity, cosines, Some(lit), sum);
+            if let (Some(halves), Some(power)) = (&mut halves, power) {
+                halves.add(index, power, cosines[1]);
             }
         }
         sum
@@ -186,31 +184,12 @@ impl Finish {
     }
 }
 
-/// A surface whose diffuse light goes on, where it is as smooth as a cosine, below zero.
-struct Unclamped<'a>(&'a Reflectance);
-
-impl<S: Simd> Surface<S> for Unclamped<'_> {
-    #[inline(always)]
-    fn albedo(&self, simd: S, channel: usize) -> f64x8<S> {
-        self.0.albedo(simd, channel)
-    }
-
-    #[inline(always)]
-    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S> {
-        if self.0.diffuse.exponent == 1.0 {
-            cosine
-        } else {
-            self.0.diffuse.of(cosine)
-        }
-    }
-
-    #[inline(always)]
-    fn strength(&self, simd: S) -> Option<f64x8<S>> {
-        Surface::strength(self.0, simd)
-    }
-
-    #[inline(always)]
-    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S> {
-        self.0.highlight(half_cosine)
-    }
+/// A color in all lanes.
+#[inline(always)]
+fn splat<S: Simd>(simd: S, color: Color) -> [f64x8<S>; 3] {
+    [
+        f64x8::splat(simd, color.x),
+        f64x8::splat(simd, color.y),
+        f64x8::splat(simd, color.z),
+    ]
 }

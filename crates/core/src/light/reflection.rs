@@ -32,20 +32,6 @@ pub(crate) struct Reflectance {
     pub(crate) highlight: Option<(f64, Falloff)>,
 }
 
-/// The surfaces that are seen in the lanes.
-pub(crate) trait Surface<S: Simd> {
-    fn albedo(&self, simd: S, channel: usize) -> f64x8<S>;
-
-    /// The power of n·l, which may be negative, or a little above 1 by rounding.
-    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S>;
-
-    /// The strength of highlights; nothing where none of the surfaces has any.
-    fn strength(&self, simd: S) -> Option<f64x8<S>>;
-
-    /// The power of n·h, which may be negative, or a little above 1.
-    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S>;
-}
-
 /// Points as the eye sees them.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ViewedPoints<'a, S: Simd> {
@@ -55,6 +41,7 @@ pub(crate) struct ViewedPoints<'a, S: Simd> {
     scale: f64x8<S>,
     /// n · v.
     view_cosine: f64x8<S>,
+    has_highlight: bool,
 }
 
 impl Falloff {
@@ -90,15 +77,6 @@ impl Reflectance {
         }
     }
 
-    /// The strength of the highlight, 0 without one.
-    #[inline(always)]
-    pub(crate) fn strength(&self) -> f64 {
-        match self.highlight {
-            Some((strength, _)) => strength,
-            None => 0.0,
-        }
-    }
-
     /// The exponents of diffuse light and of the highlight, which is 0 without one.
     pub(crate) fn exponents(&self) -> [f64; 2] {
         let shininess = self.highlight.map_or(0.0, |(_, falloff)| falloff.exponent);
@@ -107,34 +85,42 @@ impl Reflectance {
 
     /// The light in the brightest channel where the surface faces a light, and at the top of the highlight.
     pub(crate) fn brightest(&self, intensity: Color) -> [f64; 2] {
+        let strength = self.highlight.map_or(0.0, |(strength, _)| strength);
         let diffuse = (self.albedo * intensity).max_element();
-        [diffuse, self.strength() * intensity.max_element()]
-    }
-}
-
-impl<S: Simd> Surface<S> for Reflectance {
-    #[inline(always)]
-    fn albedo(&self, simd: S, channel: usize) -> f64x8<S> {
-        f64x8::splat(simd, self.albedo[channel])
+        [diffuse, strength * intensity.max_element()]
     }
 
+    /// Adds the light that points with these albedos, n · l and n · h reflect of a light where `lit` holds,
+    /// in as many channels as `sum` has. Without `lit` diffuse light goes on, as smooth as it is, where the
+    /// surface turns from the light. Returns the power of n · h where there is a highlight.
     #[inline(always)]
-    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S> {
-        self.diffuse.of(cosine)
-    }
-
-    #[inline(always)]
-    fn strength(&self, simd: S) -> Option<f64x8<S>> {
-        let (strength, _) = self.highlight?;
-        Some(f64x8::splat(simd, strength))
-    }
-
-    #[inline(always)]
-    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S> {
-        match &self.highlight {
-            Some((_, falloff)) => falloff.of(half_cosine),
-            None => f64x8::splat(half_cosine.simd, 0.0),
+    pub(crate) fn add_light<S: Simd>(
+        &self,
+        albedo: &[f64x8<S>],
+        intensity: Color,
+        [cosine, half_cosine]: [f64x8<S>; 2],
+        lit: Option<mask64x8<S>>,
+        sum: &mut [f64x8<S>],
+    ) -> Option<f64x8<S>> {
+        let zero = f64x8::splat(cosine.simd, 0.0);
+        let diffuse = match lit {
+            Some(lit) => lit.select(self.diffuse.of(cosine), zero),
+            None if self.diffuse.exponent == 1.0 => cosine,
+            None => self.diffuse.of(cosine),
+        };
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            *sum += diffuse * (albedo[channel] * intensity[channel]);
         }
+        let (strength, falloff) = self.highlight.as_ref()?;
+        let power = falloff.of(half_cosine);
+        let highlight = match lit {
+            Some(lit) => lit.select(power, zero),
+            None => power,
+        };
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            *sum += highlight * (intensity[channel] * strength);
+        }
+        Some(power)
     }
 }
 
@@ -159,6 +145,7 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
             ray,
             scale,
             view_cosine,
+            has_highlight,
         }
     }
 
@@ -168,43 +155,26 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         self.normal.dot_one(toward)
     }
 
-    /// n · h = (n·l + n·v) / |l + v|, with |l + v|² = 2 + 2 l·v, from n · l.
+    /// n · h = (n·l + n·v) / |l + v|, with |l + v|² = 2 + 2 l·v, from n · l; 0 without a highlight.
     ///
     /// # Accuracy
     /// The error is some units in the last place over |l + v|²: large where the eye looks along the light,
     /// which only reaches outlines there.
     #[inline(always)]
     pub(crate) fn half_cosine(&self, toward: DVec3, cosine: f64x8<S>) -> f64x8<S> {
+        if !self.has_highlight {
+            return f64x8::splat(cosine.simd, 0.0);
+        }
         let along = self.ray.dot_one(toward) * self.scale;
         let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
         let length_sq = (along * 2.0 + 2.0).max(least);
         (cosine + self.view_cosine) / length_sq.sqrt()
     }
 
-    /// Adds the light that the points reflect of one light where `lit` holds, in as many channels as
-    /// `sum` has. `cosine` is n · l. Returns the power of n · h, and n · h, where there is a highlight.
+    /// n · l and n · h.
     #[inline(always)]
-    pub(crate) fn add_light(
-        &self,
-        surface: &impl Surface<S>,
-        (toward, intensity): (DVec3, Color),
-        cosine: f64x8<S>,
-        lit: mask64x8<S>,
-        sum: &mut [f64x8<S>],
-    ) -> Option<[f64x8<S>; 2]> {
-        let simd = cosine.simd;
-        let zero = f64x8::splat(simd, 0.0);
-        let diffuse = lit.select(surface.diffuse(cosine), zero);
-        for (channel, sum) in sum.iter_mut().enumerate() {
-            *sum += diffuse * (surface.albedo(simd, channel) * intensity[channel]);
-        }
-        let strength = surface.strength(simd)?;
-        let half_cosine = self.half_cosine(toward, cosine);
-        let power = surface.highlight(half_cosine);
-        let highlight = lit.select(power, zero);
-        for (channel, sum) in sum.iter_mut().enumerate() {
-            *sum += highlight * (strength * intensity[channel]);
-        }
-        Some([power, half_cosine])
+    pub(crate) fn cosines(&self, toward: DVec3) -> [f64x8<S>; 2] {
+        let cosine = self.cosine(toward);
+        [cosine, self.half_cosine(toward, cosine)]
     }
 }

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
-use crate::light::reflection::{Reflectance, Surface, ViewedPoints};
+use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
@@ -69,11 +69,14 @@ impl<'scene> Shading<'scene> {
             self.shading_normals(simd, sight, groups, place, &mut looks.noise)
         };
         let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
-        let surfaces: Surfaces<'_, S, CHANNELS> = self.surfaces(simd, groups, looks);
+        let mut albedo: Light<S, CHANNELS> = looks.albedo(simd);
+        if world.has_own_albedos() {
+            albedo = self.own_albedos(simd, groups, albedo);
+        }
         let has_highlight = looks.has_highlight;
         let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
         let mut sum: Light<S, CHANNELS> = splat(simd, world.ambient);
-        for (sum, albedo) in sum.iter_mut().zip(surfaces.albedo) {
+        for (sum, albedo) in sum.iter_mut().zip(albedo) {
             *sum *= albedo;
         }
         for (index, light) in world.lights.iter().enumerate() {
@@ -89,40 +92,15 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let light = (light.toward(), light.intensity());
-            points.add_light(&surfaces, light, cosine, lit, &mut sum);
+            let cosines = [cosine, points.half_cosine(light.toward(), cosine)];
+            let intensity = light.intensity();
+            for look in &looks.list[..looks.count] {
+                let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
+                look.reflectance
+                    .add_light(&albedo, intensity, cosines, lit, &mut sum);
+            }
         }
         sum
-    }
-
-    /// The surfaces that eight rays see.
-    #[inline(always)]
-    fn surfaces<'a, S: Simd, const CHANNELS: usize>(
-        &self,
-        simd: S,
-        groups: &Groups<'_>,
-        looks: &'a Looks<'_>,
-    ) -> Surfaces<'a, S, CHANNELS> {
-        let first = looks.list[0].reflectance;
-        let mut albedo: Light<S, CHANNELS> = splat(simd, first.albedo);
-        let mut strengths = f64x8::splat(simd, first.strength());
-        for look in &looks.list[1..looks.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            let other: Light<S, CHANNELS> = splat(simd, look.reflectance.albedo);
-            for channel in 0..CHANNELS {
-                albedo[channel] = mask.select(other[channel], albedo[channel]);
-            }
-            let other = f64x8::splat(simd, look.reflectance.strength());
-            strengths = mask.select(other, strengths);
-        }
-        if self.world.has_own_albedos() {
-            albedo = self.own_albedos(simd, groups, albedo);
-        }
-        Surfaces {
-            looks,
-            albedo,
-            strengths,
-        }
     }
 
     /// Takes the albedos from the spheres that have their own.
@@ -223,7 +201,7 @@ impl<'scene> Looks<'scene> {
         let look = Look {
             reflectance,
             number: 0,
-            lanes: 0,
+            lanes: 0xff,
         };
         Self {
             list: [look; LANES],
@@ -261,43 +239,18 @@ impl<'scene> Looks<'scene> {
             self.has_highlight |= reflectance.highlight.is_some();
         }
     }
-}
 
-/// The surfaces that eight rays see: in each lane that of the look that it belongs to.
-struct Surfaces<'a, S: Simd, const CHANNELS: usize> {
-    looks: &'a Looks<'a>,
-    albedo: Light<S, CHANNELS>,
-    strengths: f64x8<S>,
-}
-
-impl<S: Simd, const CHANNELS: usize> Surface<S> for Surfaces<'_, S, CHANNELS> {
+    /// The albedo of the first material, or those of others where they are seen.
     #[inline(always)]
-    fn albedo(&self, _: S, channel: usize) -> f64x8<S> {
-        self.albedo[channel]
-    }
-
-    #[inline(always)]
-    fn diffuse(&self, cosine: f64x8<S>) -> f64x8<S> {
-        let mut diffuse = self.looks.list[0].reflectance.diffuse(cosine);
-        for look in &self.looks.list[1..self.looks.count] {
-            let mask = mask64x8::from_bitmask(cosine.simd, look.lanes);
-            diffuse = mask.select(look.reflectance.diffuse(cosine), diffuse);
+    fn albedo<S: Simd, const CHANNELS: usize>(&self, simd: S) -> Light<S, CHANNELS> {
+        let mut albedo: Light<S, CHANNELS> = splat(simd, self.list[0].reflectance.albedo);
+        for look in &self.list[1..self.count] {
+            let mask = mask64x8::from_bitmask(simd, look.lanes);
+            let other: Light<S, CHANNELS> = splat(simd, look.reflectance.albedo);
+            for channel in 0..CHANNELS {
+                albedo[channel] = mask.select(other[channel], albedo[channel]);
+            }
         }
-        diffuse
-    }
-
-    #[inline(always)]
-    fn strength(&self, _: S) -> Option<f64x8<S>> {
-        self.looks.has_highlight.then_some(self.strengths)
-    }
-
-    #[inline(always)]
-    fn highlight(&self, half_cosine: f64x8<S>) -> f64x8<S> {
-        let mut highlight = self.looks.list[0].reflectance.highlight(half_cosine);
-        for look in &self.looks.list[1..self.looks.count] {
-            let mask = mask64x8::from_bitmask(half_cosine.simd, look.lanes);
-            highlight = mask.select(look.reflectance.highlight(half_cosine), highlight);
-        }
-        highlight
+        albedo
     }
 }

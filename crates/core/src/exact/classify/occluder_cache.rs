@@ -5,7 +5,7 @@ use std::ops::Range;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
-use super::occluders::{Occluder, OccluderLanes, Occluders};
+use super::occluders::{Occluder, Occluders, eight};
 use super::patch::Patch;
 use super::shade_mask::ShadeMask;
 use crate::edges::cell::Cell;
@@ -30,9 +30,8 @@ pub(crate) struct OccluderCache {
     occluders: Occluders,
     /// Their numbers in the scene.
     spheres: Vec<u32>,
-    /// Memory of [`Self::shade`]: indices of occluders, and the numbers of their spheres.
+    /// Memory of [`Self::shade`]: indices of occluders, and then the numbers of their spheres.
     edges: Vec<u32>,
-    found: Vec<u32>,
     /// The number of spheres that were asked whether they matter.
     pub(crate) tests: u64,
 }
@@ -65,7 +64,6 @@ impl OccluderCache {
             occluders: Occluders::default(),
             spheres: Vec::new(),
             edges: Vec::new(),
-            found: Vec::new(),
             tests: 0,
         }
     }
@@ -138,7 +136,6 @@ impl OccluderCache {
 
     /// The shadow of the occluders of a range on a patch.
     pub(crate) fn shade(&mut self, patch: &Patch, light: &Light, range: Range<usize>) -> Shade<'_> {
-        self.found.clear();
         self.edges.clear();
         let level = self.level;
         let is_dark = dispatch!(level, simd => self.find_edges(simd, patch, light, range));
@@ -162,13 +159,13 @@ impl OccluderCache {
                 return Shade::Everything;
             }
         }
-        let spheres = self.edges.iter().map(|&edge| self.spheres[edge as usize]);
-        self.found.extend(spheres);
-        if self.found.is_empty() {
-            Shade::Nothing
-        } else {
-            Shade::Edges(&self.found)
+        if self.edges.is_empty() {
+            return Shade::Nothing;
         }
+        for edge in &mut self.edges {
+            *edge = self.spheres[*edge as usize];
+        }
+        Shade::Edges(&self.edges)
     }
 
     /// Finds the occluders of a range whose shadows have edges on a patch, unless one of them hides the
@@ -189,16 +186,14 @@ impl OccluderCache {
         let (dx, dy) = (bx - ax, by - ay);
         let way_sq = dx * dx + dy * dy;
         let scale = if way_sq > 0.0 { -1.0 / way_sq } else { 0.0 };
+        let all = &self.occluders;
         let mut first = range.start;
         while first < range.end {
             let count = (range.end - first).min(8);
-            let OccluderLanes {
-                x,
-                y,
-                height,
-                radius,
-                slack,
-            } = self.occluders.lanes(simd, first);
+            let (x, y) = (eight(simd, &all.x, first), eight(simd, &all.y, first));
+            let height = eight(simd, &all.height, first);
+            let radius = eight(simd, &all.radius, first);
+            let slack = eight(simd, &all.slack, first);
             let around = slack + patch.around;
             let (x0, y0) = (ax - x, ay - y);
             let (x1, y1) = (bx - x, by - y);

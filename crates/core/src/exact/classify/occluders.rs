@@ -34,21 +34,11 @@ impl Occluder {
 /// Occluders in rows of numbers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Occluders {
-    x: Vec<f64>,
-    y: Vec<f64>,
-    height: Vec<f64>,
-    radius: Vec<f64>,
-    slack: Vec<f64>,
-}
-
-/// The same as [`Occluder`], of eight.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct OccluderLanes<S: Simd> {
-    pub(super) x: f64x8<S>,
-    pub(super) y: f64x8<S>,
-    pub(super) height: f64x8<S>,
-    pub(super) radius: f64x8<S>,
-    pub(super) slack: f64x8<S>,
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    pub(super) height: Vec<f64>,
+    pub(super) radius: Vec<f64>,
+    pub(super) slack: Vec<f64>,
 }
 
 impl Occluders {
@@ -69,26 +59,14 @@ impl Occluders {
         self.radius.push(occluder.radius);
         self.slack.push(occluder.slack);
     }
-
-    /// Eight occluders from an index on; zeros where there are none.
-    #[inline(always)]
-    pub(super) fn lanes<S: Simd>(&self, simd: S, first: usize) -> OccluderLanes<S> {
-        OccluderLanes {
-            x: eight(&self.x, first).simd_into(simd),
-            y: eight(&self.y, first).simd_into(simd),
-            height: eight(&self.height, first).simd_into(simd),
-            radius: eight(&self.radius, first).simd_into(simd),
-            slack: eight(&self.slack, first).simd_into(simd),
-        }
-    }
 }
 
 /// Eight numbers from an index on; zeros where there are none.
 #[inline(always)]
-fn eight(numbers: &[f64], first: usize) -> [f64; 8] {
+pub(super) fn eight<S: Simd>(simd: S, numbers: &[f64], first: usize) -> f64x8<S> {
     let mut eight = [0.0; 8];
     let rest = &numbers[first..];
     let count = rest.len().min(8);
     eight[..count].copy_from_slice(&rest[..count]);
-    eight
+    eight.simd_into(simd)
 }

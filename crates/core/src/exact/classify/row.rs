@@ -8,6 +8,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::context::Context;
 use crate::numeric::rounding::GEOMETRY_SLACK;
+use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
 /// How eight pixels of a row see a sphere.
@@ -22,24 +23,6 @@ pub(crate) struct Coverage {
     /// The distances at which it begins and, in pixels that it fills, ends; in multiples of the rays.
     pub(crate) nearest: [f64; 8],
     pub(crate) farthest: [f64; 8],
-}
-
-/// The rays through the middles of eight pixels, whose third component is 1, and a pixel's side.
-#[derive(Clone, Copy, Debug)]
-struct PixelRays<S: Simd> {
-    u: f64x8<S>,
-    v: f64x8<S>,
-    length_sq: f64x8<S>,
-    size: f64,
-}
-
-/// Bounds of B = d · c and of the discriminant Q all over eight pixels.
-#[derive(Clone, Copy, Debug)]
-struct Bounds<S: Simd> {
-    along: f64x8<S>,
-    along_spread: f64,
-    lowest: f64x8<S>,
-    highest: f64x8<S>,
 }
 
 /// The same as [`Coverage`], in lanes.
@@ -62,16 +45,10 @@ pub(crate) fn classify_row<S: Simd>(
     coverages: &mut Vec<Coverage>,
 ) {
     let (ray, size) = context.rays(simd, start);
-    let rays = PixelRays {
-        u: ray.x,
-        v: ray.y,
-        length_sq: ray.x * ray.x + ray.y * ray.y + 1.0,
-        size,
-    };
     let all = (1_u64 << width) - 1;
     let mut end = f64x8::splat(simd, f64::INFINITY);
     for (&sphere, ball) in candidates.iter().zip(balls) {
-        let extent = rays.extent(simd, ball);
+        let extent = extent(simd, &ray, size, ball);
         let touched = extent.touched.to_bitmask() & all;
         if touched == 0 {
             continue;
@@ -98,74 +75,62 @@ pub(crate) fn classify_row<S: Simd>(
     coverages.retain(|coverage| coverage.touched != 0);
 }
 
-impl<S: Simd> PixelRays<S> {
-    /// In a pixel Q and B differ from their values in the middle by less than their spread.
-    #[inline(always)]
-    fn bounds(&self, ball: &Ball) -> Bounds<S> {
-        let &Self { u, v, size, .. } = self;
-        let (c, r, k) = (ball.center, ball.radius, ball.outside);
-        let along = u * c.x + v * c.y + c.z;
-        let (q, by_u, by_v);
-        if ball.is_apart() {
-            let across = [v * c.z - c.y, c.x - u * c.z, u * c.y - v * c.x];
-            q = self.length_sq * (r * r)
-                - (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
-            by_u = u * (r * r) + across[1] * c.z - across[2] * c.y;
-            by_v = v * (r * r) - across[0] * c.z + across[2] * c.x;
-        } else {
-            q = along * along - self.length_sq * k;
-            by_u = along * c.x - u * k;
-            by_v = along * c.y - v * k;
-        }
-        let square = size * size;
-        let second = 0.25
-            * square
-            * ((c.x * c.x - k).abs() + (c.y * c.y - k).abs() + 2.0 * (c.x * c.y).abs());
-        // Half of the derivatives, which are twice these.
-        let spread = (by_u.abs() + by_v.abs()) * size + second;
-        let slack = (spread + q.abs()) * GEOMETRY_SLACK;
-        Bounds {
-            along,
-            along_spread: 0.5 * size * (c.x.abs() + c.y.abs()),
-            lowest: q - spread - slack,
-            highest: q + spread + slack,
-        }
-    }
+/// The part of a ball that eight pixels of this size see, with these rays through their middles, whose third
+/// component is 1.
+///
+/// In a pixel Q and B differ from their values in the middle by less than their spread. From outside, what
+/// is seen of a sphere begins at K / (B⁺ + √Q⁺) and ends at K / (B⁻ + √Q⁻).
+#[inline(always)]
+fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+    let (u, v) = (ray.x, ray.y);
+    let ray_sq = u * u + v * v + 1.0;
+    let (c, r, k) = (ball.center, ball.radius, ball.outside);
+    let along = u * c.x + v * c.y + c.z;
+    let along_spread = 0.5 * size * (c.x.abs() + c.y.abs());
 
-    /// From outside, what is seen of a sphere begins at K / (B⁺ + √Q⁺) and ends at K / (B⁻ + √Q⁻).
-    #[inline(always)]
-    fn extent(&self, simd: S, ball: &Ball) -> Extent<S> {
-        let zero = f64x8::splat(simd, 0.0);
-        let one = f64x8::splat(simd, 1.0);
-        let bounds = self.bounds(ball);
-        let Bounds {
-            along,
-            along_spread,
-            ..
-        } = bounds;
-        let (lowest, highest) = (bounds.lowest, bounds.highest);
-        let (low_root, high_root) = (lowest.max(zero).sqrt(), highest.max(zero).sqrt());
-        let k = ball.outside;
-        if k > 0.0 {
-            let in_front = along + along_spread;
-            Extent {
-                touched: highest.simd_ge(0.0) & in_front.simd_gt(0.0),
-                covered: lowest.simd_gt(0.0) & along.simd_gt(along_spread),
-                nearest: one * (k * (1.0 - GEOMETRY_SLACK)) / (in_front + high_root),
-                farthest: one * (k * (1.0 + GEOMETRY_SLACK)) / (along - along_spread + low_root),
-            }
-        } else {
-            // From the inside: t = (B + √Q) / A.
-            let half = (self.u.abs() + self.v.abs()) * self.size + 0.5 * (self.size * self.size);
-            let everywhere = zero.simd_eq(zero);
-            Extent {
-                touched: everywhere,
-                covered: everywhere,
-                nearest: (along - along_spread + low_root).max(zero) / (self.length_sq + half)
-                    * (1.0 - GEOMETRY_SLACK),
-                farthest: (along + along_spread + high_root) / (self.length_sq - half).max(one)
-                    * (1.0 + GEOMETRY_SLACK),
-            }
+    // Bounds of Q, and so of its root.
+    let (q, by_u, by_v);
+    if ball.is_apart() {
+        let across = [v * c.z - c.y, c.x - u * c.z, u * c.y - v * c.x];
+        q = ray_sq * (r * r)
+            - (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+        by_u = u * (r * r) + across[1] * c.z - across[2] * c.y;
+        by_v = v * (r * r) - across[0] * c.z + across[2] * c.x;
+    } else {
+        q = along * along - ray_sq * k;
+        by_u = along * c.x - u * k;
+        by_v = along * c.y - v * k;
+    }
+    let square = size * size;
+    let second =
+        0.25 * square * ((c.x * c.x - k).abs() + (c.y * c.y - k).abs() + 2.0 * (c.x * c.y).abs());
+    // Half of the derivatives, which are twice these.
+    let spread = (by_u.abs() + by_v.abs()) * size + second;
+    let slack = (spread + q.abs()) * GEOMETRY_SLACK;
+    let (lowest, highest) = (q - spread - slack, q + spread + slack);
+    let zero = f64x8::splat(simd, 0.0);
+    let one = f64x8::splat(simd, 1.0);
+    let (low_root, high_root) = (lowest.max(zero).sqrt(), highest.max(zero).sqrt());
+
+    if k > 0.0 {
+        let in_front = along + along_spread;
+        Extent {
+            touched: highest.simd_ge(0.0) & in_front.simd_gt(0.0),
+            covered: lowest.simd_gt(0.0) & along.simd_gt(along_spread),
+            nearest: one * (k * (1.0 - GEOMETRY_SLACK)) / (in_front + high_root),
+            farthest: one * (k * (1.0 + GEOMETRY_SLACK)) / (along - along_spread + low_root),
+        }
+    } else {
+        // From the inside: t = (B + √Q) / A.
+        let half = (u.abs() + v.abs()) * size + 0.5 * square;
+        let everywhere = mask64x8::splat(simd, true);
+        Extent {
+            touched: everywhere,
+            covered: everywhere,
+            nearest: (along - along_spread + low_root).max(zero) / (ray_sq + half)
+                * (1.0 - GEOMETRY_SLACK),
+            farthest: (along + along_spread + high_root) / (ray_sq - half).max(one)
+                * (1.0 + GEOMETRY_SLACK),
         }
     }
 }

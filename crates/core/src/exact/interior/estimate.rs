@@ -140,7 +140,7 @@ impl<S: Simd> Filled<'_, S> {
         let mut sum = self.turn * 0.0;
         for (index, light) in self.scene.lights.iter().enumerate() {
             if self.lit[index] != 0 {
-                let (cosine, highlight) = (cosines.highest(index), cosines.highlight(index));
+                let (cosine, highlight) = (cosines.highest[index], cosines.halves.powers[index]);
                 sum += self.finish.lobes(light, cosine, highlight, shares);
             }
         }

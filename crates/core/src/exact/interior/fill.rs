@@ -63,20 +63,18 @@ pub(crate) fn fill<S: Simd>(
 
     // The noise of each pixel is its own: one after the other.
     let roughness = material.roughness.as_ref();
-    if roughness.is_some_and(|roughness| matches!(roughness.grain, Grain::Pixel)) {
-        for lane in set_bits(lit) {
-            filled.add(&fill_lit(
-                simd,
-                context,
-                row,
-                &reached,
-                1 << lane,
-                noise,
-                pixels,
-            ));
-        }
-    } else if lit != 0 {
-        filled.add(&fill_lit(simd, context, row, &reached, lit, noise, pixels));
+    let is_own = roughness.is_some_and(|roughness| matches!(roughness.grain, Grain::Pixel));
+    let mut rest = lit;
+    while rest != 0 {
+        let group = if is_own {
+            rest & rest.wrapping_neg()
+        } else {
+            rest
+        };
+        rest &= !group;
+        let of_group = fill_lit(simd, context, row, &reached, group, noise, pixels);
+        filled.hard |= of_group.hard;
+        filled.samples += of_group.samples;
     }
     filled
 }
@@ -133,13 +131,6 @@ fn fill_lit<S: Simd>(
         }
     }
     FilledPixels { hard, samples }
-}
-
-impl FilledPixels {
-    fn add(&mut self, more: &Self) {
-        self.hard |= more.hard;
-        self.samples += more.samples;
-    }
 }
 
 /// A pixel that meets its tolerance.

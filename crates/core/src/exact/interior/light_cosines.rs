@@ -13,7 +13,7 @@ use crate::numeric::vectors::Vectors;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightCosines<S: Simd> {
     lowest: [f64x8<S>; MOST_LIGHTS],
-    highest: [f64x8<S>; MOST_LIGHTS],
+    pub(super) highest: [f64x8<S>; MOST_LIGHTS],
     /// At the samples of the star.
     star: [[f64x8<S>; STAR_SAMPLES]; MOST_LIGHTS],
     pub(super) halves: HalfCosines<S>,
@@ -112,18 +112,6 @@ impl<S: Simd> LightCosines<S> {
             highest: self.halves.highest[light],
             bend: self.halves.lowest[light] * 0.0,
         }
-    }
-
-    /// The highest cosine.
-    #[inline(always)]
-    pub(crate) fn highest(&self, light: usize) -> f64x8<S> {
-        self.highest[light]
-    }
-
-    /// The highest power of n · h.
-    #[inline(always)]
-    pub(crate) fn highlight(&self, light: usize) -> f64x8<S> {
-        self.halves.powers[light]
     }
 }
 

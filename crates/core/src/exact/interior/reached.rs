@@ -2,7 +2,6 @@
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::DVec3;
 
 use super::filled::FilledRow;
 use crate::exact::classify::occluder_cache::OccluderCache;
@@ -30,15 +29,8 @@ pub(super) struct Reached<S: Simd> {
     pub(super) nearness: f64x8<S>,
 }
 
-/// The ways along the rays through the middles of eight pixels on which these see a sphere.
-#[derive(Clone, Copy, Debug)]
-struct Ways<S: Simd> {
-    ray: Vectors<S>,
-    nearest: f64x8<S>,
-    farthest: f64x8<S>,
-}
-
-/// The ends of ways as a light sees them: across it, and their heights toward it.
+/// The ends, as a light sees them, of the ways along eight rays on which their pixels see a sphere: across
+/// the light, and their heights toward it.
 #[derive(Clone, Copy, Debug)]
 struct Ends<S: Simd> {
     right: [f64x8<S>; 2],
@@ -86,12 +78,6 @@ impl<S: Simd> Reached<S> {
         let grazing = (points.normal.dot(&ray) * (-one / length)).max(zero);
         // A root of what vanishes at the silhouette, with the square of this.
         let mut nearness = turn * 2.0 / grazing;
-        let ways = Ways {
-            ray,
-            nearest,
-            farthest,
-        };
-
         let mut hard = 0;
         let mut lit = [0; MOST_LIGHTS];
         for (index, light) in scene.lights.iter().enumerate() {
@@ -114,7 +100,7 @@ impl<S: Simd> Reached<S> {
                     None => reached = 0,
                     Some(range) => {
                         cache.tests += range.len() as u64 * u64::from(reached.count_ones());
-                        let ends = ways.ends(light);
+                        let ends = Ends::new(&ray, [nearest, farthest], light);
                         for occluder in range {
                             let occluder = cache.occluder(occluder);
                             let [touched, dark] = ends.shade(simd, &occluder, around);
@@ -146,25 +132,18 @@ impl<S: Simd> Reached<S> {
     }
 }
 
-impl<S: Simd> Ways<S> {
+impl<S: Simd> Ends<S> {
     #[inline(always)]
-    fn ends(&self, light: &Light) -> Ends<S> {
-        Ends {
-            right: self.along(light.right),
-            up: self.along(light.up),
-            height: self.along(light.toward),
+    fn new(ray: &Vectors<S>, [nearest, farthest]: [f64x8<S>; 2], light: &Light) -> Self {
+        let (right, up) = (ray.dot_one(light.right), ray.dot_one(light.up));
+        let height = ray.dot_one(light.toward);
+        Self {
+            right: [right * nearest, right * farthest],
+            up: [up * nearest, up * farthest],
+            height: [height * nearest, height * farthest],
         }
     }
 
-    /// The places of both ends along an axis.
-    #[inline(always)]
-    fn along(&self, axis: DVec3) -> [f64x8<S>; 2] {
-        let along = self.ray.dot_one(axis);
-        [along * self.nearest, along * self.farthest]
-    }
-}
-
-impl<S: Simd> Ends<S> {
     /// The pixels, bit by bit, on which a shadow may lie, and those all of which are in it.
     #[inline(always)]
     fn shade(&self, simd: S, occluder: &Occluder, around: f64x8<S>) -> [u64; 2] {

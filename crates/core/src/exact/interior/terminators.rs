@@ -48,7 +48,7 @@ impl<S: Simd> Filled<'_, S> {
             let lit = mask64x8::from_bitmask(simd, self.lit[index]);
             let variation = self.variation(index, cosines, from_samples);
             let is_cut = variation.range.may_change_sign(variation.doubt) & lit;
-            let highlight = jumps.select(cosines.highlight(index), zero);
+            let highlight = jumps.select(cosines.halves.powers[index], zero);
             let most = self
                 .finish
                 .cost_of_turning(light, variation.width, highlight);
