@@ -53,7 +53,7 @@ impl Finish {
         exponent.max(shininess)
     }
 
-    /// Whether rules need the cosines of lights: without bumps, and with exponents up to 2, second
+    /// Returns whether rules need the cosines of lights: without bumps, and with exponents up to 2, second
     /// differences of light tell enough.
     pub(crate) fn needs_cosines(&self) -> bool {
         const BLUNT: f64 = 2.0;
@@ -93,10 +93,10 @@ impl Finish {
             + highlight * specular
     }
 
-    /// Where light jumps, or nearly, by more than `negligible` at terminators of bumps, in cells of
-    /// this size with these rays through their middles: a highlight may end there.
+    /// The cells of this size, with these rays through their middles, in which light jumps, or nearly, by more
+    /// than `negligible` at terminators of bumps: a highlight may end there.
     ///
-    /// Where n·l = 0, n·h is at most the length of what of h is across l: with θ between l and v, to
+    /// At n·l = 0, n·h is at most the length of what of h is across l: with θ between l and v, to
     /// which h is halfway, sin(θ/2).
     #[inline(always)]
     pub(crate) fn jumps<S: Simd>(
@@ -162,13 +162,13 @@ impl Finish {
         falloff.of_clamped(range) * (strength * intensity * share)
     }
 
-    /// Whether powers of cosines, and of a blunt highlight, are smooth where they begin.
+    /// Returns whether powers of cosines, and of a blunt highlight, are smooth where they begin.
     pub(crate) fn has_whole_exponent(&self) -> bool {
         let [exponent, shininess] = self.reflectance.exponents();
         exponent.fract() == 0.0 && (!self.has_blunt_highlight() || shininess.fract() == 0.0)
     }
 
-    /// Whether a highlight's end is seen, as it is where bumps turn from eye and light together.
+    /// Returns whether a highlight's end is seen, as it is where bumps turn from eye and light together.
     pub(crate) fn has_blunt_highlight(&self) -> bool {
         /// Powers that are smooth enough where they begin: x⁶ has five continuous derivatives, as many as
         /// rules of three points use.

@@ -30,7 +30,7 @@ pub(crate) struct InCamera<'scene> {
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
     balls: Vec<Ball>,
-    /// Whether the eye is inside a sphere that casts shadows: so is all that it sees, and no light
+    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no light
     /// gets there.
     pub(crate) is_enclosed: bool,
     /// The lights of the group.

@@ -57,12 +57,12 @@ impl Finish {
         }
     }
 
-    /// Whether the surface may avert itself from a light that its sphere faces.
+    /// Returns whether the surface may avert itself from a light that its sphere faces.
     pub(crate) fn is_rough(&self) -> bool {
         !self.shading_normal.is_smooth()
     }
 
-    /// Whether light is the cosine of the angle to it, and nothing else.
+    /// Returns whether light is the cosine of the angle to it, and nothing else.
     pub(crate) fn is_plain(&self) -> bool {
         self.reflectance.diffuse.exponent == 1.0
             && self.reflectance.highlight.is_none()

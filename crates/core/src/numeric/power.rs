@@ -153,7 +153,7 @@ const EXPONENTIAL: [f64; 10] = [
 /// polynomials are different.
 #[inline(always)]
 fn by_logarithm<L: Lanes>(base: L, exponent: &Exponent) -> L {
-    /// What makes every subnormal number normal.
+    /// A factor that makes every subnormal number normal.
     const LIFT_EXPONENT: f64 = 54.0;
     const LIFT: f64 = (1_u64 << 54) as f64;
     /// Beyond this a power counts as 0, or as infinite.

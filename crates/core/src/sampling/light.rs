@@ -24,7 +24,7 @@ pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     pub(super) frame: i64,
-    /// Whether no surface is rough.
+    /// True if no surface is rough.
     is_smooth: bool,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,

@@ -7,7 +7,7 @@ use crate::model::view::View;
 /// for sums and for a product with 1e60 below the largest double, 1.8e308.
 const MODERATE: std::ops::Range<f64> = 1e-60..1e60;
 
-/// Whether the numbers of a view are moderate. Edges are found in plain doubles, without the floors of
+/// Returns whether the numbers of a view are moderate. Edges are found in plain doubles, without the floors of
 /// exact hits; where they cannot be trusted, a pixel makes no claim.
 pub(crate) fn is_view_moderate(view: &View) -> bool {
     let distance = view.lens.distance * view.zoom;
@@ -17,7 +17,7 @@ pub(crate) fn is_view_moderate(view: &View) -> bool {
         .all(|number| MODERATE.contains(number))
 }
 
-/// Whether the numbers of a sphere are moderate.
+/// Returns whether the numbers of a sphere are moderate.
 pub(crate) fn is_ball_moderate(ball: &Ball) -> bool {
     let far = ball.center.length() + ball.radius;
     MODERATE.contains(&ball.radius) && MODERATE.contains(&far) && ball.outside.is_finite()

@@ -11,7 +11,7 @@ use crate::numeric::rounding::GEOMETRY_SLACK;
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
-/// How eight pixels of a row see a sphere.
+/// A sphere as eight pixels of a row see it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coverage {
     pub(crate) sphere: usize,

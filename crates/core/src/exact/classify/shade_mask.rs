@@ -9,8 +9,8 @@ use super::patch::Patch;
 use crate::exact::scene::Light;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
-/// How much narrower discs are taken to be where they cover squares, and wider where they touch them, in
-/// squares: more than rounding.
+/// A margin in squares, more than rounding: discs that cover squares are taken to be narrower by it, and
+/// those that touch them wider.
 const INSET: f64 = 1e-9;
 
 /// The squares of the box around a patch, as a light sees it, that occluders cover: a bit each.
@@ -62,7 +62,7 @@ impl ShadeMask {
         }
     }
 
-    /// Whether all squares that the disc of an occluder may touch are covered.
+    /// Returns whether all squares that the disc of an occluder may touch are covered.
     pub(super) fn hides(&self, occluder: &Occluder) -> bool {
         if self.covered == 0 {
             return false;

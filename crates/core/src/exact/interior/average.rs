@@ -30,7 +30,7 @@ struct Sampled<S: Simd> {
     grid: Estimate<S>,
     /// Along both diagonals, Kronrod's rule less Gauss's.
     excess: [Radiance<S>; 2],
-    /// Where a terminator of bumps costs too much, whatever further samples tell.
+    /// The pixels in which a terminator of bumps costs too much, whatever further samples tell.
     is_out_of_reach: mask64x8<S>,
     samples: usize,
 }

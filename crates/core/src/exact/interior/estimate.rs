@@ -28,9 +28,9 @@ pub(super) enum Rule {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Estimate<S: Simd> {
     pub(super) error: f64x8<S>,
-    /// Where the light is smooth enough for that.
+    /// The pixels whose light is smooth enough for that.
     pub(super) is_known: mask64x8<S>,
-    /// Where that is enough.
+    /// The pixels in which that is enough.
     pub(super) is_met: mask64x8<S>,
 }
 
@@ -74,8 +74,8 @@ impl<S: Simd> Filled<'_, S> {
         /// The terms of the fourth and of the sixth derivative of a root at a nearness of 1.
         const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
         /// The errors of exponential functions over the square of their bend and what they change
-        /// by, and over the cube and the square, when they grow to e times as much in a pixel.
-        /// Where they grow less, less is true.
+        /// by, and over the cube and the square, when they grow to e times as much in a pixel; less when
+        /// they grow less.
         const OF_CHANGE: [f64; 2] = [1e-2, 1e-3];
         /// The largest share of the bend that a kink of the second derivative costs, where cells of the
         /// noise meet. Not tuned.

@@ -27,7 +27,7 @@ pub(crate) struct FilledRow<'a> {
     pub(crate) coverage: &'a Coverage,
 }
 
-/// How far normals turn from the middle of a part to its corners, over how far they do in its pixel:
+/// The angle by which normals turn from the middle of a part to its corners, over that in its pixel:
 /// parts are a half by a quarter, quarters where the surface recedes; and a little more, as it does
 /// not recede evenly.
 pub(super) const SIZE_OF_PARTS: f64 = 0.45;

@@ -36,7 +36,7 @@ impl<S: Simd> CosineRange<S> {
         self.highest - self.lowest
     }
 
-    /// Where the cosine may be positive here and negative there, when the range is known to within
+    /// The pixels in which the cosine may be positive here and negative there, when the range is known to within
     /// `doubt`.
     #[inline(always)]
     pub(crate) fn may_change_sign(&self, doubt: f64x8<S>) -> mask64x8<S> {
