@@ -3,28 +3,25 @@
 //! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
 //! known as curves, between whose events the light is smooth.
 
-mod casters;
-mod contents;
+mod classify;
+mod context;
+mod costs;
 mod edged;
-mod glimpse;
 mod interior;
 mod pixel;
 mod points;
-mod relief;
 mod scene;
-mod squares;
 mod surface;
 mod tile;
-mod trust;
 
 use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
+use self::classify::magnitude::is_view_moderate;
+use self::context::Context;
 use self::edged::cell::Workspace;
 use self::scene::{InCamera, MOST_LIGHTS};
-use self::trust::trusts_view;
-use crate::edges::cell::Cell;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
@@ -39,23 +36,15 @@ use crate::search::view_index::ViewIndex;
 /// Averages to a tolerance.
 #[derive(Clone, Debug)]
 pub(crate) struct Exact<'scene> {
-    scene: InCamera<'scene>,
-    view: View,
+    context: Context<'scene>,
     seen: ViewIndex<'scene>,
     /// Whether doubles can be trusted with the view.
-    is_trusted: bool,
+    is_view_moderate: bool,
     /// For pixels that cannot be integrated.
     fallback: Supersampling<'scene>,
-    /// What is left to the tolerance of each group of lights.
-    tolerance: f64,
-    /// Which group of lights this is of.
-    group: usize,
     /// The other groups.
     others: Vec<Self>,
-    alpha: bool,
     level: Level,
-    /// About the largest difference of light that an edge may make.
-    contrast: f64,
 }
 
 /// Samples on a side of a pixel that cannot be integrated.
@@ -97,36 +86,22 @@ impl<'scene> Exact<'scene> {
             + world.background.max_element()
             + lights.sum::<f64>();
         Self {
-            is_trusted: trusts_view(view),
-            scene,
-            view: *view,
+            is_view_moderate: is_view_moderate(view),
+            context: Context {
+                scene,
+                view: *view,
+                tolerance,
+                background: if alpha || group > 0 {
+                    Color::ZERO
+                } else {
+                    world.background
+                },
+                contrast,
+            },
             seen: seen.clone(),
             fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
-            tolerance,
-            group,
             others: Vec::new(),
-            alpha,
             level: Level::new(),
-            contrast,
-        }
-    }
-
-    /// The cell that covers some pixels.
-    fn cell(&self, tile: Tile) -> Cell {
-        let distance = self.view.lens.distance * self.view.zoom;
-        let pixel = self.view.pixel_size() / distance;
-        let center = |col: u32, row: u32| {
-            self.view.cell_center(u64::from(col), u64::from(row), 1) / distance
-        };
-        let first = center(tile.col, tile.row);
-        let last = center(tile.col + tile.width - 1, tile.row + tile.height - 1);
-        Cell {
-            middle: (0.5 * (first + last)).extend(1.0),
-            size: [
-                pixel * f64::from(tile.width),
-                pixel * f64::from(tile.height),
-            ],
-            is_transposed: false,
         }
     }
 }
@@ -181,7 +156,7 @@ impl Exact<'_> {
         }
         for ((col, row), pixel) in tile.pixels().zip(&mut pixels[first..]) {
             if pixel.error.is_nan() {
-                let frame = self.view.frame;
+                let frame = self.context.view.frame;
                 *pixel = self
                     .fallback
                     .pixel_of_last_resort(PixelKey { col, row, frame });

@@ -5,12 +5,11 @@ use std::collections::VecDeque;
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::casters::CasterCache;
+use super::classify::occluder_cache::OccluderCache;
 use super::edged::cell::{Goal, Workspace};
 use super::edged::piece::Part;
 use crate::edges::cell::{Ball, Cell};
 use crate::model::material::Material;
-use crate::model::roughness::PixelKey;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::picture::tile::Tile;
 
@@ -34,40 +33,31 @@ const BROAD: f64 = 60.0;
 const DEEPEST: i32 = 12;
 
 impl Exact<'_> {
-    pub(crate) fn key(&self, start: Tile, lane: u32) -> PixelKey {
-        PixelKey {
-            col: start.col + lane,
-            row: start.row,
-            frame: self.view.frame,
-        }
-    }
-
     /// A pixel with edges.
     pub(crate) fn pixel<S: Simd>(
         &self,
         simd: S,
         here: Tile,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
     ) -> Pixel {
-        let key = self.key(here, 0);
-        workspace.contents.pixel = Some(key);
-        let cell = self.cell(here);
+        workspace.contents.pixel = self.context.key(here, 0);
+        let cell = self.context.cell(here);
         let mut part = Part {
             error: f64::INFINITY,
             ..Part::NOTHING
         };
         if let Some(found) = self.along_edges(simd, &cell, spheres, cache, workspace) {
             part = found;
-            if part.error <= self.tolerance {
+            if part.error <= self.context.tolerance {
                 return self.of_part(&part);
             }
         }
         // What is given up is better known to a tolerance that can be met.
         for looser in LOOSER {
             workspace.begin_pixel();
-            let tolerance = looser * self.tolerance;
+            let tolerance = looser * self.context.tolerance;
             let found = simd.vectorize(
                 #[inline(always)]
                 || self.parts(simd, cell, spheres, cache, workspace, tolerance),
@@ -81,8 +71,8 @@ impl Exact<'_> {
         }
         // Samples at least see exactly.
         let is_lost = !(part.error.is_finite() && part.value.is_finite())
-            || part.error > self.tolerance.max(LOST);
-        if is_lost || part.rounding > self.tolerance.max(LOST) {
+            || part.error > self.context.tolerance.max(LOST);
+        if is_lost || part.rounding > self.context.tolerance.max(LOST) {
             return Pixel::LOST;
         }
         self.of_part(&part)
@@ -91,11 +81,11 @@ impl Exact<'_> {
     fn of_part(&self, part: &Part) -> Pixel {
         let error = part.error;
         Pixel {
-            value: self.scene.spread(part.value),
+            value: self.context.scene.spread(part.value),
             alpha: part.covered,
             error,
             evidence: Evidence::Estimate,
-            status: if error <= self.tolerance {
+            status: if error <= self.context.tolerance {
                 Status::Met
             } else if part.rounding > 0.5 * error {
                 Status::AtRoundoff
@@ -111,24 +101,26 @@ impl Exact<'_> {
         simd: S,
         cell: &Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
     ) -> Option<Part> {
         let goal = Goal {
-            tolerance: self.tolerance,
-            background: self.background(),
-            contrast: self.contrast,
+            tolerance: self.context.tolerance,
+            background: self.context.background,
+            contrast: self.context.contrast,
         };
         let mut found = None;
         workspace.work.candidate_tests += spheres.len() as u64;
-        workspace.contents.see(&self.scene, cell, spheres, cache);
+        workspace
+            .contents
+            .see(&self.context.scene, cell, spheres, cache);
         workspace.is_seen = true;
         let contents = &workspace.contents;
-        if contents.conics.len() + contents.casters.len() <= FEW {
+        if contents.conics.len() + contents.occluders.len() <= FEW {
             return None;
         }
         let materials = contents.active.iter().map(|active| active.sphere);
-        let mut materials = materials.map(|sphere| self.scene.world.material(sphere));
+        let mut materials = materials.map(|sphere| self.context.scene.world.material(sphere));
         let is_narrow = |material: &Material| {
             let shininess = material
                 .highlight
@@ -136,10 +128,10 @@ impl Exact<'_> {
             material.exponent.max(shininess) > BROAD
         };
         if materials.any(is_narrow) {
-            let negligible = 0.01 * self.tolerance;
+            let negligible = 0.01 * self.context.tolerance;
             let is_sharp = simd.vectorize(
                 #[inline(always)]
-                || contents.is_sharp(simd, &self.scene, cell, negligible),
+                || contents.is_sharp(simd, &self.context.scene, cell, negligible),
             );
             if is_sharp {
                 return None;
@@ -153,12 +145,12 @@ impl Exact<'_> {
                         contents, boundary, ..
                     } = workspace;
                     boundary.parts = finer;
-                    boundary.integrate(simd, &self.scene, cell, contents, &goal)
+                    boundary.integrate(simd, &self.context.scene, cell, contents, &goal)
                 },
             );
             workspace.work.samples += std::mem::take(&mut workspace.boundary.samples);
             let part = part?;
-            let is_met = part.error <= self.tolerance;
+            let is_met = part.error <= self.context.tolerance;
             if found.is_none_or(|known: Part| part.error < known.error) {
                 found = Some(part);
             }
@@ -176,7 +168,7 @@ impl Exact<'_> {
         simd: S,
         cell: Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
         tolerance: f64,
     ) -> Part {
@@ -192,7 +184,7 @@ impl Exact<'_> {
             match part {
                 Some(part) => sum.add(&part, share),
                 None if depth == DEEPEST || workspace.is_over_budget() => {
-                    sum.error += self.contrast * share;
+                    sum.error += self.context.contrast * share;
                 }
                 None => {
                     for y in [[-0.5, 0.0], [0.0, 0.5]] {
@@ -216,15 +208,15 @@ impl Exact<'_> {
         simd: S,
         cell: &Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
         workspace: &mut Workspace,
         tolerance: f64,
         depth: i32,
     ) -> Option<Part> {
         let goal = Goal {
             tolerance,
-            background: self.background(),
-            contrast: self.contrast,
+            background: self.context.background,
+            contrast: self.context.contrast,
         };
         simd.vectorize(
             #[inline(always)]
@@ -232,22 +224,30 @@ impl Exact<'_> {
                 // The whole pixel was seen when its edges were counted.
                 if !std::mem::take(&mut workspace.is_seen) {
                     workspace.work.candidate_tests += spheres.len() as u64;
-                    workspace.contents.see(&self.scene, cell, spheres, cache);
+                    workspace
+                        .contents
+                        .see(&self.context.scene, cell, spheres, cache);
                 }
                 workspace.spend_on_cell();
                 let negligible = 0.01 * goal.tolerance;
-                let is_sharp = workspace
-                    .contents
-                    .is_sharp(simd, &self.scene, cell, negligible);
+                let is_sharp =
+                    workspace
+                        .contents
+                        .is_sharp(simd, &self.context.scene, cell, negligible);
                 if is_sharp && depth < DEEPEST {
                     return None;
                 }
                 let mut cell = *cell;
-                if workspace.contents.prefers_transposed(&self.scene, &cell) {
+                if workspace
+                    .contents
+                    .prefers_transposed(&self.context.scene, &cell)
+                {
                     cell = cell.transposed();
                     workspace.contents.transpose();
                 }
-                workspace.integrate(simd, &self.scene, &cell, &goal).ok()
+                workspace
+                    .integrate(simd, &self.context.scene, &cell, &goal)
+                    .ok()
             },
         )
     }

@@ -18,7 +18,7 @@ pub(crate) struct Points<S: Simd> {
 }
 
 impl<S: Simd> Points<S> {
-    /// None that anything is known of.
+    /// A value to fill arrays with.
     #[inline(always)]
     pub(crate) fn nowhere(simd: S) -> Self {
         let zero = f64x8::splat(simd, 0.0);

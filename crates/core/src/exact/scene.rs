@@ -9,17 +9,20 @@ use crate::model::color::Color;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::numeric::rounding::WIDER;
 use crate::picture::image::Channels;
 use crate::search::visibility::Visibility;
 
-/// Lights that are integrated at a time: further ones in further groups.
+/// Lights that are integrated at a time, further ones in further groups: as many as cosines are kept of for
+/// each sample (see `interior::light_cosines`). Few scenes have more.
 pub(crate) const MOST_LIGHTS: usize = 8;
 
-/// What integration needs of world and view.
+/// A world in the frame of a camera, under one group of its lights.
 #[derive(Clone, Debug)]
 pub(crate) struct InCamera<'scene> {
     pub(crate) world: &'scene World,
-    /// How many channels of light are counted: 1 in a world without color, whose channels are the same.
+    /// The number of channels of light that are computed: 1 in a world without color, whose channels are
+    /// the same.
     pub(crate) channels: usize,
     pub(crate) visibility: &'scene Visibility<'scene>,
     pub(crate) world_from_camera: DMat3,
@@ -27,19 +30,20 @@ pub(crate) struct InCamera<'scene> {
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
     balls: Vec<Ball>,
-    /// Whether the eye is inside a sphere that casts shadows: so is all that it sees, and no light
+    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no light
     /// gets there.
     pub(crate) is_enclosed: bool,
-    /// Those of one group.
+    /// The lights of the group.
     pub(crate) lights: Vec<Light>,
-    /// What spheres send without a light; nothing but for the first group.
+    /// The light of the surroundings, which counts with the first group.
     pub(crate) ambient: Color,
 }
 
-/// So many spheres are brought into the camera's frame once for a view.
+/// The number of spheres up to which all are brought into the camera's frame once for a view: they take
+/// 1.3 MB. Of more, each tile takes those that it sees. Not tuned.
 const MOST_KEPT: usize = 1 << 15;
 
-/// Threads share the work on no fewer spheres than this.
+/// The least number of spheres that a task takes: fewer are hardly worth its start. Not tuned.
 const FEWEST_TO_SHARE: usize = 4096;
 
 /// A light in the camera's frame.
@@ -86,12 +90,10 @@ impl<'scene> InCamera<'scene> {
             Vec::new()
         };
         let encloses = |sphere: &Sphere| {
-            /// Far more than rounding.
-            const NEARLY: f64 = 1.0 + 1e-9;
             let distance_sq = (sphere.center() - viewpoint).length_squared();
             let radius_sq = sphere.radius() * sphere.radius();
             // What is not a number may be anything.
-            let is_far = distance_sq > radius_sq * NEARLY && radius_sq > 0.0;
+            let is_far = distance_sq > radius_sq * WIDER && radius_sq > 0.0;
             !is_far && sphere.outside(viewpoint) <= 0.0
         };
         let of_group = world.lights.iter().enumerate();
@@ -149,7 +151,7 @@ impl<'scene> InCamera<'scene> {
         }
     }
 
-    /// A color of which only the counted channels are known.
+    /// A color of which only the channels that are computed are known.
     pub(crate) fn spread(&self, color: Color) -> Color {
         if self.channels == 1 {
             Color::splat(color.x)

@@ -3,12 +3,14 @@
 use fearless_simd::prelude::*;
 
 use super::Exact;
-use super::casters::CasterCache;
+use super::classify::magnitude::is_ball_moderate;
+use super::classify::occluder_cache::OccluderCache;
+use super::classify::row::{Coverage, classify_row, visible_spheres};
 use super::edged::cell::Workspace;
-use super::glimpse::Glimpse;
-use super::trust::trusts;
+use super::interior::fill::fill;
+use super::interior::filled::FilledRow;
 use crate::edges::cell::Ball;
-use crate::model::color::Color;
+use crate::numeric::bits::set_bits;
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 
@@ -24,10 +26,10 @@ impl Exact<'_> {
     ) -> Work {
         workspace.balls.clear();
         for &sphere in candidates {
-            workspace.balls.push(self.scene.ball(sphere));
+            workspace.balls.push(self.context.scene.ball(sphere));
         }
-        let trusts_all = self.is_trusted && workspace.balls.iter().all(trusts);
-        if !trusts_all && !candidates.is_empty() {
+        let is_moderate = self.is_view_moderate && workspace.balls.iter().all(is_ball_moderate);
+        if !is_moderate && !candidates.is_empty() {
             let count = tile.width as usize * tile.height as usize;
             pixels.extend(std::iter::repeat_n(Pixel::LOST, count));
             return Work::default();
@@ -39,14 +41,15 @@ impl Exact<'_> {
             return Work::default();
         }
         let pixel = self
+            .context
             .cell(Tile {
                 width: 1,
                 height: 1,
                 ..tile
             })
             .size[0];
-        let mut cache = CasterCache::new(self.cell(tile), pixel);
-        let mut glimpses: Vec<Glimpse> = Vec::with_capacity(candidates.len());
+        let mut cache = OccluderCache::new(self.context.cell(tile), pixel);
+        let mut coverages: Vec<Coverage> = Vec::with_capacity(candidates.len());
         let mut spheres: Vec<(usize, Ball)> = Vec::new();
         for row in 0..tile.height {
             for left in (0..tile.width).step_by(8) {
@@ -59,19 +62,20 @@ impl Exact<'_> {
                 };
                 let at = first + (row * tile.width + left) as usize;
                 let pixels = &mut pixels[at..at + width as usize];
-                glimpses.clear();
+                coverages.clear();
                 workspace.work.candidate_tests += candidates.len() as u64 * u64::from(width);
                 simd.vectorize(
                     #[inline(always)]
                     || {
-                        let balls = &workspace.balls;
-                        self.glimpse(simd, start, width, candidates, balls, &mut glimpses);
+                        let candidates = (candidates, workspace.balls.as_slice());
+                        let (context, pixels) = (&self.context, (start, width));
+                        classify_row(simd, context, pixels, candidates, &mut coverages);
                     },
                 );
                 let mut singles: Vec<(usize, u64)> = Vec::new();
                 for (index, pixel) in pixels.iter_mut().enumerate() {
-                    let seen = |glimpse: &&Glimpse| glimpse.touched >> index & 1 == 1;
-                    let mut touching = glimpses.iter().filter(seen);
+                    let seen = |coverage: &&Coverage| coverage.touched >> index & 1 == 1;
+                    let mut touching = coverages.iter().filter(seen);
                     let Some(one) = touching.next() else { continue };
                     let is_single = touching.next().is_none() && one.covered >> index & 1 == 1;
                     spheres.clear();
@@ -82,11 +86,11 @@ impl Exact<'_> {
                             col: start.col + index as u32,
                             ..start
                         };
-                        let cell = self.cell(here);
-                        self.visible(&cell, index, &glimpses, &mut spheres);
+                        let cell = self.context.cell(here);
+                        visible_spheres(&cell, index, &coverages, &mut spheres);
                         let covers = |sphere: usize| {
-                            glimpses.iter().any(|glimpse| {
-                                glimpse.sphere == sphere && glimpse.covered >> index & 1 == 1
+                            coverages.iter().any(|coverage| {
+                                coverage.sphere == sphere && coverage.covered >> index & 1 == 1
                             })
                         };
                         if spheres.len() != 1 || !covers(spheres[0].0) {
@@ -101,9 +105,25 @@ impl Exact<'_> {
                     }
                 }
                 for (sphere, which) in singles {
-                    self.fill(
-                        simd, start, sphere, which, &glimpses, &mut cache, workspace, pixels,
-                    );
+                    let Some(coverage) = coverages.iter().find(|one| one.sphere == sphere) else {
+                        continue;
+                    };
+                    let row = FilledRow {
+                        start,
+                        which,
+                        coverage,
+                    };
+                    let noise = &mut workspace.noise;
+                    let filled = fill(simd, &self.context, &row, &mut cache, noise, pixels);
+                    workspace.work.samples += filled.samples;
+                    for lane in set_bits(filled.hard) {
+                        let here = Tile {
+                            col: start.col + lane as u32,
+                            ..start
+                        };
+                        let spheres = [(sphere, coverage.ball)];
+                        pixels[lane] = self.pixel(simd, here, &spheres, &mut cache, workspace);
+                    }
                 }
             }
         }
@@ -114,19 +134,11 @@ impl Exact<'_> {
 
     pub(crate) fn empty(&self) -> Pixel {
         Pixel {
-            value: self.background(),
+            value: self.context.background,
             alpha: 0.0,
             error: 0.0,
             evidence: Evidence::Bound,
             status: Status::Met,
-        }
-    }
-
-    pub(crate) fn background(&self) -> Color {
-        if self.alpha || self.group > 0 {
-            Color::ZERO
-        } else {
-            self.scene.world.background
         }
     }
 }

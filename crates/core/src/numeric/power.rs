@@ -60,14 +60,14 @@ impl Power {
         Self { kind }
     }
 
-    /// The power of each lane; each has the bits of [`Self::scalar`].
+    /// The power of each lane, with the bits that one number's has; 0 for numbers below 0.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, base: f64x8<S>) -> f64x8<S> {
         self.of(base)
     }
 
-    /// The power of a number that is at least 0; 0 for numbers below.
-    #[inline]
+    /// The power of one number; 0 for numbers below 0.
+    #[cfg(test)]
     pub(crate) fn scalar(&self, base: f64) -> f64 {
         self.of(base)
     }
@@ -153,7 +153,7 @@ const EXPONENTIAL: [f64; 10] = [
 /// polynomials are different.
 #[inline(always)]
 fn by_logarithm<L: Lanes>(base: L, exponent: &Exponent) -> L {
-    /// What makes every subnormal number normal.
+    /// A factor that makes every subnormal number normal.
     const LIFT_EXPONENT: f64 = 54.0;
     const LIFT: f64 = (1_u64 << 54) as f64;
     /// Beyond this a power counts as 0, or as infinite.

@@ -12,6 +12,17 @@ use fearless_simd::{Simd, SimdFloat, f64x4};
 /// most this.
 pub(crate) const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
+/// More than rounding makes wrong in the geometry of a cell, relative to the sum of the terms' sizes.
+///
+/// That takes some dozens of operations, whose errors sum up to less than 100 roundoffs, 1.1e-14. The
+/// hundredfold leaves room, and costs next to nothing: a curve that misses a cell by so little counts as one
+/// that may cross it.
+pub(crate) const GEOMETRY_SLACK: f64 = 1e-12;
+
+/// A factor that makes up for the rounding of lengths and distances, where a few units in the last place
+/// become more by a root of a difference; a bound that is looser by this costs nothing.
+pub(crate) const WIDER: f64 = 1.0 + 1e-9;
+
 /// A double, or several side by side.
 pub(crate) trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>

@@ -2,53 +2,32 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
+use glam::DVec3;
 
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
+use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
-use crate::model::material::{Highlight, Material};
-use crate::model::roughness::PixelKey;
+use crate::model::roughness::noise::NoiseCells;
+use crate::model::roughness::{PixelKey, unit};
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::LANES;
-use crate::numeric::power::Power;
 use crate::numeric::vectors::Vectors;
 
 /// Light of eight rays, in one channel or in three.
 pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 
-/// What shading asks of a world; the same light as [`shade`](crate::shading::shade), but for
-/// rounding.
+/// The materials and lights of a world, prepared.
 #[derive(Clone, Debug)]
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     pub(super) frame: i64,
-    /// Whether no surface is rough.
+    /// True if no surface is rough.
     is_smooth: bool,
-    /// What the materials say, in the world's order.
-    finishes: Vec<Finish>,
-}
-
-/// A material, prepared.
-#[derive(Clone, Copy, Debug)]
-struct Finish {
-    albedo: Color,
-    diffuse: Power,
-    /// Its falloff and strength.
-    highlight: Option<(Power, f64)>,
-}
-
-impl Finish {
-    fn new(material: &Material) -> Self {
-        let prepare = |highlight: &Highlight| (Power::new(highlight.shininess), highlight.strength);
-        Self {
-            albedo: material.albedo,
-            diffuse: Power::new(material.exponent),
-            highlight: material.highlight.as_ref().map(prepare),
-        }
-    }
+    /// Those of the materials, in the world's order.
+    reflectances: Vec<Reflectance>,
 }
 
 /// The same color in all lanes. A loop: closures are not compiled for the processor's level.
@@ -63,15 +42,14 @@ pub(super) fn splat<S: Simd, const CHANNELS: usize>(simd: S, color: Color) -> Li
 
 impl<'scene> Shading<'scene> {
     pub(super) fn new(world: &'scene World, frame: i64) -> Self {
-        let is_smooth = !world
-            .materials()
-            .iter()
-            .any(|material| material.roughness.is_some());
+        let materials = world.materials();
         Self {
             world,
             frame,
-            is_smooth,
-            finishes: world.materials().iter().map(Finish::new).collect(),
+            is_smooth: materials
+                .iter()
+                .all(|material| material.roughness.is_none()),
+            reflectances: materials.iter().map(Reflectance::new).collect(),
         }
     }
 
@@ -80,23 +58,30 @@ impl<'scene> Shading<'scene> {
     pub(super) fn light<S: Simd, const CHANNELS: usize>(
         &self,
         simd: S,
-        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &Looks<'_>),
+        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &mut Looks<'_>),
         place: Place,
         shadows: &mut Option<Shadows<'_>>,
     ) -> Light<S, CHANNELS> {
         let world = self.world;
-        let zero = f64x8::splat(simd, 0.0);
         let normal = if self.is_smooth {
             sight.normal
         } else {
-            self.roughened(*sight, place, groups)
+            self.shading_normals(simd, sight, groups, place, &mut looks.noise)
         };
         let outer = mask64x8::from_bitmask(simd, sight.covered & !sight.inner);
-        let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
-        let mut mirrored = [zero; CHANNELS];
+        let mut albedo: Light<S, CHANNELS> = looks.albedo(simd);
+        if world.has_own_albedos() {
+            albedo = self.own_albedos(simd, groups, albedo);
+        }
+        let has_highlight = looks.has_highlight;
+        let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
+        let mut sum: Light<S, CHANNELS> = splat(simd, world.ambient);
+        for (sum, albedo) in sum.iter_mut().zip(albedo) {
+            *sum *= albedo;
+        }
         for (index, light) in world.lights.iter().enumerate() {
-            let facing = normal.dot_one(light.toward());
-            let mut lit = facing.simd_gt(zero) & outer;
+            let cosine = points.cosine(light.toward());
+            let mut lit = cosine.simd_gt(0.0) & outer;
             if !lit.any_true() {
                 continue;
             }
@@ -107,26 +92,15 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let intensity: Light<S, CHANNELS> = splat(simd, light.intensity());
-            let spread = lit.select(looks.spread(simd, facing), zero);
-            for channel in 0..CHANNELS {
-                diffuse[channel] += spread * intensity[channel];
-            }
-            if looks.has_highlight {
-                let spot = looks.spots(simd, lit, light, normal, sight);
-                for channel in 0..CHANNELS {
-                    mirrored[channel] += spot * intensity[channel];
-                }
+            let cosines = [cosine, points.half_cosine(light.toward(), cosine)];
+            let intensity = light.intensity();
+            for look in &looks.list[..looks.count] {
+                let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
+                look.reflectance
+                    .add_light(&albedo, intensity, cosines, lit, &mut sum);
             }
         }
-        let mut albedo: Light<S, CHANNELS> = looks.albedo(simd);
-        if world.has_own_albedos() {
-            albedo = self.own_albedos(simd, groups, albedo);
-        }
-        for channel in 0..CHANNELS {
-            diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
-        }
-        diffuse
+        sum
     }
 
     /// Takes the albedos from the spheres that have their own.
@@ -152,42 +126,70 @@ impl<'scene> Shading<'scene> {
         albedo
     }
 
-    /// The normals with the bumps of rough surfaces.
+    /// The shading normals.
     #[cold]
     #[inline(never)]
-    fn roughened<S: Simd>(&self, sight: Sight<S>, place: Place, groups: &Groups<'_>) -> Vectors<S> {
+    fn shading_normals<S: Simd>(
+        &self,
+        simd: S,
+        sight: &Sight<S>,
+        groups: &Groups<'_>,
+        place: Place,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Vectors<S> {
         let mut normal = sight.normal;
         for Group { ball, lanes } in groups.as_slice() {
-            let index = ball.index();
-            let Some(roughness) = &self.world.material(index).roughness else {
-                continue;
-            };
-            let radius = self.world.spheres()[index].radius();
-            for lane in set_bits(lanes & !sight.inner) {
-                let key = PixelKey {
-                    col: place.col + lane as u32,
-                    row: place.row,
-                    frame: self.frame,
-                };
-                let bumpy = roughness.perturb(sight.normal.lane(lane), radius, index, key);
-                normal.set_lane(lane, bumpy);
+            let (sphere, lanes) = (ball.index(), lanes & !sight.inner);
+            if let (Some(roughness), 1..) = (&self.world.material(sphere).roughness, lanes) {
+                simd.vectorize(
+                    #[inline(always)]
+                    || {
+                        let mask = mask64x8::from_bitmask(simd, lanes);
+                        let first = sight.normal.lane(lanes.trailing_zeros() as usize);
+                        // The lanes of other spheres repeat one: so they cost no cells of noise.
+                        let own = sight.normal.or(mask, &Vectors::splat(simd, first));
+                        let radius = self.world.spheres()[sphere].radius();
+                        let mut rough = [own.x, own.y, own.z];
+                        if let Some(bumps) = roughness.bumps(radius, sphere) {
+                            let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                            rough = bumps.scale_lanes(rough, noise);
+                        } else {
+                            let mut factors = Vectors::splat(simd, DVec3::ONE);
+                            for lane in set_bits(lanes) {
+                                let key = PixelKey {
+                                    col: place.col + lane as u32,
+                                    row: place.row,
+                                    frame: self.frame,
+                                };
+                                factors.set_lane(lane, roughness.pixel_factors(sphere, key));
+                            }
+                            rough[0] *= factors.x;
+                            rough[1] *= factors.y;
+                            rough[2] *= factors.z;
+                        }
+                        let [x, y, z] = unit(rough);
+                        normal = Vectors { x, y, z }.or(mask, &normal);
+                    },
+                );
             }
         }
         normal
     }
 }
 
-/// The materials that eight rays see, each once.
+/// The materials that eight rays see, each once, and memory of their noise.
 pub(super) struct Looks<'scene> {
     list: [Look<'scene>; LANES],
     count: usize,
     has_highlight: bool,
+    /// Cells of the noise of rough surfaces.
+    noise: Option<Box<NoiseCells>>,
 }
 
 /// A material, and the rays that see it as bits.
 #[derive(Clone, Copy)]
 struct Look<'scene> {
-    finish: &'scene Finish,
+    reflectance: &'scene Reflectance,
     number: u32,
     lanes: u64,
 }
@@ -195,23 +197,24 @@ struct Look<'scene> {
 impl<'scene> Looks<'scene> {
     /// One look: that of the world's only material, or any, where there is a sphere.
     pub(super) fn new(shading: &'scene Shading<'_>) -> Self {
-        let finish = &shading.finishes[0];
+        let reflectance = &shading.reflectances[0];
         let look = Look {
-            finish,
+            reflectance,
             number: 0,
-            lanes: 0,
+            lanes: 0xff,
         };
         Self {
             list: [look; LANES],
             count: 1,
-            has_highlight: finish.highlight.is_some(),
+            has_highlight: reflectance.highlight.is_some(),
+            noise: None,
         }
     }
 
     /// Takes in what is seen.
     #[inline(always)]
     pub(super) fn see(&mut self, shading: &'scene Shading<'_>, groups: &Groups<'_>) {
-        if shading.finishes.len() > 1 {
+        if shading.reflectances.len() > 1 {
             self.see_any(shading, groups);
         }
     }
@@ -226,77 +229,28 @@ impl<'scene> Looks<'scene> {
                 look.lanes |= group.lanes;
                 continue;
             }
-            let finish = &shading.finishes[number as usize];
+            let reflectance = &shading.reflectances[number as usize];
             self.list[self.count] = Look {
-                finish,
+                reflectance,
                 number,
                 lanes: group.lanes,
             };
             self.count += 1;
-            self.has_highlight |= finish.highlight.is_some();
+            self.has_highlight |= reflectance.highlight.is_some();
         }
     }
 
-    /// What the first material says, or what the others say where they are seen.
+    /// The albedo of the first material, or those of others where they are seen.
     #[inline(always)]
     fn albedo<S: Simd, const CHANNELS: usize>(&self, simd: S) -> Light<S, CHANNELS> {
-        let mut albedo: Light<S, CHANNELS> = splat(simd, self.list[0].finish.albedo);
+        let mut albedo: Light<S, CHANNELS> = splat(simd, self.list[0].reflectance.albedo);
         for look in &self.list[1..self.count] {
             let mask = mask64x8::from_bitmask(simd, look.lanes);
-            let other: Light<S, CHANNELS> = splat(simd, look.finish.albedo);
+            let other: Light<S, CHANNELS> = splat(simd, look.reflectance.albedo);
             for channel in 0..CHANNELS {
                 albedo[channel] = mask.select(other[channel], albedo[channel]);
             }
         }
         albedo
-    }
-
-    /// The powers of n·l.
-    #[inline(always)]
-    fn spread<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
-        let mut spread = self.list[0].finish.diffuse.lanes(facing);
-        for look in &self.list[1..self.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            spread = mask.select(look.finish.diffuse.lanes(facing), spread);
-        }
-        spread
-    }
-
-    /// The highlights of a light of intensity 1, where `lit` holds; else 0.
-    #[inline(always)]
-    fn spots<S: Simd>(
-        &self,
-        simd: S,
-        lit: mask64x8<S>,
-        light: &DirectionalLight,
-        normal: Vectors<S>,
-        sight: &Sight<S>,
-    ) -> f64x8<S> {
-        let (zero, one) = (f64x8::splat(simd, 0.0), f64x8::splat(simd, 1.0));
-        let toward = Vectors::splat(simd, light.toward());
-        let view = sight.direction.times(one / sight.length_sq.sqrt());
-        let half = toward.minus(&view);
-        let half_sq = half.length_squared();
-        // Zero where the viewer looks along the light.
-        let inverse = half_sq.simd_gt(zero).select(one / half_sq.sqrt(), zero);
-        let facing = normal.dot(&half) * inverse;
-        let facing = facing.simd_gt(zero).select(facing, zero);
-        let mut spots = self.list[0].finish.spot(simd, facing);
-        for look in &self.list[1..self.count] {
-            let mask = mask64x8::from_bitmask(simd, look.lanes);
-            spots = mask.select(look.finish.spot(simd, facing), spots);
-        }
-        lit.select(spots, zero)
-    }
-}
-
-impl Finish {
-    /// The highlight where the half vector has this cosine.
-    #[inline(always)]
-    fn spot<S: Simd>(&self, simd: S, facing: f64x8<S>) -> f64x8<S> {
-        match &self.highlight {
-            Some((falloff, strength)) => falloff.lanes(facing) * *strength,
-            None => f64x8::splat(simd, 0.0),
-        }
     }
 }

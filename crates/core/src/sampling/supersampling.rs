@@ -264,7 +264,7 @@ impl<'scene> Supersampling<'scene> {
             *sample = *nothing;
             if sight.covered != 0 {
                 looks.see(&self.shading, groups);
-                let seen = (&sight, &*groups, &*looks);
+                let seen = (&sight, &*groups, &mut *looks);
                 let light: Light<S, CHANNELS> = self.shading.light(simd, seen, place, shadows);
                 let covered = mask64x8::from_bitmask(simd, sight.covered);
                 let background = &nothing.light;

@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use super::cell::Workspace;
 use crate::edges::cell::Cell;
 use crate::edges::shadow::Arcs;
-use crate::exact::contents::Reach;
+use crate::exact::classify::contents::Reach;
 use crate::exact::scene::InCamera;
 
 /// A line at which something is known to happen.
@@ -54,7 +54,7 @@ impl Workspace {
                 let Reach::Past(casters) = &contents.reach[position * lights + light] else {
                     continue;
                 };
-                for caster in &contents.casters[casters.clone()] {
+                for caster in &contents.occluders[casters.clone()] {
                     let arcs = match arcs {
                         Some(ref arcs) => arcs,
                         None => arcs.insert(Arcs::new(simd, &across, &active.ball, sides)),

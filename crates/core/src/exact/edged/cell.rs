@@ -8,7 +8,7 @@ use super::cut::{Crowded, Cuts, Signature};
 use super::piece::{Part, Piece, Surroundings, Unlike};
 use super::rule::Roots;
 use crate::edges::cell::{Ball, Cell};
-use crate::exact::contents::Contents;
+use crate::exact::classify::contents::Contents;
 use crate::exact::scene::InCamera;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;

@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use crate::edges::cell::Cell;
 use crate::edges::shadow::Arcs;
-use crate::exact::contents::{Contents, Kind, Reach};
+use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::numeric::vectors::Vectors;
@@ -122,7 +122,7 @@ impl Cuts {
                             let places = arcs.crossings(
                                 simd,
                                 cell,
-                                &contents.casters[caster],
+                                &contents.occluders[caster],
                                 &mut self.scratch,
                             );
                             for (falls, places) in places.iter().enumerate() {
@@ -338,7 +338,7 @@ pub(crate) fn views<S: Simd>(
                     }
                     if !casters.is_empty() && lit != 0 {
                         let place = points.place();
-                        for caster in &contents.casters[casters.clone()] {
+                        for caster in &contents.occluders[casters.clone()] {
                             let from = place.minus(&Vectors::splat(simd, caster.center));
                             let (right, up) = (from.dot_one(caster.right), from.dot_one(caster.up));
                             let is_hidden = (right * right + up * up)

@@ -9,7 +9,7 @@ use super::cut::{is_lit, sphere_of};
 use super::piece::Surroundings;
 use super::rule::{CAUTION, NODES, Roots, Rule};
 use super::turns::{Look, Nearest, Search, Seeker, Turn, Turns};
-use crate::exact::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::exact::surface::Finish;
@@ -65,9 +65,7 @@ impl Surroundings<'_> {
         let root_at = |branch: Option<u16>| {
             branch.is_some_and(|branch| cut::has_root_at(contents, branch, position, exponent))
         };
-        let Some(pixel) = contents.pixel else {
-            return Across::SMOOTH;
-        };
+        let pixel = contents.pixel;
         let finish = Finish::new(scene, active.sphere, pixel);
         let mut lit = [0; MOST_LIGHTS];
         for (light, lit) in lit.iter_mut().enumerate() {
@@ -113,7 +111,7 @@ impl Surroundings<'_> {
         simd: S,
         interval: &Interval<S>,
         active: &Active,
-        finish: &Finish<'_>,
+        finish: &Finish,
         lit: &[u64; MOST_LIGHTS],
         is_eased: bool,
         y: f64x8<S>,
@@ -140,7 +138,7 @@ impl Surroundings<'_> {
                 };
                 let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
                 let mut nearest = [Nearest::default(); MOST_LIGHTS];
-                let kinds = if finish.has_blunt_spot() { 2 } else { 1 };
+                let kinds = if finish.has_blunt_highlight() { 2 } else { 1 };
                 for index in 0..=points {
                     let s = f64::from(index) / f64::from(points);
                     let share = if is_eased { s * s * (3.0 - 2.0 * s) } else { s };
@@ -233,7 +231,7 @@ impl Surroundings<'_> {
         &self,
         simd: S,
         active: &Active,
-        finish: &Finish<'_>,
+        finish: &Finish,
         lit: &[u64; MOST_LIGHTS],
         rule: &Rule,
         start: f64x8<S>,

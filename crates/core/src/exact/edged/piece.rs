@@ -9,7 +9,7 @@ use super::interval::Interval;
 use super::rule::{NODES, Roots, Rule};
 use crate::edges::cell::Cell;
 use crate::edges::shadow::Arcs;
-use crate::exact::contents::{Contents, Reach};
+use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::scene::InCamera;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
@@ -252,7 +252,7 @@ impl Surroundings<'_> {
                 };
                 let ball = &contents.active[of / lights].ball;
                 let arcs = Arcs::new(simd, self.cell, ball, y);
-                let places = arcs.crossings(simd, self.cell, &contents.casters[caster], scratch);
+                let places = arcs.crossings(simd, self.cell, &contents.occluders[caster], scratch);
                 places[which / 2][which % 2]
             },
         )

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::cut;
 use super::piece::Surroundings;
 use super::rule::NODES;
-use crate::exact::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
@@ -133,7 +133,7 @@ impl Nearest {
 pub(crate) struct Seeker<'a, S: Simd> {
     pub(crate) surroundings: &'a Surroundings<'a>,
     pub(crate) active: &'a Active,
-    pub(crate) finish: &'a Finish<'a>,
+    pub(crate) finish: &'a Finish,
     pub(crate) turn: Turn,
     pub(crate) y: f64x8<S>,
     /// To a turn.

@@ -1,7 +1,11 @@
-//! Pixels that one sphere fills.
+//! Pixels that one sphere fills: by rules with few samples, where light is smooth.
 
-pub(crate) mod facings;
+mod average;
+mod estimate;
 pub(crate) mod fill;
-pub(crate) mod parts;
+pub(crate) mod filled;
+mod light_cosines;
+mod parts;
+mod reached;
 pub(crate) mod samples;
-pub(crate) mod smooth;
+mod terminators;

@@ -1,4 +1,4 @@
-//! Where pixels that one sphere fills are sampled.
+//! The places and weights of samples in pixels that one sphere fills.
 
 /// A sample of a pixel, at (u, v) from its middle.
 #[derive(Clone, Copy, Debug)]
@@ -10,9 +10,8 @@ pub(crate) struct Sample {
     /// Weight in the rule of the middle and the corners of Gauss's grid: exact for sums of functions
     /// of u and of v that Gauss's rule is exact for.
     pub(crate) star: f64,
-    /// Weights, along both diagonals, in what Kronrod's rule with seven points finds more than
-    /// Gauss's.
-    pub(crate) apart: [f64; 2],
+    /// Weights, along both diagonals, in the excess of Kronrod's rule with seven points over Gauss's.
+    pub(crate) excess: [f64; 2],
 }
 
 /// Samples that a pixel takes, at most: those of the star, the rest of Gauss's grid, and Kronrod's
@@ -27,14 +26,16 @@ pub(crate) const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
 /// The numbers of Gauss's samples, row by row.
 pub(crate) const GRID: [[usize; 3]; 3] = [[1, 5, 2], [6, 0, 7], [3, 8, 4]];
 
-/// How far a point of a pixel is from the nearest sample of the star, and of Gauss's grid, at most,
-/// in half diagonals.
+/// Bounds of the distance of a point of a pixel from the nearest sample of the star, and of Gauss's grid, in
+/// half diagonals.
 pub(crate) const FROM_STAR: f64 = 0.6;
 pub(crate) const FROM_GRID: f64 = 0.4;
 
-/// How far a corner is from the middle, in distances of the star's other samples.
+/// The distance of a corner from the middle over that of the star's other samples: √(5/3).
 pub(crate) const TO_CORNER: f64 = 1.290_994_448_735_805_6;
 
+/// The samples: the star's, the rest of Gauss's grid, then those of Kronrod's rule on either diagonal. The
+/// numbers are those of the rules for [−½, ½], half of the tabulated ones for [−1, 1].
 pub(crate) const POINTS: [Sample; SAMPLES] = {
     const OUTER: f64 = 0.387_298_334_620_741_7;
     const GAUSS: [f64; 3] = [-OUTER, 0.0, OUTER];
@@ -55,7 +56,7 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
         v: 0.0,
         gauss: 0.0,
         star: 0.0,
-        apart: [0.0; 2],
+        excess: [0.0; 2],
     }; SAMPLES];
     let mut index = 0;
     while index < GAUSS_SAMPLES {
@@ -73,7 +74,7 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
             } else {
                 0.0
             },
-            apart: [
+            excess: [
                 if row == col { EXCESS[col] } else { 0.0 },
                 if row + col == 2 { EXCESS[col] } else { 0.0 },
             ],
@@ -85,10 +86,10 @@ pub(crate) const POINTS: [Sample; SAMPLES] = {
         let (place, weight) = OTHERS[other];
         points[index].u = place;
         points[index].v = place;
-        points[index].apart[0] = weight;
+        points[index].excess[0] = weight;
         points[index + 4].u = place;
         points[index + 4].v = -place;
-        points[index + 4].apart[1] = weight;
+        points[index + 4].excess[1] = weight;
         index += 1;
         other += 1;
     }
@@ -112,11 +113,11 @@ mod tests {
             let star = sum(&|at| at.star * at.v.powi(power));
             assert!((gauss - star).abs() < 1e-15);
             for axis in 0..2 {
-                let apart = sum(&|at| at.apart[axis] * at.u.powi(power));
-                let error = gauss + apart - exact;
+                let excess = sum(&|at| at.excess[axis] * at.u.powi(power));
+                let error = gauss + excess - exact;
                 assert!(error.abs() < 1e-15 * exact.max(0.1), "{power}");
-                let is_nothing = apart.abs() < 1e-15 * exact.max(0.1);
-                assert_eq!(is_nothing, power <= 4, "{power}: {apart}");
+                let is_nothing = excess.abs() < 1e-15 * exact.max(0.1);
+                assert_eq!(is_nothing, power <= 4, "{power}: {excess}");
             }
         }
         let mixed = sum(&|at| at.gauss * at.u.powi(4) * at.v.powi(4));

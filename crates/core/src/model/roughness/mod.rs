@@ -1,20 +1,21 @@
-//! Rough surfaces: normals multiplied by random numbers.
+//! Rough surfaces: shading normals are normals whose components are multiplied by random numbers.
 
 pub(crate) mod noise;
 
-use crate::model::roughness::noise::NoiseCells;
 use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8};
 use glam::DVec3;
 
-use self::noise::{Cell, hash, spread};
+#[cfg(test)]
+use self::noise::Cell;
+use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
 use crate::numeric::lanes::Lanes;
 
 /// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
 const MOST_CELLS: f64 = (1_u64 << 50) as f64;
 
-/// What the numbers of [`Grain::Pixel`] are drawn for.
-#[derive(Clone, Copy, Debug)]
+/// The pixel that the numbers of [`Grain::Pixel`] are drawn for.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct PixelKey {
     pub(crate) col: u32,
     pub(crate) row: u32,
@@ -22,8 +23,9 @@ pub(crate) struct PixelKey {
 }
 
 impl Roughness {
-    /// The perturbed shading normal, unit, at the point of the sphere with the outward normal
-    /// `normal`.
+    /// The shading normal, unit, at the point of the sphere with the outward normal `normal`: what that of
+    /// lanes is tested against.
+    #[cfg(test)]
     pub(crate) fn perturb(
         &self,
         normal: DVec3,
@@ -53,8 +55,8 @@ impl Roughness {
         }
     }
 
-    /// What [`Grain::Pixel`] multiplies all normals by that a pixel sees of a sphere; [`unit`]
-    /// makes the products shading normals.
+    /// The factors of [`Grain::Pixel`] for the components of all normals that a pixel sees of a sphere;
+    /// [`unit`] makes the products shading normals.
     pub(crate) fn pixel_factors(&self, sphere: usize, pixel: PixelKey) -> DVec3 {
         1.0 + self.amplitude * pixel_noise(self.seed, sphere, pixel)
     }
@@ -65,13 +67,14 @@ impl Roughness {
 pub(crate) struct Bumps {
     /// Of the seed and the sphere.
     key: u64,
-    /// How many cells the radius spans.
+    /// The number of cells that the radius spans.
     cells: f64,
     amplitude: f64,
 }
 
 impl Bumps {
-    /// The perturbed shading normal, unit, at the point with the outward normal `normal`.
+    /// The shading normal, unit, at the point with the outward normal `normal`.
+    #[cfg(test)]
     pub(crate) fn perturb(&self, normal: DVec3) -> DVec3 {
         let normal = normal.to_array();
         let (nearest, offset) = self.place(normal);
@@ -79,8 +82,7 @@ impl Bumps {
         DVec3::from_array(unit(self.scale(normal, draw)))
     }
 
-    /// The normals of eight lanes with their components multiplied; [`unit`] makes them those of
-    /// [`Self::perturb`], with the same bits.
+    /// The normals of eight lanes with their components multiplied; [`unit`] makes them shading normals.
     ///
     /// All lanes of one cell are done at once, and the values of cells are kept in `cells`: fast
     /// where neighbors lie in the same cell, as fast as one by one where each has its own. Lanes
@@ -113,7 +115,7 @@ impl Bumps {
         self.scale(normal, draw)
     }
 
-    /// How many cells of the noise the radius spans.
+    /// The number of cells of the noise that the radius spans.
     pub(crate) fn cells(&self) -> f64 {
         self.cells
     }
@@ -145,8 +147,8 @@ impl Bumps {
         (1.0 + a) / (1.0 - a) + NOISE_SLOPE * self.cells * a / ((1.0 - a) * (1.0 + a)).sqrt()
     }
 
-    /// The lattice point next to a point of the surface, and where the point lies from it: at most
-    /// ½ away along each axis.
+    /// The lattice point next to a point of the surface, and the offset of the point from it: at most ½
+    /// along each axis.
     #[inline(always)]
     fn place<L: Lanes>(&self, normal: [L; 3]) -> ([L; 3], [L; 3]) {
         let [x, y, z] = normal;

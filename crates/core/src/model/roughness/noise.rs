@@ -107,12 +107,12 @@ fn spline([before, middle, after]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
 /// four never push each other out.
 #[derive(Clone, Debug)]
 pub(crate) struct NoiseCells {
-    /// Which cells are in the table: apart from the cells, so that a glance takes little memory.
+    /// The names of the cells in the table: apart from the cells, so that a look takes little memory.
     names: Vec<Name>,
     cells: Vec<Cell>,
 }
 
-/// What tells a cell: the key of its lattice and the bits of the lattice point.
+/// The key of a cell's lattice and the bits of the lattice point.
 type Name = (u64, [u64; 3]);
 
 /// Bits of the index that choose the slot, for each axis.

@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use super::curve::{Piece, Trace};
 use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
-use crate::exact::contents::{Contents, Kind, Reach};
+use crate::exact::classify::contents::{Contents, Kind, Reach};
 
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
@@ -224,7 +224,7 @@ impl Boundary {
                     continue;
                 }
                 let inside = in_disc(simd, setting, caster, &places.point);
-                let height = setting.contents.casters[caster].center.dot(toward);
+                let height = setting.contents.occluders[caster].center.dot(toward);
                 let is_below = places.point.dot_one(toward).simd_lt(height);
                 if (inside.simd_lt(0.0) & is_below).to_bitmask() == 0xff {
                     return false;

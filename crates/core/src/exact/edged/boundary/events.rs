@@ -74,7 +74,7 @@ pub(super) fn value<S: Simd>(
                 }
                 Function::Above(light, caster) => {
                     let toward = setting.scene.lights[light].toward;
-                    places.point.dot_one(toward) - contents.casters[caster].center.dot(toward)
+                    places.point.dot_one(toward) - contents.occluders[caster].center.dot(toward)
                 }
                 Function::Inside(sphere) => {
                     let ball = &contents.active[sphere].ball;
@@ -111,7 +111,7 @@ pub(super) fn in_disc<S: Simd>(
     caster: usize,
     place: &Vectors<S>,
 ) -> f64x8<S> {
-    let caster = &setting.contents.casters[caster];
+    let caster = &setting.contents.occluders[caster];
     let from = place.minus(&Vectors::splat(simd, caster.center));
     let (right, up) = (from.dot_one(caster.right), from.dot_one(caster.up));
     right * right + up * up - caster.radius * caster.radius

@@ -6,7 +6,7 @@ use super::arcs::{add, between};
 use super::curve::{Piece, Trace};
 use super::events::{Function, INTERVALS, Stretch, in_disc};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
-use crate::exact::contents::Reach;
+use crate::exact::classify::contents::Reach;
 use crate::exact::edged::cut::ray;
 use crate::exact::points::Points;
 
@@ -121,7 +121,7 @@ impl Boundary {
                             continue;
                         }
                         let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                        let top = setting.contents.casters[caster].center.dot(toward);
+                        let top = setting.contents.occluders[caster].center.dot(toward);
                         closed |= between((inside & height.simd_lt(top)).to_bitmask());
                     }
                     let open = INTERVALS & !closed;
@@ -185,7 +185,7 @@ impl Boundary {
                             continue;
                         }
                         let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                        let top = contents.casters[caster].center.dot(toward);
+                        let top = contents.occluders[caster].center.dot(toward);
                         lit &= !(inside & height.simd_lt(top)).to_bitmask();
                         if lit == 0 {
                             break;

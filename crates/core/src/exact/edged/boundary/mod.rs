@@ -21,7 +21,8 @@ use self::quadrature::total;
 use super::cell::Goal;
 use super::piece::Part;
 use crate::edges::cell::Cell;
-use crate::exact::contents::{Contents, Kind, Patch, Reach};
+use crate::exact::classify::contents::{Contents, Kind, Reach};
+use crate::exact::classify::patch::Patch;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
@@ -89,7 +90,7 @@ struct Setting<'a, 'scene> {
     cell: &'a Cell,
     contents: &'a Contents,
     goal: &'a Goal,
-    finishes: &'a [Finish<'scene>],
+    finishes: &'a [Finish],
 }
 
 /// What arcs contribute so far, by nodes of the rule.
@@ -111,9 +112,9 @@ impl Boundary {
         contents: &Contents,
         goal: &Goal,
     ) -> Option<Part> {
-        let pixel = contents.pixel?;
+        let pixel = contents.pixel;
         let actives = &contents.active;
-        let finishes: Vec<Finish<'scene>> = actives
+        let finishes: Vec<Finish> = actives
             .iter()
             .map(|active| Finish::new(scene, active.sphere, pixel))
             .collect();
@@ -198,7 +199,7 @@ impl Boundary {
                 let around = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
                 for caster in casters.clone() {
                     let curve = Curve {
-                        shape: Shape::shadow(&active.ball, &contents.casters[caster], toward),
+                        shape: Shape::shadow(&active.ball, &contents.occluders[caster], toward),
                         edge: Edge::Shadow(light, caster),
                         own,
                     };

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use crate::edges::cell::Cell;
-use crate::exact::contents::Active;
+use crate::exact::classify::active::Active;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -49,7 +49,7 @@ const OFF: [f64; 3] = [2e-3, 1.6e-5, 1e-7];
 pub(super) struct Sender<'a, 'scene> {
     pub(super) scene: &'a InCamera<'scene>,
     pub(super) active: &'a Active,
-    pub(super) finish: &'a Finish<'scene>,
+    pub(super) finish: &'a Finish,
     /// Those that reach it, bit by bit.
     pub(super) lights: u64,
     /// The parameter of the place to begin with.

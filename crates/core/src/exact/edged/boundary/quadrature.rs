@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::curve::{Piece, Shape, Trace, trace};
 use super::primitive::{Lines, Sender, lit_up_to};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
-use crate::exact::contents::Contents;
+use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{Roots, Rule, error_estimate};
 use crate::exact::scene::InCamera;
 

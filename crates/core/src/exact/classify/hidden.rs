@@ -3,31 +3,31 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
-use super::Active;
-use crate::exact::squares;
+use super::active::Active;
+use super::mask;
 use crate::numeric::polynomial::Quadratic;
+use crate::numeric::rounding::GEOMETRY_SLACK;
 
-/// Where spheres begin and end, and memory for it.
+/// The memory that is worked in to find hidden spheres.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Hiding {
-    /// How near the eye parts of spheres may be seen, and their positions.
+pub(super) struct HiddenSpheres {
+    /// The least distances from the eye at which spheres may be seen, and their positions.
     begins: Vec<(f64, usize)>,
-    /// Behind which distance spheres hide what they cover, and their positions.
+    /// The distances behind which spheres hide what they cover, and their positions.
     ends: Vec<(f64, usize)>,
     hidden: Vec<bool>,
 }
 
-/// Fewer spheres need no union to hide one.
+/// Of fewer spheres none is hidden by two others together.
 const FEWEST: usize = 3;
 
-impl Hiding {
-    /// Leaves out the spheres of which nothing is seen in the cell.
+impl HiddenSpheres {
+    /// Removes the spheres of which nothing is seen in the cell.
     ///
     /// The cell is seen as squares. A sphere hides those whose corners it covers, as what an eye in
     /// front of it sees of it is convex, from all that lies farther away than √K, where rays touch
     /// it.
-    pub(crate) fn leave_out(&mut self, level: Level, active: &mut Vec<Active>) {
-        const ROUNDING: f64 = 1e-12;
+    pub(super) fn remove(&mut self, level: Level, active: &mut Vec<Active>) {
         if active.len() < FEWEST {
             return;
         }
@@ -37,10 +37,10 @@ impl Hiding {
             let ball = &active.ball;
             if ball.outside > 0.0 {
                 let distance = ball.center.length();
-                let begin = distance - ball.radius - ROUNDING * distance;
+                let begin = distance - ball.radius - GEOMETRY_SLACK * distance;
                 self.begins.push((begin, position));
                 if ball.center.z > ball.radius {
-                    let end = ball.outside.sqrt() * (1.0 + ROUNDING);
+                    let end = ball.outside.sqrt() * (1.0 + GEOMETRY_SLACK);
                     self.ends.push((end, position));
                 }
             }
@@ -54,11 +54,11 @@ impl Hiding {
         let mut ends = self.ends.iter().peekable();
         for &(begin, position) in &self.begins {
             while let Some((_, nearer)) = ends.next_if(|(end, _)| *end < begin) {
-                if covered != squares::ALL && !self.hidden[*nearer] {
+                if covered != mask::ALL && !self.hidden[*nearer] {
                     covered |= covers(level, &active[*nearer].discriminant);
                 }
             }
-            let is_hidden = covered == squares::ALL
+            let is_hidden = covered == mask::ALL
                 || covered != 0 && touches(level, &active[position].discriminant) & !covered == 0;
             self.hidden[position] = is_hidden;
         }
@@ -69,7 +69,7 @@ impl Hiding {
     }
 }
 
-/// Where corners of squares lie along a side, and half the side of one.
+/// The places of the corners of squares along a side.
 const CORNERS: [f64; 8] = [
     -0.5,
     1.0 / 7.0 - 0.5,
@@ -80,11 +80,12 @@ const CORNERS: [f64; 8] = [
     6.0 / 7.0 - 0.5,
     0.5,
 ];
-const HALF: f64 = 0.5 / squares::SIDE as f64;
+/// Half the side of a square.
+const HALF: f64 = 0.5 / mask::SIDE as f64;
 
-/// What rounding may change a discriminant by.
+/// A bound of what rounding changes a discriminant by.
 fn slack(q: &Quadratic) -> f64 {
-    1e-12 * (q.spread() + q.one.abs())
+    GEOMETRY_SLACK * (q.spread() + q.one.abs())
 }
 
 /// The squares on which a discriminant is positive.
@@ -102,7 +103,7 @@ fn covers_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
         let value = (slope + q.yy * y) * y + constant;
         corners |= value.simd_gt(least).to_bitmask() << (8 * row);
     }
-    squares::between(corners)
+    mask::between(corners)
 }
 
 /// The squares on which a discriminant may be positive.
@@ -127,5 +128,5 @@ fn touches_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
         // What is not a number may be anything.
         touched |= (!most.simd_lt(least)).to_bitmask() << (8 * row);
     }
-    touched & squares::ALL
+    touched & mask::ALL
 }

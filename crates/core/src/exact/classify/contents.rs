@@ -1,107 +1,65 @@
 //! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
 
-mod hidden;
-
 use std::ops::Range;
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use self::hidden::Hiding;
-use super::casters::CasterCache;
-use super::points::Points;
-use super::scene::InCamera;
-use super::surface::Finish;
+use super::active::Active;
+use super::hidden::HiddenSpheres;
+use super::occluder_cache::{OccluderCache, Shade};
+use super::patch::Patch;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::seam::seam;
 use crate::edges::shadow::Caster;
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
+use crate::exact::points::Points;
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
 use crate::model::roughness::PixelKey;
-use crate::numeric::polynomial::{Linear, Quadratic};
-use crate::numeric::rounding::UNIT_ROUNDOFF;
+use crate::numeric::polynomial::Quadratic;
+use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
 
-/// A sphere that may be seen in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Active {
-    pub(crate) sphere: usize,
-    pub(crate) ball: Ball,
-    /// The discriminant Q of the ray.
-    pub(crate) discriminant: Quadratic,
-    /// d · c.
-    pub(crate) along: Linear,
-    /// Whether the terminators belong to a surface without bumps.
-    pub(crate) is_smooth: bool,
-}
-
-/// How a light may reach a sphere in a cell.
+/// The way of a light to a sphere in a cell.
 #[derive(Clone, Debug)]
 pub(crate) enum Reach {
-    /// Nowhere.
+    /// The light reaches it nowhere.
     Nowhere,
-    /// Where none of these casters is in the way.
+    /// The light reaches it where none of these occluders is in the way.
     Past(Range<usize>),
 }
 
 /// A curve on which light may change abruptly.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Kind {
-    /// Of the active sphere with this position.
+    /// The outline of the active sphere with this position.
     Silhouette(usize),
-    /// Between two active spheres.
+    /// The intersection of two active spheres.
     Seam(usize, usize),
-    /// On an active sphere, of a light.
+    /// The great circle of an active sphere that faces a light edge-on.
     Terminator(usize, usize),
 }
 
-/// All that matters in a cell.
+/// The spheres, curves and occluders that matter in a cell.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Contents {
     pub(crate) active: Vec<Active>,
     pub(crate) conics: Vec<(Kind, Quadratic)>,
     /// For every active sphere and every light.
     pub(crate) reach: Vec<Reach>,
-    pub(crate) casters: Vec<Caster>,
-    pub(crate) pixel: Option<PixelKey>,
+    pub(crate) occluders: Vec<Caster>,
+    /// The pixel that the cell belongs to.
+    pub(crate) pixel: PixelKey,
     /// How far, in sides of the cell, rounding may move an edge.
     pub(crate) rounding: f64,
-    hiding: Hiding,
+    hidden: HiddenSpheres,
 }
 
-/// Where in space a cell sees a sphere: within `around` of the way between two points.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Patch {
-    pub(crate) ends: [DVec3; 2],
-    pub(crate) around: f64,
-}
-
-impl Patch {
-    /// For an eye outside. The ray d through the middle of the cell is off by half its diagonal at
-    /// most; with Q = B² − A K ≥ 0, t = K / (B + √Q) lies between K / (B⁺ + √Q⁺) and √(K / A⁻).
-    pub(crate) fn new(cell: &Cell, ball: &Ball, discriminant: &Quadratic, along: &Linear) -> Self {
-        let k = ball.outside;
-        let spread = discriminant.spread();
-        let (lowest, highest) = (discriminant.one - spread, discriminant.one + spread);
-        let half = 0.5 * (along.x.abs() + along.y.abs());
-        let half_diagonal = 0.5 * DVec2::from_array(cell.size).length();
-        let shortest = (cell.middle.length() - half_diagonal).max(1.0);
-        let nearest = k / (along.one + half + highest.max(0.0).sqrt());
-        let mut farthest = k.sqrt() / shortest;
-        if along.one > half {
-            farthest = farthest.min(k / (along.one - half + lowest.max(0.0).sqrt()));
-        }
-        Self {
-            ends: [cell.middle * nearest, cell.middle * farthest],
-            around: farthest * half_diagonal * (1.0 + 1e-9)
-                + 1e-12 * farthest * cell.middle.length(),
-        }
-    }
-}
-
-/// What rounding moves points by, relative to the largest numbers that they are computed from: some
-/// units in the last place.
+/// A bound of what rounding moves points by, relative to the largest numbers that they are computed from:
+/// some units in the last place.
 const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
@@ -112,34 +70,26 @@ const ROOT_OF_ROUNDING: f64 = 1e-7;
 /// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
 const FOLLOWED: f64 = 4.0;
 
-/// What a caster does to a patch.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) enum Shade {
-    Nothing,
-    Edge,
-    Everything,
-}
-
 impl Contents {
-    /// Takes in the spheres that a cell may see, out of some, and their edges.
+    /// Takes in the spheres out of some that a cell of the pixel may see, and their edges.
     pub(crate) fn see(
         &mut self,
         scene: &InCamera<'_>,
         cell: &Cell,
         spheres: &[(usize, Ball)],
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
     ) {
         self.active.clear();
         self.conics.clear();
         self.reach.clear();
-        self.casters.clear();
+        self.occluders.clear();
         let size = cell.size[0].min(cell.size[1]);
         self.rounding = ROUNDINGS * cell.middle.length() / size;
         for &(sphere, ball) in spheres {
             let discriminant = silhouette(cell, &ball);
             let along = cell.dot(ball.center);
             let spread = discriminant.spread();
-            let slack = 1e-12 * (spread + discriminant.one.abs());
+            let slack = GEOMETRY_SLACK * (spread + discriminant.one.abs());
             let half = 0.5 * (along.x.abs() + along.y.abs());
             let is_outside = ball.outside > 0.0;
             if is_outside && (discriminant.one + spread + slack < 0.0 || along.one + half <= 0.0) {
@@ -153,7 +103,7 @@ impl Contents {
                 is_smooth: scene.world.material(sphere).roughness.is_none(),
             });
         }
-        self.hiding.leave_out(cache.level, &mut self.active);
+        self.hidden.remove(cache.level, &mut self.active);
         for position in 0..self.active.len() {
             let active = self.active[position];
             let is_outside = active.ball.outside > 0.0;
@@ -181,7 +131,7 @@ impl Contents {
         }
     }
 
-    /// Adds where an active sphere intersects those before it.
+    /// Adds the curves in which an active sphere intersects those before it.
     fn add_seams(&mut self, cell: &Cell, position: usize) {
         let ball = self.active[position].ball;
         for (index, other) in self.active[..position].iter().enumerate() {
@@ -193,7 +143,7 @@ impl Contents {
             }
             let apart = apart_sq.sqrt();
             let difference = (ball.radius - other.ball.radius).abs();
-            let slack = 1e-12 * (sum + apart);
+            let slack = GEOMETRY_SLACK * (sum + apart);
             if apart < sum + slack && apart > difference - slack && apart > 0.0 {
                 let seam = seam(cell, &ball, &other.ball);
                 if seam.may_vanish() {
@@ -216,43 +166,45 @@ impl Contents {
         }
     }
 
-    /// How a light reaches a sphere that the eye is outside of.
+    /// The way of a light to a sphere that the eye is outside of.
     fn reach_of(
         &mut self,
         scene: &InCamera<'_>,
         cell: &Cell,
         active: &Active,
         light: usize,
-        cache: &mut CasterCache,
+        cache: &mut OccluderCache,
     ) -> Reach {
-        let first = self.casters.len();
+        let first = self.occluders.len();
         if scene.world.shadows {
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let in_camera = &scene.lights[light];
-            let Some(range) = cache.casters(scene, active.sphere, light) else {
+            let Some(range) = cache.occluders(scene, active.sphere, light) else {
                 return Reach::Nowhere;
             };
             cache.tests += range.len() as u64;
-            if cache.edges(&patch, in_camera, range) == Shade::Everything {
-                return Reach::Nowhere;
-            }
+            let found = match cache.shade(&patch, in_camera, range) {
+                Shade::Everything => return Reach::Nowhere,
+                Shade::Nothing => &[],
+                Shade::Edges(found) => found,
+            };
             let extent = |center: DVec3, radius: f64| center.length() + radius;
             let own = extent(active.ball.center, active.ball.radius);
             let distance = patch.ends[0].length() / cell.middle.length();
             let size = cell.size[0].min(cell.size[1]) * distance;
-            for &index in &cache.found {
-                let (center, radius) = scene.center(index as usize);
+            for &sphere in found {
+                let (center, radius) = scene.center(sphere as usize);
                 let largest = own.max(extent(center, radius));
                 self.rounding = self.rounding.max(ROUNDINGS * largest / size);
-                self.casters.push(in_camera.caster(center, radius));
+                self.occluders.push(in_camera.caster(center, radius));
             }
         }
-        Reach::Past(first..self.casters.len())
+        Reach::Past(first..self.occluders.len())
     }
 
-    /// How much there is to look at on a line: in each gap between edges every sphere may be seen.
+    /// The work on a line: in each gap between edges every sphere may be seen.
     pub(crate) fn extent(&self) -> u64 {
-        let edges = self.conics.len() + 4 * self.casters.len();
+        let edges = self.conics.len() + 4 * self.occluders.len();
         (8 + edges + self.active.len() * (1 + self.conics.len() / 4)) as u64
     }
 
@@ -267,7 +219,6 @@ impl Contents {
     ) -> bool {
         let lights = scene.lights.len();
         for (position, active) in self.active.iter().enumerate() {
-            let Some(pixel) = self.pixel else { continue };
             if active.ball.outside <= 0.0 {
                 continue;
             }
@@ -275,7 +226,7 @@ impl Contents {
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
             let turn = 0.5 * length / active.ball.radius + cell.size[0];
-            let finish = Finish::new(scene, active.sphere, pixel);
+            let finish = Finish::new(scene, active.sphere, self.pixel);
             if finish.sharpness() * turn * turn < 2.0 * FOLLOWED {
                 continue;
             }
@@ -320,12 +271,12 @@ impl Contents {
             let point = ray * t;
             let normal = point - ball.center;
             for light in 0..lights {
-                let Reach::Past(casters) = &self.reach[position * lights + light] else {
+                let Reach::Past(occluders) = &self.reach[position * lights + light] else {
                     continue;
                 };
-                for caster in &self.casters[casters.clone()] {
-                    let aside = caster.project(point);
-                    let gradient = caster.right * aside.x + caster.up * aside.y;
+                for occluder in &self.occluders[occluders.clone()] {
+                    let aside = occluder.project(point);
+                    let gradient = occluder.right * aside.x + occluder.up * aside.y;
                     // How the point moves in the tangent plane.
                     let slope = |axis: usize| {
                         let step = DVec3::AXES[axis];

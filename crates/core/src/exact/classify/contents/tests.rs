@@ -1,6 +1,7 @@
 //! What is left out of a cell, against many of its points.
 
 use fearless_simd::Level;
+use glam::DVec2;
 
 use super::*;
 use crate::edges::shadow::Caster;
@@ -84,7 +85,7 @@ fn light_from(toward: DVec3) -> Light {
 }
 
 #[test]
-fn what_casters_do_to_a_patch_is_never_claimed_too_much() {
+fn shadows_on_a_patch_are_never_claimed_too_large() {
     let mut random = Random(2);
     let (mut counts, mut together) = ([0; 3], 0);
     for _ in 0..6000 {
@@ -105,9 +106,14 @@ fn what_casters_do_to_a_patch_is_never_claimed_too_much() {
                 light.caster(center, magnitude(&mut random, 0.02, 0.8))
             })
             .collect();
-        let (mut cache, range) = CasterCache::of(&casters, &light);
-        let shade = cache.edges(&patch, &light, range);
-        counts[shade as usize] += 1;
+        let (mut cache, range) = OccluderCache::of(&casters, &light);
+        let shade = cache.shade(&patch, &light, range);
+        let kind = match shade {
+            Shade::Nothing => 0,
+            Shade::Edges(_) => 1,
+            Shade::Everything => 2,
+        };
+        counts[kind] += 1;
         let (mut dark, mut alone) = (true, false);
         for _ in 0..100 {
             let [start, end] = patch.ends;
@@ -125,10 +131,10 @@ fn what_casters_do_to_a_patch_is_never_claimed_too_much() {
             match shade {
                 Shade::Everything => assert!(is_dark, "{patch:?} {casters:?}"),
                 Shade::Nothing => assert!(!is_dark, "{patch:?} {casters:?}"),
-                Shade::Edge => {
-                    let found = cache.found.iter().map(|&index| &casters[index as usize]);
-                    let known = found.into_iter().any(hides);
-                    assert_eq!(is_dark, known, "{patch:?} {casters:?} {:?}", cache.found);
+                Shade::Edges(found) => {
+                    let mut spheres = found.iter().map(|&index| &casters[index as usize]);
+                    let known = spheres.any(hides);
+                    assert_eq!(is_dark, known, "{patch:?} {casters:?} {found:?}");
                 }
             }
             dark &= is_dark;
@@ -158,10 +164,10 @@ fn cloud(random: &mut Random, count: usize) -> World {
     world
 }
 
-/// Whoever keeps light from a point that a tile sees is among its casters, and nobody whose shadow
+/// Whoever keeps light from a point that a tile sees is among its occluders, and nobody whose shadow
 /// is known to pass by.
 #[test]
-fn casters_are_those_of_all_spheres_that_matter() {
+fn occluders_are_all_spheres_that_matter() {
     let mut random = Random(3);
     let (mut dark, mut listed, mut asked) = (0, 0, 0);
     for step in 0..12 {
@@ -192,7 +198,7 @@ fn casters_are_those_of_all_spheres_that_matter() {
                 size: [magnitude(&mut random, 1e-3, 0.3); 2],
                 is_transposed: false,
             };
-            let mut cache = CasterCache::new(tile, tile.size[0] / 8.0);
+            let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
             for sphere in 0..world.spheres().len() {
                 let ball = scene.ball(sphere);
                 let points: Vec<DVec3> = (0..20)
@@ -206,8 +212,8 @@ fn casters_are_those_of_all_spheres_that_matter() {
                 }
                 for light in 0..scene.lights.len() {
                     let toward = scene.lights[light].toward;
-                    let range = cache.casters(&scene, sphere, light);
-                    assert_eq!(range, cache.casters(&scene, sphere, light), "asked again");
+                    let range = cache.occluders(&scene, sphere, light);
+                    assert_eq!(range, cache.occluders(&scene, sphere, light), "asked again");
                     let is_dark = range.is_none();
                     let found = cache.listed(range);
                     for other in (0..world.spheres().len()).filter(|&other| other != sphere) {
@@ -257,10 +263,10 @@ fn coincident_spheres_cast_no_shadow_on_each_other() {
     };
     let scene = InCamera::new(&world, &visibility, &view, Channels::Grey, 0);
     let tile = cell_at(&mut random, &scene.ball(0), 2.0);
-    let mut cache = CasterCache::new(tile, tile.size[0] / 8.0);
+    let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
     for light in 0..scene.lights.len() {
         for (sphere, twin) in [(0, other), (other, 0)] {
-            let range = cache.casters(&scene, sphere, light);
+            let range = cache.occluders(&scene, sphere, light);
             assert!(!cache.listed(range).contains(&twin));
         }
     }
@@ -294,7 +300,7 @@ fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
             })
             .collect();
         let all = active.clone();
-        Hiding::default().leave_out(Level::new(), &mut active);
+        HiddenSpheres::default().remove(Level::new(), &mut active);
         left_out += all.len() - active.len();
         for _ in 0..100 {
             let ray = ray(&cell, coordinate(&mut random), coordinate(&mut random));

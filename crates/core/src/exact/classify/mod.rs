@@ -1,0 +1,12 @@
+//! The spheres, edges and lights that pixels and their parts may see.
+
+pub(crate) mod active;
+pub(crate) mod contents;
+mod hidden;
+pub(crate) mod magnitude;
+mod mask;
+pub(crate) mod occluder_cache;
+pub(crate) mod occluders;
+pub(crate) mod patch;
+pub(crate) mod row;
+mod shade_mask;

@@ -1,0 +1,250 @@
+//! The occluders of what a tile sees, and those of what a pixel sees of that.
+
+use std::ops::Range;
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8};
+
+use super::occluders::{Occluder, Occluders, eight};
+use super::patch::Patch;
+use super::shade_mask::ShadeMask;
+use crate::edges::cell::Cell;
+use crate::edges::silhouette::silhouette;
+use crate::exact::scene::{InCamera, Light};
+use crate::numeric::bits::set_bits;
+use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
+
+/// The radius in pixels of spheres whose occluders are sought for all of the sphere, not for what a tile
+/// sees of it, where they are smaller; which is how pixels stay the same in any tile. A small sphere lies
+/// in few tiles, so that little is gained by less. Not tuned.
+const SMALL_PX: f64 = 4.0;
+
+/// The spheres that may keep lights from what a tile sees, found when they are asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct OccluderCache {
+    tile: Cell,
+    /// The side of a pixel at distance 1.
+    pixel: f64,
+    pub(crate) level: Level,
+    known: Vec<Known>,
+    occluders: Occluders,
+    /// Their numbers in the scene.
+    spheres: Vec<u32>,
+    /// Memory of [`Self::shade`]: indices of occluders, and then the numbers of their spheres.
+    edges: Vec<u32>,
+    /// The number of spheres that were asked whether they matter.
+    pub(crate) tests: u64,
+}
+
+/// The occluders of a sphere under a light; none where they leave no light at all.
+#[derive(Clone, Debug)]
+struct Known {
+    sphere: usize,
+    light: usize,
+    range: Option<Range<usize>>,
+}
+
+/// The shadow on a patch.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Shade<'a> {
+    Nothing,
+    /// The numbers of the spheres whose shadows have edges there.
+    Edges(&'a [u32]),
+    Everything,
+}
+
+impl OccluderCache {
+    /// Nothing is known yet of the tile that covers this cell, with pixels of this side.
+    pub(crate) fn new(tile: Cell, pixel: f64) -> Self {
+        Self {
+            tile,
+            pixel,
+            level: Level::new(),
+            known: Vec::new(),
+            occluders: Occluders::default(),
+            spheres: Vec::new(),
+            edges: Vec::new(),
+            tests: 0,
+        }
+    }
+
+    /// One of the occluders of a range.
+    pub(crate) fn occluder(&self, index: usize) -> Occluder {
+        self.occluders.get(index)
+    }
+
+    /// The occluders that may keep a light from a sphere; none where they keep it from all of the sphere.
+    pub(crate) fn occluders(
+        &mut self,
+        scene: &InCamera<'_>,
+        sphere: usize,
+        light: usize,
+    ) -> Option<Range<usize>> {
+        let mut known = self.known.iter();
+        if let Some(known) = known.find(|known| known.sphere == sphere && known.light == light) {
+            return known.range.clone();
+        }
+        let range = self.find(scene, sphere, light);
+        self.known.push(Known {
+            sphere,
+            light,
+            range: range.clone(),
+        });
+        range
+    }
+
+    /// Looks for these in the hierarchy.
+    fn find(&mut self, scene: &InCamera<'_>, sphere: usize, light: usize) -> Option<Range<usize>> {
+        let ball = scene.ball(sphere);
+        let is_small = ball.radius < SMALL_PX * self.pixel * ball.center.z;
+        let patch = if is_small {
+            Patch {
+                ends: [ball.center; 2],
+                around: ball.radius + GEOMETRY_SLACK * ball.center.length(),
+            }
+        } else {
+            let discriminant = silhouette(&self.tile, &ball);
+            let along = self.tile.dot(ball.center);
+            Patch::new(&self.tile, &ball, &discriminant, &along)
+        };
+        let points = patch.ends.map(|point| scene.in_world(point));
+        let around = patch.around * WIDER;
+        let first = self.spheres.len();
+        let of_light = &scene.lights[light];
+        let spheres = scene.world.spheres();
+        let own = spheres[sphere];
+        let mut mask = ShadeMask::new(self.level, &patch, of_light);
+        let is_dark = scene
+            .visibility
+            .any_occluder(of_light.index, &points, around, |candidate| {
+                self.tests += 1;
+                if candidate == sphere || spheres[candidate] == own {
+                    return false;
+                }
+                let (center, radius) = scene.center(candidate);
+                let occluder = Occluder::new(center, radius, of_light);
+                self.occluders.push(&occluder);
+                self.spheres.push(candidate as u32);
+                if !is_small {
+                    return false;
+                }
+                mask.add(&occluder);
+                mask.is_full()
+            });
+        (!is_dark).then_some(first..self.spheres.len())
+    }
+
+    /// The shadow of the occluders of a range on a patch.
+    pub(crate) fn shade(&mut self, patch: &Patch, light: &Light, range: Range<usize>) -> Shade<'_> {
+        self.edges.clear();
+        let level = self.level;
+        let is_dark = dispatch!(level, simd => self.find_edges(simd, patch, light, range));
+        if is_dark {
+            return Shade::Everything;
+        }
+        // Pixels do not depend on what else is in their tile.
+        self.edges
+            .sort_unstable_by_key(|&edge| self.spheres[edge as usize]);
+        if self.edges.len() > 1 {
+            let mut mask = ShadeMask::new(self.level, patch, light);
+            self.edges.retain(|&edge| {
+                let occluder = self.occluders.get(edge as usize);
+                let matters = !mask.hides(&occluder);
+                if matters {
+                    mask.add(&occluder);
+                }
+                matters
+            });
+            if mask.is_full() {
+                return Shade::Everything;
+            }
+        }
+        if self.edges.is_empty() {
+            return Shade::Nothing;
+        }
+        for edge in &mut self.edges {
+            *edge = self.spheres[*edge as usize];
+        }
+        Shade::Edges(&self.edges)
+    }
+
+    /// Finds the occluders of a range whose shadows have edges on a patch, unless one of them hides the
+    /// light from all of it, which is the answer.
+    #[inline(always)]
+    fn find_edges<S: Simd>(
+        &mut self,
+        simd: S,
+        patch: &Patch,
+        light: &Light,
+        range: Range<usize>,
+    ) -> bool {
+        let zero = f64x8::splat(simd, 0.0);
+        let [start, end] = patch.ends;
+        let [ax, bx] = [start.dot(light.right), end.dot(light.right)];
+        let [ay, by] = [start.dot(light.up), end.dot(light.up)];
+        let [az, bz] = [start.dot(light.toward), end.dot(light.toward)];
+        let (dx, dy) = (bx - ax, by - ay);
+        let way_sq = dx * dx + dy * dy;
+        let scale = if way_sq > 0.0 { -1.0 / way_sq } else { 0.0 };
+        let all = &self.occluders;
+        let mut first = range.start;
+        while first < range.end {
+            let count = (range.end - first).min(8);
+            let (x, y) = (eight(simd, &all.x, first), eight(simd, &all.y, first));
+            let height = eight(simd, &all.height, first);
+            let radius = eight(simd, &all.radius, first);
+            let slack = eight(simd, &all.slack, first);
+            let around = slack + patch.around;
+            let (x0, y0) = (ax - x, ay - y);
+            let (x1, y1) = (bx - x, by - y);
+            let (z0, z1) = (az - height, bz - height);
+            let share = ((x0 * dx + y0 * dy) * scale)
+                .max(zero)
+                .min(f64x8::splat(simd, 1.0));
+            let (near_x, near_y) = (x0 + share * dx, y0 + share * dy);
+            let reach = radius + around;
+            let is_near = (near_x * near_x + near_y * near_y).simd_le(reach * reach)
+                & z0.min(z1).simd_le(around);
+            let inner = (radius - around).max(zero);
+            let far_sq = (x0 * x0 + y0 * y0).max(x1 * x1 + y1 * y1);
+            let is_over = far_sq.simd_lt(inner * inner) & z0.max(z1).simd_lt(-around);
+            let valid = (1 << count) - 1;
+            if is_over.to_bitmask() & valid != 0 {
+                return true;
+            }
+            for lane in set_bits(is_near.to_bitmask() & valid) {
+                self.edges.push((first + lane) as u32);
+            }
+            first += count;
+        }
+        false
+    }
+}
+
+#[cfg(test)]
+impl OccluderCache {
+    /// A cache of some occluders under a light, and their range.
+    pub(crate) fn of(
+        casters: &[crate::edges::shadow::Caster],
+        light: &Light,
+    ) -> (Self, Range<usize>) {
+        let tile = Cell {
+            middle: glam::DVec3::Z,
+            size: [1.0; 2],
+            is_transposed: false,
+        };
+        let mut cache = Self::new(tile, 1.0);
+        for (index, caster) in (0..).zip(casters) {
+            let occluder = Occluder::new(caster.center, caster.radius, light);
+            cache.occluders.push(&occluder);
+            cache.spheres.push(index);
+        }
+        (cache, 0..casters.len())
+    }
+
+    /// The numbers of the spheres of a range.
+    pub(crate) fn listed(&self, range: Option<Range<usize>>) -> Vec<usize> {
+        let spheres = &self.spheres[range.unwrap_or(0..0)];
+        spheres.iter().map(|&sphere| sphere as usize).collect()
+    }
+}

@@ -1,0 +1,188 @@
+//! Eight pixels of a row: the spheres that each of them may see, and those that fill it.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::patch::{Patch, Side};
+use crate::edges::cell::{Ball, Cell};
+use crate::edges::silhouette::silhouette;
+use crate::exact::context::Context;
+use crate::numeric::rounding::GEOMETRY_SLACK;
+use crate::numeric::vectors::Vectors;
+use crate::picture::tile::Tile;
+
+/// A sphere as eight pixels of a row see it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Coverage {
+    pub(crate) sphere: usize,
+    pub(crate) ball: Ball,
+    /// Bit by bit, pixels in which the sphere may be seen.
+    pub(crate) touched: u64,
+    /// Pixels that the sphere fills, but for what is in front of it.
+    pub(crate) covered: u64,
+    /// The distances at which it begins and, in pixels that it fills, ends; in multiples of the rays.
+    pub(crate) nearest: [f64; 8],
+    pub(crate) farthest: [f64; 8],
+}
+
+/// The same as [`Coverage`], in lanes.
+#[derive(Clone, Copy, Debug)]
+struct Extent<S: Simd> {
+    touched: mask64x8<S>,
+    covered: mask64x8<S>,
+    nearest: f64x8<S>,
+    farthest: f64x8<S>,
+}
+
+/// Finds out how up to eight pixels of a row see the `candidates`, whose balls are `balls`: those that
+/// any of them may see are added to `coverages`, which must be empty.
+#[inline(always)]
+pub(crate) fn classify_row<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    (start, width): (Tile, u32),
+    (candidates, balls): (&[usize], &[Ball]),
+    coverages: &mut Vec<Coverage>,
+) {
+    let (ray, size) = context.rays(simd, start);
+    let all = (1_u64 << width) - 1;
+    let mut end = f64x8::splat(simd, f64::INFINITY);
+    for (&sphere, ball) in candidates.iter().zip(balls) {
+        let extent = extent(simd, &ray, size, ball);
+        let touched = extent.touched.to_bitmask() & all;
+        if touched == 0 {
+            continue;
+        }
+        end = extent.covered.select(end.min(extent.farthest), end);
+        coverages.push(Coverage {
+            sphere,
+            ball: *ball,
+            touched,
+            covered: extent.covered.to_bitmask() & all,
+            nearest: extent.nearest.into(),
+            farthest: extent.farthest.into(),
+        });
+    }
+    let end: [f64; 8] = end.into();
+    for coverage in &mut *coverages {
+        for (lane, &end) in end.iter().enumerate() {
+            if coverage.nearest[lane] > end {
+                coverage.touched &= !(1 << lane);
+                coverage.covered &= !(1 << lane);
+            }
+        }
+    }
+    coverages.retain(|coverage| coverage.touched != 0);
+}
+
+/// The part of a ball that eight pixels of this size see, with these rays through their middles, whose third
+/// component is 1.
+///
+/// In a pixel Q and B differ from their values in the middle by less than their spread. From outside, what
+/// is seen of a sphere begins at K / (B⁺ + √Q⁺) and ends at K / (B⁻ + √Q⁻).
+#[inline(always)]
+fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+    let (u, v) = (ray.x, ray.y);
+    let ray_sq = u * u + v * v + 1.0;
+    let (c, r, k) = (ball.center, ball.radius, ball.outside);
+    let along = u * c.x + v * c.y + c.z;
+    let along_spread = 0.5 * size * (c.x.abs() + c.y.abs());
+
+    // Bounds of Q, and so of its root.
+    let (q, by_u, by_v);
+    if ball.is_apart() {
+        let across = [v * c.z - c.y, c.x - u * c.z, u * c.y - v * c.x];
+        q = ray_sq * (r * r)
+            - (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+        by_u = u * (r * r) + across[1] * c.z - across[2] * c.y;
+        by_v = v * (r * r) - across[0] * c.z + across[2] * c.x;
+    } else {
+        q = along * along - ray_sq * k;
+        by_u = along * c.x - u * k;
+        by_v = along * c.y - v * k;
+    }
+    let square = size * size;
+    let second =
+        0.25 * square * ((c.x * c.x - k).abs() + (c.y * c.y - k).abs() + 2.0 * (c.x * c.y).abs());
+    // Half of the derivatives, which are twice these.
+    let spread = (by_u.abs() + by_v.abs()) * size + second;
+    let slack = (spread + q.abs()) * GEOMETRY_SLACK;
+    let (lowest, highest) = (q - spread - slack, q + spread + slack);
+    let zero = f64x8::splat(simd, 0.0);
+    let one = f64x8::splat(simd, 1.0);
+    let (low_root, high_root) = (lowest.max(zero).sqrt(), highest.max(zero).sqrt());
+
+    if k > 0.0 {
+        let in_front = along + along_spread;
+        Extent {
+            touched: highest.simd_ge(0.0) & in_front.simd_gt(0.0),
+            covered: lowest.simd_gt(0.0) & along.simd_gt(along_spread),
+            nearest: one * (k * (1.0 - GEOMETRY_SLACK)) / (in_front + high_root),
+            farthest: one * (k * (1.0 + GEOMETRY_SLACK)) / (along - along_spread + low_root),
+        }
+    } else {
+        // From the inside: t = (B + √Q) / A.
+        let half = (u.abs() + v.abs()) * size + 0.5 * square;
+        let everywhere = mask64x8::splat(simd, true);
+        Extent {
+            touched: everywhere,
+            covered: everywhere,
+            nearest: (along - along_spread + low_root).max(zero) / (ray_sq + half)
+                * (1.0 - GEOMETRY_SLACK),
+            farthest: (along + along_spread + high_root) / (ray_sq - half).max(one)
+                * (1.0 + GEOMETRY_SLACK),
+        }
+    }
+}
+
+/// Adds the spheres that the pixel with this number may see to `spheres`, which must be empty: without
+/// those that are hidden by one that fills it.
+///
+/// A ray meets sphere j wholly before or wholly behind a point of sphere i that lies outside of j.
+/// Which of the two does not change where that holds all over the pixel; and the middle of j's
+/// chord, at B / A, tells.
+pub(crate) fn visible_spheres(
+    cell: &Cell,
+    lane: usize,
+    coverages: &[Coverage],
+    spheres: &mut Vec<(usize, Ball)>,
+) {
+    let here = |coverage: &&Coverage| coverage.touched >> lane & 1 == 1;
+    let all = coverages.iter().filter(here);
+    spheres.extend(all.map(|coverage| (coverage.sphere, coverage.ball)));
+    let contains = |spheres: &[(usize, Ball)], coverage: &Coverage| {
+        spheres.iter().any(|&(sphere, _)| sphere == coverage.sphere)
+    };
+    for one in coverages.iter().filter(here) {
+        let ball = &one.ball;
+        if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !contains(spheres, one) {
+            continue;
+        }
+        let patch = Patch::new(cell, ball, &silhouette(cell, ball), &cell.dot(ball.center));
+        for other in coverages.iter().filter(here) {
+            if other.sphere == one.sphere || !contains(spheres, other) {
+                continue;
+            }
+            let is_outside = other.ball.outside > 0.0;
+            match patch.side_of(ball, &other.ball) {
+                Some(Side::Outside) => {
+                    if is_outside && nearest_middle(cell, &other.ball) > one.farthest[lane] {
+                        spheres.retain(|&(sphere, _)| sphere != other.sphere);
+                    }
+                }
+                Some(Side::Inside) if other.covered >> lane & 1 == 1 && is_outside => {
+                    spheres.retain(|&(sphere, _)| sphere != one.sphere);
+                    break;
+                }
+                Some(Side::Inside) | None => {}
+            }
+        }
+    }
+}
+
+/// The least distance of the middle of a sphere's chord along rays of a cell, in multiples of these.
+fn nearest_middle(cell: &Cell, ball: &Ball) -> f64 {
+    let along = cell.dot(ball.center);
+    let ray_sq = cell.ray_sq();
+    (along.one - 0.5 * (along.x.abs() + along.y.abs())) / (ray_sq.one + ray_sq.spread())
+}

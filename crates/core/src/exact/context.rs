@@ -1,0 +1,72 @@
+//! The view and the tolerance that pixels are integrated with.
+
+use fearless_simd::prelude::*;
+
+use super::scene::InCamera;
+use crate::edges::cell::Cell;
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+use crate::model::view::View;
+use crate::numeric::vectors::Vectors;
+use crate::picture::tile::Tile;
+
+/// A view of a scene, and how exactly its pixels are asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Context<'scene> {
+    pub(crate) scene: InCamera<'scene>,
+    pub(crate) view: View,
+    /// The error that a pixel may have under the lights of one group.
+    pub(crate) tolerance: f64,
+    /// The light of pixels that see no sphere.
+    pub(crate) background: Color,
+    /// About the largest difference of light that an edge may make.
+    pub(crate) contrast: f64,
+}
+
+impl Context<'_> {
+    /// The cell that covers some pixels.
+    pub(crate) fn cell(&self, tile: Tile) -> Cell {
+        let distance = self.view.lens.distance * self.view.zoom;
+        let pixel = self.view.pixel_size() / distance;
+        let center = |col: u32, row: u32| {
+            self.view.cell_center(u64::from(col), u64::from(row), 1) / distance
+        };
+        let first = center(tile.col, tile.row);
+        let last = center(tile.col + tile.width - 1, tile.row + tile.height - 1);
+        Cell {
+            middle: (0.5 * (first + last)).extend(1.0),
+            size: [
+                pixel * f64::from(tile.width),
+                pixel * f64::from(tile.height),
+            ],
+            is_transposed: false,
+        }
+    }
+
+    /// The key of the pixel that lies `lane` columns to the right of a tile's first.
+    pub(crate) fn key(&self, start: Tile, lane: u32) -> PixelKey {
+        PixelKey {
+            col: start.col + lane,
+            row: start.row,
+            frame: self.view.frame,
+        }
+    }
+
+    /// The rays through the middles of eight pixels of a row, and the side of a pixel on the
+    /// retina at distance 1.
+    #[inline(always)]
+    pub(crate) fn rays<S: Simd>(&self, simd: S, start: Tile) -> (Vectors<S>, f64) {
+        let cell = self.cell(start);
+        let distance = self.view.lens.distance * self.view.zoom;
+        let mut u = [0.0; 8];
+        for (lane, u) in u.iter_mut().enumerate() {
+            let col = u64::from(start.col) + lane as u64;
+            *u = self.view.cell_center(col, u64::from(start.row), 1).x / distance;
+        }
+        let ray = Vectors {
+            x: u.simd_into(simd),
+            ..Vectors::splat(simd, cell.middle)
+        };
+        (ray, cell.size[0])
+    }
+}

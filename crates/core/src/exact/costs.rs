@@ -1,0 +1,231 @@
+//! What rules may miss of the light of a surface where it changes too fast for them.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::points::Points;
+use super::scene::{InCamera, Light};
+use super::surface::Finish;
+use crate::numeric::vectors::Vectors;
+
+impl Finish {
+    /// The points, bit by bit, at which light may be too sharp for a rule: where normals and half vectors
+    /// turn by an angle δ toward each other, a highlight falls to exp(−κ) of its height with
+    /// κ = shininess · δ² / 2; too sharp is more than `most`. So it is with diffuse light, its
+    /// exponent, and normals that turn toward the light.
+    ///
+    /// Points at which it is nowhere higher than `negligible` do not count.
+    #[inline(always)]
+    pub(crate) fn too_sharp<S: Simd>(
+        &self,
+        simd: S,
+        points: &Points<S>,
+        light: &Light,
+        turn: f64x8<S>,
+        most: f64,
+        negligible: f64,
+    ) -> u64 {
+        let turn_sq = turn * turn;
+        let is_turning = (turn_sq * self.sharpness()).simd_gt(2.0 * most);
+        if is_turning.to_bitmask() == 0 {
+            return 0;
+        }
+        let Self { reflectance, .. } = self;
+        let viewed = self.viewed(points, &points.normal);
+        let cosine = viewed.cosine(light.toward);
+        let falloff = &reflectance.diffuse;
+        let [brightest, _] = reflectance.brightest(light.intensity);
+        let height = falloff.of_clamped(highest_cosine(simd, cosine, turn)) * brightest;
+        let is_turning = (turn_sq * falloff.exponent).simd_gt(2.0 * most);
+        let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
+        if let Some((strength, falloff)) = &reflectance.highlight {
+            let half_cosine = viewed.half_cosine(light.toward, cosine);
+            let height = falloff.of_clamped(highest_cosine(simd, half_cosine, turn)) * *strength;
+            let is_turning = (turn_sq * falloff.exponent).simd_gt(2.0 * most);
+            found |= (is_turning & height.simd_gt(negligible)).to_bitmask();
+        }
+        found
+    }
+
+    /// The largest exponent.
+    pub(crate) fn sharpness(&self) -> f64 {
+        let [exponent, shininess] = self.reflectance.exponents();
+        exponent.max(shininess)
+    }
+
+    /// Returns whether rules need the cosines of lights: without bumps, and with exponents up to 2, second
+    /// differences of light tell enough.
+    pub(crate) fn needs_cosines(&self) -> bool {
+        const BLUNT: f64 = 2.0;
+        self.is_rough() || self.sharpness() > BLUNT
+    }
+
+    /// The diffuse light and the highlight of a light in the brightest channel, where the surface faces
+    /// it by `cosine`, the highlight's power is `highlight`, and shares of them count.
+    #[inline(always)]
+    pub(crate) fn lobes<S: Simd>(
+        &self,
+        light: &Light,
+        cosine: f64x8<S>,
+        highlight: f64x8<S>,
+        shares: [f64x8<S>; 2],
+    ) -> f64x8<S> {
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
+        let cosine = cosine.max(cosine * 0.0);
+        let falloff = &self.reflectance.diffuse;
+        falloff.of_clamped(cosine) * diffuse * shares[0] + highlight * specular * shares[1]
+    }
+
+    /// A bound of what a rule of three points a side misses where in a pixel the surface turns from a
+    /// light, when its cosine changes by `range` there and a highlight that ends there is as high as
+    /// `highlight`.
+    #[inline(always)]
+    pub(crate) fn cost_of_turning<S: Simd>(
+        &self,
+        light: &Light,
+        range: f64x8<S>,
+        highlight: f64x8<S>,
+    ) -> f64x8<S> {
+        let falloff = &self.reflectance.diffuse;
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
+        let range = range.min(range * 0.0 + 1.0);
+        falloff.of_clamped(range) * (diffuse * cost_of_kink(falloff.exponent))
+            + highlight * specular
+    }
+
+    /// The cells of this size, with these rays through their middles, in which light jumps, or nearly, by more
+    /// than `negligible` at terminators of bumps: a highlight may end there.
+    ///
+    /// At n·l = 0, n·h is at most the length of what of h is across l: with θ between l and v, to
+    /// which h is halfway, sin(θ/2).
+    #[inline(always)]
+    pub(crate) fn jumps<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        middle: &Vectors<S>,
+        size: [f64; 2],
+        negligible: f64,
+    ) -> mask64x8<S> {
+        let mut jumps = mask64x8::splat(simd, self.reflectance.diffuse.exponent < 1.0);
+        let Some((strength, falloff)) = &self.reflectance.highlight else {
+            return jumps;
+        };
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        // Rays have a length of at least 1: so far may one turn from the middle's.
+        let turn = 0.5 * (size[0] + size[1]);
+        let scale = -one / middle.length_squared().sqrt();
+        for light in &scene.lights {
+            let along = middle.dot_one(light.toward) * scale;
+            let sine_sq = (along * -0.5 + (0.5 + 0.5 * turn)).max(zero).min(one);
+            let height = falloff.of_clamped(sine_sq.sqrt());
+            let most = strength * light.intensity.max_element();
+            jumps |= (height * most).simd_gt(negligible);
+        }
+        jumps
+    }
+
+    /// The light that may be missed where lines that come near a terminator of bumps do not show it: as
+    /// much as a rule is off by where their cosines of the light, which differ by `range`, change sign.
+    #[inline(always)]
+    pub(crate) fn cost_of_any_turn<S: Simd>(
+        &self,
+        simd: S,
+        light: &Light,
+        range: f64,
+        jumps: bool,
+    ) -> f64 {
+        /// Of a piece, what is beyond its outermost lines.
+        const BEYOND: f64 = 0.04;
+        let range = f64x8::splat(simd, range.min(1.0));
+        let falloff = &self.reflectance.diffuse;
+        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
+        let specular = if jumps { specular } else { 0.0 };
+        (falloff.of_clamped(range) * (diffuse * cost_of_kink(falloff.exponent)))[0]
+            + specular * BEYOND
+    }
+
+    /// A bound of what is missed where in a pixel a highlight ends, when n·h changes by `range` there.
+    #[inline(always)]
+    pub(crate) fn cost_of_highlight_end<S: Simd>(
+        &self,
+        light: &Light,
+        range: f64x8<S>,
+    ) -> f64x8<S> {
+        let Some((strength, falloff)) = &self.reflectance.highlight else {
+            return range * 0.0;
+        };
+        let intensity = light.intensity.max_element();
+        let share = cost_of_kink(falloff.exponent);
+        let range = range.min(range * 0.0 + 1.0);
+        falloff.of_clamped(range) * (strength * intensity * share)
+    }
+
+    /// Returns whether powers of cosines, and of a blunt highlight, are smooth where they begin.
+    pub(crate) fn has_whole_exponent(&self) -> bool {
+        let [exponent, shininess] = self.reflectance.exponents();
+        exponent.fract() == 0.0 && (!self.has_blunt_highlight() || shininess.fract() == 0.0)
+    }
+
+    /// Returns whether a highlight's end is seen, as it is where bumps turn from eye and light together.
+    pub(crate) fn has_blunt_highlight(&self) -> bool {
+        /// Powers that are smooth enough where they begin: x⁶ has five continuous derivatives, as many as
+        /// rules of three points use.
+        const SMOOTH: f64 = 6.0;
+        let [_, shininess] = self.reflectance.exponents();
+        self.is_rough() && self.reflectance.highlight.is_some() && shininess < SMOOTH
+    }
+}
+
+/// A bound of the error of Gauss's rule with three points for max(0, x − a) to a power, wherever a is;
+/// below 1, that of a step.
+fn cost_of_kink(power: f64) -> f64 {
+    /// Above the largest error for a line, which a test measures.
+    const OF_LINE: f64 = 0.02;
+    /// Above that of a step beside the middle, which is half of the middle's weight, 2/9.
+    const OF_ROOT: f64 = 0.23;
+    if power < 1.0 {
+        OF_ROOT
+    } else {
+        OF_LINE * power
+    }
+}
+
+/// The largest cosine of an angle that is `turn` less at most than one with this cosine:
+/// cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ. Not negative.
+#[inline(always)]
+fn highest_cosine<S: Simd>(simd: S, cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
+    let zero = f64x8::splat(simd, 0.0);
+    let one = f64x8::splat(simd, 1.0);
+    let cosine = cosine.min(one);
+    let sine = (one - cosine * cosine).max(zero).sqrt();
+    let nearer = (cosine + turn * sine).min(one).max(zero);
+    turn.simd_ge(sine).select(one, nearer)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::interior::samples::{GRID, POINTS, WEIGHTS};
+
+    #[test]
+    fn kinks_cost_no_more_than_they_are_said_to() {
+        let places = GRID[1].map(|number| POINTS[number].u);
+        for power in [0.1, 0.5, 0.9, 1.0, 1.4, 2.0, 3.7, 20.0] {
+            let error = |a: f64| {
+                let value = |x: f64| libm::pow((x - a).max(0.0), power);
+                let exact = value(0.5) * (0.5 - a) / (power + 1.0);
+                let sum = |(x, weight): (&f64, &f64)| weight * value(*x);
+                (places.iter().zip(&WEIGHTS).map(sum).sum::<f64>() - exact).abs()
+            };
+            let worst = (0..1000).map(|index| error(f64::from(index) / 1000.0 - 0.5));
+            let worst = worst.fold(0.0, f64::max);
+            assert!(worst <= cost_of_kink(power), "{power}: {worst}");
+            assert!(
+                power > 1.0 || worst > 0.05 * cost_of_kink(power),
+                "{power}: {worst}"
+            );
+        }
+    }
+}

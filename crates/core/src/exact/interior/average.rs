@@ -1,0 +1,189 @@
+//! The averages over eight pixels that one sphere fills, by 5, 9 or 17 samples.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::estimate::{Estimate, MOST_NEARNESS, ROUNDING, Rule, bend_of_grid};
+use super::filled::{Filled, Radiance, SIZE_OF_PARTS};
+use super::light_cosines::LightCosines;
+use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
+use super::terminators::SMALL;
+use crate::model::color::Color;
+use crate::model::roughness::noise::NoiseCells;
+
+/// The averages over eight pixels, and their errors.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Averages {
+    pub(super) values: [Color; 8],
+    pub(super) errors: [f64; 8],
+    /// The pixels that are better divided, bit by bit.
+    pub(super) divisible: u64,
+    /// The number of samples that each of the pixels took.
+    pub(super) samples: usize,
+}
+
+/// Samples of eight pixels, and what their rules claim.
+struct Sampled<S: Simd> {
+    lights: [Radiance<S>; GAUSS_SAMPLES],
+    cosines: LightCosines<S>,
+    star: Estimate<S>,
+    grid: Estimate<S>,
+    /// Along both diagonals, Kronrod's rule less Gauss's.
+    excess: [Radiance<S>; 2],
+    /// The pixels in which a terminator of bumps costs too much, whatever further samples tell.
+    is_out_of_reach: mask64x8<S>,
+    samples: usize,
+}
+
+/// Gauss's samples beside the star, and Kronrod's on each diagonal.
+const GRID_REST: usize = GAUSS_SAMPLES - STAR_SAMPLES;
+const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
+
+impl<S: Simd> Filled<'_, S> {
+    /// The averages: where light is smooth by a rule with five points, elsewhere by Gauss's with three
+    /// points a side.
+    ///
+    /// # Accuracy
+    /// An estimate. Where light is smooth, how much it bends tells what to expect: the error of an
+    /// exponential function that bends so. Elsewhere Gauss's rule is held against Kronrod's along both
+    /// diagonals, which reach where an edge may be near. A rough surface has terminators inside its
+    /// bumps: what they may cost is estimated where it may avert itself from a light between samples
+    /// that face it, or face it between those that do not.
+    #[inline(always)]
+    pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
+        let sampled = self.sampled(simd, noise);
+        let mut averages = Averages {
+            values: [Color::ZERO; 8],
+            errors: [0.0; 8],
+            divisible: 0,
+            samples: sampled.samples,
+        };
+        let error = self.weighted(simd, &sampled, &mut averages.values);
+        for (lane, of_lane) in averages.errors.iter_mut().enumerate() {
+            *of_lane = error[lane];
+        }
+        if self.finish.is_rough() {
+            averages.divisible = self.gains_by_parts(&sampled.star).to_bitmask();
+        }
+        averages
+    }
+
+    /// Takes samples, until a rule is good enough or all are taken.
+    #[inline(always)]
+    fn sampled(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Sampled<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let mut cosines = LightCosines::new(simd);
+        let mut lights = [[zero; 3]; GAUSS_SAMPLES];
+        let mut excess = [[zero; 3]; 2];
+        let mut grid = Estimate::unknown(simd);
+        let mut is_out_of_reach = mask64x8::splat(simd, false);
+
+        // Five samples.
+        let of_star = self.light::<STAR_SAMPLES>(simd, 0, &mut cosines, noise);
+        lights[..STAR_SAMPLES].copy_from_slice(&of_star);
+        let star = self.estimate(simd, Rule::Star, &lights, &cosines);
+        if self.finish.is_rough() {
+            let missed = self.missed(simd, &cosines, FROM_GRID);
+            is_out_of_reach = !star.is_met & missed.simd_gt(self.tolerance);
+        }
+        let mut samples = STAR_SAMPLES;
+        let is_done = star.is_met | is_out_of_reach;
+        if self.which & !is_done.to_bitmask() != 0 {
+            // Nine.
+            let rest = self.light::<GRID_REST>(simd, samples, &mut cosines, noise);
+            lights[STAR_SAMPLES..].copy_from_slice(&rest);
+            grid = self.estimate(simd, Rule::Grid, &lights, &cosines);
+            samples = GAUSS_SAMPLES;
+            let is_done = is_done | grid.is_met;
+            if self.which & !is_done.to_bitmask() != 0 {
+                // Seventeen.
+                let channels = self.scene.channels;
+                for (light, sample) in lights.iter().zip(&POINTS) {
+                    add_excess(&mut excess, light, sample, channels);
+                }
+                while samples < SAMPLES {
+                    let more = self.light::<ON_DIAGONAL>(simd, samples, &mut cosines, noise);
+                    for (light, sample) in more.iter().zip(&POINTS[samples..]) {
+                        add_excess(&mut excess, light, sample, channels);
+                    }
+                    samples += ON_DIAGONAL;
+                }
+            }
+        }
+        Sampled {
+            lights,
+            cosines,
+            star,
+            grid,
+            excess,
+            is_out_of_reach,
+            samples,
+        }
+    }
+
+    /// Writes the averages by the cheapest rule that is good enough; their errors.
+    #[inline(always)]
+    fn weighted(&self, simd: S, sampled: &Sampled<S>, values: &mut [Color; 8]) -> f64x8<S> {
+        /// The error of an exponential function over the cube of its bend.
+        const NATURAL: f64 = 1.5e-4;
+        /// The error over what both diagonals tell: a function of one coordinate is off by half of that,
+        /// and rows are not quite alike, on bumps less than elsewhere. Not tuned.
+        const CAUTION: f64 = 0.75;
+        const CAUTION_ON_BUMPS: f64 = 2.0;
+        let zero = f64x8::splat(simd, 0.0);
+        let is_rough = self.finish.is_rough();
+        let caution = if is_rough { CAUTION_ON_BUMPS } else { CAUTION };
+        let (star, grid) = (&sampled.star, &sampled.grid);
+        let mut error = zero;
+        for channel in 0..self.scene.channels {
+            let (mut by_star, mut by_grid) = (zero, zero);
+            let mut highest = zero;
+            for (light, sample) in sampled.lights.iter().zip(&POINTS) {
+                by_star += light[channel] * sample.star;
+                by_grid += light[channel] * sample.gauss;
+                highest = highest.max(light[channel]);
+            }
+            let bend = bend_of_grid(&sampled.lights, channel);
+            let relative = bend / (highest + f64::MIN_POSITIVE);
+            let natural = bend * relative * relative * NATURAL;
+            let [falling, rising] = &sampled.excess;
+            let difference = falling[channel].abs() + rising[channel].abs();
+            // Where a number is not finite, the estimate tells.
+            error = error.max(difference * caution + natural + by_grid.abs() * ROUNDING);
+            let average = star.is_met.select(by_star, by_grid);
+            for (value, average) in values.iter_mut().zip(average.iter()) {
+                value[channel] = *average;
+            }
+        }
+        if is_rough {
+            error += self.missed(simd, &sampled.cosines, FROM_GRID);
+        }
+        error = sampled.is_out_of_reach.select(zero + f64::INFINITY, error);
+        error = grid.is_met.select(grid.error, error);
+        star.is_met.select(star.error, error)
+    }
+
+    /// The pixels whose parts are small beside the bumps, and promise an error that is small enough.
+    #[inline(always)]
+    fn gains_by_parts(&self, star: &Estimate<S>) -> mask64x8<S> {
+        /// Errors of parts over the whole pixel's, at best. Not tuned.
+        const GAIN: f64 = 0.1;
+        self.is_within(SMALL / SIZE_OF_PARTS)
+            & self.nearness.simd_lt(MOST_NEARNESS / SIZE_OF_PARTS)
+            & (star.error * GAIN).simd_le(self.tolerance)
+    }
+}
+
+/// Adds a sample's share of Kronrod's rule less Gauss's along both diagonals.
+#[inline(always)]
+fn add_excess<S: Simd>(
+    excess: &mut [Radiance<S>; 2],
+    light: &Radiance<S>,
+    sample: &Sample,
+    channels: usize,
+) {
+    for channel in 0..channels {
+        excess[0][channel] += light[channel] * sample.excess[0];
+        excess[1][channel] += light[channel] * sample.excess[1];
+    }
+}

@@ -1,0 +1,198 @@
+//! The error of rules with five and nine samples, by how light bends between them.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::filled::{Filled, Radiance};
+use super::light_cosines::LightCosines;
+use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, STAR_SAMPLES, WEIGHTS};
+use super::terminators::SMALL;
+
+/// The nearness of a singularity from which on light is not smooth enough for an estimate. The terms of a
+/// root's series fall like powers of it; not tuned.
+pub(super) const MOST_NEARNESS: f64 = 0.25;
+
+/// The relative error that rounding makes: some units in the last place, of about ten operations.
+pub(super) const ROUNDING: f64 = 1e-15;
+
+/// A rule that is estimated.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Rule {
+    /// That of five samples.
+    Star,
+    /// Gauss's, of nine.
+    Grid,
+}
+
+/// The error of a rule in eight pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Estimate<S: Simd> {
+    pub(super) error: f64x8<S>,
+    /// The pixels whose light is smooth enough for that.
+    pub(super) is_known: mask64x8<S>,
+    /// The pixels in which that is enough.
+    pub(super) is_met: mask64x8<S>,
+}
+
+impl<S: Simd> Estimate<S> {
+    /// Of a rule that was not tried.
+    #[inline(always)]
+    pub(super) fn unknown(simd: S) -> Self {
+        let never = mask64x8::splat(simd, false);
+        Self {
+            error: f64x8::splat(simd, 0.0),
+            is_known: never,
+            is_met: never,
+        }
+    }
+}
+
+impl Rule {
+    #[inline(always)]
+    fn samples(self) -> usize {
+        match self {
+            Self::Star => STAR_SAMPLES,
+            Self::Grid => GAUSS_SAMPLES,
+        }
+    }
+}
+
+impl<S: Simd> Filled<'_, S> {
+    /// An estimate of a rule's error by how much light bends, where it is smooth.
+    ///
+    /// It is small where light is linear, and compares with how much light changes rather than with
+    /// how much there is, so that a weak highlight on a bright surface counts. The star's rule is
+    /// off by 1/720 of the mixed fourth derivative.
+    #[inline(always)]
+    pub(super) fn estimate(
+        &self,
+        simd: S,
+        rule: Rule,
+        lights: &[Radiance<S>; GAUSS_SAMPLES],
+        cosines: &LightCosines<S>,
+    ) -> Estimate<S> {
+        /// The terms of the fourth and of the sixth derivative of a root at a nearness of 1.
+        const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
+        /// The errors of exponential functions over the square of their bend and what they change
+        /// by, and over the cube and the square, when they grow to e times as much in a pixel; less when
+        /// they grow less.
+        const OF_CHANGE: [f64; 2] = [1e-2, 1e-3];
+        /// The largest share of the bend that a kink of the second derivative costs, where cells of the
+        /// noise meet. Not tuned.
+        const OF_KINK: f64 = 0.1;
+        let is_star = rule == Rule::Star;
+        let zero = f64x8::splat(simd, 0.0);
+        let is_rough = self.finish.is_rough();
+        let nearness_sq = self.nearness * self.nearness;
+        let mut of_root = nearness_sq * nearness_sq * nearness_sq * OF_ROOT[1];
+        if is_star {
+            of_root += nearness_sq * nearness_sq * OF_ROOT[0];
+        }
+        let mut error = zero;
+        for channel in 0..self.scene.channels {
+            let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
+            for light in &lights[..rule.samples()] {
+                highest = highest.max(light[channel]);
+                lowest = lowest.min(light[channel]);
+            }
+            let bend = if is_star {
+                bend_of_star(lights, channel)
+            } else {
+                bend_of_grid(lights, channel)
+            };
+            let relative = bend / (highest - lowest + f64::MIN_POSITIVE);
+            let mut estimate = relative * relative * OF_CHANGE[1];
+            if is_star {
+                estimate += relative * OF_CHANGE[0];
+            }
+            if is_rough {
+                estimate += OF_KINK;
+            }
+            error = error.max(estimate * bend + highest * (of_root + ROUNDING));
+        }
+        if self.finish.needs_cosines() {
+            error = error.max(self.of_lobes(rule, cosines));
+        }
+        let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
+        if is_rough {
+            let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
+            error += self.missed(simd, cosines, from_samples);
+            if is_star {
+                is_known &= self.is_within(SMALL);
+            }
+        }
+        Estimate {
+            error,
+            is_known,
+            is_met: is_known & error.simd_le(self.tolerance),
+        }
+    }
+
+    /// The error of rules for bells exp(−κ) where normals turn through them, however the bend of light
+    /// adds up: see [`share_of_bell`].
+    #[inline(always)]
+    fn of_lobes(&self, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
+        let [exponent, shininess] = self.finish.reflectance.exponents();
+        let shares = [
+            share_of_bell(self.turn, exponent, rule),
+            share_of_bell(self.turn, shininess, rule),
+        ];
+        let mut sum = self.turn * 0.0;
+        for (index, light) in self.scene.lights.iter().enumerate() {
+            if self.lit[index] != 0 {
+                let (cosine, highlight) = (cosines.highest[index], cosines.halves.powers[index]);
+                sum += self.finish.lobes(light, cosine, highlight, shares);
+            }
+        }
+        sum
+    }
+}
+
+/// A bound of the share of a bell exp(−x² / (2 σ²)) that rules are off by: 15 / σ⁶ over 7! · 400 for
+/// each axis of Gauss's rule, and 3 / σ⁴ over 720 more for the star. For an exponent 1 / σ² is twice
+/// that times the square of the turn from the middle to a corner.
+#[inline(always)]
+fn share_of_bell<S: Simd>(turn: f64x8<S>, exponent: f64, rule: Rule) -> f64x8<S> {
+    const SIXTH: f64 = 1.5e-5;
+    const FOURTH: f64 = 4.2e-3;
+    /// Up to this exponent nothing bends so that second derivatives do not tell.
+    const BLUNT: f64 = 2.0;
+    let twice = if exponent > BLUNT {
+        2.0 * exponent
+    } else {
+        0.0
+    };
+    let steep = turn * turn * twice;
+    let steep_sq = steep * steep;
+    let sixth = steep_sq * steep * SIXTH;
+    match rule {
+        Rule::Star => sixth + steep_sq * FOURTH,
+        Rule::Grid => sixth,
+    }
+}
+
+/// The sum of second differences of light along both axes.
+#[inline(always)]
+pub(super) fn bend_of_grid<S: Simd>(
+    lights: &[Radiance<S>; GAUSS_SAMPLES],
+    channel: usize,
+) -> f64x8<S> {
+    let mut bend = lights[0][channel] * 0.0;
+    for (index, weight) in WEIGHTS.into_iter().enumerate() {
+        let col = [GRID[0][index], GRID[1][index], GRID[2][index]];
+        for [before, middle, after] in [GRID[index], col] {
+            let sides = lights[before][channel] + lights[after][channel];
+            bend += (sides - lights[middle][channel] * 2.0).abs() * weight;
+        }
+    }
+    bend
+}
+
+/// The sum of second differences of light along both diagonals.
+#[inline(always)]
+fn bend_of_star<S: Simd>(lights: &[Radiance<S>; GAUSS_SAMPLES], channel: usize) -> f64x8<S> {
+    let middle = lights[GRID[1][1]][channel] * 2.0;
+    let falling = lights[GRID[0][0]][channel] + lights[GRID[2][2]][channel];
+    let rising = lights[GRID[0][2]][channel] + lights[GRID[2][0]][channel];
+    (falling - middle).abs() + (rising - middle).abs()
+}

@@ -1,0 +1,90 @@
+//! Eight pixels that one sphere fills, and the light at their samples.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::light_cosines::LightCosines;
+use super::samples::{POINTS, STAR_SAMPLES};
+use crate::edges::cell::Ball;
+use crate::exact::classify::row::Coverage;
+use crate::exact::points::Points;
+use crate::exact::scene::{InCamera, MOST_LIGHTS};
+use crate::exact::surface::Finish;
+use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::vectors::Vectors;
+use crate::picture::tile::Tile;
+
+/// Light in up to three channels, eight samples at a time.
+pub(super) type Radiance<S> = [f64x8<S>; 3];
+
+/// Up to eight pixels of a row that one sphere fills.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FilledRow<'a> {
+    /// The first of the eight pixels.
+    pub(crate) start: Tile,
+    /// Those that count, bit by bit.
+    pub(crate) which: u64,
+    pub(crate) coverage: &'a Coverage,
+}
+
+/// The angle by which normals turn from the middle of a part to its corners, over that in its pixel:
+/// parts are a half by a quarter, quarters where the surface recedes; and a little more, as it does
+/// not recede evenly.
+pub(super) const SIZE_OF_PARTS: f64 = 0.45;
+
+/// Samples that the parts of a pixel take.
+pub(super) const SAMPLES_OF_PARTS: u64 = 8 * STAR_SAMPLES as u64;
+
+/// Eight pixels, or parts of one, that one sphere fills.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Filled<'a, S: Simd> {
+    pub(super) scene: &'a InCamera<'a>,
+    pub(super) ball: &'a Ball,
+    pub(super) finish: &'a Finish,
+    /// The rays through the middles, and the pixels' sides on the retina at distance 1.
+    pub(super) middle: Vectors<S>,
+    pub(super) size: [f64; 2],
+    /// The pixels that each light reaches, bit by bit.
+    pub(super) lit: &'a [u64; MOST_LIGHTS],
+    /// A bound of how far normals turn from the middles to the corners.
+    pub(super) turn: f64x8<S>,
+    /// The extent of the pixels over the distance to the nearest singularity of the light: to the
+    /// silhouette, or to a terminator where the exponent is not whole.
+    pub(super) nearness: f64x8<S>,
+    /// The pixels that count, bit by bit, and the error that is allowed in them.
+    pub(super) which: u64,
+    pub(super) tolerance: f64,
+}
+
+impl<S: Simd> Filled<'_, S> {
+    /// The light at some samples of each pixel, from the one with the number `first`.
+    #[inline(always)]
+    pub(super) fn light<const COUNT: usize>(
+        &self,
+        simd: S,
+        first: usize,
+        cosines: &mut LightCosines<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> [Radiance<S>; COUNT] {
+        let (scene, finish) = (self.scene, self.finish);
+        let mut points = [Points::nowhere(simd); COUNT];
+        for (points, sample) in points.iter_mut().zip(&POINTS[first..]) {
+            let mut ray = self.middle;
+            ray.x += sample.u * self.size[0];
+            ray.y += sample.v * self.size[1];
+            *points = Points::new(simd, self.ball, ray);
+        }
+        let normals = finish.normals(simd, scene, &points, noise);
+        let mut lights = [[f64x8::splat(simd, 0.0); 3]; COUNT];
+        for index in 0..COUNT {
+            let (points, normal) = (&points[index], &normals[index]);
+            let mut halves = None;
+            if finish.needs_cosines() {
+                cosines.add_sample(&scene.lights, normal);
+                halves = Some(&mut cosines.halves);
+            }
+            lights[index] = finish.radiance(simd, scene, points, normal, self.lit, halves);
+        }
+        lights
+    }
+}

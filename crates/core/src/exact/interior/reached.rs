@@ -1,0 +1,170 @@
+//! The lights that reach all of pixels which one sphere fills.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::filled::FilledRow;
+use crate::exact::classify::occluder_cache::OccluderCache;
+use crate::exact::classify::occluders::Occluder;
+use crate::exact::context::Context;
+use crate::exact::points::Points;
+use crate::exact::scene::{Light, MOST_LIGHTS};
+use crate::exact::surface::Finish;
+use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
+use crate::numeric::vectors::Vectors;
+
+/// The fall of a highlight over half a pixel, in powers of e, that a pixel's one rule still follows. Less
+/// sends more pixels to the integrator of edges, more makes the estimates of rules unsure; not tuned.
+const SHARPEST: f64 = 0.25;
+
+/// The lights that reach eight pixels, and how fast their light changes: see
+/// [`Filled`](super::filled::Filled).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reached<S: Simd> {
+    /// The pixels all of which a light reaches, bit by bit.
+    pub(super) lit: [u64; MOST_LIGHTS],
+    /// Pixels that have an edge, or may have one, or a highlight that is too sharp.
+    pub(super) hard: u64,
+    pub(super) turn: f64x8<S>,
+    pub(super) nearness: f64x8<S>,
+}
+
+/// The ends, as a light sees them, of the ways along eight rays on which their pixels see a sphere: across
+/// the light, and their heights toward it.
+#[derive(Clone, Copy, Debug)]
+struct Ends<S: Simd> {
+    right: [f64x8<S>; 2],
+    up: [f64x8<S>; 2],
+    height: [f64x8<S>; 2],
+}
+
+impl<S: Simd> Reached<S> {
+    /// No light, and nothing that changes.
+    pub(super) fn nothing(simd: S) -> Self {
+        Self {
+            lit: [0; MOST_LIGHTS],
+            hard: 0,
+            turn: f64x8::splat(simd, 0.0),
+            nearness: f64x8::splat(simd, 0.0),
+        }
+    }
+
+    /// Finds out which lights reach all of the pixels of a row, or none of it, and in which of them that
+    /// cannot be said.
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        context: &Context<'_>,
+        row: &FilledRow<'_>,
+        finish: &Finish,
+        cache: &mut OccluderCache,
+    ) -> Self {
+        let scene = &context.scene;
+        let which = row.which;
+        let ball = &row.coverage.ball;
+
+        // How far normals turn in a pixel, and how near its light is to a singularity.
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let (ray, size) = context.rays(simd, row.start);
+        let points = Points::new(simd, ball, ray);
+        let nearest: f64x8<S> = row.coverage.nearest.simd_into(simd);
+        let farthest: f64x8<S> = row.coverage.farthest.simd_into(simd);
+        let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
+        let length = points.ray_sq.sqrt();
+        let away = (farthest - points.t).max(points.t - nearest) * length;
+        let around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
+        let turn = (away + around) * (1.0 / ball.radius);
+        let grazing = (points.normal.dot(&ray) * (-one / length)).max(zero);
+        // A root of what vanishes at the silhouette, with the square of this.
+        let mut nearness = turn * 2.0 / grazing;
+        let mut hard = 0;
+        let mut lit = [0; MOST_LIGHTS];
+        for (index, light) in scene.lights.iter().enumerate() {
+            let mut reached = which & !hard;
+            // Terminators.
+            if !finish.is_rough() {
+                let cosine = points.normal.dot_one(light.toward);
+                if !finish.has_whole_exponent() {
+                    let is_lit = cosine.simd_gt(zero);
+                    nearness = is_lit.select(nearness.max(turn / cosine), nearness);
+                }
+                let faces = cosine.simd_gt(turn).to_bitmask();
+                let averts = cosine.simd_lt(-turn).to_bitmask();
+                hard |= which & !faces & !averts;
+                reached &= faces;
+            }
+            // Shadows.
+            if scene.world.shadows && reached != 0 {
+                match cache.occluders(scene, row.coverage.sphere, index) {
+                    None => reached = 0,
+                    Some(range) => {
+                        cache.tests += range.len() as u64 * u64::from(reached.count_ones());
+                        let ends = Ends::new(&ray, [nearest, farthest], light);
+                        for occluder in range {
+                            let occluder = cache.occluder(occluder);
+                            let [touched, dark] = ends.shade(simd, &occluder, around);
+                            if touched & reached != 0 {
+                                reached &= !dark;
+                                hard |= touched & !dark & reached;
+                                reached &= !hard;
+                            }
+                        }
+                    }
+                }
+            }
+            // Highlights.
+            if reached != 0 {
+                let negligible = 0.01 * context.tolerance;
+                let turn = turn + size;
+                let sharp = finish.too_sharp(simd, &points, light, turn, SHARPEST, negligible);
+                hard |= sharp & reached;
+                reached &= !hard;
+            }
+            lit[index] = reached;
+        }
+        Self {
+            lit,
+            hard,
+            turn,
+            nearness,
+        }
+    }
+}
+
+impl<S: Simd> Ends<S> {
+    #[inline(always)]
+    fn new(ray: &Vectors<S>, [nearest, farthest]: [f64x8<S>; 2], light: &Light) -> Self {
+        let (right, up) = (ray.dot_one(light.right), ray.dot_one(light.up));
+        let height = ray.dot_one(light.toward);
+        Self {
+            right: [right * nearest, right * farthest],
+            up: [up * nearest, up * farthest],
+            height: [height * nearest, height * farthest],
+        }
+    }
+
+    /// The pixels, bit by bit, on which a shadow may lie, and those all of which are in it.
+    #[inline(always)]
+    fn shade(&self, simd: S, occluder: &Occluder, around: f64x8<S>) -> [u64; 2] {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let slack = occluder.slack;
+        let [x0, x1] = [self.right[0] - occluder.x, self.right[1] - occluder.x];
+        let [y0, y1] = [self.up[0] - occluder.y, self.up[1] - occluder.y];
+        let z0 = self.height[0] - occluder.height;
+        let z1 = self.height[1] - occluder.height;
+        let (dx, dy) = (x1 - x0, y1 - y0);
+        let way_sq = dx * dx + dy * dy;
+        let share = -(x0 * dx + y0 * dy) / way_sq.max(one * f64::MIN_POSITIVE);
+        let share = share.max(zero).min(one);
+        let (x, y) = (x0 + dx * share, y0 + dy * share);
+        let reach = around + (occluder.radius + slack);
+        let is_near = (x * x + y * y).simd_le(reach * reach);
+        let is_ahead = z0.min(z1).simd_lt(around + slack);
+        let inner = (one * (occluder.radius - slack) - around).max(zero);
+        let far_sq = (x0 * x0 + y0 * y0).max(x1 * x1 + y1 * y1);
+        let is_in = far_sq.simd_lt(inner * inner) & z0.max(z1).simd_lt(-around - slack);
+        [(is_near & is_ahead).to_bitmask(), is_in.to_bitmask()]
+    }
+}

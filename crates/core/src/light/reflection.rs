@@ -1,0 +1,180 @@
+//! The light that points of surfaces reflect toward the eye, eight points at a time.
+//!
+//! A point with the normal n, seen in the direction −v, sends
+//!
+//!     albedo · (ambient + Σ intensity · max(0, n·l)^exponent) + Σ intensity · strength · max(0, n·h)^shininess
+//!
+//! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
+//! half-way between l and v. Sampling and the exact integrator both compute it here.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+use glam::DVec3;
+
+use crate::model::color::Color;
+use crate::model::material::Material;
+use crate::numeric::power::Power;
+use crate::numeric::vectors::Vectors;
+
+/// A power of a cosine.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Falloff {
+    pub(crate) exponent: f64,
+    power: Power,
+}
+
+/// A material, prepared.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflectance {
+    pub(crate) albedo: Color,
+    pub(crate) diffuse: Falloff,
+    /// Its strength and falloff.
+    pub(crate) highlight: Option<(f64, Falloff)>,
+}
+
+/// Points as the eye sees them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ViewedPoints<'a, S: Simd> {
+    normal: &'a Vectors<S>,
+    ray: &'a Vectors<S>,
+    /// −1 / |ray|; with it, v = ray · scale.
+    scale: f64x8<S>,
+    /// n · v.
+    view_cosine: f64x8<S>,
+    has_highlight: bool,
+}
+
+impl Falloff {
+    pub(crate) fn new(exponent: f64) -> Self {
+        Self {
+            exponent,
+            power: Power::new(exponent),
+        }
+    }
+
+    /// The power of cosines, which may be negative, or a little above 1 by rounding.
+    #[inline(always)]
+    pub(crate) fn of<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+        let zero = f64x8::splat(cosine.simd, 0.0);
+        let one = f64x8::splat(cosine.simd, 1.0);
+        self.of_clamped(cosine.max(zero).min(one))
+    }
+
+    /// The power of cosines from 0 to 1.
+    #[inline(always)]
+    pub(crate) fn of_clamped<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+        self.power.lanes(cosine)
+    }
+}
+
+impl Reflectance {
+    pub(crate) fn new(material: &Material) -> Self {
+        let highlight = material.highlight.as_ref();
+        Self {
+            albedo: material.albedo,
+            diffuse: Falloff::new(material.exponent),
+            highlight: highlight.map(|of| (of.strength, Falloff::new(of.shininess))),
+        }
+    }
+
+    /// The exponents of diffuse light and of the highlight, which is 0 without one.
+    pub(crate) fn exponents(&self) -> [f64; 2] {
+        let shininess = self.highlight.map_or(0.0, |(_, falloff)| falloff.exponent);
+        [self.diffuse.exponent, shininess]
+    }
+
+    /// The light in the brightest channel where the surface faces a light, and at the top of the highlight.
+    pub(crate) fn brightest(&self, intensity: Color) -> [f64; 2] {
+        let strength = self.highlight.map_or(0.0, |(strength, _)| strength);
+        let diffuse = (self.albedo * intensity).max_element();
+        [diffuse, strength * intensity.max_element()]
+    }
+
+    /// Adds the light that points with these albedos, n · l and n · h reflect of a light where `lit` holds,
+    /// in as many channels as `sum` has. Without `lit` diffuse light goes on, as smooth as it is, where the
+    /// surface turns from the light. Returns the power of n · h where there is a highlight.
+    #[inline(always)]
+    pub(crate) fn add_light<S: Simd>(
+        &self,
+        albedo: &[f64x8<S>],
+        intensity: Color,
+        [cosine, half_cosine]: [f64x8<S>; 2],
+        lit: Option<mask64x8<S>>,
+        sum: &mut [f64x8<S>],
+    ) -> Option<f64x8<S>> {
+        let zero = f64x8::splat(cosine.simd, 0.0);
+        let diffuse = match lit {
+            Some(lit) => lit.select(self.diffuse.of(cosine), zero),
+            None if self.diffuse.exponent == 1.0 => cosine,
+            None => self.diffuse.of(cosine),
+        };
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            *sum += diffuse * (albedo[channel] * intensity[channel]);
+        }
+        let (strength, falloff) = self.highlight.as_ref()?;
+        let power = falloff.of(half_cosine);
+        let highlight = match lit {
+            Some(lit) => lit.select(power, zero),
+            None => power,
+        };
+        for (channel, sum) in sum.iter_mut().enumerate() {
+            *sum += highlight * (intensity[channel] * strength);
+        }
+        Some(power)
+    }
+}
+
+impl<'a, S: Simd> ViewedPoints<'a, S> {
+    /// Points with these normals in the directions `ray`, whose squared lengths are `ray_sq`. What only
+    /// highlights need is left out without them.
+    #[inline(always)]
+    pub(crate) fn new(
+        normal: &'a Vectors<S>,
+        ray: &'a Vectors<S>,
+        ray_sq: f64x8<S>,
+        has_highlight: bool,
+    ) -> Self {
+        let mut scale = f64x8::splat(ray_sq.simd, 0.0);
+        let mut view_cosine = scale;
+        if has_highlight {
+            scale = f64x8::splat(ray_sq.simd, -1.0) / ray_sq.sqrt();
+            view_cosine = normal.dot(ray) * scale;
+        }
+        Self {
+            normal,
+            ray,
+            scale,
+            view_cosine,
+            has_highlight,
+        }
+    }
+
+    /// n · l.
+    #[inline(always)]
+    pub(crate) fn cosine(&self, toward: DVec3) -> f64x8<S> {
+        self.normal.dot_one(toward)
+    }
+
+    /// n · h = (n·l + n·v) / |l + v|, with |l + v|² = 2 + 2 l·v, from n · l; 0 without a highlight.
+    ///
+    /// # Accuracy
+    /// The error is some units in the last place over |l + v|²: large where the eye looks along the light,
+    /// which only reaches outlines there.
+    #[inline(always)]
+    pub(crate) fn half_cosine(&self, toward: DVec3, cosine: f64x8<S>) -> f64x8<S> {
+        if !self.has_highlight {
+            return f64x8::splat(cosine.simd, 0.0);
+        }
+        let along = self.ray.dot_one(toward) * self.scale;
+        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
+        let length_sq = (along * 2.0 + 2.0).max(least);
+        (cosine + self.view_cosine) / length_sq.sqrt()
+    }
+
+    /// n · l and n · h.
+    #[inline(always)]
+    pub(crate) fn cosines(&self, toward: DVec3) -> [f64x8<S>; 2] {
+        let cosine = self.cosine(toward);
+        [cosine, self.half_cosine(toward, cosine)]
+    }
+}

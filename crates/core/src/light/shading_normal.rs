@@ -1,0 +1,105 @@
+//! Shading normals of rough surfaces, eight at a time.
+
+use fearless_simd::prelude::*;
+use glam::{DMat3, DVec3};
+
+use crate::model::roughness::noise::NoiseCells;
+use crate::model::roughness::{Bumps, PixelKey, unit};
+use crate::model::world::World;
+use crate::numeric::vectors::Vectors;
+
+/// The way from a sphere's normals to those that light is computed with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum ShadingNormal {
+    /// They are the same.
+    Smooth,
+    Bumpy(Bumps),
+    /// Their components are multiplied, in the world's frame.
+    Factors(DVec3),
+}
+
+impl ShadingNormal {
+    /// That of a sphere as a pixel sees it.
+    pub(crate) fn new(world: &World, sphere: usize, pixel: PixelKey) -> Self {
+        let Some(roughness) = &world.material(sphere).roughness else {
+            return Self::Smooth;
+        };
+        match roughness.bumps(world.spheres()[sphere].radius(), sphere) {
+            Some(bumps) => Self::Bumpy(bumps),
+            None => Self::Factors(roughness.pixel_factors(sphere, pixel)),
+        }
+    }
+
+    pub(crate) fn is_smooth(&self) -> bool {
+        matches!(self, Self::Smooth)
+    }
+
+    /// A bound of how many times as fast as the sphere's the shading normals turn.
+    pub(crate) fn slope_bound(&self) -> f64 {
+        match self {
+            Self::Smooth => 1.0,
+            Self::Factors(factors) => factors.max_element() / factors.min_element(),
+            Self::Bumpy(bumps) => bumps.slope_bound(),
+        }
+    }
+
+    /// The number of cells of the noise that a radius spans.
+    pub(crate) fn cells(&self) -> f64 {
+        match self {
+            Self::Smooth | Self::Factors(_) => 0.0,
+            Self::Bumpy(bumps) => bumps.cells(),
+        }
+    }
+
+    /// Makes normals of a rough surface, in a camera's frame, shading normals.
+    #[inline(never)]
+    pub(crate) fn perturb<S: Simd>(
+        &self,
+        simd: S,
+        world_from_camera: &DMat3,
+        normals: &mut [Vectors<S>],
+        noise: &mut Option<Box<NoiseCells>>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let camera_from_world = &world_from_camera.transpose();
+                match self {
+                    Self::Smooth => {}
+                    Self::Bumpy(bumps) => {
+                        let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                        for normal in &mut *normals {
+                            let Vectors { x, y, z } = rotated(normal, world_from_camera);
+                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
+                            *normal = Vectors { x, y, z };
+                        }
+                    }
+                    Self::Factors(factors) => {
+                        for normal in &mut *normals {
+                            let mut rough = rotated(normal, world_from_camera);
+                            rough.x *= factors.x;
+                            rough.y *= factors.y;
+                            rough.z *= factors.z;
+                            *normal = rough;
+                        }
+                    }
+                }
+                for normal in normals {
+                    let [x, y, z] = unit([normal.x, normal.y, normal.z]);
+                    *normal = rotated(&Vectors { x, y, z }, camera_from_world);
+                }
+            },
+        )
+    }
+}
+
+/// The vectors in another frame.
+#[inline(always)]
+fn rotated<S: Simd>(vectors: &Vectors<S>, matrix: &DMat3) -> Vectors<S> {
+    let rows = matrix.transpose();
+    Vectors {
+        x: vectors.dot_one(rows.x_axis),
+        y: vectors.dot_one(rows.y_axis),
+        z: vectors.dot_one(rows.z_axis),
+    }
+}
