@@ -62,7 +62,9 @@ impl Tree {
         folder: &str,
         parent: Option<usize>,
     ) -> Result<usize, String> {
-        let source = sources.get(name).ok_or_else(|| format!("expected the file {name}"))?;
+        let source = sources
+            .get(name)
+            .ok_or_else(|| format!("expected the file {name}"))?;
         let file = self.files.len();
         self.files.push(name.to_owned());
         let first = self.modules.len();

@@ -4,12 +4,12 @@
 //! may stand between quotation marks, but not go over lines.
 
 use super::columns::Plan;
-use super::fault::LineFault;
+use super::error::{LineFault, TableError, TableFault};
 use super::lines::Lines;
+use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Fields, Form};
-use super::{Request, TableError, TableFault};
 
 /// Reads a table.
 pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
@@ -33,10 +33,8 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     while let Some(field) = fields.next() {
         columns.push(String::from_utf8_lossy(&names[field]).into_owned());
     }
-    let plan = Plan::new(columns, request, |_| false).map_err(|message| {
-        let span = 0..header.len();
-        LineFault { span, message }.at(1, &header)
-    })?;
+    let plan = Plan::new(columns, request, |_| false)
+        .map_err(|message| TableFault::in_line(1, &header, message))?;
     let form = Form {
         separator: Some(separator),
         may_be_longer: false,

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use serde::Deserialize;
 
-use crate::color::from_srgb;
-use crate::suggest::closest;
+use crate::text::closest;
+use crate::values::from_srgb;
 
 /// Which radii elements have.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]

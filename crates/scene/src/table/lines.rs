@@ -2,11 +2,10 @@
 
 use std::io::{ErrorKind, Read};
 
-use super::fault::TablePlace;
+use super::error::{TableError, TableFault, TablePlace};
 use super::source::Source;
-use super::{TableError, TableFault};
 
-/// How much of a file is held at a time, in bytes.
+/// The part of a file that is held at a time, in bytes.
 const BLOCK: usize = 4 << 20;
 /// The longest line that is read, in bytes.
 const LONGEST_LINE: usize = 1 << 20;
@@ -19,9 +18,9 @@ pub(crate) struct Lines<'watch> {
     start: usize,
     end: usize,
     is_at_end: bool,
-    /// How many lines were handed out.
+    /// The number of lines that were handed out.
     pub(crate) number: u64,
-    /// How many bytes were handed out.
+    /// The number of bytes that were handed out.
     pub(crate) position: u64,
 }
 

@@ -7,15 +7,15 @@
 
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
-use super::fault::LineFault;
+use super::error::{LineFault, TableError, TableFault};
 use super::lines::Lines;
+use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Form};
-use super::{Request, TableError, TableFault};
-use crate::suggest::either;
+use crate::text::either;
 
-/// What the header says.
+/// The contents of a header.
 struct Header {
     is_text: bool,
     rows: u64,
@@ -29,10 +29,8 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let header = header(&mut lines)?;
     let kinds = &header.kinds;
     let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
-    let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
-        let span = 0..END.len();
-        LineFault { span, message }.at(lines.number, END.as_bytes())
-    })?;
+    let plan = Plan::new(header.names, request, is_byte)
+        .map_err(|message| TableFault::in_line(lines.number, END.as_bytes(), message))?;
     if !header.is_text {
         let layout = Layout {
             start: lines.position,
@@ -47,14 +45,8 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
         separator: None,
         may_be_longer: false,
     };
-    let rows = text::read(&mut lines, &plan, form, Some(header.rows))?;
-    if (rows.len() as u64) < header.rows {
-        let (count, found) = (header.rows, rows.len());
-        let expected =
-            format!("{count} vertices, as the header says, and after {found} of them another");
-        return Err(TableFault::at_end(lines.number + 1, &expected).into());
-    }
-    Ok(rows)
+    let noun = "vertices, as the header says";
+    text::read_count(&mut lines, &plan, form, header.rows, noun)
 }
 
 /// The line that ends a header.

@@ -5,16 +5,17 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::columns::{Plan, RadiusSource, Slot};
-use super::fault::LineFault;
+use super::element;
+use super::error::{LineFault, TableError, TableFault};
 use super::lines::{Lines, without_return};
+use super::request::Coloring;
 use super::rows::{Numbers, Rows};
-use super::{Coloring, TableError, element};
-use crate::fault::show;
+use crate::text::show;
 
-/// How lines are divided.
+/// The division of lines into fields.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
-    /// What stands between fields; `None` for any spaces and tabs.
+    /// The byte between fields; `None` for any spaces and tabs.
     pub(crate) separator: Option<u8>,
     /// Whether lines may have more fields than there are columns.
     pub(crate) may_be_longer: bool,
@@ -75,6 +76,23 @@ pub(crate) fn read(
     Ok(rows)
 }
 
+/// Reads `count` rows, which are called by `noun` where there are fewer.
+pub(crate) fn read_count(
+    lines: &mut Lines<'_>,
+    plan: &Plan,
+    form: Form,
+    count: u64,
+    noun: &str,
+) -> Result<Rows, TableError> {
+    let rows = read(lines, plan, form, Some(count))?;
+    let found = rows.len();
+    if (found as u64) < count {
+        let expected = format!("{count} {noun}, and after {found} of them another");
+        return Err(TableFault::at_end(lines.number + 1, &expected).into());
+    }
+    Ok(rows)
+}
+
 /// Parts of a block, each of whole lines.
 fn pieces(block: &[u8]) -> impl Iterator<Item = &[u8]> {
     let mut rest = block;
@@ -90,7 +108,7 @@ fn pieces(block: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// What was read of a piece.
+/// The rows of a piece.
 struct Piece {
     rows: Rows,
     /// Lines that were looked at, the one with the fault included.
@@ -162,7 +180,7 @@ fn read_line(line: &[u8], plan: &Plan, form: Form, rows: &mut Rows) -> Result<()
         .map_err(|expected| LineFault::new(line, symbol, expected))
 }
 
-/// What a column holds, for messages.
+/// The contents of a column, for messages.
 fn kind(slot: Option<Slot>) -> &'static str {
     match slot {
         None => "a value",

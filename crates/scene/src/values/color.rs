@@ -4,9 +4,8 @@ use glam::DVec3;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
-use crate::fault::{Names, Slice, note_failure};
-use crate::placed::{Read, read_simple, read_tuple};
-use crate::quantity::{ColorChannel, number};
+use super::quantity::{ColorChannel, number};
+use crate::text::{Names, Read, Slice, note_failure, read_simple, read_tuple};
 
 const ANY_FORM: &str = r##"a color: a number, `(red, green, blue)` or "#rrggbb""##;
 

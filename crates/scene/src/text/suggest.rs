@@ -1,5 +1,17 @@
 //! "Did you mean": the known name that is closest to an unknown one.
 
+/// The end of a message: ", did you mean CANDIDATE?", or nothing where none is close to `name`.
+pub(crate) fn did_you_mean<'c>(
+    name: &str,
+    candidates: impl IntoIterator<Item = &'c str>,
+    show: impl Fn(&str) -> String,
+) -> String {
+    let close = closest(name, candidates);
+    close.map_or_else(String::new, |close| {
+        format!(", did you mean {}?", show(close))
+    })
+}
+
 /// The candidate that a misspelled `name` probably stands for.
 pub(crate) fn closest<'c>(
     name: &str,

@@ -6,10 +6,11 @@ use ron::error::Error;
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
-use crate::explain::explain;
-use crate::fault::{self, Names, Slice};
-use crate::raw::raw_text;
-use crate::token;
+use super::explain::explain;
+use super::fault::{self, Names};
+use super::raw::raw_text;
+use super::slice::Slice;
+use super::token;
 
 /// A value that can be read from a part of the text.
 pub(crate) trait Read<'t>: Sized {
@@ -76,6 +77,17 @@ impl<'de, T: Read<'de>> Deserialize<'de> for Placed<T> {
             place: slice.place(),
             value: T::read(slice),
         })
+    }
+}
+
+/// What `make` makes of a field that may be left out; `None` where a fault was reported.
+pub(crate) fn optional<T, U>(
+    field: &Option<Placed<T>>,
+    make: impl FnOnce(&T) -> Option<U>,
+) -> Option<Option<U>> {
+    match field {
+        Some(field) => make(field.value.as_ref()?).map(Some),
+        None => Some(None),
     }
 }
 

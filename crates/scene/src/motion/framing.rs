@@ -16,46 +16,15 @@ use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{Angle, Camera, Lens, Sphere};
 use rayon::prelude::*;
 
-/// The box around spheres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Bounds {
-    pub(crate) low: DVec3,
-    pub(crate) high: DVec3,
-}
+use crate::bounds::middle;
 
-impl Bounds {
-    pub(crate) fn middle(&self) -> DVec3 {
-        // Halved, no sum overflows.
-        0.5 * self.low + 0.5 * self.high
-    }
-
-    fn around(self, other: Self) -> Self {
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-        }
-    }
-}
-
-/// The box around spheres, `None` for none.
-pub(crate) fn bounds(spheres: &[Sphere]) -> Option<Bounds> {
-    let one = |sphere: &Sphere| {
-        let reach = DVec3::splat(sphere.radius());
-        Bounds {
-            low: sphere.center() - reach,
-            high: sphere.center() + reach,
-        }
-    };
-    spheres.par_iter().map(one).reduce_with(Bounds::around)
-}
-
-/// The axes of an orbiting camera with these angles in degrees, in the world.
-pub(crate) fn axes_of_orbit(azimuth: f64, elevation: f64, roll: f64) -> DMat3 {
-    let [azimuth, elevation, roll] = [azimuth, elevation, roll].map(Angle::from_degrees);
+/// The axes of an orbiting camera with this azimuth, elevation and roll in degrees, in the world.
+pub(crate) fn axes_of_orbit(degrees: [f64; 3]) -> DMat3 {
+    let [azimuth, elevation, roll] = degrees.map(Angle::from_degrees);
     Camera::orbit(DVec3::ZERO, 0.0, azimuth, elevation, roll).world_from_camera
 }
 
-/// How a camera that frames moves.
+/// The motion of a camera that frames.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Turning {
     /// Not at all.
@@ -68,40 +37,40 @@ pub(crate) enum Turning {
 
 /// The picture that is to be filled.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub(crate) struct Picture {
     pub(crate) lens: Lens,
     /// Its height over its width.
     pub(crate) aspect: f64,
-    /// How much of it is filled, from 0 to 1.
+    /// The part of it that is filled, from 0 to 1.
     pub(crate) fill: f64,
 }
 
-/// Where a camera stands that frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+/// The place of a camera that frames.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Framing {
-    /// What it looks at.
+    /// The point that it looks at.
     pub(crate) target: DVec3,
-    /// How far before it, along the axis of view.
+    /// Its distance from the target, along the axis of view.
     pub(crate) distance: f64,
-    /// How far left of it and below, in multiples of the distance.
+    /// Its displacement left and down, in multiples of the distance.
     pub(crate) aside: DVec2,
 }
 
 impl Framing {
-    /// The nearest place from which all spheres are inside the frame; `None` without spheres.
+    /// The nearest place from which all spheres are inside the picture; `None` without spheres.
     pub(crate) fn new(
         spheres: &[Sphere],
-        frame: &Frame,
+        picture: &Picture,
         turning: Turning,
         world_from_camera: DMat3,
     ) -> Option<Self> {
         /// More than rounding moves an outline.
         const SLACK: f64 = 1.0 + 1e-12;
-        let target = bounds(spheres)?.middle();
-        let lens = &frame.lens;
+        let target = middle(spheres)?;
+        let lens = &picture.lens;
         let shift = lens.shift / lens.distance;
         let half_width = 0.5 * lens.width / lens.distance;
-        let half = frame.fill * DVec2::new(half_width, half_width * frame.aspect);
+        let half = picture.fill * DVec2::new(half_width, half_width * picture.aspect);
         let sides = [
             (DVec3::new(1.0, 0.0, -shift.x - half.x), half.x),
             (DVec3::new(-1.0, 0.0, shift.x - half.x), half.x),
@@ -123,7 +92,7 @@ impl Framing {
     }
 }
 
-/// A side of the frame.
+/// A side of the picture.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     /// The normal n of the plane through it and the viewpoint, outward, in the world's axes.
@@ -132,7 +101,7 @@ struct Side {
     length: f64,
     /// √(n_x² + n_z²).
     across: f64,
-    /// Half of the side that the frame has here, over the retina's distance.
+    /// Half of the side that the picture has here, over the retina's distance.
     half: f64,
 }
 

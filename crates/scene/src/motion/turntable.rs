@@ -5,19 +5,19 @@ const TURN: f64 = 360.0;
 
 /// A turn of the camera around its target, in frames 1 to `frames`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Turntable {
+pub(super) struct Turntable {
     /// Frames of a loop, at least 1.
-    pub(crate) frames: i32,
+    pub(super) frames: i32,
     /// Turns in a loop.
-    pub(crate) turns: f64,
+    pub(super) turns: f64,
 }
 
 impl Turntable {
-    /// What is added to the azimuth in frame `frame`.
+    /// The angle that is added to the azimuth in frame `frame`.
     ///
     /// For whole turns frame `frame + frames` is the same as `frame` to the bit: the fraction of
     /// the turn is a quotient of whole numbers, and whole turns are dropped before the division.
-    pub(crate) fn azimuth_degrees(&self, frame: i32) -> f64 {
+    pub(super) fn azimuth_degrees(&self, frame: i32) -> f64 {
         let frames = f64::from(self.frames);
         let part_of_turn = if self.loops() {
             // Less than 2^31 each, so that the product is a whole number of 64 bits.
@@ -30,16 +30,17 @@ impl Turntable {
         TURN * part_of_turn / frames
     }
 
-    /// What is added to the azimuth in frame `frame` and so many frames later, fewer than 1 away:
-    /// for whole turns as much in frame `frame + frames`, to the bit.
-    pub(crate) fn azimuth_degrees_at(&self, frame: i32, later: f64) -> f64 {
+    /// The angle that is added to the azimuth so many frames after frame `frame`, fewer than 1.
+    ///
+    /// For whole turns it is the same in frame `frame + frames`, to the bit.
+    pub(super) fn azimuth_degrees_at(&self, frame: i32, later: f64) -> f64 {
         let turns = libm::fmod(self.turns * later / f64::from(self.frames), 1.0);
         self.azimuth_degrees(frame) + TURN * turns
     }
 
     /// The number of the frame by which noise is drawn: from 1 to `frames` where the last frame
     /// leads back to the first.
-    pub(crate) fn looped(&self, frame: i32) -> i32 {
+    pub(super) fn looped(&self, frame: i32) -> i32 {
         if self.loops() {
             let since_first = (i64::from(frame) - 1).rem_euclid(i64::from(self.frames));
             since_first as i32 + 1

@@ -15,7 +15,7 @@ use crate::file::Ease;
 /// Analysis 17 (1980), 238–246. A cubic is monotone where both its slopes have the sign of the
 /// secant and are at most three times as steep.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Curve {
+pub(super) struct Curve {
     /// The value where there are no keys.
     rest: f64,
     keys: Vec<CurveKey>,
@@ -25,20 +25,20 @@ pub(crate) struct Curve {
 
 /// A value that a curve has at a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct CurveKey {
+pub(super) struct CurveKey {
     /// The frame.
-    pub(crate) frame: i32,
+    pub(super) frame: i32,
     /// The value there.
-    pub(crate) value: f64,
+    pub(super) value: f64,
     /// The way to the next key.
-    pub(crate) ease: Ease,
+    pub(super) ease: Ease,
     /// Slope of the `Smooth` stretches that start or end here, in scaled values a frame.
     slope: f64,
 }
 
 impl CurveKey {
     /// A key; the curve gives it its slope.
-    pub(crate) fn new(frame: i32, value: f64, ease: Ease) -> Self {
+    pub(super) fn new(frame: i32, value: f64, ease: Ease) -> Self {
         Self {
             frame,
             value,
@@ -50,7 +50,7 @@ impl CurveKey {
 
 impl Curve {
     /// The curve through `keys`, whose frames increase; constantly `rest` without keys.
-    pub(crate) fn new(rest: f64, keys: Vec<CurveKey>) -> Self {
+    pub(super) fn new(rest: f64, keys: Vec<CurveKey>) -> Self {
         // Differences of larger values might overflow.
         const LARGE: f64 = 1e300;
         const REDUCTION: f64 = 1.0 / 65536.0;
@@ -64,22 +64,24 @@ impl Curve {
         curve
     }
 
+    /// The curve that has this value at all times.
+    pub(super) fn constant(value: f64) -> Self {
+        Self::new(value, Vec::new())
+    }
+
     /// Whether the value is the same at all times.
-    pub(crate) fn is_constant(&self) -> bool {
-        let values = self.keys.windows(2);
-        values
-            .into_iter()
-            .all(|pair| pair[0].value == pair[1].value)
+    pub(super) fn is_constant(&self) -> bool {
+        let mut pairs = self.keys.windows(2);
+        pairs.all(|pair| pair[0].value == pair[1].value)
     }
 
     /// The value at a time in frames, finite whatever the keys.
-    pub(crate) fn at(&self, time: f64) -> f64 {
+    pub(super) fn at(&self, time: f64) -> f64 {
         let (Some(first), Some(last)) = (self.keys.first(), self.keys.last()) else {
             return self.rest;
         };
-        let reached = self
-            .keys
-            .partition_point(|key| f64::from(key.frame) <= time);
+        let is_reached = |key: &CurveKey| f64::from(key.frame) <= time;
+        let reached = self.keys.partition_point(is_reached);
         if reached == 0 {
             return first.value;
         }
@@ -117,12 +119,12 @@ impl Curve {
             return 0.0;
         };
         let here = &self.keys[key];
-        let (duration_before, duration_after) =
-            (frames_between(before, here), frames_between(here, after));
-        let difference =
-            |from: &CurveKey, to: &CurveKey| to.value * self.scale - from.value * self.scale;
-        let secant_before = difference(before, here) / duration_before;
-        let secant_after = difference(here, after) / duration_after;
+        let duration_before = frames_between(before, here);
+        let duration_after = frames_between(here, after);
+        let [before_value, value, after_value] =
+            [before, here, after].map(|key| key.value * self.scale);
+        let secant_before = (value - before_value) / duration_before;
+        let secant_after = (after_value - value) / duration_after;
         match (before.ease, here.ease) {
             (Ease::Hold, _) | (_, Ease::Hold) => 0.0,
             (Ease::Linear, _) => limited(secant_before, &[secant_after]),
@@ -149,10 +151,8 @@ fn limited(slope: f64, secants: &[f64]) -> f64 {
     } else {
         return 0.0;
     };
-    let limit = secants
-        .iter()
-        .map(|secant| STEEPEST * secant.abs())
-        .fold(f64::INFINITY, f64::min);
+    let limits = secants.iter().map(|secant| STEEPEST * secant.abs());
+    let limit = limits.fold(f64::INFINITY, f64::min);
     sign * (sign * slope).clamp(0.0, limit)
 }
 

@@ -1,98 +1,80 @@
-//! Clouds: the spheres of tables, placed in the world.
+//! Clouds: the spheres of tables.
 
 use std::fs;
 use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use glam::{DMat3, DVec3};
-use marbles_core::{Albedos, Angle, MaterialId, Sphere, World};
+use marbles_core::{Albedos, MaterialId, World};
 use rayon::prelude::*;
 
-use crate::assemble::quoted;
-use crate::fault::{Fault, report};
+use super::placement::{Placement, turn};
 use crate::file;
-use crate::framing;
-use crate::scene::Progress;
-use crate::suggest::{closest, list};
 use crate::table::{self, Coloring, Colormap, Paint, Request, Rows, TableError, TableFault};
+use crate::text::{Fault, closest, list, optional, quoted, refuse};
+use crate::values::ValueRange;
 
 /// A cloud of the scene file whose table is not yet read.
 #[derive(Clone, Debug)]
 pub(crate) struct Cloud {
     /// The table as the file names it.
     pub(crate) name: String,
-    /// Where the file names it, in bytes of its text.
+    /// The place of its name, in bytes of the scene file.
     pub(crate) place: Range<usize>,
     material: MaterialId,
     request: Request,
     colormap: Colormap,
-    range: Option<file::ValueRange>,
+    range: Option<ValueRange>,
     placement: Placement,
 }
 
-/// Why a table was refused.
+/// The reason for which a table was refused.
 #[derive(Debug)]
 pub(crate) enum CloudError {
-    /// What the scene file says of it is wrong.
+    /// Something is wrong in what the scene file says of it.
     Scene(Fault),
     /// Something is wrong in the table with this path.
     Table(PathBuf, TableFault),
 }
 
-/// Where a cloud is put, step by step.
-#[derive(Clone, Copy, Debug)]
-struct Placement {
-    is_centered: bool,
-    is_right_handed: bool,
-    scale: f64,
-    turn: Option<DMat3>,
-    position: DVec3,
+/// The state of reading a table.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Progress<'scene> {
+    /// The table as the scene file names it.
+    pub table: &'scene Path,
+    /// Bytes that were read.
+    pub read: u64,
+    /// Bytes of the whole file; 0 where it does not say.
+    pub size: u64,
 }
 
 impl Cloud {
     /// The cloud that the file describes; `None` where a fault was reported.
     pub(crate) fn new(cloud: &file::Cloud, material: MaterialId) -> Option<Self> {
-        let value = match &cloud.value {
-            Some(name) => Some(name.value.as_ref()?.0.clone()),
-            None => None,
-        };
-        let color = match &cloud.color {
-            Some(color) => Some(color.get()?),
-            None => None,
-        };
+        let value = optional(&cloud.value, |name| Some(name.0.clone()))?;
+        let coloring = optional(&cloud.color, |coloring| Some(*coloring))?;
         let scale_place = cloud.colormap.as_ref().map(|colormap| &colormap.place);
         let scale_place = scale_place.or(cloud.range.as_ref().map(|range| &range.place));
         let scale_place = scale_place.or(cloud.value.as_ref().map(|name| &name.place));
-        if let (Some(place), Some(color)) = (scale_place, color)
-            && color != Coloring::Value
+        if let (Some(place), Some(coloring)) = (scale_place, coloring)
+            && coloring != Coloring::Value
         {
-            let message = format!("expected `color: Value` with this, found `color: {color:?}`");
-            report(Fault::new(place.clone(), message));
-            return None;
+            let message = format!("expected `color: Value` with this, found `color: {coloring:?}`");
+            return refuse(place.clone(), message);
         }
         Some(Self {
             name: cloud.file.value.as_ref()?.0.clone(),
             place: cloud.file.place.clone(),
             material,
             request: Request {
-                radius: match &cloud.radius {
-                    Some(radius) => Some(radius.get()?.0),
-                    None => None,
-                },
+                radius: optional(&cloud.radius, |radius| Some(radius.0))?,
                 radii: cloud.radii.get()?,
-                coloring: color.or(scale_place.map(|_| Coloring::Value)),
+                coloring: coloring.or(scale_place.map(|_| Coloring::Value)),
                 value,
                 has_material: cloud.material.is_some(),
             },
-            colormap: match &cloud.colormap {
-                Some(colormap) => colormap.get()?,
-                None => Colormap::default(),
-            },
-            range: match &cloud.range {
-                Some(range) => Some(range.get()?),
-                None => None,
-            },
+            colormap: optional(&cloud.colormap, |colormap| Some(*colormap))?.unwrap_or_default(),
+            range: optional(&cloud.range, |range| Some(*range))?,
             placement: Placement {
                 is_centered: cloud.center.get()?.0,
                 is_right_handed: cloud.right_handed.get()?.0,
@@ -103,7 +85,7 @@ impl Cloud {
         })
     }
 
-    /// Reads the table and adds its spheres to the world; which ones these are.
+    /// Reads the table and adds its spheres to the world; returns their range.
     pub(crate) fn add_to(
         &self,
         world: &mut World,
@@ -134,7 +116,7 @@ impl Cloud {
         CloudError::Scene(Fault::new(self.place.clone(), message))
     }
 
-    /// Why there is no table at `path`.
+    /// The reason for which there is no table at `path`.
     fn explain(&self, path: &Path, error: &TableError) -> String {
         let name = quoted(&self.name);
         let error = match error {
@@ -175,16 +157,10 @@ impl Cloud {
             .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
             .collect();
         names.sort_unstable();
-        let close = closest(
-            path.file_name()?.to_str()?,
-            names.iter().map(String::as_str),
-        )?;
-        Some(
-            Path::new(&self.name)
-                .with_file_name(close)
-                .display()
-                .to_string(),
-        )
+        let names = names.iter().map(String::as_str);
+        let close = closest(path.file_name()?.to_str()?, names)?;
+        let close = Path::new(&self.name).with_file_name(close);
+        Some(close.display().to_string())
     }
 
     /// The colors of the spheres; `None` for those that have their material's.
@@ -197,13 +173,13 @@ impl Cloud {
                 indices,
             }),
             Paint::Values(values) => {
+                let all = || values.iter().copied();
                 let (low, high) = match self.range {
                     Some(range) => (range.low, range.high),
-                    None => values
-                        .iter()
-                        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                            (low.min(*value), high.max(*value))
-                        }),
+                    None => (
+                        all().fold(f64::INFINITY, f64::min),
+                        all().fold(f64::NEG_INFINITY, f64::max),
+                    ),
                 };
                 let index = |value: &f64| table::color_index(*value, low, high);
                 Some(Albedos::Palette {
@@ -212,98 +188,5 @@ impl Cloud {
                 })
             }
         }
-    }
-}
-
-impl Placement {
-    /// Puts spheres to their place; whether they are still finite and have radii.
-    fn place(&self, spheres: &mut [Sphere]) -> bool {
-        let middle = match self.is_centered {
-            true => framing::bounds(spheres).map_or(DVec3::ZERO, |bounds| bounds.middle()),
-            false => DVec3::ZERO,
-        };
-        let is_as_it_is = middle == DVec3::ZERO
-            && !self.is_right_handed
-            && self.scale == 1.0
-            && self.turn.is_none()
-            && self.position == DVec3::ZERO;
-        if is_as_it_is {
-            return true;
-        }
-        let mut axes = DVec3::splat(self.scale);
-        if self.is_right_handed {
-            axes.z = -axes.z;
-        }
-        spheres.par_iter_mut().all(|sphere| {
-            let mut center = (sphere.center() - middle) * axes;
-            if let Some(turn) = self.turn {
-                center = turn * center;
-            }
-            let placed = Sphere::new(center + self.position, sphere.radius() * self.scale);
-            placed.map(|placed| *sphere = placed).is_ok()
-        })
-    }
-}
-
-/// The turn about x by the first angle, then about y, then about z; `None` for no turn.
-///
-/// Positive angles lead from y to z, from z to x, and from x to y.
-fn turn(degrees: DVec3) -> Option<DMat3> {
-    if degrees == DVec3::ZERO {
-        return None;
-    }
-    let [x, y, z] = degrees.to_array().map(Angle::from_degrees);
-    let about_x = DMat3::from_cols(
-        DVec3::X,
-        DVec3::new(0.0, x.cos, x.sin),
-        DVec3::new(0.0, -x.sin, x.cos),
-    );
-    let about_y = DMat3::from_cols(
-        DVec3::new(y.cos, 0.0, -y.sin),
-        DVec3::Y,
-        DVec3::new(y.sin, 0.0, y.cos),
-    );
-    let about_z = DMat3::from_cols(
-        DVec3::new(z.cos, z.sin, 0.0),
-        DVec3::new(-z.sin, z.cos, 0.0),
-        DVec3::Z,
-    );
-    Some(about_z * about_y * about_x)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn turns_go_from_axis_to_axis() {
-        let turned = |x, y, z, vector: DVec3| turn(DVec3::new(x, y, z)).unwrap() * vector;
-        assert_eq!(turned(90.0, 0.0, 0.0, DVec3::Y), DVec3::Z);
-        assert_eq!(turned(0.0, 90.0, 0.0, DVec3::Z), DVec3::X);
-        assert_eq!(turned(0.0, 0.0, 90.0, DVec3::X), DVec3::Y);
-        // First about x, then about z.
-        assert_eq!(turned(90.0, 0.0, 90.0, DVec3::Y), DVec3::Z);
-        assert_eq!(turned(90.0, 0.0, 90.0, DVec3::X), DVec3::Y);
-        assert!(turn(DVec3::ZERO).is_none());
-    }
-
-    #[test]
-    fn placing_centers_mirrors_scales_turns_and_moves() {
-        let sphere = |x, y, z, radius| Sphere::new(DVec3::new(x, y, z), radius).unwrap();
-        let mut spheres = [sphere(0.0, 0.0, 0.0, 1.0), sphere(9.0, 0.0, 4.0, 2.0)];
-        let placement = Placement {
-            is_centered: true,
-            is_right_handed: true,
-            scale: 2.0,
-            turn: turn(DVec3::new(0.0, 90.0, 0.0)),
-            position: DVec3::new(100.0, 0.0, 0.0),
-        };
-        assert!(placement.place(&mut spheres));
-        // The box is from (-1, -2, -1) to (11, 2, 6).
-        assert_eq!(spheres[0], sphere(105.0, 0.0, 10.0, 2.0));
-        assert_eq!(spheres[1], sphere(97.0, 0.0, -8.0, 4.0));
-        let mut tiny = [sphere(0.0, 0.0, 0.0, 1e-300)];
-        let scale = 1e-300;
-        assert!(!Placement { scale, ..placement }.place(&mut tiny));
     }
 }

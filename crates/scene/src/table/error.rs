@@ -1,14 +1,40 @@
-//! What is wrong in a table, and where.
+//! The faults of tables, and their places.
 
+use std::io;
 use std::ops::Range;
 
-use crate::fault::show;
+use crate::text::show;
+
+/// The reason for which there is no table.
+#[derive(Debug)]
+pub(crate) enum TableError {
+    /// The file cannot be opened or read.
+    Unreadable(io::Error),
+    /// The name has no ending that tells a format.
+    UnknownFormat,
+    /// There is no memory for it.
+    OutOfMemory(u64),
+    /// Something is wrong in it.
+    Fault(TableFault),
+}
+
+impl From<io::Error> for TableError {
+    fn from(error: io::Error) -> Self {
+        Self::Unreadable(error)
+    }
+}
+
+impl From<TableFault> for TableError {
+    fn from(fault: TableFault) -> Self {
+        Self::Fault(fault)
+    }
+}
 
 /// Something that is wrong at a place of a table.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(crate) struct TableFault {
     pub(crate) place: TablePlace,
-    /// What was expected and what was found.
+    /// The expected thing and the found one.
     pub(crate) message: String,
 }
 
@@ -37,7 +63,7 @@ pub(crate) enum TablePlace {
     Header,
 }
 
-/// What is wrong in a line.
+/// Something that is wrong in a line.
 #[derive(Clone, Debug)]
 pub(crate) struct LineFault {
     /// The place in the line, in bytes.
@@ -78,6 +104,12 @@ impl LineFault {
 }
 
 impl TableFault {
+    /// A fault of a whole line of a text.
+    pub(crate) fn in_line(number: u64, line: &[u8], message: String) -> Self {
+        let span = 0..line.len();
+        LineFault { span, message }.at(number, line)
+    }
+
     /// A fault behind the last line of a text.
     pub(crate) fn at_end(line: u64, expected: &str) -> Self {
         Self {
