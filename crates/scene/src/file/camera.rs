@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use serde::Deserialize;
 
 use crate::text::{Placed, present};
@@ -118,7 +119,67 @@ pub(crate) enum Ease {
     Hold,
 }
 
+/// The numbers of a camera; those that its kind lacks are 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CameraNumbers {
+    pub(crate) position: DVec3,
+    pub(crate) target: DVec3,
+    pub(crate) radius: f64,
+    pub(crate) pan: f64,
+    pub(crate) tilt: f64,
+    pub(crate) azimuth: f64,
+    pub(crate) elevation: f64,
+    pub(crate) roll: f64,
+}
+
 impl Camera {
+    /// The numbers of this camera where no key names them; `None` where a fault was reported.
+    pub(crate) fn at_rest(&self) -> Option<CameraNumbers> {
+        let mut all = CameraNumbers::default();
+        let roll = match self {
+            Self::Free {
+                position,
+                pan,
+                tilt,
+                roll,
+            } => {
+                all.position = position.get()?.0;
+                (all.pan, all.tilt) = (pan.get()?.0, tilt.get()?.0);
+                roll
+            }
+            Self::LookAt {
+                position,
+                target,
+                roll,
+            } => {
+                (all.position, all.target) = (position.get()?.0, target.get()?.0);
+                roll
+            }
+            Self::Orbit {
+                target,
+                radius,
+                azimuth,
+                elevation,
+                roll,
+            } => {
+                (all.target, all.radius) = (target.get()?.0, radius.get()?.0);
+                (all.azimuth, all.elevation) = (azimuth.get()?.0, elevation.get()?.0);
+                roll
+            }
+            Self::Frame {
+                azimuth,
+                elevation,
+                roll,
+                ..
+            } => {
+                (all.azimuth, all.elevation) = (azimuth.get()?.0, elevation.get()?.0);
+                roll
+            }
+        };
+        all.roll = roll.get()?.0;
+        Some(all)
+    }
+
     /// The kind of this camera as the file writes it.
     pub(crate) fn kind(&self) -> &'static str {
         match self {

@@ -53,7 +53,7 @@ impl CameraMotion {
         let keys = Keys(keys.iter().filter_map(|key| key.value.as_ref()).collect());
         Some(Self {
             channels: Channels::new(file.camera.value.as_ref()?, &keys)?,
-            zoom: keys.numbers(&file.zoom, |key| &key.zoom)?,
+            zoom: keys.numbers(file.zoom.get()?.0, |key| &key.zoom),
             turntable,
             timing,
         })
@@ -61,9 +61,7 @@ impl CameraMotion {
 
     /// Places a camera that frames; `false` where there is nothing to be framed.
     pub(crate) fn frame(&mut self, spheres: &[Sphere], picture: &Picture) -> bool {
-        let Some(angles) = self.channels.angles() else {
-            return true;
-        };
+        let angles = self.channels.angles();
         let turning = match self.turntable {
             Some(_) => Turning::Around,
             None if angles.iter().all(|curve| curve.is_constant()) => Turning::Still,

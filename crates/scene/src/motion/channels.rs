@@ -10,145 +10,84 @@ use crate::file::{self, Key};
 use crate::text::Placed;
 use crate::values::Point;
 
-/// The numbers of a camera, each of them a curve.
+/// The numbers of a camera, each of them a curve; those that its kind lacks are 0.
 #[derive(Clone, Debug)]
-pub(super) enum Channels {
-    Free {
-        position: PointCurve,
-        pan: Curve,
-        tilt: Curve,
-        roll: Curve,
-    },
-    LookAt {
-        position: PointCurve,
-        target: PointCurve,
-        roll: Curve,
-    },
-    Orbit {
-        target: PointCurve,
-        radius: Curve,
-        /// The displacement of a camera that frames, left and down, in multiples of the radius.
-        aside: Option<DVec2>,
-        azimuth: Curve,
-        elevation: Curve,
-        roll: Curve,
-    },
+pub(super) struct Channels {
+    kind: Kind,
+    position: PointCurve,
+    target: PointCurve,
+    radius: Curve,
+    /// The displacement of a camera that frames, left and down, in multiples of the radius.
+    aside: Option<DVec2>,
+    pan: Curve,
+    tilt: Curve,
+    azimuth: Curve,
+    elevation: Curve,
+    roll: Curve,
+}
+
+/// The way in which channels give a camera.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Kind {
+    Free,
+    LookAt,
+    Orbit,
 }
 
 impl Channels {
-    /// The channels of the file's camera through its keys; one that frames waits for [`Self::frame`].
+    /// The channels of the file's camera; one that frames waits for [`Self::frame`].
     pub(super) fn new(camera: &file::Camera, keys: &Keys<'_>) -> Option<Self> {
-        Some(match camera {
-            file::Camera::Free {
-                position,
-                pan,
-                tilt,
-                roll,
-            } => Self::Free {
-                position: keys.points(position, |key| &key.position)?,
-                pan: keys.numbers(pan, |key| &key.pan)?,
-                tilt: keys.numbers(tilt, |key| &key.tilt)?,
-                roll: keys.numbers(roll, |key| &key.roll)?,
+        let rest = camera.at_rest()?;
+        Some(Self {
+            kind: match camera {
+                file::Camera::Free { .. } => Kind::Free,
+                file::Camera::LookAt { .. } => Kind::LookAt,
+                file::Camera::Orbit { .. } | file::Camera::Frame { .. } => Kind::Orbit,
             },
-            file::Camera::LookAt {
-                position,
-                target,
-                roll,
-            } => Self::LookAt {
-                position: keys.points(position, |key| &key.position)?,
-                target: keys.points(target, |key| &key.target)?,
-                roll: keys.numbers(roll, |key| &key.roll)?,
-            },
-            file::Camera::Orbit {
-                target,
-                radius,
-                azimuth,
-                elevation,
-                roll,
-            } => Self::Orbit {
-                target: keys.points(target, |key| &key.target)?,
-                radius: keys.numbers(radius, |key| &key.radius)?,
-                aside: None,
-                azimuth: keys.numbers(azimuth, |key| &key.azimuth)?,
-                elevation: keys.numbers(elevation, |key| &key.elevation)?,
-                roll: keys.numbers(roll, |key| &key.roll)?,
-            },
-            file::Camera::Frame {
-                azimuth,
-                elevation,
-                roll,
-                ..
-            } => Self::Orbit {
-                target: PointCurve::constant(DVec3::ZERO),
-                radius: Curve::constant(0.0),
-                aside: None,
-                azimuth: keys.numbers(azimuth, |key| &key.azimuth)?,
-                elevation: keys.numbers(elevation, |key| &key.elevation)?,
-                roll: keys.numbers(roll, |key| &key.roll)?,
-            },
+            position: keys.points(rest.position, |key| &key.position),
+            target: keys.points(rest.target, |key| &key.target),
+            radius: keys.numbers(rest.radius, |key| &key.radius),
+            aside: None,
+            pan: keys.numbers(rest.pan, |key| &key.pan),
+            tilt: keys.numbers(rest.tilt, |key| &key.tilt),
+            azimuth: keys.numbers(rest.azimuth, |key| &key.azimuth),
+            elevation: keys.numbers(rest.elevation, |key| &key.elevation),
+            roll: keys.numbers(rest.roll, |key| &key.roll),
         })
     }
 
     /// Azimuth, elevation and roll of an orbit.
-    pub(super) fn angles(&self) -> Option<[&Curve; 3]> {
-        match self {
-            Self::Orbit {
-                azimuth,
-                elevation,
-                roll,
-                ..
-            } => Some([azimuth, elevation, roll]),
-            _ => None,
-        }
+    pub(super) fn angles(&self) -> [&Curve; 3] {
+        [&self.azimuth, &self.elevation, &self.roll]
     }
 
     /// Places an orbit where it frames its spheres.
     pub(super) fn frame(&mut self, framing: &Framing) {
-        if let Self::Orbit {
-            target,
-            radius,
-            aside,
-            ..
-        } = self
-        {
-            *target = PointCurve::constant(framing.target);
-            *radius = Curve::constant(framing.distance);
-            *aside = Some(framing.aside);
-        }
+        self.target = PointCurve::constant(framing.target);
+        self.radius = Curve::constant(framing.distance);
+        self.aside = Some(framing.aside);
     }
 
     /// The camera at a time in frames; `turned_degrees` is added to the azimuth of an orbit.
     pub(super) fn at(&self, time: f64, turned_degrees: f64) -> Result<Camera, FrameFault> {
         let angle = |curve: &Curve| Angle::from_degrees(curve.at(time));
-        let camera = match self {
-            Self::Free {
-                position,
-                pan,
-                tilt,
-                roll,
-            } => Camera::free(position.at(time), angle(pan), angle(tilt), angle(roll)),
-            Self::LookAt {
-                position,
-                target,
-                roll,
-            } => {
-                let (position, target) = (position.at(time), target.at(time));
-                look_at(position, target, angle(roll)).ok_or(FrameFault::LooksNowhere)?
+        let roll = angle(&self.roll);
+        let camera = match self.kind {
+            Kind::Free => {
+                let (pan, tilt) = (angle(&self.pan), angle(&self.tilt));
+                Camera::free(self.position.at(time), pan, tilt, roll)
             }
-            Self::Orbit {
-                target,
-                radius,
-                aside,
-                azimuth,
-                elevation,
-                roll,
-            } => {
-                let azimuth = Angle::from_degrees(azimuth.at(time) + turned_degrees);
-                let (elevation, roll) = (angle(elevation), angle(roll));
-                let radius = radius.at(time);
-                let mut camera = Camera::orbit(target.at(time), radius, azimuth, elevation, roll);
-                if let Some(aside) = aside {
-                    let aside = radius * *aside;
+            Kind::LookAt => {
+                let (position, target) = (self.position.at(time), self.target.at(time));
+                look_at(position, target, roll).ok_or(FrameFault::LooksNowhere)?
+            }
+            Kind::Orbit => {
+                let azimuth = Angle::from_degrees(self.azimuth.at(time) + turned_degrees);
+                let (target, radius) = (self.target.at(time), self.radius.at(time));
+                let elevation = angle(&self.elevation);
+                let mut camera = Camera::orbit(target, radius, azimuth, elevation, roll);
+                if let Some(aside) = self.aside {
+                    let aside = radius * aside;
                     let axes = camera.world_from_camera;
                     camera.position -= axes.x_axis * aside.x + axes.y_axis * aside.y;
                 }
@@ -193,25 +132,18 @@ impl Keys<'_> {
     /// The curve of a channel of numbers: `rest` where no key names it.
     pub(super) fn numbers<T: Copy + Into<f64>>(
         &self,
-        rest: &Placed<T>,
+        rest: f64,
         channel: impl Fn(&Key) -> &Option<Placed<T>>,
-    ) -> Option<Curve> {
-        let value = |key: &Key| Some(channel(key).as_ref()?.get()?.into());
-        Some(self.curve(rest.get()?.into(), value))
+    ) -> Curve {
+        self.curve(rest, |key| Some(channel(key).as_ref()?.get()?.into()))
     }
 
     /// The curve of a channel of points.
-    fn points(
-        &self,
-        rest: &Placed<Point>,
-        channel: impl Fn(&Key) -> &Option<Placed<Point>>,
-    ) -> Option<PointCurve> {
-        let rest = rest.get()?.0;
-        let axis = |axis: usize| {
+    fn points(&self, rest: DVec3, channel: impl Fn(&Key) -> &Option<Placed<Point>>) -> PointCurve {
+        PointCurve([0, 1, 2].map(|axis| {
             let value = |key: &Key| Some(channel(key).as_ref()?.get()?.0[axis]);
             self.curve(rest[axis], value)
-        };
-        Some(PointCurve([0, 1, 2].map(axis)))
+        }))
     }
 
     fn curve(&self, rest: f64, value: impl Fn(&Key) -> Option<f64>) -> Curve {

@@ -4,7 +4,7 @@
 //! may stand between quotation marks, but not go over lines.
 
 use super::columns::Plan;
-use super::error::{LineFault, TableError, TableFault};
+use super::error::{TableError, TableFault};
 use super::lines::Lines;
 use super::request::Request;
 use super::rows::Rows;
@@ -21,9 +21,7 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
         let expected = "a line with the names of the columns";
         return Err(match lines.number {
             0 => TableFault::at_end(1, expected).into(),
-            _ => LineFault::new(&header, 0..header.len(), expected)
-                .at(1, &header)
-                .into(),
+            _ => TableFault::expected(1, &header, 0..header.len(), expected).into(),
         });
     }
     let is_separator = |byte: &u8| b",;\t".contains(byte);
@@ -34,7 +32,7 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
         columns.push(String::from_utf8_lossy(&names[field]).into_owned());
     }
     let plan = Plan::new(columns, request, |_| false)
-        .map_err(|message| TableFault::in_line(1, &header, message))?;
+        .map_err(|message| TableFault::in_line(1, &header, 0..header.len(), message))?;
     let form = Form {
         separator: Some(separator),
         may_be_longer: false,

@@ -63,70 +63,50 @@ pub(crate) enum TablePlace {
     Header,
 }
 
-/// Something that is wrong in a line.
-#[derive(Clone, Debug)]
-pub(crate) struct LineFault {
-    /// The place in the line, in bytes.
-    pub(crate) span: Range<usize>,
-    pub(crate) message: String,
-}
-
-impl LineFault {
-    /// Something else was expected than this part of the line.
-    pub(crate) fn new(line: &[u8], span: Range<usize>, expected: &str) -> Self {
+impl TableFault {
+    /// Something else was expected than this part of a line.
+    pub(crate) fn expected(number: u64, line: &[u8], span: Range<usize>, expected: &str) -> Self {
         let found = String::from_utf8_lossy(&line[span.clone()]);
         let found = match &*found {
             "" if line[span.end..].trim_ascii().is_empty() => String::from("the end of the line"),
             "" => String::from("nothing"),
             found => show(found),
         };
-        Self {
-            span,
-            message: format!("expected {expected}, found {found}"),
-        }
+        let message = format!("expected {expected}, found {found}");
+        Self::in_line(number, line, span, message)
     }
 
-    /// The fault in the line with this number.
-    pub(crate) fn at(self, number: u64, line: &[u8]) -> TableFault {
+    /// A fault in a part of a line.
+    pub(crate) fn in_line(number: u64, line: &[u8], span: Range<usize>, message: String) -> Self {
         // Bytes that are no text become characters of other lengths.
-        let before = String::from_utf8_lossy(&line[..self.span.start]).into_owned();
-        let inside = String::from_utf8_lossy(&line[self.span.clone()]).into_owned();
-        let after = String::from_utf8_lossy(&line[self.span.end..]);
-        TableFault {
-            place: TablePlace::Text {
-                line: number,
-                span: before.len()..before.len() + inside.len(),
-                text: before + &inside + &after,
-            },
-            message: self.message,
-        }
-    }
-}
-
-impl TableFault {
-    /// A fault of a whole line of a text.
-    pub(crate) fn in_line(number: u64, line: &[u8], message: String) -> Self {
-        let span = 0..line.len();
-        LineFault { span, message }.at(number, line)
+        let before = String::from_utf8_lossy(&line[..span.start]).into_owned();
+        let inside = String::from_utf8_lossy(&line[span.clone()]).into_owned();
+        let after = String::from_utf8_lossy(&line[span.end..]);
+        let place = TablePlace::Text {
+            line: number,
+            span: before.len()..before.len() + inside.len(),
+            text: before + &inside + &after,
+        };
+        Self { place, message }
     }
 
     /// A fault behind the last line of a text.
-    pub(crate) fn at_end(line: u64, expected: &str) -> Self {
-        Self {
-            place: TablePlace::Text {
-                line,
-                text: String::new(),
-                span: 0..0,
-            },
-            message: format!("expected {expected}, found the end of the file"),
-        }
+    pub(crate) fn at_end(number: u64, expected: &str) -> Self {
+        let message = format!("expected {expected}, found the end of the file");
+        Self::in_line(number, b"", 0..0, message)
     }
 
     /// A fault in the header of a binary file.
     pub(crate) fn in_header(message: String) -> Self {
-        Self {
-            place: TablePlace::Header,
-            message,
+        let place = TablePlace::Header;
+        Self { place, message }
+    }
+
+    /// The same fault so many lines further down.
+    pub(crate) fn lower(mut self, lines: u64) -> Self {
+        if let TablePlace::Text { line, .. } = &mut self.place {
+            *line += lines;
         }
+        self
     }
 }

@@ -2,7 +2,7 @@
 
 use std::io::{ErrorKind, Read};
 
-use super::error::{TableError, TableFault, TablePlace};
+use super::error::{TableError, TableFault};
 use super::source::Source;
 
 /// The part of a file that is held at a time, in bytes.
@@ -123,14 +123,9 @@ impl<'watch> Lines<'watch> {
     fn too_long(&self) -> TableError {
         const SHOWN: usize = 100;
         let start = &self.buffer[self.start..self.end];
-        let text = String::from_utf8_lossy(&start[..start.len().min(SHOWN)]).into_owned();
-        let place = TablePlace::Text {
-            line: self.number + 1,
-            span: 0..text.len(),
-            text,
-        };
+        let shown = &start[..start.len().min(SHOWN)];
         let message = String::from("expected a line of at most 1 MiB, found a longer one");
-        TableFault { place, message }.into()
+        TableFault::in_line(self.number + 1, shown, 0..shown.len(), message).into()
     }
 }
 

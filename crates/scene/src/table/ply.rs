@@ -7,7 +7,7 @@
 
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
-use super::error::{LineFault, TableError, TableFault};
+use super::error::{TableError, TableFault};
 use super::lines::Lines;
 use super::request::Request;
 use super::rows::Rows;
@@ -29,8 +29,9 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let header = header(&mut lines)?;
     let kinds = &header.kinds;
     let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
-    let plan = Plan::new(header.names, request, is_byte)
-        .map_err(|message| TableFault::in_line(lines.number, END.as_bytes(), message))?;
+    let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
+        TableFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
+    })?;
     if !header.is_text {
         let layout = Layout {
             start: lines.position,
@@ -70,7 +71,7 @@ fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
         };
         let refuse = |part: usize, expected: &str| {
             let span = word(line, part);
-            Err(LineFault::new(line, span, expected).at(number, line).into())
+            Err(TableFault::expected(number, line, span, expected).into())
         };
         let text = String::from_utf8_lossy(line).into_owned();
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
@@ -82,10 +83,9 @@ fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
         }
         match words[..] {
             ["comment" | "obj_info", ..] | [] => {}
-            ["format", "ascii", "1.0"] => has_format = true,
-            ["format", "binary_little_endian", "1.0"] => {
+            ["format", form @ ("ascii" | "binary_little_endian"), "1.0"] => {
                 has_format = true;
-                header.is_text = false;
+                header.is_text &= form == "ascii";
             }
             ["format", ..] => {
                 return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`");
@@ -138,29 +138,21 @@ fn word(line: &[u8], number: usize) -> std::ops::Range<usize> {
     fields.next().unwrap_or(line.len()..line.len())
 }
 
+/// The kind of number with this name.
 fn kind(name: &str) -> Option<Kind> {
-    let also = match name {
-        "int8" => "char",
-        "uint8" => "uchar",
-        "int16" => "short",
-        "uint16" => "ushort",
-        "int32" => "int",
-        "uint32" => "uint",
-        "float32" => "float",
-        "float64" => "double",
-        other => other,
-    };
     let mut known = KINDS.iter();
-    known.find(|known| known.0 == also).map(|known| known.1)
+    let known = known.find(|known| name == known.0 || name == known.1)?;
+    Some(known.2)
 }
 
-const KINDS: [(&str, Kind); 8] = [
-    ("char", Kind::I8),
-    ("uchar", Kind::U8),
-    ("short", Kind::I16),
-    ("ushort", Kind::U16),
-    ("int", Kind::I32),
-    ("uint", Kind::U32),
-    ("float", Kind::F32),
-    ("double", Kind::F64),
+/// The kinds of numbers, with the names of the format and those that tell their size.
+const KINDS: [(&str, &str, Kind); 8] = [
+    ("char", "int8", Kind::I8),
+    ("uchar", "uint8", Kind::U8),
+    ("short", "int16", Kind::I16),
+    ("ushort", "uint16", Kind::U16),
+    ("int", "int32", Kind::I32),
+    ("uint", "uint32", Kind::U32),
+    ("float", "float32", Kind::F32),
+    ("double", "float64", Kind::F64),
 ];

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::columns::{Plan, RadiusSource, Slot};
 use super::element;
-use super::error::{LineFault, TableError, TableFault};
+use super::error::{TableError, TableFault};
 use super::lines::{Lines, without_return};
 use super::request::Coloring;
 use super::rows::{Numbers, Rows};
@@ -66,8 +66,8 @@ pub(crate) fn read(
             if is_enough {
                 break;
             }
-            if let Some((line, fault)) = piece.fault {
-                return Err(fault.at(number + piece.lines, &line).into());
+            if let Some(fault) = piece.fault {
+                return Err(fault.lower(number).into());
             }
             number += piece.lines;
         }
@@ -113,8 +113,8 @@ struct Piece {
     rows: Rows,
     /// Lines that were looked at, the one with the fault included.
     lines: u64,
-    /// The first fault, and its line.
-    fault: Option<(Vec<u8>, LineFault)>,
+    /// The first fault, by the line in the piece.
+    fault: Option<TableFault>,
 }
 
 fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece {
@@ -130,54 +130,62 @@ fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece 
         if skips_empty && line.trim_ascii().is_empty() {
             continue;
         }
-        if let Err(fault) = read_line(line, plan, form, &mut piece.rows) {
-            piece.fault = Some((line.to_vec(), fault));
+        piece.fault = read_line(line, piece.lines, plan, form, &mut piece.rows).err();
+        if piece.fault.is_some() {
             break;
         }
     }
     piece
 }
 
+/// Reads the row in the line with this number.
 #[inline(always)]
-fn read_line(line: &[u8], plan: &Plan, form: Form, rows: &mut Rows) -> Result<(), LineFault> {
+fn read_line(
+    line: &[u8],
+    number: u64,
+    plan: &Plan,
+    form: Form,
+    rows: &mut Rows,
+) -> Result<(), TableFault> {
+    let refused = |span: Range<usize>, expected: &str| {
+        Err(TableFault::expected(number, line, span, expected))
+    };
     let mut numbers: Numbers = [0.0; Slot::COUNT];
     let (mut atom, mut symbol) = (0, 0..0);
     let mut fields = Fields::new(line, form.separator);
     for (column, slot) in plan.slots.iter().enumerate() {
         let Some(field) = fields.next() else {
             let end = line.trim_ascii_end().len();
-            let expected = plan.expected(column, kind(*slot));
-            return Err(LineFault::new(line, end..end, &expected));
+            return refused(end..end, &plan.expected(column, kind(*slot)));
         };
         match slot {
             None => {}
             Some(Slot::Element) => {
                 atom = element::number(&line[field.clone()])
-                    .ok_or_else(|| no_element(line, field.clone(), plan))?;
+                    .ok_or_else(|| no_element(line, number, field.clone(), plan))?;
                 symbol = field;
             }
             Some(slot) => {
-                let number = parse(&line[field.clone()]);
-                let refusal = match number {
-                    Some(number) => slot.refusal(number, plan.is_encoded),
+                let value = parse(&line[field.clone()]);
+                let refusal = match value {
+                    Some(value) => slot.refusal(value, plan.is_encoded),
                     None => Some("a number"),
                 };
                 if let Some(expected) = refusal {
-                    let expected = plan.expected(column, expected);
-                    return Err(LineFault::new(line, field, &expected));
+                    return refused(field, &plan.expected(column, expected));
                 }
-                numbers[*slot as usize] = number.unwrap_or_default();
+                numbers[*slot as usize] = value.unwrap_or_default();
             }
         }
     }
     if !form.may_be_longer
         && let Some(field) = fields.next()
     {
-        let expected = format!("the end of the line after {} columns", plan.slots.len());
-        return Err(LineFault::new(line, field, &expected));
+        let count = plan.slots.len();
+        return refused(field, &format!("the end of the line after {count} columns"));
     }
-    rows.push(plan, &numbers, atom)
-        .map_err(|expected| LineFault::new(line, symbol, expected))
+    let pushed = rows.push(plan, &numbers, atom);
+    pushed.or_else(|expected| refused(symbol, expected))
 }
 
 /// The contents of a column, for messages.
@@ -189,12 +197,13 @@ fn kind(slot: Option<Slot>) -> &'static str {
     }
 }
 
+/// The fault where a field is no element.
 #[cold]
-fn no_element(line: &[u8], field: Range<usize>, plan: &Plan) -> LineFault {
+fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> TableFault {
     let text = String::from_utf8_lossy(&line[field.clone()]).into_owned();
-    let mut fault = LineFault::new(line, field, "the symbol of an element");
-    match element::suggestion(&text) {
-        Some(symbol) => fault.message += &format!(", did you mean {}?", show(symbol)),
+    let mut fault = TableFault::expected(number, line, field, "the symbol of an element");
+    fault.message += &match element::suggestion(&text) {
+        Some(symbol) => format!(", did you mean {}?", show(symbol)),
         None => {
             let mut instead = Vec::new();
             if matches!(plan.radius, RadiusSource::Element(_)) {
@@ -203,9 +212,9 @@ fn no_element(line: &[u8], field: Range<usize>, plan: &Plan) -> LineFault {
             if plan.coloring == Coloring::Element {
                 instead.push("`color: Material`");
             }
-            fault.message += &format!(" (with {} none is needed)", instead.join(" and "));
+            format!(" (with {} none is needed)", instead.join(" and "))
         }
-    }
+    };
     fault
 }
 
@@ -245,17 +254,14 @@ impl<'line> Fields<'line> {
 
     #[inline(always)]
     fn next_word(&mut self) -> Option<Range<usize>> {
-        let is_space = |byte: u8| byte == b' ' || byte == b'\t';
-        let mut start = self.at;
-        while is_space(*self.line.get(start)?) {
-            start += 1;
-        }
-        let mut end = start;
-        while end < self.line.len() && !is_space(self.line[end]) {
-            end += 1;
-        }
-        self.at = end;
-        Some(start..end)
+        let is_space = |byte: &u8| *byte == b' ' || *byte == b'\t';
+        let rest = &self.line[self.at..];
+        let start = rest.iter().position(|byte| !is_space(byte))?;
+        let length = rest[start..].iter().position(is_space);
+        let word =
+            self.at + start..length.map_or(self.line.len(), |length| self.at + start + length);
+        self.at = word.end;
+        Some(word)
     }
 
     #[inline(always)]
@@ -272,21 +278,18 @@ impl<'line> Fields<'line> {
         }
         self.is_at_end = end == self.line.len();
         self.at = end + 1;
-        let (mut start, mut end) = trimmed(self.line, start, end);
-        if end >= start + 2 && self.line[start] == b'"' && self.line[end - 1] == b'"' {
-            (start, end) = trimmed(self.line, start + 1, end - 1);
+        let field = trimmed(self.line, start..end);
+        match self.line[field.clone()] {
+            [b'"', .., b'"'] => Some(trimmed(self.line, field.start + 1..field.end - 1)),
+            _ => Some(field),
         }
-        Some(start..end)
     }
 }
 
+/// The part of the line without the spaces around it.
 #[inline(always)]
-fn trimmed(line: &[u8], mut start: usize, mut end: usize) -> (usize, usize) {
-    while start < end && line[start].is_ascii_whitespace() {
-        start += 1;
-    }
-    while start < end && line[end - 1].is_ascii_whitespace() {
-        end -= 1;
-    }
-    (start, end)
+fn trimmed(line: &[u8], part: Range<usize>) -> Range<usize> {
+    let end = part.start + line[part.clone()].trim_ascii_end().len();
+    let rest = line[part.start..end].trim_ascii_start();
+    end - rest.len()..end
 }

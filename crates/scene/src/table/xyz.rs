@@ -4,7 +4,7 @@
 //! they are the element and its place, and what follows is passed over.
 
 use super::columns::{Plan, components};
-use super::error::{LineFault, TableError, TableFault};
+use super::error::{TableError, TableFault};
 use super::lines::Lines;
 use super::request::Request;
 use super::rows::Rows;
@@ -18,11 +18,11 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let count = count(&mut lines)?;
     let comment = lines.next()?.map(<[u8]>::to_vec);
     let comment = comment.ok_or_else(|| TableFault::at_end(2, "a comment"))?;
-    let columns = columns(&comment).map_err(|fault| fault.at(2, &comment))?;
+    let columns = columns(&comment)?;
     let is_extended = columns.is_some();
     let columns = columns.unwrap_or_else(|| ["element", "x", "y", "z"].map(String::from).into());
     let plan = Plan::new(columns, request, |_| false)
-        .map_err(|message| TableFault::in_line(2, &comment, message))?;
+        .map_err(|message| TableFault::in_line(2, &comment, 0..comment.len(), message))?;
     let form = Form {
         separator: None,
         may_be_longer: !is_extended,
@@ -46,14 +46,12 @@ fn count(lines: &mut Lines<'_>) -> Result<u64, TableError> {
     let number = str::from_utf8(text).ok().and_then(|text| text.parse().ok());
     number.ok_or_else(|| {
         let start = line.len() - line.trim_ascii_start().len();
-        LineFault::new(line, start..start + text.len(), expected)
-            .at(1, line)
-            .into()
+        TableFault::expected(1, line, start..start + text.len(), expected).into()
     })
 }
 
 /// The names of the columns that an extended comment lists.
-fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LineFault> {
+fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, TableFault> {
     const KEY: &[u8] = b"Properties=";
     let mut parts = comment.windows(KEY.len());
     let Some(key) = parts.position(|part| part.eq_ignore_ascii_case(KEY)) else {
@@ -78,7 +76,7 @@ fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LineFault> {
         let Some(count) = count else {
             let expected = "expected properties `name:type:columns`, of type S, R, I or L";
             let message = format!("{expected}, found {}", show(&property.join(":")));
-            return Err(LineFault { span, message });
+            return Err(TableFault::in_line(2, comment, span, message));
         };
         names.extend(match (property[0], count) {
             // The atomic number, beside a species.

@@ -1,8 +1,10 @@
-//! Where the tokens of a text in RON lie.
+//! The places of the tokens of a text in RON.
 //!
 //! Values are read by `ron`; this module only finds places for messages: the value behind a
 //! comment, the token at which a fault lies, the bracket that nobody closed. Any text will do,
 //! valid or not, and every step is linear in what it passes over.
+
+use std::ops::Range;
 
 /// The first place at or after `from` that is neither white space nor in a comment.
 pub(crate) fn skip_trivia(text: &str, from: usize) -> usize {
@@ -38,21 +40,30 @@ pub(crate) fn token_end(text: &str, start: usize) -> usize {
     start + prefix + word.find(|c| !is_word(c)).unwrap_or(word.len())
 }
 
+/// The tokens at and after `from`.
+fn tokens(text: &str, from: usize) -> impl Iterator<Item = Range<usize>> {
+    let mut end = from;
+    std::iter::from_fn(move || {
+        let start = skip_trivia(text, end);
+        end = token_end(text, start);
+        (start < end).then_some(start..end)
+    })
+}
+
 /// The end of the value that starts at `start`: a token, and the brackets that belong to it.
-pub(crate) fn value_end(text: &str, start: usize) -> usize {
+pub(super) fn value_end(text: &str, start: usize) -> usize {
     let mut depth = 0_usize;
     let mut end = start;
-    let mut at = start;
-    while at < text.len() {
-        match text.as_bytes()[at] {
+    let mut tokens = tokens(text, start).peekable();
+    while let Some(token) = tokens.next() {
+        match text.as_bytes()[token.start] {
             b'(' | b'[' | b'{' => depth += 1,
             b')' | b']' | b'}' => depth = depth.saturating_sub(1),
             _ => {}
         }
-        end = token_end(text, at);
-        at = skip_trivia(text, end);
-        let opens = text[at..].starts_with('(');
-        if depth == 0 && !opens {
+        end = token.end;
+        let opens = |next: &Range<usize>| text[next.start..].starts_with('(');
+        if depth == 0 && !tokens.peek().is_some_and(opens) {
             break;
         }
     }
@@ -60,45 +71,25 @@ pub(crate) fn value_end(text: &str, start: usize) -> usize {
 }
 
 /// The start of the token that holds `offset`, or the first after it.
-pub(crate) fn token_start(text: &str, offset: usize) -> usize {
-    let mut at = skip_trivia(text, 0);
-    while at < text.len() {
-        let end = token_end(text, at);
-        if end > offset {
-            break;
-        }
-        at = skip_trivia(text, end);
-    }
-    at
+pub(super) fn token_start(text: &str, offset: usize) -> usize {
+    let token = tokens(text, 0).find(|token| token.end > offset);
+    token.map_or(text.len(), |token| token.start)
 }
 
 /// The last token that starts before `offset`.
-pub(crate) fn last_token(text: &str, offset: usize) -> std::ops::Range<usize> {
-    let mut last = 0..0;
-    let mut at = skip_trivia(text, 0);
-    while at < offset {
-        let end = token_end(text, at);
-        last = at..end;
-        at = skip_trivia(text, end);
-    }
-    last
+pub(super) fn last_token(text: &str, offset: usize) -> Range<usize> {
+    let before = tokens(text, 0).take_while(|token| token.start < offset);
+    before.last().unwrap_or(0..0)
 }
 
 /// The name of the field whose value starts at `value`, in the structure that starts at `start`.
-pub(crate) fn field_name(text: &str, start: usize, value: usize) -> std::ops::Range<usize> {
-    let mut name = start..start;
-    let mut at = start;
-    while at < value {
-        let end = token_end(text, at);
-        if text[at..].starts_with(is_word) {
-            name = at..end;
-        }
-        at = skip_trivia(text, end);
-    }
-    name
+pub(crate) fn field_name(text: &str, start: usize, value: usize) -> Range<usize> {
+    let before = tokens(text, start).take_while(|token| token.start < value);
+    let words = before.filter(|token| text[token.start..].starts_with(is_word));
+    words.last().unwrap_or(start..start)
 }
 
-/// What a text opens and does not close.
+/// The start of something that a text opens and does not close.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Unclosed {
     /// The innermost bracket.
@@ -109,46 +100,31 @@ pub(crate) enum Unclosed {
     Comment(usize),
 }
 
-/// What the text opens and does not close, if anything.
+/// The string, comment or bracket that the text opens and does not close, if any.
 pub(crate) fn unclosed(text: &str) -> Option<Unclosed> {
     let mut open = Vec::new();
     let mut end = 0;
-    loop {
-        let at = skip_trivia(text, end);
-        if at == text.len() {
-            let comment = unclosed_comment(text, end).map(Unclosed::Comment);
-            return comment.or(open.pop().map(Unclosed::Bracket));
-        }
-        let rest = &text[at..];
+    for token in tokens(text, 0) {
+        let rest = &text[token.start..];
         match rest.as_bytes()[0] {
-            b'(' | b'[' | b'{' => open.push(at),
+            b'(' | b'[' | b'{' => open.push(token.start),
             b')' | b']' | b'}' => {
                 open.pop();
             }
             _ => {}
         }
         if string_length(rest).is_some_and(|length| length > rest.len()) {
-            return Some(Unclosed::String(at));
+            return Some(Unclosed::String(token.start));
         }
-        end = token_end(text, at);
+        end = token.end;
     }
+    let comment = unclosed_comment(text, end).map(Unclosed::Comment);
+    comment.or(open.pop().map(Unclosed::Bracket))
 }
 
 /// White space as `ron` has it.
-pub(crate) fn is_white_space(c: char) -> bool {
-    matches!(
-        c,
-        ' ' | '\t'
-            | '\n'
-            | '\r'
-            | '\x0B'
-            | '\x0C'
-            | '\u{85}'
-            | '\u{200E}'
-            | '\u{200F}'
-            | '\u{2028}'
-            | '\u{2029}'
-    )
+pub(super) fn is_white_space(c: char) -> bool {
+    matches!(c, '\t'..='\r' | ' ' | '\u{85}' | '\u{200E}'..='\u{200F}' | '\u{2028}'..='\u{2029}')
 }
 
 /// Characters of names and numbers.
