@@ -113,7 +113,7 @@ pub(crate) struct Rough {
     pub(crate) seed: Placed<Seed>,
 }
 
-/// What the numbers of a rough surface are attached to.
+/// The thing to which the numbers of a rough surface are attached.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Grain {

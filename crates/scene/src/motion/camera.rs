@@ -98,7 +98,7 @@ impl CameraMotion {
         turntable.map_or(frame, |turntable| turntable.looped(frame))
     }
 
-    /// Whether some key is at this frame.
+    /// Returns whether some key is at this frame.
     pub(super) fn has_key_at(&self, frame: i32) -> bool {
         let has_key = |timing: &Timing| timing.key_frames.binary_search(&frame).is_ok();
         self.timing.as_ref().is_some_and(has_key)

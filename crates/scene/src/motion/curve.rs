@@ -69,7 +69,7 @@ impl Curve {
         Self::new(value, Vec::new())
     }
 
-    /// Whether the value is the same at all times.
+    /// Returns whether the value is the same at all times.
     pub(super) fn is_constant(&self) -> bool {
         let mut pairs = self.keys.windows(2);
         pairs.all(|pair| pair[0].value == pair[1].value)

@@ -49,7 +49,7 @@ impl Turntable {
         }
     }
 
-    /// Whether the frame after the last is the first.
+    /// Returns whether the frame after the last is the first.
     fn loops(&self) -> bool {
         libm::fmod(self.turns, 1.0) == 0.0
     }

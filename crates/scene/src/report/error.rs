@@ -4,10 +4,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::located::{Located, SceneFault, line_and_column};
+use super::located::{SceneFault, line_and_column, locate, message};
 use super::snippet::Style;
-use crate::table::TableFault;
-use crate::text::Fault;
+use crate::text::{Fault, LocatedFault};
 
 /// The reason for which a scene file was refused.
 ///
@@ -39,24 +38,22 @@ impl SceneError {
 
     /// The error of a file that cannot be read.
     pub(crate) fn unreadable(path: &Path, reason: &str) -> Self {
-        let located = [Located::of_whole_file(reason)];
-        let faults = Vec::new();
         Self {
-            faults,
-            ..Self::new(path, &located, "")
+            faults: Vec::new(),
+            ..Self::new(path, &[LocatedFault::of_file(reason)], "")
         }
     }
 
     /// The error of a table at `path` that a scene file names in its text at `place`.
     pub(crate) fn in_table(
         path: &Path,
-        fault: &TableFault,
+        fault: LocatedFault,
         (scene, text, place): (&Path, &str, &Range<usize>),
     ) -> Self {
         let (line, column) = line_and_column(text, place.start);
         let scene = scene.display();
         let end = format!("\nthe table is named at {scene}:{line}:{column}");
-        Self::new(path, &[Located::in_table(fault)], &end)
+        Self::new(path, &[fault], &end)
     }
 
     /// The error of a file in which something is wrong.
@@ -71,21 +68,21 @@ impl SceneError {
             untold => format!("\n\nand {untold} more faults"),
         };
         let told = faults.into_iter().take(MOST_FAULTS);
-        let located: Vec<_> = told.map(|fault| Located::in_scene(text, fault)).collect();
-        Self::new(path, &located, &end)
+        let faults: Vec<_> = told.map(|fault| locate(text, fault)).collect();
+        Self::new(path, &faults, &end)
     }
 
     /// The error of these faults; `end` follows their messages.
-    fn new(path: &Path, located: &[Located<'_>], end: &str) -> Self {
-        let message = |style: Style| {
-            let parts = located.iter().map(|fault| fault.message(path, style));
+    fn new(path: &Path, faults: &[LocatedFault], end: &str) -> Self {
+        let all = |style: Style| {
+            let parts = faults.iter().map(|fault| message(path, fault, style));
             parts.collect::<Vec<_>>().join("\n\n") + end
         };
         Self {
             path: path.to_path_buf(),
-            plain: message(Style::Plain),
-            styled: message(Style::Styled),
-            faults: located.iter().map(Located::to_fault).collect(),
+            plain: all(Style::Plain),
+            styled: all(Style::Styled),
+            faults: faults.iter().map(SceneFault::new).collect(),
         }
     }
 }

@@ -4,9 +4,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use super::snippet::{Style, bold, snippet};
-use crate::table::{TableFault, TablePlace};
 use crate::text::token::{self, Unclosed};
-use crate::text::{Fault, show};
+use crate::text::{Fault, LocatedFault, Place, show};
 
 /// A fault at a place in a file.
 #[derive(Clone, Debug, Eq, PartialEq)]
@@ -19,104 +18,70 @@ pub struct SceneFault {
     pub message: String,
 }
 
-/// A fault with its line and column.
-pub(super) struct Located<'t> {
-    position: Position,
-    message: String,
-    /// The text and the place in it, where there is something to see.
-    source: Option<(&'t str, Range<usize>)>,
-}
-
-/// A place in a file, as a message says it.
-#[derive(Clone, Copy, Debug)]
-enum Position {
-    /// Line and column.
-    Line(u64, usize),
-    /// A value in a binary table.
-    Row { row: u64, column: usize, byte: u64 },
-    /// The file as a whole.
-    File,
-}
-
-impl<'t> Located<'t> {
-    /// A fault of a file as a whole.
-    pub(super) fn of_whole_file(message: &str) -> Self {
-        Self {
-            position: Position::File,
-            message: message.to_owned(),
-            source: None,
-        }
-    }
-
-    /// A fault in the text of a scene file.
-    pub(super) fn in_scene(text: &'t str, fault: Fault) -> Self {
-        let (place, message) = match fault.found_is_open {
-            true => with_found(text, fault),
-            false => (fault.place, fault.message),
-        };
-        let (line, column) = line_and_column(text, place.start);
-        Self {
-            position: Position::Line(line as u64, column),
-            message,
-            source: Some((text, place)),
-        }
-    }
-
-    /// A fault in a table.
-    pub(super) fn in_table(fault: &'t TableFault) -> Self {
-        let (position, source) = match &fault.place {
-            TablePlace::Text { line, text, span } => {
-                let (_, column) = line_and_column(text, span.start);
-                let source = (&text[..], span.clone());
-                (Position::Line(*line, column), Some(source))
-            }
-            &TablePlace::Row { row, column, byte } => (Position::Row { row, column, byte }, None),
-            TablePlace::Header => (Position::File, None),
-        };
-        Self {
-            position,
-            message: fault.message.clone(),
-            source,
-        }
-    }
-
+impl SceneFault {
     /// The fault as programs see it.
-    pub(super) fn to_fault(&self) -> SceneFault {
-        let (line, column) = match self.position {
-            Position::Line(line, column) => (line, column),
-            Position::Row { row, column, .. } => (row, column),
-            Position::File => (1, 1),
+    pub(super) fn new(fault: &LocatedFault) -> Self {
+        let (line, column) = match fault.place {
+            Place::Text {
+                line,
+                ref text,
+                ref span,
+            } => (line, text[..span.start].chars().count() + 1),
+            Place::Row { row, column, .. } => (row, column),
+            Place::File => (1, 1),
         };
-        SceneFault {
+        Self {
             line: usize::try_from(line).unwrap_or(usize::MAX),
             column,
-            message: self.message.clone(),
+            message: fault.message.clone(),
         }
     }
+}
 
-    /// The message about this fault in the file at `path`: its place, the fault, and the line.
-    pub(super) fn message(&self, path: &Path, style: Style) -> String {
-        let path = path.display();
-        let place = match self.position {
-            Position::Line(line, column) => format!("{path}:{line}:{column}:"),
-            Position::Row { row, column, byte } => {
-                format!("{path}: row {row}, column {column}, byte {byte}:")
-            }
-            Position::File => format!("{path}:"),
-        };
-        let header = format!("{} {}", bold(&place, style), self.message);
-        let line = self.to_fault().line;
-        let source = self.source.as_ref();
-        match source.and_then(|(text, place)| snippet(text, place.clone(), line, style)) {
-            Some(snippet) => format!("{header}\n{snippet}"),
-            None => header,
-        }
+/// The message about a fault in the file at `path`: its place, the fault, and the line.
+pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style) -> String {
+    let SceneFault {
+        line,
+        column,
+        message,
+    } = SceneFault::new(fault);
+    let path = path.display();
+    let (place, snippet) = match &fault.place {
+        Place::Text { text, span, .. } => (
+            format!("{path}:{line}:{column}:"),
+            snippet(text, span.clone(), line, style),
+        ),
+        Place::Row { byte, .. } => (
+            format!("{path}: row {line}, column {column}, byte {byte}:"),
+            None,
+        ),
+        Place::File => (format!("{path}:"), None),
+    };
+    let header = format!("{} {message}", bold(&place, style));
+    match snippet {
+        Some(snippet) => format!("{header}\n{snippet}"),
+        None => header,
     }
+}
+
+/// A fault of the text of a scene file at its line.
+pub(super) fn locate(text: &str, fault: Fault) -> LocatedFault {
+    let (place, message) = match fault.found_is_open {
+        true => with_found(text, fault),
+        false => (fault.place, fault.message),
+    };
+    let (line, _) = line_and_column(text, place.start);
+    let (before, after) = text.split_at(place.start);
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let end = after.find(['\n', '\r']);
+    let end = end.map_or(text.len(), |end| place.start + end);
+    let span = place.start - start..place.end.min(end) - start;
+    LocatedFault::in_line(line as u64, &text.as_bytes()[start..end], span, message)
 }
 
 /// The place and the message of a fault that still lacks what was found.
 ///
-/// Where the text ends before its time, what was left open is more telling than the end.
+/// If the text ends before its time, the thing left open is more telling than the end.
 fn with_found(text: &str, fault: Fault) -> (Range<usize>, String) {
     const END: &str = "found the end of the file";
     let at = token::skip_trivia(text, fault.place.start);

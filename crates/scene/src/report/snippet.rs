@@ -23,7 +23,7 @@ pub(super) fn bold(text: &str, style: Style) -> String {
     }
 }
 
-/// The line of the text with the place underlined; `None` where there is nothing to see.
+/// The line of this number with the place underlined; `None` where there is nothing to see.
 pub(super) fn snippet(
     text: &str,
     place: Range<usize>,
@@ -35,10 +35,9 @@ pub(super) fn snippet(
     const AFTER: usize = 70;
     const WIDER_THAN_THE_WINDOW: usize = 1000;
     let (before, after) = text.split_at(place.start);
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let line_end = after.find(['\n', '\r']).unwrap_or(after.len());
-    let mut characters = before[line_start..].char_indices().rev();
-    let start = characters.nth(BEFORE).map_or(0, |(at, _)| at) + line_start;
+    let mut characters = before.char_indices().rev();
+    let start = characters.nth(BEFORE).map_or(0, |(at, _)| at);
     let mut characters = after[..line_end].char_indices();
     let end = characters.nth(AFTER).map_or(line_end, |(at, _)| at);
     let (before, after) = (&before[start..], &after[..end]);
@@ -46,7 +45,7 @@ pub(super) fn snippet(
         return None;
     }
     let cut = |is_cut: bool| if is_cut { "…" } else { "" };
-    let (opening, closing) = (cut(start > line_start), cut(end < line_end));
+    let (opening, closing) = (cut(start > 0), cut(end < line_end));
     let source = format!("{opening}{before}{after}{closing}");
     let shown_start = opening.len() + before.len();
     let shown = shown_start..shown_start + place.len().min(end);

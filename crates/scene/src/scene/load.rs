@@ -150,7 +150,7 @@ impl Draft {
             let spheres = spheres.map_err(|error| match error {
                 CloudError::Scene(fault) => SceneError::refused(path, text, vec![fault]),
                 CloudError::Table(table, fault) => {
-                    SceneError::in_table(&table, &fault, (path, text, &cloud.place))
+                    SceneError::in_table(&table, fault, (path, text, &cloud.place))
                 }
             })?;
             let file = PathBuf::from(&cloud.name);

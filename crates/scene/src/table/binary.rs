@@ -6,9 +6,10 @@ use std::io::{ErrorKind, Read, Seek, SeekFrom};
 use rayon::prelude::*;
 
 use super::columns::{Plan, Slot};
-use super::error::{TableError, TableFault, TablePlace};
+use super::error::TableError;
 use super::rows::{Numbers, Rows};
 use super::source::Source;
+use crate::text::{LocatedFault, Place};
 
 /// Declares the kinds of numbers.
 macro_rules! kinds {
@@ -63,7 +64,7 @@ pub(crate) struct Layout {
     pub(crate) rows: u64,
     /// The way in which each column is stored.
     pub(crate) kinds: Vec<Kind>,
-    /// Whether all values of a column lie side by side, instead of those of a row; all of one size.
+    /// All values of a column lie side by side, instead of those of a row; all have one size.
     pub(crate) is_by_column: bool,
     /// The noun for rows in messages.
     pub(crate) noun: &'static str,
@@ -84,26 +85,26 @@ impl Layout {
     }
 
     /// Refuses a table that cannot be read from a file of this size.
-    fn check(&self, plan: &Plan, file: &Metadata) -> Result<(), TableFault> {
+    fn check(&self, plan: &Plan, file: &Metadata) -> Result<(), LocatedFault> {
         let stride = self.stride();
         let behind = file.len().saturating_sub(self.start);
         let needed = self.rows.checked_mul(stride);
         let is_short = needed.is_none_or(|needed| needed > behind);
         if is_short && (file.is_file() || needed.is_none()) {
             let message = format!("{}, found {behind}", self.expected());
-            return Err(TableFault::in_header(message));
+            return Err(LocatedFault::of_file(message));
         }
         for (column, (slot, kind)) in plan.slots.iter().zip(&self.kinds).enumerate() {
             if slot.is_some() && matches!(kind, Kind::Other(_)) {
                 let name = &plan.names[column];
-                return Err(TableFault::in_header(format!(
+                return Err(LocatedFault::of_file(format!(
                     "expected numbers in the column `{name}`, found something else"
                 )));
             }
         }
         if stride > BLOCK {
             let message = format!("expected rows of at most {BLOCK} bytes, found {stride}");
-            return Err(TableFault::in_header(message));
+            return Err(LocatedFault::of_file(message));
         }
         Ok(())
     }
@@ -135,7 +136,7 @@ pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result
         };
         read.map_err(|error| match error.kind() {
             ErrorKind::UnexpectedEof => {
-                TableFault::in_header(format!("{}, found fewer", layout.expected())).into()
+                LocatedFault::of_file(format!("{}, found fewer", layout.expected())).into()
             }
             _ => TableError::from(error),
         })?;
@@ -258,7 +259,7 @@ impl Block<'_> {
 
     /// Something else was expected than this number.
     #[cold]
-    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> TableFault {
+    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> LocatedFault {
         let layout = self.layout;
         let row = self.first + row as u64;
         let before: u64 = layout.kinds[..column].iter().map(|kind| kind.size()).sum();
@@ -267,8 +268,8 @@ impl Block<'_> {
         } else {
             row * self.stride + before
         };
-        TableFault {
-            place: TablePlace::Row {
+        LocatedFault {
+            place: Place::Row {
                 row: row + 1,
                 column: column + 1,
                 byte: layout.start + byte,

@@ -84,7 +84,7 @@ pub(crate) struct Plan {
     pub(crate) coloring: Coloring,
     /// The purpose of the column whose numbers a colormap turns into colors.
     pub(crate) value: Slot,
-    /// Whether colors are sRGB values from 0 to 255.
+    /// Colors are sRGB values from 0 to 255.
     pub(crate) is_encoded: bool,
     /// The linear values of these.
     linear: Vec<f32>,

@@ -2,8 +2,9 @@
 
 use std::io::{ErrorKind, Read};
 
-use super::error::{TableError, TableFault};
+use super::error::TableError;
 use super::source::Source;
+use crate::text::LocatedFault;
 
 /// The part of a file that is held at a time, in bytes.
 const BLOCK: usize = 4 << 20;
@@ -125,7 +126,7 @@ impl<'watch> Lines<'watch> {
         let start = &self.buffer[self.start..self.end];
         let shown = &start[..start.len().min(SHOWN)];
         let message = String::from("expected a line of at most 1 MiB, found a longer one");
-        TableFault::in_line(self.number + 1, shown, 0..shown.len(), message).into()
+        LocatedFault::in_line(self.number + 1, shown, 0..shown.len(), message).into()
     }
 }
 

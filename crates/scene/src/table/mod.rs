@@ -24,7 +24,7 @@ mod xyz;
 
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use element::{Radii, colors as element_colors};
-pub(crate) use error::{TableError, TableFault, TablePlace};
+pub(crate) use error::TableError;
 pub(crate) use format::{ENDINGS, read};
 pub(crate) use paint::Paint;
 pub(crate) use request::{Coloring, Request};

@@ -8,12 +8,12 @@ use std::io::Read;
 
 use super::binary::{self, Kind, Layout};
 use super::columns::{Plan, components};
-use super::error::{TableError, TableFault};
+use super::error::TableError;
 use super::python::Literal;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
-use crate::text::show;
+use crate::text::{LocatedFault, show};
 
 const MAGIC: &[u8] = b"\x93NUMPY";
 /// The longest header that is read, in bytes.
@@ -40,7 +40,7 @@ pub(crate) fn read(mut file: Source<'_>, request: &Request) -> Result<Rows, Tabl
         _ => return Err(fault("a type", "none").into()),
     };
     let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
-    let plan = Plan::new(names, request, is_byte).map_err(TableFault::in_header)?;
+    let plan = Plan::new(names, request, is_byte).map_err(LocatedFault::of_file)?;
     let layout = Layout {
         start,
         rows,
@@ -90,7 +90,7 @@ fn header(file: &mut Source<'_>) -> Result<(u64, String), TableError> {
 type Columns = (u64, Vec<String>, Vec<Kind>);
 
 /// The columns of an array of numbers.
-fn plain(kind: &str, shape: &[Literal]) -> Result<Columns, TableFault> {
+fn plain(kind: &str, shape: &[Literal]) -> Result<Columns, LocatedFault> {
     const ALL: [&str; 7] = ["x", "y", "z", "radius", "red", "green", "blue"];
     let (rows, names) = match *shape {
         [Literal::Whole(rows), Literal::Whole(3)] => (rows, &ALL[..3]),
@@ -120,7 +120,7 @@ fn plain(kind: &str, shape: &[Literal]) -> Result<Columns, TableFault> {
 }
 
 /// The columns of an array of records.
-fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, TableFault> {
+fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, LocatedFault> {
     let [Literal::Whole(rows)] = *shape else {
         return Err(fault("records in an array of one dimension", "more"));
     };
@@ -150,7 +150,7 @@ fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, TableFault>
 }
 
 /// The number of values in a field of this shape.
-fn count(name: &str, shape: &[Literal]) -> Result<u64, TableFault> {
+fn count(name: &str, shape: &[Literal]) -> Result<u64, LocatedFault> {
     const MOST_VALUES: u64 = 1000;
     let count = shape.iter().try_fold(1_u64, |all, size| match size {
         Literal::Whole(size) => all.checked_mul(*size),
@@ -162,12 +162,12 @@ fn count(name: &str, shape: &[Literal]) -> Result<u64, TableFault> {
     })
 }
 
-fn no_field() -> TableFault {
+fn no_field() -> LocatedFault {
     fault("fields `(name, type)`", "something else")
 }
 
 /// The type of a field.
-fn kind(text: &str) -> Result<Kind, TableFault> {
+fn kind(text: &str) -> Result<Kind, LocatedFault> {
     let characters = |digits: &str, size: u64| {
         let count: u64 = digits.parse().ok()?;
         count.checked_mul(size).map(Kind::Other)
@@ -200,6 +200,6 @@ fn kind(text: &str) -> Result<Kind, TableFault> {
     })
 }
 
-fn fault(expected: &str, found: impl Display) -> TableFault {
-    TableFault::in_header(format!("expected {expected}, found {found}"))
+fn fault(expected: &str, found: impl Display) -> LocatedFault {
+    LocatedFault::of_file(format!("expected {expected}, found {found}"))
 }

@@ -5,15 +5,17 @@
 //! # Source
 //! Greg Turk, "The PLY Polygon File Format", 1994.
 
+use std::ops::Range;
+
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
-use super::error::{TableError, TableFault};
+use super::error::TableError;
 use super::lines::Lines;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Form};
-use crate::text::either;
+use crate::text::{LocatedFault, either};
 
 /// The contents of a header.
 struct Header {
@@ -30,7 +32,7 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let kinds = &header.kinds;
     let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
     let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
-        TableFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
+        LocatedFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
     })?;
     if !header.is_text {
         let layout = Layout {
@@ -67,11 +69,11 @@ fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
         let number = lines.number + 1;
         let Some(line) = lines.next()? else {
             let expected = if number == 1 { "`ply`" } else { "`end_header`" };
-            return Err(TableFault::at_end(number, expected).into());
+            return Err(LocatedFault::at_end(number, expected).into());
         };
         let refuse = |part: usize, expected: &str| {
             let span = word(line, part);
-            Err(TableFault::expected(number, line, span, expected).into())
+            Err(LocatedFault::expected(number, line, span, expected).into())
         };
         let text = String::from_utf8_lossy(line).into_owned();
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
@@ -130,7 +132,7 @@ fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
 }
 
 /// The place of a word in a line; its end if there are fewer.
-fn word(line: &[u8], number: usize) -> std::ops::Range<usize> {
+fn word(line: &[u8], number: usize) -> Range<usize> {
     let mut fields = text::Fields::new(line, None);
     for _ in 0..number {
         fields.next();

@@ -15,7 +15,7 @@ pub(crate) struct Request {
     pub(crate) coloring: Option<Coloring>,
     /// The column of the numbers that a colormap turns into colors.
     pub(crate) value: Option<String>,
-    /// Whether the colors of elements are to be left out unless they are asked for.
+    /// The colors of elements are left out unless they are asked for.
     pub(crate) has_material: bool,
 }
 

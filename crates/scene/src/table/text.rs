@@ -6,18 +6,18 @@ use rayon::prelude::*;
 
 use super::columns::{Plan, RadiusSource, Slot};
 use super::element;
-use super::error::{TableError, TableFault};
+use super::error::TableError;
 use super::lines::{Lines, without_return};
 use super::request::Coloring;
 use super::rows::{Numbers, Rows};
-use crate::text::show;
+use crate::text::{LocatedFault, show};
 
 /// The division of lines into fields.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     /// The byte between fields; `None` for any spaces and tabs.
     pub(crate) separator: Option<u8>,
-    /// Whether lines may have more fields than there are columns.
+    /// Lines may have more fields than there are columns.
     pub(crate) may_be_longer: bool,
 }
 
@@ -88,7 +88,7 @@ pub(crate) fn read_count(
     let found = rows.len();
     if (found as u64) < count {
         let expected = format!("{count} {noun}, and after {found} of them another");
-        return Err(TableFault::at_end(lines.number + 1, &expected).into());
+        return Err(LocatedFault::at_end(lines.number + 1, &expected).into());
     }
     Ok(rows)
 }
@@ -114,7 +114,7 @@ struct Piece {
     /// Lines that were looked at, the one with the fault included.
     lines: u64,
     /// The first fault, by the line in the piece.
-    fault: Option<TableFault>,
+    fault: Option<LocatedFault>,
 }
 
 fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece {
@@ -146,9 +146,9 @@ fn read_line(
     plan: &Plan,
     form: Form,
     rows: &mut Rows,
-) -> Result<(), TableFault> {
+) -> Result<(), LocatedFault> {
     let refused = |span: Range<usize>, expected: &str| {
-        Err(TableFault::expected(number, line, span, expected))
+        Err(LocatedFault::expected(number, line, span, expected))
     };
     let mut numbers: Numbers = [0.0; Slot::COUNT];
     let (mut atom, mut symbol) = (0, 0..0);
@@ -199,9 +199,9 @@ fn kind(slot: Option<Slot>) -> &'static str {
 
 /// The fault where a field is no element.
 #[cold]
-fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> TableFault {
+fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> LocatedFault {
     let text = String::from_utf8_lossy(&line[field.clone()]).into_owned();
-    let mut fault = TableFault::expected(number, line, field, "the symbol of an element");
+    let mut fault = LocatedFault::expected(number, line, field, "the symbol of an element");
     fault.message += &match element::suggestion(&text) {
         Some(symbol) => format!(", did you mean {}?", show(symbol)),
         None => {

@@ -4,25 +4,25 @@
 //! they are the element and its place, and what follows is passed over.
 
 use super::columns::{Plan, components};
-use super::error::{TableError, TableFault};
+use super::error::TableError;
 use super::lines::Lines;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Form};
-use crate::text::show;
+use crate::text::{LocatedFault, show};
 
 /// Reads the first frame.
 pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
     let mut lines = Lines::new(file)?;
     let count = count(&mut lines)?;
     let comment = lines.next()?.map(<[u8]>::to_vec);
-    let comment = comment.ok_or_else(|| TableFault::at_end(2, "a comment"))?;
+    let comment = comment.ok_or_else(|| LocatedFault::at_end(2, "a comment"))?;
     let columns = columns(&comment)?;
     let is_extended = columns.is_some();
     let columns = columns.unwrap_or_else(|| ["element", "x", "y", "z"].map(String::from).into());
     let plan = Plan::new(columns, request, |_| false)
-        .map_err(|message| TableFault::in_line(2, &comment, 0..comment.len(), message))?;
+        .map_err(|message| LocatedFault::in_line(2, &comment, 0..comment.len(), message))?;
     let form = Form {
         separator: None,
         may_be_longer: !is_extended,
@@ -40,18 +40,18 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
 fn count(lines: &mut Lines<'_>) -> Result<u64, TableError> {
     let expected = "the number of atoms";
     let Some(line) = lines.next()? else {
-        return Err(TableFault::at_end(1, expected).into());
+        return Err(LocatedFault::at_end(1, expected).into());
     };
     let text = line.trim_ascii();
     let number = str::from_utf8(text).ok().and_then(|text| text.parse().ok());
     number.ok_or_else(|| {
         let start = line.len() - line.trim_ascii_start().len();
-        TableFault::expected(1, line, start..start + text.len(), expected).into()
+        LocatedFault::expected(1, line, start..start + text.len(), expected).into()
     })
 }
 
 /// The names of the columns that an extended comment lists.
-fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, TableFault> {
+fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LocatedFault> {
     const KEY: &[u8] = b"Properties=";
     let mut parts = comment.windows(KEY.len());
     let Some(key) = parts.position(|part| part.eq_ignore_ascii_case(KEY)) else {
@@ -76,7 +76,7 @@ fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, TableFault> {
         let Some(count) = count else {
             let expected = "expected properties `name:type:columns`, of type S, R, I or L";
             let message = format!("{expected}, found {}", show(&property.join(":")));
-            return Err(TableFault::in_line(2, comment, span, message));
+            return Err(LocatedFault::in_line(2, comment, span, message));
         };
         names.extend(match (property[0], count) {
             // The atomic number, beside a species.

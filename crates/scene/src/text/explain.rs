@@ -176,12 +176,12 @@ impl Found<'_> {
     }
 }
 
-/// Whether a value is due behind this text.
+/// Returns whether a value is due behind this text.
 fn is_before_value(text: &str) -> bool {
     text.trim_end().ends_with(':')
 }
 
-/// Whether the text ends with a name, apart from white space.
+/// Returns whether the text ends with a name, apart from white space.
 fn is_end_of_name(text: &str) -> bool {
     text.trim_end().ends_with(|c: char| c.is_alphanumeric())
 }

@@ -14,7 +14,7 @@ pub(crate) struct Fault {
     pub(crate) place: Range<usize>,
     /// The expected thing and, unless `found_is_open`, the found one.
     pub(crate) message: String,
-    /// Whether the message still lacks `, found …`, the token at the place.
+    /// The message still lacks `, found …`, the token at the place.
     pub(crate) found_is_open: bool,
 }
 
@@ -43,7 +43,7 @@ impl Fault {
 struct Reading {
     text_address: usize,
     faults: Vec<Fault>,
-    /// Where reading strictly: the innermost structure in which it failed.
+    /// In the strict manner: the innermost structure in which reading failed.
     strict: Option<Option<Names>>,
 }
 
@@ -85,7 +85,7 @@ pub(super) fn strictly<T>(read: impl FnOnce() -> T) -> (T, Option<Names>) {
     (result, names.flatten())
 }
 
-/// Whether structures are to fail as a whole.
+/// Returns whether structures are to fail as a whole.
 pub(super) fn is_strict() -> bool {
     READING.with_borrow(|reading| reading.strict.is_some())
 }

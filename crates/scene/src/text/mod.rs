@@ -2,6 +2,7 @@
 
 mod explain;
 mod fault;
+mod located;
 mod placed;
 mod raw;
 mod show;
@@ -10,6 +11,7 @@ mod suggest;
 pub(crate) mod token;
 
 pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
+pub(crate) use located::{LocatedFault, Place};
 pub(crate) use placed::{
     Placed, Read, optional, present, read_file, read_simple, read_structure, read_tuple,
 };

@@ -80,7 +80,7 @@ impl<'de, T: Read<'de>> Deserialize<'de> for Placed<T> {
     }
 }
 
-/// What `make` makes of a field that may be left out; `None` where a fault was reported.
+/// The result of `make` for a field that may be left out; `None` where a fault was reported.
 pub(crate) fn optional<T, U>(
     field: &Option<Placed<T>>,
     make: impl FnOnce(&T) -> Option<U>,
@@ -111,7 +111,7 @@ pub(crate) fn read_structure<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Na
 
 /// Reads the whole file.
 ///
-/// Where the syntax is broken, the tolerant way has passed over the surrounding value without
+/// In broken syntax the tolerant way has passed over the surrounding value without
 /// knowing what it should be; the strict way knows, and so says better what was expected.
 pub(crate) fn read_file<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Names) -> Option<T> {
     let error = match parse(slice.text) {

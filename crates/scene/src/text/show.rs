@@ -30,7 +30,7 @@ pub(crate) fn quoted(name: &str) -> String {
     show(&format!("\"{name}\""))
 }
 
-/// Whether a character changes the direction of the text around it.
+/// Returns whether a character changes the direction of the text around it.
 fn turns_text(c: char) -> bool {
     matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

@@ -44,7 +44,7 @@ quantities! {
     FieldOfView(f64): "an angle greater than 0 and less than 180 degrees", |x| x > 0.0 && x < 180.0;
     /// The factor on the retina's distance.
     Zoom(f64): "a zoom greater than 0", |x| x > 0.0, default 1.0;
-    /// How much of the picture is filled by what is framed.
+    /// The part of the picture that a framing camera fills.
     Fill(f64): "a fill greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0, default 0.9;
     /// The factor on the lengths of a table.
     Scale(f64): "a scale greater than 0", |x| x > 0.0, default 1.0;
@@ -62,7 +62,7 @@ quantities! {
     GrainSize(f64): "a grain size greater than 0", |x| x > 0.0;
     /// Frames per second.
     FramesPerSecond(f64): "a number of frames per second greater than 0", |x| x > 0.0, default 24.0;
-    /// How long the shutter is open, in frames.
+    /// The time for which the shutter is open, in frames.
     Shutter(f64): "a shutter greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0;
     /// Turns of a turntable.
     Turns(f64): "a number of turns", |_| true, default 1.0;

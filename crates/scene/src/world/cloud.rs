@@ -10,8 +10,8 @@ use rayon::prelude::*;
 
 use super::placement::{Placement, turn};
 use crate::file;
-use crate::table::{self, Coloring, Colormap, Paint, Request, Rows, TableError, TableFault};
-use crate::text::{Fault, closest, list, optional, quoted, refuse};
+use crate::table::{self, Coloring, Colormap, Paint, Request, Rows, TableError};
+use crate::text::{Fault, LocatedFault, closest, list, optional, quoted, refuse};
 use crate::values::ValueRange;
 
 /// A cloud of the scene file whose table is not yet read.
@@ -34,7 +34,7 @@ pub(crate) enum CloudError {
     /// Something is wrong in what the scene file says of it.
     Scene(Fault),
     /// Something is wrong in the table with this path.
-    Table(PathBuf, TableFault),
+    Table(PathBuf, LocatedFault),
 }
 
 /// The state of reading a table.
