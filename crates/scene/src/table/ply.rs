@@ -18,8 +18,12 @@ use super::text::{self, Form};
 use crate::text::{LocatedFault, either};
 
 /// The contents of a header.
+#[derive(Default)]
 struct Header {
-    is_text: bool,
+    /// `None` before the format is told.
+    is_text: Option<bool>,
+    /// The number of elements; of those after the first nothing is read.
+    elements: usize,
     rows: u64,
     names: Vec<String>,
     kinds: Vec<Kind>,
@@ -34,7 +38,7 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
         LocatedFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
     })?;
-    if !header.is_text {
+    if header.is_text == Some(false) {
         let layout = Layout {
             start: lines.position,
             rows: header.rows,
@@ -56,78 +60,78 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
 const END: &str = "end_header";
 
 fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
-    const MOST_COLUMNS: usize = 1000;
-    let mut header = Header {
-        is_text: true,
-        rows: 0,
-        names: Vec::new(),
-        kinds: Vec::new(),
-    };
-    let mut has_format = false;
-    let mut elements = 0;
+    let mut header = Header::default();
     loop {
         let number = lines.number + 1;
         let Some(line) = lines.next()? else {
             let expected = if number == 1 { "`ply`" } else { "`end_header`" };
             return Err(LocatedFault::at_end(number, expected).into());
         };
-        let refuse = |part: usize, expected: &str| {
-            let span = word(line, part);
-            Err(LocatedFault::expected(number, line, span, expected).into())
-        };
         let text = String::from_utf8_lossy(line).into_owned();
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
-        if number == 1 {
-            if words != ["ply"] {
-                return refuse(0, "`ply`, with which PLY files start");
-            }
-            continue;
+        let taken = match number {
+            1 if words == ["ply"] => Ok(()),
+            1 => Err((0, "`ply`, with which PLY files start".to_owned())),
+            _ => header.take(&words),
+        };
+        taken.map_err(|(part, expected)| {
+            LocatedFault::expected(number, line, word(line, part), &expected)
+        })?;
+        if words == [END] {
+            return Ok(header);
         }
-        match words[..] {
+    }
+}
+
+impl Header {
+    /// Takes in a line of these words.
+    ///
+    /// # Errors
+    /// Returns the number of the word instead of which something else was expected, and that.
+    fn take(&mut self, words: &[&str]) -> Result<(), (usize, String)> {
+        const MOST_COLUMNS: usize = 1000;
+        let refuse = |part: usize, expected: &str| Err((part, expected.to_owned()));
+        match *words {
             ["comment" | "obj_info", ..] | [] => {}
             ["format", form @ ("ascii" | "binary_little_endian"), "1.0"] => {
-                has_format = true;
-                header.is_text &= form == "ascii";
+                self.is_text = Some(form == "ascii");
             }
-            ["format", ..] => {
-                return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`");
-            }
+            ["format", ..] => return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`"),
             ["element", name, count] => {
-                elements += 1;
-                if elements > 1 {
-                    continue;
+                self.elements += 1;
+                if self.elements > 1 {
+                    return Ok(());
                 }
                 if name != "vertex" {
                     return refuse(1, "the element `vertex` before all others");
                 }
                 match count.parse() {
-                    Ok(rows) => header.rows = rows,
+                    Ok(rows) => self.rows = rows,
                     Err(_) => return refuse(2, "the number of vertices"),
                 }
             }
-            ["property", ..] if elements > 1 => {}
-            ["property", "list", ..] => {
-                return refuse(1, "a number as the property of a vertex");
-            }
-            ["property", kind, name] if elements == 1 => {
+            ["property", ..] if self.elements > 1 => {}
+            ["property", "list", ..] => return refuse(1, "a number as the property of a vertex"),
+            ["property", kind, name] if self.elements == 1 => {
                 let Some(kind) = self::kind(kind) else {
                     let expected = format!("a type ({})", either(KINDS.map(|known| known.0)));
                     return refuse(1, &expected);
                 };
-                if header.names.len() == MOST_COLUMNS {
+                if self.names.len() == MOST_COLUMNS {
                     return refuse(0, "at most 1000 properties");
                 }
-                header.kinds.push(kind);
-                header.names.push(name.to_owned());
+                self.kinds.push(kind);
+                self.names.push(name.to_owned());
             }
-            [END] if !has_format => return refuse(0, "a line `format …` before"),
-            [END] if elements == 0 => return refuse(0, "a line `element vertex …` before"),
-            [END] => return Ok(header),
+            [END] if self.is_text.is_none() => return refuse(0, "a line `format …` before"),
+            [END] if self.elements == 0 => return refuse(0, "a line `element vertex …` before"),
+            [END] => {}
             _ => {
                 let known = "`element …`, `property …`, `comment …` or `end_header`";
                 return refuse(0, known);
             }
         }
+        Ok(())
     }
 }
 
