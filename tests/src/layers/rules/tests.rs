@@ -161,9 +161,10 @@ fn modules_inside_a_file_and_globs_are_followed() {
 #[test]
 fn what_a_macro_makes_belongs_to_the_file_of_the_macro() {
     let files = [
-        ("lib.rs", "mod a; mod b;"),
-        ("a.rs", "use crate::b::Made; use crate::b::Kind::One;"),
-        ("b.rs", "make! { Made } pub enum Kind { One }"),
+        ("lib.rs", "mod a; mod b; mod c;"),
+        ("a.rs", "use crate::c::Made;"),
+        ("b.rs", "use crate::c::Kind::One;"),
+        ("c.rs", "make! { Made } pub enum Kind { One }"),
     ];
-    assert_eq!(wrong("a ← b", &files).len(), 2);
+    assert_eq!(wrong("a ← b ← c", &files).len(), 2);
 }
