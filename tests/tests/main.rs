@@ -7,6 +7,7 @@ mod examples;
 mod floors;
 mod hits;
 mod invariance;
+mod layers;
 mod promise;
 mod reference;
 mod refused;

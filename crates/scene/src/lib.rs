@@ -5,33 +5,23 @@
 //! in a [`SceneError`] at which line and column, what was expected there and what was found; all
 //! the faults that can be told at once are told.
 //!
-//! [`Scene::load`] reads the tables that the file names, too: `table` knows their formats, `cloud`
-//! places what is in them.
+//! [`Scene::load`] reads the tables that the file names, too.
 //!
-//! `file` is the format as structures, `assemble` and `motion` give them their meaning, and
-//! `placed` with `fault` is how every value knows its place in the text.
+//! From the bottom: `text` is how every value knows its place in the file, and how faults are
+//! gathered; `values` are the numbers, colors and names; `table` reads tables; `file` is the format
+//! as structures. `motion` and `world` give them their meaning, `report` writes the messages.
 
-mod assemble;
-mod cloud;
-mod color;
-mod curve;
-mod error;
-mod explain;
-mod fault;
+mod bounds;
 mod file;
-mod framing;
 mod motion;
-mod placed;
-mod quantity;
-mod raw;
 mod report;
-mod rig;
 mod scene;
-mod shutter;
-mod suggest;
 mod table;
-mod token;
-mod turntable;
+mod text;
+mod values;
+mod world;
 
-pub use error::{FrameError, FrameFault, SceneError, SceneFault};
-pub use scene::{CloudDescription, Description, Progress, Scene};
+pub use motion::{FrameError, FrameFault};
+pub use report::{SceneError, SceneFault};
+pub use scene::{CloudDescription, Description, Scene};
+pub use world::Progress;

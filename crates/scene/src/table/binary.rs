@@ -1,78 +1,116 @@
 //! Rows of bytes, each value at its place.
 
+use std::fs::Metadata;
 use std::io::{ErrorKind, Read, Seek, SeekFrom};
 
 use rayon::prelude::*;
 
 use super::columns::{Plan, Slot};
-use super::fault::TablePlace;
+use super::error::TableError;
 use super::rows::{Numbers, Rows};
 use super::source::Source;
-use super::{TableError, TableFault};
+use crate::text::{LocatedFault, Place};
 
-/// How a value is stored, little-endian.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) enum Kind {
-    I8,
-    U8,
-    I16,
-    U16,
-    I32,
-    U32,
-    I64,
-    U64,
-    F32,
-    F64,
-    /// So many bytes that are no number.
-    Other(u64),
-}
-
-impl Kind {
-    /// Its size in bytes.
-    pub(crate) fn size(self) -> u64 {
-        match self {
-            Self::I8 | Self::U8 => 1,
-            Self::I16 | Self::U16 => 2,
-            Self::I32 | Self::U32 | Self::F32 => 4,
-            Self::I64 | Self::U64 | Self::F64 => 8,
-            Self::Other(size) => size,
+/// Declares the kinds of numbers.
+macro_rules! kinds {
+    ($($name:ident($type:ty),)*) => {
+        /// The way in which a value is stored, little-endian.
+        #[derive(Clone, Copy, Debug, Eq, PartialEq)]
+        pub(crate) enum Kind {
+            $($name,)*
+            /// So many bytes that are no number.
+            Other(u64),
         }
-    }
 
-    /// The number at the start of these bytes; none where there are too few.
-    #[inline(always)]
-    fn decode(self, bytes: &[u8]) -> Option<f64> {
-        Some(match self {
-            Self::I8 => f64::from(i8::from_le_bytes(*bytes.first_chunk()?)),
-            Self::U8 => f64::from(u8::from_le_bytes(*bytes.first_chunk()?)),
-            Self::I16 => f64::from(i16::from_le_bytes(*bytes.first_chunk()?)),
-            Self::U16 => f64::from(u16::from_le_bytes(*bytes.first_chunk()?)),
-            Self::I32 => f64::from(i32::from_le_bytes(*bytes.first_chunk()?)),
-            Self::U32 => f64::from(u32::from_le_bytes(*bytes.first_chunk()?)),
-            Self::I64 => i64::from_le_bytes(*bytes.first_chunk()?) as f64,
-            Self::U64 => u64::from_le_bytes(*bytes.first_chunk()?) as f64,
-            Self::F32 => f64::from(f32::from_le_bytes(*bytes.first_chunk()?)),
-            Self::F64 => f64::from_le_bytes(*bytes.first_chunk()?),
-            Self::Other(_) => return None,
-        })
-    }
+        impl Kind {
+            /// The size of a value, in bytes.
+            pub(crate) fn size(self) -> u64 {
+                match self {
+                    $(Self::$name => size_of::<$type>() as u64,)*
+                    Self::Other(size) => size,
+                }
+            }
+
+            /// The number at the start of these bytes; none where there are too few.
+            #[inline(always)]
+            fn decode(self, bytes: &[u8]) -> Option<f64> {
+                Some(match self {
+                    $(Self::$name => <$type>::from_le_bytes(*bytes.first_chunk()?) as f64,)*
+                    Self::Other(_) => return None,
+                })
+            }
+        }
+    };
 }
 
-/// Where the values of a table lie.
+kinds! {
+    I8(i8),
+    U8(u8),
+    I16(i16),
+    U16(u16),
+    I32(i32),
+    U32(u32),
+    I64(i64),
+    U64(u64),
+    F32(f32),
+    F64(f64),
+}
+
+/// The arrangement of the values of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
-    /// Where the table starts in the file, in bytes.
+    /// The byte of the file at which the table starts.
     pub(crate) start: u64,
     pub(crate) rows: u64,
-    /// How each column is stored.
+    /// The way in which each column is stored.
     pub(crate) kinds: Vec<Kind>,
-    /// Whether all values of a column lie side by side, instead of those of a row; all of one size.
+    /// All values of a column lie side by side, instead of those of a row; all have one size.
     pub(crate) is_by_column: bool,
-    /// What a row is called in messages.
+    /// The noun for rows in messages.
     pub(crate) noun: &'static str,
 }
 
-/// About how much of the file is held at a time, and the longest row, in bytes.
+impl Layout {
+    /// The bytes of a row.
+    fn stride(&self) -> u64 {
+        let sizes = self.kinds.iter().map(|kind| kind.size());
+        sizes.fold(0, u64::saturating_add)
+    }
+
+    /// The expected size of the table, for messages.
+    fn expected(&self) -> String {
+        let (rows, noun, stride) = (self.rows, self.noun, self.stride());
+        let size = u128::from(rows) * u128::from(stride);
+        format!("expected {rows} {noun} of {stride} bytes, {size} bytes in all")
+    }
+
+    /// Refuses a table that cannot be read from a file of this size.
+    fn check(&self, plan: &Plan, file: &Metadata) -> Result<(), LocatedFault> {
+        let stride = self.stride();
+        let behind = file.len().saturating_sub(self.start);
+        let needed = self.rows.checked_mul(stride);
+        let is_short = needed.is_none_or(|needed| needed > behind);
+        if is_short && (file.is_file() || needed.is_none()) {
+            let message = format!("{}, found {behind}", self.expected());
+            return Err(LocatedFault::of_file(message));
+        }
+        for (column, (slot, kind)) in plan.slots.iter().zip(&self.kinds).enumerate() {
+            if slot.is_some() && matches!(kind, Kind::Other(_)) {
+                let name = &plan.names[column];
+                return Err(LocatedFault::of_file(format!(
+                    "expected numbers in the column `{name}`, found something else"
+                )));
+            }
+        }
+        if stride > BLOCK {
+            let message = format!("expected rows of at most {BLOCK} bytes, found {stride}");
+            return Err(LocatedFault::of_file(message));
+        }
+        Ok(())
+    }
+}
+
+/// About the part of the file that is held at a time, and the longest row, in bytes.
 const BLOCK: u64 = 1 << 21;
 
 /// Rows that are decoded as one piece of work.
@@ -80,32 +118,9 @@ const PIECE: usize = 1 << 13;
 
 /// Reads a table.
 pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result<Rows, TableError> {
-    let sizes = layout.kinds.iter().map(|kind| kind.size());
-    let stride = sizes.fold(0_u64, u64::saturating_add);
-    let header = || {
-        let Layout { rows, noun, .. } = layout;
-        let size = u128::from(*rows) * u128::from(stride);
-        format!("expected {rows} {noun} of {stride} bytes, {size} bytes in all")
-    };
     let metadata = file.metadata()?;
-    let behind = metadata.len().saturating_sub(layout.start);
-    let needed = layout.rows.checked_mul(stride);
-    let is_short = needed.is_none_or(|needed| needed > behind);
-    if is_short && (metadata.is_file() || needed.is_none()) {
-        let message = format!("{}, found {behind}", header());
-        return Err(TableFault::in_header(message).into());
-    }
-    for (column, (slot, kind)) in plan.slots.iter().zip(&layout.kinds).enumerate() {
-        if slot.is_some() && matches!(kind, Kind::Other(_)) {
-            let name = &plan.names[column];
-            let message = format!("expected numbers in the column `{name}`, found something else");
-            return Err(TableFault::in_header(message).into());
-        }
-    }
-    if stride > BLOCK {
-        let message = format!("expected rows of at most {BLOCK} bytes, found {stride}");
-        return Err(TableFault::in_header(message).into());
-    }
+    layout.check(plan, &metadata)?;
+    let stride = layout.stride();
     let mut rows = Rows::new(plan);
     rows.reserve(if metadata.is_file() { layout.rows } else { 0 })?;
     file.seek(SeekFrom::Start(layout.start))?;
@@ -119,14 +134,12 @@ pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result
         } else {
             file.read_exact(&mut buffer)
         };
-        if let Err(error) = read {
-            return Err(match error.kind() {
-                ErrorKind::UnexpectedEof => {
-                    TableFault::in_header(format!("{}, found fewer", header())).into()
-                }
-                _ => error.into(),
-            });
-        }
+        read.map_err(|error| match error.kind() {
+            ErrorKind::UnexpectedEof => {
+                LocatedFault::of_file(format!("{}, found fewer", layout.expected())).into()
+            }
+            _ => TableError::from(error),
+        })?;
         let block = Block {
             layout,
             plan,
@@ -136,7 +149,7 @@ pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result
             count: count as usize,
             values: values(layout, plan, stride, count),
         };
-        // What comes of it does not depend on who decodes which piece.
+        // The rows do not depend on the thread that decodes a piece.
         let starts = (0..block.count).into_par_iter().step_by(PIECE);
         let pieces: Vec<_> = starts.map(|start| block.decode(start)).collect();
         for piece in pieces {
@@ -173,12 +186,12 @@ struct Value {
     slot: Slot,
     kind: Kind,
     column: usize,
-    /// Where its first is in a block, and how far on the next, in bytes.
+    /// The place of its first in a block, and the way to the next, in bytes.
     offset: usize,
     step: usize,
 }
 
-/// The values that are needed of the rows of a block, so many.
+/// The values that are needed of the `count` rows of a block.
 fn values(layout: &Layout, plan: &Plan, stride: u64, count: u64) -> Vec<Value> {
     let mut values = Vec::new();
     let mut offset = 0;
@@ -246,7 +259,7 @@ impl Block<'_> {
 
     /// Something else was expected than this number.
     #[cold]
-    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> TableFault {
+    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> LocatedFault {
         let layout = self.layout;
         let row = self.first + row as u64;
         let before: u64 = layout.kinds[..column].iter().map(|kind| kind.size()).sum();
@@ -255,8 +268,8 @@ impl Block<'_> {
         } else {
             row * self.stride + before
         };
-        TableFault {
-            place: TablePlace::Row {
+        LocatedFault {
+            place: Place::Row {
                 row: row + 1,
                 column: column + 1,
                 byte: layout.start + byte,

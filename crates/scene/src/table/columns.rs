@@ -1,13 +1,11 @@
-//! Which column of a table is what.
+//! The purpose of each column of a table.
 
 use super::element::Radii;
-use super::rows::Paint;
-use super::{Coloring, Request};
-use crate::color::linear;
-use crate::fault::show;
-use crate::suggest::closest;
+use super::request::{Coloring, Request};
+use crate::text::{did_you_mean, show};
+use crate::values::linear;
 
-/// What a column is for.
+/// The purpose of a column.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Slot {
     X,
@@ -22,7 +20,7 @@ pub(crate) enum Slot {
 }
 
 impl Slot {
-    /// How many there are.
+    /// The number of purposes.
     pub(crate) const COUNT: usize = 9;
 
     /// The names that a column for this may have.
@@ -40,7 +38,7 @@ impl Slot {
         }
     }
 
-    /// What is expected instead of this number; `None` where it is allowed.
+    /// The expected thing instead of this number; `None` where it is allowed.
     #[inline(always)]
     pub(crate) fn refusal(self, number: f64, is_encoded: bool) -> Option<&'static str> {
         match self {
@@ -64,7 +62,7 @@ impl Slot {
     }
 }
 
-/// Where radii come from.
+/// The source of radii.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum RadiusSource {
     /// All are this one.
@@ -75,28 +73,31 @@ pub(crate) enum RadiusSource {
     Element(Radii),
 }
 
-/// How the columns of a table are read.
+/// The way in which the columns of a table are read.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
-    /// What each column is for; `None` for those that are passed over.
+    /// The purpose of each column; `None` for those that are passed over.
     pub(crate) slots: Vec<Option<Slot>>,
     /// The columns' names.
     pub(crate) names: Vec<String>,
     pub(crate) radius: RadiusSource,
     pub(crate) coloring: Coloring,
-    /// What the numbers of a colormap are read as.
+    /// The purpose of the column whose numbers a colormap turns into colors.
     pub(crate) value: Slot,
-    /// Whether colors are sRGB values from 0 to 255.
+    /// Colors are sRGB values from 0 to 255.
     pub(crate) is_encoded: bool,
     /// The linear values of these.
     linear: Vec<f32>,
 }
 
 impl Plan {
-    /// How to read a table with columns of these names as `request` says; else what is missing.
+    /// Plans the reading of a table with columns of these names as `request` says.
     ///
     /// Upper and lower case are the same. Colors are encoded if `is_encoded` says so of the column
     /// of red.
+    ///
+    /// # Errors
+    /// Returns the message that says what is missing.
     pub(crate) fn new(
         names: Vec<String>,
         request: &Request,
@@ -157,16 +158,6 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The paint of no rows.
-    pub(crate) fn empty_paint(&self) -> Paint {
-        match self.coloring {
-            Coloring::Material => Paint::Material,
-            Coloring::Table => Paint::Colors(Vec::new()),
-            Coloring::Element => Paint::Elements(Vec::new()),
-            Coloring::Value => Paint::Values(Vec::new()),
-        }
-    }
-
     /// The linear value of a color channel that is allowed.
     #[inline(always)]
     pub(crate) fn channel(&self, value: f64) -> f32 {
@@ -177,33 +168,27 @@ impl Plan {
         }
     }
 
-    /// What is said where a column holds something else than expected.
+    /// The expected thing in a column, for messages.
     pub(crate) fn expected(&self, column: usize, what: &str) -> String {
         match self.names.get(column) {
-            Some(name) => format!("{what} for {}", quoted(name)),
+            Some(name) => format!("{what} for {}", marked(name)),
             None => what.to_owned(),
         }
     }
 
     /// Uses a column for this.
     fn take(&mut self, slot: Slot) -> Result<(), String> {
-        let column = match self.find(slot) {
-            Some(column) => column,
-            None => return Err(self.lacks(slot.names()[0])),
-        };
-        self.check_name(column)?;
+        let column = self.column(slot.names())?;
         self.slots[column] = Some(slot);
         Ok(())
     }
 
     /// Uses a column for the numbers of a colormap; it may be one that is used otherwise, too.
     fn take_value(&mut self, name: Option<&str>) -> Result<(), String> {
-        let name = name.unwrap_or(Slot::Value.names()[0]);
-        let column = match self.find_name(name) {
-            Some(column) => column,
-            None => return Err(self.lacks(name)),
-        };
-        self.check_name(column)?;
+        let names = name
+            .as_ref()
+            .map_or(Slot::Value.names(), std::slice::from_ref);
+        let column = self.column(names)?;
         match self.slots[column] {
             Some(slot) => self.value = slot,
             None => self.slots[column] = Some(Slot::Value),
@@ -211,26 +196,23 @@ impl Plan {
         Ok(())
     }
 
-    /// That there is no such column.
-    fn lacks(&self, name: &str) -> String {
-        let mut message = format!("expected a column {}, found {}", quoted(name), self.list());
-        if let Some(close) = closest(name, self.names.iter().map(String::as_str)) {
-            message += &format!(", did you mean {}?", quoted(close));
-        }
-        message
-    }
-
-    /// Refuses a name that two columns have.
-    fn check_name(&self, column: usize) -> Result<(), String> {
+    /// The only column with the first of these names that there is.
+    fn column(&self, names: &[&str]) -> Result<usize, String> {
+        let Some(column) = names.iter().find_map(|name| self.find_name(name)) else {
+            let known = self.names.iter().map(String::as_str);
+            let meant = did_you_mean(names[0], known, marked);
+            let (name, list) = (marked(names[0]), self.list());
+            return Err(format!("expected a column {name}, found {list}{meant}"));
+        };
         let name = &self.names[column];
         let same = |other: &&String| other.eq_ignore_ascii_case(name);
-        if self.names.iter().filter(same).count() == 1 {
-            return Ok(());
+        if self.names.iter().filter(same).count() > 1 {
+            let name = marked(name);
+            return Err(format!(
+                "expected every column once, found {name} a second time"
+            ));
         }
-        Err(format!(
-            "expected every column once, found {} a second time",
-            quoted(name)
-        ))
+        Ok(column)
     }
 
     fn find(&self, slot: Slot) -> Option<usize> {
@@ -254,28 +236,37 @@ impl Plan {
     /// The names of the columns as a message shows them.
     fn list(&self) -> String {
         const LONGEST_LIST: usize = 12;
-        let mut names: Vec<String> = self
-            .names
-            .iter()
-            .take(LONGEST_LIST)
-            .map(|name| quoted(name))
-            .collect();
-        if names.is_empty() {
-            return String::from("none");
-        }
+        let names = self.names.iter().take(LONGEST_LIST);
+        let mut names: Vec<String> = names.map(|name| marked(name)).collect();
         if self.names.len() > LONGEST_LIST {
             names.push(String::from("…"));
         }
-        names.join(", ")
+        match names.is_empty() {
+            true => String::from("none"),
+            false => names.join(", "),
+        }
     }
 }
 
-/// A name as a message shows it.
-fn quoted(name: &str) -> String {
+/// The names of the columns that hold `count` values called `name` together.
+pub(crate) fn components(name: &str, count: u64) -> Vec<String> {
+    let names = match (name.to_ascii_lowercase().as_str(), count) {
+        ("pos" | "position" | "positions", 3) => ["x", "y", "z"],
+        ("color" | "colour", 3) => ["red", "green", "blue"],
+        (_, 1) => return vec![name.to_owned()],
+        _ => {
+            let numbers = 1..=count;
+            return numbers.map(|number| format!("{name}_{number}")).collect();
+        }
+    };
+    names.map(String::from).into()
+}
+
+/// A name between marks, as a message shows it.
+fn marked(name: &str) -> String {
     let shown = show(name);
-    if shown.starts_with('`') {
-        shown
-    } else {
-        format!("`{shown}`")
+    match shown.starts_with('`') {
+        true => shown,
+        false => format!("`{shown}`"),
     }
 }

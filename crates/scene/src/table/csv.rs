@@ -4,12 +4,13 @@
 //! may stand between quotation marks, but not go over lines.
 
 use super::columns::Plan;
-use super::fault::LineFault;
+use super::error::TableError;
 use super::lines::Lines;
+use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Fields, Form};
-use super::{Request, TableError, TableFault};
+use crate::text::LocatedFault;
 
 /// Reads a table.
 pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
@@ -20,10 +21,8 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     if names.trim_ascii().is_empty() {
         let expected = "a line with the names of the columns";
         return Err(match lines.number {
-            0 => TableFault::at_end(1, expected).into(),
-            _ => LineFault::new(&header, 0..header.len(), expected)
-                .at(1, &header)
-                .into(),
+            0 => LocatedFault::at_end(1, expected).into(),
+            _ => LocatedFault::expected(1, &header, 0..header.len(), expected).into(),
         });
     }
     let is_separator = |byte: &u8| b",;\t".contains(byte);
@@ -33,10 +32,8 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     while let Some(field) = fields.next() {
         columns.push(String::from_utf8_lossy(&names[field]).into_owned());
     }
-    let plan = Plan::new(columns, request, |_| false).map_err(|message| {
-        let span = 0..header.len();
-        LineFault { span, message }.at(1, &header)
-    })?;
+    let plan = Plan::new(columns, request, |_| false)
+        .map_err(|message| LocatedFault::in_line(1, &header, 0..header.len(), message))?;
     let form = Form {
         separator: Some(separator),
         may_be_longer: false,

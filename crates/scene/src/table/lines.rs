@@ -2,11 +2,11 @@
 
 use std::io::{ErrorKind, Read};
 
-use super::fault::TablePlace;
+use super::error::TableError;
 use super::source::Source;
-use super::{TableError, TableFault};
+use crate::text::LocatedFault;
 
-/// How much of a file is held at a time, in bytes.
+/// The part of a file that is held at a time, in bytes.
 const BLOCK: usize = 4 << 20;
 /// The longest line that is read, in bytes.
 const LONGEST_LINE: usize = 1 << 20;
@@ -19,9 +19,9 @@ pub(crate) struct Lines<'watch> {
     start: usize,
     end: usize,
     is_at_end: bool,
-    /// How many lines were handed out.
+    /// The number of lines that were handed out.
     pub(crate) number: u64,
-    /// How many bytes were handed out.
+    /// The number of bytes that were handed out.
     pub(crate) position: u64,
 }
 
@@ -124,14 +124,9 @@ impl<'watch> Lines<'watch> {
     fn too_long(&self) -> TableError {
         const SHOWN: usize = 100;
         let start = &self.buffer[self.start..self.end];
-        let text = String::from_utf8_lossy(&start[..start.len().min(SHOWN)]).into_owned();
-        let place = TablePlace::Text {
-            line: self.number + 1,
-            span: 0..text.len(),
-            text,
-        };
+        let shown = &start[..start.len().min(SHOWN)];
         let message = String::from("expected a line of at most 1 MiB, found a longer one");
-        TableFault { place, message }.into()
+        LocatedFault::in_line(self.number + 1, shown, 0..shown.len(), message).into()
     }
 }
 

@@ -5,19 +5,25 @@
 //! # Source
 //! Greg Turk, "The PLY Polygon File Format", 1994.
 
+use std::ops::Range;
+
 use super::binary::{self, Kind, Layout};
 use super::columns::Plan;
-use super::fault::LineFault;
+use super::error::TableError;
 use super::lines::Lines;
+use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::text::{self, Form};
-use super::{Request, TableError, TableFault};
-use crate::suggest::either;
+use crate::text::{LocatedFault, either};
 
-/// What the header says.
+/// The contents of a header.
+#[derive(Default)]
 struct Header {
-    is_text: bool,
+    /// `None` before the format is told.
+    is_text: Option<bool>,
+    /// The number of elements; of those after the first nothing is read.
+    elements: usize,
     rows: u64,
     names: Vec<String>,
     kinds: Vec<Kind>,
@@ -30,10 +36,9 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
     let kinds = &header.kinds;
     let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
     let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
-        let span = 0..END.len();
-        LineFault { span, message }.at(lines.number, END.as_bytes())
+        LocatedFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
     })?;
-    if !header.is_text {
+    if header.is_text == Some(false) {
         let layout = Layout {
             start: lines.position,
             rows: header.rows,
@@ -47,98 +52,91 @@ pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableErr
         separator: None,
         may_be_longer: false,
     };
-    let rows = text::read(&mut lines, &plan, form, Some(header.rows))?;
-    if (rows.len() as u64) < header.rows {
-        let (count, found) = (header.rows, rows.len());
-        let expected =
-            format!("{count} vertices, as the header says, and after {found} of them another");
-        return Err(TableFault::at_end(lines.number + 1, &expected).into());
-    }
-    Ok(rows)
+    let noun = "vertices, as the header says";
+    text::read_count(&mut lines, &plan, form, header.rows, noun)
 }
 
 /// The line that ends a header.
 const END: &str = "end_header";
 
 fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
-    const MOST_COLUMNS: usize = 1000;
-    let mut header = Header {
-        is_text: true,
-        rows: 0,
-        names: Vec::new(),
-        kinds: Vec::new(),
-    };
-    let mut has_format = false;
-    let mut elements = 0;
+    let mut header = Header::default();
     loop {
         let number = lines.number + 1;
         let Some(line) = lines.next()? else {
             let expected = if number == 1 { "`ply`" } else { "`end_header`" };
-            return Err(TableFault::at_end(number, expected).into());
-        };
-        let refuse = |part: usize, expected: &str| {
-            let span = word(line, part);
-            Err(LineFault::new(line, span, expected).at(number, line).into())
+            return Err(LocatedFault::at_end(number, expected).into());
         };
         let text = String::from_utf8_lossy(line).into_owned();
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
-        if number == 1 {
-            if words != ["ply"] {
-                return refuse(0, "`ply`, with which PLY files start");
-            }
-            continue;
+        let taken = match number {
+            1 if words == ["ply"] => Ok(()),
+            1 => Err((0, "`ply`, with which PLY files start".to_owned())),
+            _ => header.take(&words),
+        };
+        taken.map_err(|(part, expected)| {
+            LocatedFault::expected(number, line, word(line, part), &expected)
+        })?;
+        if words == [END] {
+            return Ok(header);
         }
-        match words[..] {
+    }
+}
+
+impl Header {
+    /// Takes in a line of these words.
+    ///
+    /// # Errors
+    /// Returns the number of the word instead of which something else was expected, and that.
+    fn take(&mut self, words: &[&str]) -> Result<(), (usize, String)> {
+        const MOST_COLUMNS: usize = 1000;
+        let refuse = |part: usize, expected: &str| Err((part, expected.to_owned()));
+        match *words {
             ["comment" | "obj_info", ..] | [] => {}
-            ["format", "ascii", "1.0"] => has_format = true,
-            ["format", "binary_little_endian", "1.0"] => {
-                has_format = true;
-                header.is_text = false;
+            ["format", form @ ("ascii" | "binary_little_endian"), "1.0"] => {
+                self.is_text = Some(form == "ascii");
             }
-            ["format", ..] => {
-                return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`");
-            }
+            ["format", ..] => return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`"),
             ["element", name, count] => {
-                elements += 1;
-                if elements > 1 {
-                    continue;
+                self.elements += 1;
+                if self.elements > 1 {
+                    return Ok(());
                 }
                 if name != "vertex" {
                     return refuse(1, "the element `vertex` before all others");
                 }
                 match count.parse() {
-                    Ok(rows) => header.rows = rows,
+                    Ok(rows) => self.rows = rows,
                     Err(_) => return refuse(2, "the number of vertices"),
                 }
             }
-            ["property", ..] if elements > 1 => {}
-            ["property", "list", ..] => {
-                return refuse(1, "a number as the property of a vertex");
-            }
-            ["property", kind, name] if elements == 1 => {
+            ["property", ..] if self.elements > 1 => {}
+            ["property", "list", ..] => return refuse(1, "a number as the property of a vertex"),
+            ["property", kind, name] if self.elements == 1 => {
                 let Some(kind) = self::kind(kind) else {
                     let expected = format!("a type ({})", either(KINDS.map(|known| known.0)));
                     return refuse(1, &expected);
                 };
-                if header.names.len() == MOST_COLUMNS {
+                if self.names.len() == MOST_COLUMNS {
                     return refuse(0, "at most 1000 properties");
                 }
-                header.kinds.push(kind);
-                header.names.push(name.to_owned());
+                self.kinds.push(kind);
+                self.names.push(name.to_owned());
             }
-            [END] if !has_format => return refuse(0, "a line `format …` before"),
-            [END] if elements == 0 => return refuse(0, "a line `element vertex …` before"),
-            [END] => return Ok(header),
+            [END] if self.is_text.is_none() => return refuse(0, "a line `format …` before"),
+            [END] if self.elements == 0 => return refuse(0, "a line `element vertex …` before"),
+            [END] => {}
             _ => {
                 let known = "`element …`, `property …`, `comment …` or `end_header`";
                 return refuse(0, known);
             }
         }
+        Ok(())
     }
 }
 
 /// The place of a word in a line; its end if there are fewer.
-fn word(line: &[u8], number: usize) -> std::ops::Range<usize> {
+fn word(line: &[u8], number: usize) -> Range<usize> {
     let mut fields = text::Fields::new(line, None);
     for _ in 0..number {
         fields.next();
@@ -146,29 +144,21 @@ fn word(line: &[u8], number: usize) -> std::ops::Range<usize> {
     fields.next().unwrap_or(line.len()..line.len())
 }
 
+/// The kind of number with this name.
 fn kind(name: &str) -> Option<Kind> {
-    let also = match name {
-        "int8" => "char",
-        "uint8" => "uchar",
-        "int16" => "short",
-        "uint16" => "ushort",
-        "int32" => "int",
-        "uint32" => "uint",
-        "float32" => "float",
-        "float64" => "double",
-        other => other,
-    };
     let mut known = KINDS.iter();
-    known.find(|known| known.0 == also).map(|known| known.1)
+    let known = known.find(|known| name == known.0 || name == known.1)?;
+    Some(known.2)
 }
 
-const KINDS: [(&str, Kind); 8] = [
-    ("char", Kind::I8),
-    ("uchar", Kind::U8),
-    ("short", Kind::I16),
-    ("ushort", Kind::U16),
-    ("int", Kind::I32),
-    ("uint", Kind::U32),
-    ("float", Kind::F32),
-    ("double", Kind::F64),
+/// The kinds of numbers, with the names of the format and those that tell their size.
+const KINDS: [(&str, &str, Kind); 8] = [
+    ("char", "int8", Kind::I8),
+    ("uchar", "uint8", Kind::U8),
+    ("short", "int16", Kind::I16),
+    ("ushort", "uint16", Kind::U16),
+    ("int", "int32", Kind::I32),
+    ("uint", "uint32", Kind::U32),
+    ("float", "float32", Kind::F32),
+    ("double", "float64", Kind::F64),
 ];

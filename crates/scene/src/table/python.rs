@@ -41,14 +41,20 @@ impl Reader<'_> {
             return None;
         }
         self.skip_space();
-        if self.take('(') {
-            return self.items(')', depth).map(Literal::List);
-        }
-        if self.take('[') {
-            return self.items(']', depth).map(Literal::List);
+        for (start, end) in [('(', ')'), ('[', ']')] {
+            if self.take(start) {
+                let items = self.items(end, |reader| reader.value(depth + 1));
+                return items.map(Literal::List);
+            }
         }
         if self.take('{') {
-            return self.pairs(depth);
+            let pairs = self.items('}', |reader| {
+                let key = reader.value(depth + 1)?;
+                reader.skip_space();
+                let has_value = reader.take(':');
+                Some((key, has_value.then(|| reader.value(depth + 1))??))
+            });
+            return pairs.map(Literal::Dictionary);
         }
         for quote in ['\'', '"'] {
             if self.take(quote) {
@@ -69,37 +75,22 @@ impl Reader<'_> {
         }
     }
 
-    fn items(&mut self, end: char, depth: usize) -> Option<Vec<Literal>> {
+    /// The items up to `end`, each read by `item`, with commas between them.
+    fn items<T>(
+        &mut self,
+        end: char,
+        mut item: impl FnMut(&mut Self) -> Option<T>,
+    ) -> Option<Vec<T>> {
         let mut items = Vec::new();
         loop {
             self.skip_space();
             if self.take(end) {
                 return Some(items);
             }
-            items.push(self.value(depth + 1)?);
+            items.push(item(self)?);
             self.skip_space();
             if !self.take(',') {
                 return self.take(end).then_some(items);
-            }
-        }
-    }
-
-    fn pairs(&mut self, depth: usize) -> Option<Literal> {
-        let mut pairs = Vec::new();
-        loop {
-            self.skip_space();
-            if self.take('}') {
-                return Some(Literal::Dictionary(pairs));
-            }
-            let key = self.value(depth + 1)?;
-            self.skip_space();
-            if !self.take(':') {
-                return None;
-            }
-            pairs.push((key, self.value(depth + 1)?));
-            self.skip_space();
-            if !self.take(',') {
-                return self.take('}').then_some(Literal::Dictionary(pairs));
             }
         }
     }
@@ -108,14 +99,11 @@ impl Reader<'_> {
         self.rest = self.rest.trim_ascii_start();
     }
 
+    /// Passes over this character, if it comes next; returns whether it does.
     fn take(&mut self, expected: char) -> bool {
-        match self.rest.strip_prefix(expected) {
-            Some(rest) => {
-                self.rest = rest;
-                true
-            }
-            None => false,
-        }
+        let rest = self.rest.strip_prefix(expected);
+        self.rest = rest.unwrap_or(self.rest);
+        rest.is_some()
     }
 }
 

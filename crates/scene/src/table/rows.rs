@@ -1,31 +1,18 @@
-//! Rows of a table, as spheres and what colors them.
+//! Rows of a table, as spheres and their colors.
 
 use glam::DVec3;
 use marbles_core::Sphere;
 
-use super::TableError;
 use super::columns::{Plan, RadiusSource, Slot};
 use super::element;
+use super::error::TableError;
+use super::paint::Paint;
 
-/// What was read: a sphere for each row.
-#[derive(Clone, Debug, Default)]
+/// A sphere for each row that was read.
+#[derive(Clone, Debug)]
 pub(crate) struct Rows {
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) paint: Paint,
-}
-
-/// What colors the spheres.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) enum Paint {
-    /// Their material.
-    #[default]
-    Material,
-    /// Linear red, green and blue of each.
-    Colors(Vec<[f32; 3]>),
-    /// Atomic numbers.
-    Elements(Vec<u8>),
-    /// Numbers for a colormap.
-    Values(Vec<f64>),
 }
 
 /// The numbers of a row, by [`Slot`].
@@ -36,7 +23,7 @@ impl Rows {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             spheres: Vec::new(),
-            paint: plan.empty_paint(),
+            paint: Paint::new(plan.coloring),
         }
     }
 
@@ -47,21 +34,19 @@ impl Rows {
             return Err(too_many);
         };
         let spheres = self.spheres.try_reserve_exact(more);
-        let paint = match &mut self.paint {
-            Paint::Material => Ok(()),
-            Paint::Colors(colors) => colors.try_reserve_exact(more),
-            Paint::Elements(numbers) => numbers.try_reserve_exact(more),
-            Paint::Values(values) => values.try_reserve_exact(more),
-        };
+        let paint = self.paint.reserve(more);
         spheres.and(paint).map_err(|_| too_many)
     }
 
-    /// How many there are.
+    /// The number of rows.
     pub(crate) fn len(&self) -> usize {
         self.spheres.len()
     }
 
-    /// Adds a row whose every number was found allowed; what is wrong with the element otherwise.
+    /// Adds a row whose every number was found allowed.
+    ///
+    /// # Errors
+    /// Returns what was expected instead of the element.
     #[inline(always)]
     pub(crate) fn push(
         &mut self,
@@ -96,20 +81,6 @@ impl Rows {
     pub(crate) fn append(&mut self, mut others: Self, most: usize) {
         others.spheres.truncate(most);
         self.spheres.append(&mut others.spheres);
-        match (&mut self.paint, &mut others.paint) {
-            (Paint::Colors(own), Paint::Colors(more)) => {
-                more.truncate(most);
-                own.append(more);
-            }
-            (Paint::Elements(own), Paint::Elements(more)) => {
-                more.truncate(most);
-                own.append(more);
-            }
-            (Paint::Values(own), Paint::Values(more)) => {
-                more.truncate(most);
-                own.append(more);
-            }
-            _ => {}
-        }
+        self.paint.append(others.paint, most);
     }
 }

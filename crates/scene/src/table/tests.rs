@@ -11,7 +11,7 @@ use marbles_core::{Color, Sphere};
 use self::ply::binary_ply;
 use super::Colormap;
 use crate::Scene;
-use crate::color::from_srgb;
+use crate::values::from_srgb;
 
 mod csv;
 mod npy;

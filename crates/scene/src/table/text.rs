@@ -5,18 +5,19 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use super::columns::{Plan, RadiusSource, Slot};
-use super::fault::LineFault;
+use super::element;
+use super::error::TableError;
 use super::lines::{Lines, without_return};
+use super::request::Coloring;
 use super::rows::{Numbers, Rows};
-use super::{Coloring, TableError, element};
-use crate::fault::show;
+use crate::text::{LocatedFault, show};
 
-/// How lines are divided.
+/// The division of lines into fields.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
-    /// What stands between fields; `None` for any spaces and tabs.
+    /// The byte between fields; `None` for any spaces and tabs.
     pub(crate) separator: Option<u8>,
-    /// Whether lines may have more fields than there are columns.
+    /// Lines may have more fields than there are columns.
     pub(crate) may_be_longer: bool,
 }
 
@@ -65,13 +66,30 @@ pub(crate) fn read(
             if is_enough {
                 break;
             }
-            if let Some((line, fault)) = piece.fault {
-                return Err(fault.at(number + piece.lines, &line).into());
+            if let Some(fault) = piece.fault {
+                return Err(fault.lower(number).into());
             }
             number += piece.lines;
         }
     }
     lines.number = number;
+    Ok(rows)
+}
+
+/// Reads `count` rows, which are called by `noun` where there are fewer.
+pub(crate) fn read_count(
+    lines: &mut Lines<'_>,
+    plan: &Plan,
+    form: Form,
+    count: u64,
+    noun: &str,
+) -> Result<Rows, TableError> {
+    let rows = read(lines, plan, form, Some(count))?;
+    let found = rows.len();
+    if (found as u64) < count {
+        let expected = format!("{count} {noun}, and after {found} of them another");
+        return Err(LocatedFault::at_end(lines.number + 1, &expected).into());
+    }
     Ok(rows)
 }
 
@@ -90,13 +108,13 @@ fn pieces(block: &[u8]) -> impl Iterator<Item = &[u8]> {
     })
 }
 
-/// What was read of a piece.
+/// The rows of a piece.
 struct Piece {
     rows: Rows,
     /// Lines that were looked at, the one with the fault included.
     lines: u64,
-    /// The first fault, and its line.
-    fault: Option<(Vec<u8>, LineFault)>,
+    /// The first fault, by the line in the piece.
+    fault: Option<LocatedFault>,
 }
 
 fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece {
@@ -112,57 +130,65 @@ fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece 
         if skips_empty && line.trim_ascii().is_empty() {
             continue;
         }
-        if let Err(fault) = read_line(line, plan, form, &mut piece.rows) {
-            piece.fault = Some((line.to_vec(), fault));
+        piece.fault = read_line(line, piece.lines, plan, form, &mut piece.rows).err();
+        if piece.fault.is_some() {
             break;
         }
     }
     piece
 }
 
+/// Reads the row in the line with this number.
 #[inline(always)]
-fn read_line(line: &[u8], plan: &Plan, form: Form, rows: &mut Rows) -> Result<(), LineFault> {
+fn read_line(
+    line: &[u8],
+    number: u64,
+    plan: &Plan,
+    form: Form,
+    rows: &mut Rows,
+) -> Result<(), LocatedFault> {
+    let refused = |span: Range<usize>, expected: &str| {
+        Err(LocatedFault::expected(number, line, span, expected))
+    };
     let mut numbers: Numbers = [0.0; Slot::COUNT];
     let (mut atom, mut symbol) = (0, 0..0);
     let mut fields = Fields::new(line, form.separator);
     for (column, slot) in plan.slots.iter().enumerate() {
         let Some(field) = fields.next() else {
             let end = line.trim_ascii_end().len();
-            let expected = plan.expected(column, kind(*slot));
-            return Err(LineFault::new(line, end..end, &expected));
+            return refused(end..end, &plan.expected(column, kind(*slot)));
         };
         match slot {
             None => {}
             Some(Slot::Element) => {
                 atom = element::number(&line[field.clone()])
-                    .ok_or_else(|| no_element(line, field.clone(), plan))?;
+                    .ok_or_else(|| no_element(line, number, field.clone(), plan))?;
                 symbol = field;
             }
             Some(slot) => {
-                let number = parse(&line[field.clone()]);
-                let refusal = match number {
-                    Some(number) => slot.refusal(number, plan.is_encoded),
+                let value = parse(&line[field.clone()]);
+                let refusal = match value {
+                    Some(value) => slot.refusal(value, plan.is_encoded),
                     None => Some("a number"),
                 };
                 if let Some(expected) = refusal {
-                    let expected = plan.expected(column, expected);
-                    return Err(LineFault::new(line, field, &expected));
+                    return refused(field, &plan.expected(column, expected));
                 }
-                numbers[*slot as usize] = number.unwrap_or_default();
+                numbers[*slot as usize] = value.unwrap_or_default();
             }
         }
     }
     if !form.may_be_longer
         && let Some(field) = fields.next()
     {
-        let expected = format!("the end of the line after {} columns", plan.slots.len());
-        return Err(LineFault::new(line, field, &expected));
+        let count = plan.slots.len();
+        return refused(field, &format!("the end of the line after {count} columns"));
     }
-    rows.push(plan, &numbers, atom)
-        .map_err(|expected| LineFault::new(line, symbol, expected))
+    let pushed = rows.push(plan, &numbers, atom);
+    pushed.or_else(|expected| refused(symbol, expected))
 }
 
-/// What a column holds, for messages.
+/// The contents of a column, for messages.
 fn kind(slot: Option<Slot>) -> &'static str {
     match slot {
         None => "a value",
@@ -171,12 +197,13 @@ fn kind(slot: Option<Slot>) -> &'static str {
     }
 }
 
+/// The fault where a field is no element.
 #[cold]
-fn no_element(line: &[u8], field: Range<usize>, plan: &Plan) -> LineFault {
+fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> LocatedFault {
     let text = String::from_utf8_lossy(&line[field.clone()]).into_owned();
-    let mut fault = LineFault::new(line, field, "the symbol of an element");
-    match element::suggestion(&text) {
-        Some(symbol) => fault.message += &format!(", did you mean {}?", show(symbol)),
+    let mut fault = LocatedFault::expected(number, line, field, "the symbol of an element");
+    fault.message += &match element::suggestion(&text) {
+        Some(symbol) => format!(", did you mean {}?", show(symbol)),
         None => {
             let mut instead = Vec::new();
             if matches!(plan.radius, RadiusSource::Element(_)) {
@@ -185,9 +212,9 @@ fn no_element(line: &[u8], field: Range<usize>, plan: &Plan) -> LineFault {
             if plan.coloring == Coloring::Element {
                 instead.push("`color: Material`");
             }
-            fault.message += &format!(" (with {} none is needed)", instead.join(" and "));
+            format!(" (with {} none is needed)", instead.join(" and "))
         }
-    }
+    };
     fault
 }
 
@@ -227,17 +254,14 @@ impl<'line> Fields<'line> {
 
     #[inline(always)]
     fn next_word(&mut self) -> Option<Range<usize>> {
-        let is_space = |byte: u8| byte == b' ' || byte == b'\t';
-        let mut start = self.at;
-        while is_space(*self.line.get(start)?) {
-            start += 1;
-        }
-        let mut end = start;
-        while end < self.line.len() && !is_space(self.line[end]) {
-            end += 1;
-        }
-        self.at = end;
-        Some(start..end)
+        let is_space = |byte: &u8| *byte == b' ' || *byte == b'\t';
+        let rest = &self.line[self.at..];
+        let start = rest.iter().position(|byte| !is_space(byte))?;
+        let length = rest[start..].iter().position(is_space);
+        let word =
+            self.at + start..length.map_or(self.line.len(), |length| self.at + start + length);
+        self.at = word.end;
+        Some(word)
     }
 
     #[inline(always)]
@@ -254,21 +278,18 @@ impl<'line> Fields<'line> {
         }
         self.is_at_end = end == self.line.len();
         self.at = end + 1;
-        let (mut start, mut end) = trimmed(self.line, start, end);
-        if end >= start + 2 && self.line[start] == b'"' && self.line[end - 1] == b'"' {
-            (start, end) = trimmed(self.line, start + 1, end - 1);
+        let field = trimmed(self.line, start..end);
+        match self.line[field.clone()] {
+            [b'"', .., b'"'] => Some(trimmed(self.line, field.start + 1..field.end - 1)),
+            _ => Some(field),
         }
-        Some(start..end)
     }
 }
 
+/// The part of the line without the spaces around it.
 #[inline(always)]
-fn trimmed(line: &[u8], mut start: usize, mut end: usize) -> (usize, usize) {
-    while start < end && line[start].is_ascii_whitespace() {
-        start += 1;
-    }
-    while start < end && line[end - 1].is_ascii_whitespace() {
-        end -= 1;
-    }
-    (start, end)
+fn trimmed(line: &[u8], part: Range<usize>) -> Range<usize> {
+    let end = part.start + line[part.clone()].trim_ascii_end().len();
+    let rest = line[part.start..end].trim_ascii_start();
+    end - rest.len()..end
 }

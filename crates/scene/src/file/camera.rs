@@ -1,0 +1,232 @@
+//! The camera of a scene file, and its animation.
+
+use std::ops::Range;
+
+use glam::DVec3;
+use serde::Deserialize;
+
+use crate::text::{Placed, present};
+use crate::values::{
+    Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, Point, Radius, Shutter, Turns,
+    Zoom,
+};
+
+/// The camera; a `Free` one stands at the origin and looks along z by default.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum Camera {
+    Free {
+        #[serde(default)]
+        position: Placed<Point>,
+        #[serde(default)]
+        pan: Placed<Degrees>,
+        #[serde(default)]
+        tilt: Placed<Degrees>,
+        #[serde(default)]
+        roll: Placed<Degrees>,
+    },
+    LookAt {
+        position: Placed<Point>,
+        target: Placed<Point>,
+        #[serde(default)]
+        roll: Placed<Degrees>,
+    },
+    Orbit {
+        target: Placed<Point>,
+        radius: Placed<Radius>,
+        #[serde(default)]
+        azimuth: Placed<Degrees>,
+        #[serde(default)]
+        elevation: Placed<Degrees>,
+        #[serde(default)]
+        roll: Placed<Degrees>,
+    },
+    Frame {
+        #[serde(default)]
+        azimuth: Placed<Degrees>,
+        #[serde(default)]
+        elevation: Placed<Degrees>,
+        #[serde(default)]
+        roll: Placed<Degrees>,
+        #[serde(default)]
+        fill: Placed<Fill>,
+    },
+}
+
+/// An animation of 24 frames per second by default; keyframes last from the first key to the last,
+/// a turntable 120 frames and one turn.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum Animation {
+    Keyframes {
+        #[serde(default, deserialize_with = "present")]
+        frames: Option<Placed<FrameRange>>,
+        #[serde(default)]
+        fps: Placed<FramesPerSecond>,
+        #[serde(default, deserialize_with = "present")]
+        shutter: Option<Placed<Shutter>>,
+        #[serde(default)]
+        keys: Vec<Placed<Key>>,
+    },
+    Turntable {
+        #[serde(default)]
+        frames: Placed<FrameCount>,
+        #[serde(default)]
+        fps: Placed<FramesPerSecond>,
+        #[serde(default, deserialize_with = "present")]
+        shutter: Option<Placed<Shutter>>,
+        #[serde(default)]
+        turns: Placed<Turns>,
+    },
+}
+
+/// The values of some channels at a frame.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Key {
+    pub(crate) frame: Placed<Frame>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) position: Option<Placed<Point>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) target: Option<Placed<Point>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius: Option<Placed<Radius>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) pan: Option<Placed<Degrees>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) tilt: Option<Placed<Degrees>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) roll: Option<Placed<Degrees>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) azimuth: Option<Placed<Degrees>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) elevation: Option<Placed<Degrees>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) zoom: Option<Placed<Zoom>>,
+    #[serde(default)]
+    pub(crate) ease: Placed<Ease>,
+}
+
+/// The way of a channel from a key to the next.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum Ease {
+    /// A cubic without overshoot.
+    #[default]
+    Smooth,
+    /// A straight line.
+    Linear,
+    /// Not at all, until it jumps.
+    Hold,
+}
+
+/// The numbers of a camera; those that its kind lacks are 0.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CameraNumbers {
+    pub(crate) position: DVec3,
+    pub(crate) target: DVec3,
+    pub(crate) radius: f64,
+    pub(crate) pan: f64,
+    pub(crate) tilt: f64,
+    pub(crate) azimuth: f64,
+    pub(crate) elevation: f64,
+    pub(crate) roll: f64,
+}
+
+impl Camera {
+    /// The numbers of this camera where no key names them; `None` where a fault was reported.
+    pub(crate) fn at_rest(&self) -> Option<CameraNumbers> {
+        let mut all = CameraNumbers::default();
+        let roll = match self {
+            Self::Free {
+                position,
+                pan,
+                tilt,
+                roll,
+            } => {
+                all.position = position.get()?.0;
+                (all.pan, all.tilt) = (pan.get()?.0, tilt.get()?.0);
+                roll
+            }
+            Self::LookAt {
+                position,
+                target,
+                roll,
+            } => {
+                (all.position, all.target) = (position.get()?.0, target.get()?.0);
+                roll
+            }
+            Self::Orbit {
+                target,
+                radius,
+                azimuth,
+                elevation,
+                roll,
+            } => {
+                (all.target, all.radius) = (target.get()?.0, radius.get()?.0);
+                (all.azimuth, all.elevation) = (azimuth.get()?.0, elevation.get()?.0);
+                roll
+            }
+            Self::Frame {
+                azimuth,
+                elevation,
+                roll,
+                ..
+            } => {
+                (all.azimuth, all.elevation) = (azimuth.get()?.0, elevation.get()?.0);
+                roll
+            }
+        };
+        all.roll = roll.get()?.0;
+        Some(all)
+    }
+
+    /// The kind of this camera as the file writes it.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Free { .. } => "Free",
+            Self::LookAt { .. } => "LookAt",
+            Self::Orbit { .. } => "Orbit",
+            Self::Frame { .. } => "Frame",
+        }
+    }
+
+    /// The channels that keys of this camera may name.
+    pub(crate) fn channels(&self) -> &'static [&'static str] {
+        match self {
+            Self::Free { .. } => &["position", "pan", "tilt", "roll", "zoom"],
+            Self::LookAt { .. } => &["position", "target", "roll", "zoom"],
+            Self::Orbit { .. } => &["target", "radius", "azimuth", "elevation", "roll", "zoom"],
+            Self::Frame { .. } => &["azimuth", "elevation", "roll", "zoom"],
+        }
+    }
+}
+
+impl Animation {
+    /// The kind of this animation as the file writes it.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Self::Keyframes { .. } => "Keyframes",
+            Self::Turntable { .. } => "Turntable",
+        }
+    }
+}
+
+impl Key {
+    /// Every channel with the place of its value, where the key names it.
+    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 9] {
+        fn place<T>(channel: &Option<Placed<T>>) -> Option<Range<usize>> {
+            channel.as_ref().map(|value| value.place.clone())
+        }
+        [
+            ("position", place(&self.position)),
+            ("target", place(&self.target)),
+            ("radius", place(&self.radius)),
+            ("pan", place(&self.pan)),
+            ("tilt", place(&self.tilt)),
+            ("roll", place(&self.roll)),
+            ("azimuth", place(&self.azimuth)),
+            ("elevation", place(&self.elevation)),
+            ("zoom", place(&self.zoom)),
+        ]
+    }
+}

@@ -1,0 +1,208 @@
+//! The structures of a scene file, field by field as a user writes them.
+//!
+//! A field with a default may be left out. [`crate::world`] and [`crate::motion`] give the fields
+//! their meaning.
+
+mod camera;
+mod names;
+
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+pub(crate) use self::camera::{Animation, Camera, Ease, Key};
+use crate::table::{Coloring, Colormap, Radii};
+use crate::text::{Placed, present};
+use crate::values::{
+    Amplitude, Color, ColumnName, Exponent, FieldOfView, FileName, Flag, GrainSize, ImageSide,
+    MaterialName, Point, Radius, RetinaDistance, RetinaWidth, Scale, Seed, Shift, Shininess,
+    Strength, ValueRange, Zoom,
+};
+
+/// The whole file: black behind unlit, shadowed spheres unless it says more.
+#[derive(Debug, Deserialize)]
+#[serde(rename = "Scene", deny_unknown_fields)]
+pub(crate) struct File {
+    pub(crate) image: Placed<Image>,
+    pub(crate) lens: Placed<Lens>,
+    pub(crate) camera: Placed<Camera>,
+    #[serde(default)]
+    pub(crate) zoom: Placed<Zoom>,
+    #[serde(default = "black")]
+    pub(crate) background: Placed<Color>,
+    #[serde(default = "black")]
+    pub(crate) ambient: Placed<Color>,
+    #[serde(default = "cast_shadows")]
+    pub(crate) shadows: Placed<Flag>,
+    #[serde(default)]
+    pub(crate) lights: Vec<Placed<Light>>,
+    #[serde(default)]
+    pub(crate) materials: Materials,
+    #[serde(default)]
+    pub(crate) spheres: Vec<Placed<Sphere>>,
+    #[serde(default)]
+    pub(crate) clouds: Vec<Placed<Cloud>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) animation: Option<Placed<Animation>>,
+}
+
+/// The size of the picture, in pixels.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Image {
+    pub(crate) width: Placed<ImageSide>,
+    pub(crate) height: Placed<ImageSide>,
+}
+
+/// The retina, given by its size and distance or by the horizontal field of view in degrees.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum Lens {
+    Retina {
+        width: Placed<RetinaWidth>,
+        distance: Placed<RetinaDistance>,
+        #[serde(default)]
+        shift: Placed<Shift>,
+    },
+    Fov(Placed<FieldOfView>),
+}
+
+/// A light; its intensity is 1 by default.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum Light {
+    Directional {
+        toward: Placed<Point>,
+        #[serde(default = "white")]
+        intensity: Placed<Color>,
+    },
+}
+
+/// A material; matte white by default.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Material {
+    #[serde(default = "white")]
+    pub(crate) albedo: Placed<Color>,
+    #[serde(default)]
+    pub(crate) exponent: Placed<Exponent>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) highlight: Option<Placed<Highlight>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) rough: Option<Placed<Rough>>,
+}
+
+/// A highlight; strength 0.5 and shininess 40 by default.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Highlight {
+    #[serde(default)]
+    pub(crate) strength: Placed<Strength>,
+    #[serde(default)]
+    pub(crate) shininess: Placed<Shininess>,
+}
+
+/// Roughness; by default the original project's, amplitude 0.5 for each pixel on its own.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Rough {
+    #[serde(default)]
+    pub(crate) amplitude: Placed<Amplitude>,
+    #[serde(default)]
+    pub(crate) grain: Placed<Grain>,
+    #[serde(default)]
+    pub(crate) seed: Placed<Seed>,
+}
+
+/// The thing to which the numbers of a rough surface are attached.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum Grain {
+    Surface(Placed<GrainSize>),
+    #[default]
+    Pixel,
+}
+
+/// A sphere; matte white without a material.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Sphere {
+    pub(crate) center: Placed<Point>,
+    pub(crate) radius: Placed<Radius>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) material: Option<Placed<MaterialName>>,
+}
+
+/// Spheres of a table; matte white without a material, and where the table puts them.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Cloud {
+    pub(crate) file: Placed<FileName>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) material: Option<Placed<MaterialName>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius: Option<Placed<Radius>>,
+    #[serde(default)]
+    pub(crate) radii: Placed<Radii>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) color: Option<Placed<Coloring>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) value: Option<Placed<ColumnName>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) colormap: Option<Placed<Colormap>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) range: Option<Placed<ValueRange>>,
+    #[serde(default = "no")]
+    pub(crate) center: Placed<Flag>,
+    #[serde(default = "no")]
+    pub(crate) right_handed: Placed<Flag>,
+    #[serde(default)]
+    pub(crate) scale: Placed<Scale>,
+    #[serde(default)]
+    pub(crate) rotate_degrees: Placed<Point>,
+    #[serde(default)]
+    pub(crate) position: Placed<Point>,
+}
+
+/// Materials in the file's order, a name given twice included.
+#[derive(Debug, Default)]
+pub(crate) struct Materials(pub(crate) Vec<(Placed<MaterialName>, Placed<Material>)>);
+
+impl<'de> Deserialize<'de> for Materials {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Pairs;
+
+        impl<'de> Visitor<'de> for Pairs {
+            type Value = Materials;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("materials by name")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Materials, A::Error> {
+                let mut materials = Materials::default();
+                while let Some(pair) = map.next_entry()? {
+                    materials.0.push(pair);
+                }
+                Ok(materials)
+            }
+        }
+
+        deserializer.deserialize_map(Pairs)
+    }
+}
+
+fn black() -> Placed<Color> {
+    Color::BLACK.into()
+}
+
+fn white() -> Placed<Color> {
+    Color::WHITE.into()
+}
+
+fn no() -> Placed<Flag> {
+    Flag(false).into()
+}
+
+fn cast_shadows() -> Placed<Flag> {
+    Flag(true).into()
+}

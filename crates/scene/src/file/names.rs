@@ -1,0 +1,52 @@
+//! The names of the structures in messages.
+
+use serde::{Deserialize, Deserializer};
+
+use super::camera::{Animation, Camera, Ease, Key};
+use super::{Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
+use crate::table::{Coloring, Colormap, Radii};
+use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
+
+/// Gives structures the names that messages call them by.
+macro_rules! structures {
+    ($($type:ident: $noun:literal, $form:literal;)*) => {$(
+        impl<'t> Read<'t> for $type {
+            fn read(slice: Slice<'t>) -> Option<Self> {
+                read_structure(slice, Names { noun: $noun, form: $form })
+            }
+
+            fn read_strictly<D: Deserializer<'t>>(deserializer: D) -> Result<Option<Self>, D::Error> {
+                Self::deserialize(deserializer)
+                    .inspect_err(|_| note_failure(Names { noun: $noun, form: $form }))
+                    .map(Some)
+            }
+        }
+    )*};
+}
+
+structures! {
+    Image: "image", "an image `(width: …, height: …)`";
+    Lens: "lens", "a lens: `Retina(width: …, distance: …)` or `Fov(…)`";
+    Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)` or `Frame(…)`";
+    Light: "light", "a light `Directional(toward: …)`";
+    Material: "material", "a material `(albedo: …)`";
+    Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
+    Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
+    Grain: "grain", "a grain: `Surface(…)` or `Pixel`";
+    Sphere: "sphere", "a sphere `(center: …, radius: …)`";
+    Cloud: "cloud", "a cloud `(file: …)`";
+    Radii: "kind of radii", "a kind of radii: `VanDerWaals` or `Covalent`";
+    Coloring: "coloring", "a coloring: `Material`, `Table`, `Element` or `Value`";
+    Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
+    Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
+    Key: "key", "a key `(frame: …)`";
+    Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
+}
+
+impl<'t> Read<'t> for File {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let form = "a scene `(image: …, lens: …, camera: …)`";
+        let noun = "scene";
+        read_file(slice, Names { noun, form })
+    }
+}

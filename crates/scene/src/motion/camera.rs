@@ -1,0 +1,148 @@
+//! The camera of a scene over time.
+
+use std::ops::RangeInclusive;
+
+use marbles_core::{Pose, Sphere};
+
+use super::channels::{Channels, Keys};
+use super::checks;
+use super::curve::Curve;
+use super::error::FrameError;
+use super::framing::{Framing, Picture, Turning, axes_of_orbit};
+use super::turntable::Turntable;
+use crate::file::{Animation, File, Key};
+use crate::text::{Placed, optional};
+
+/// The camera of a scene over time.
+#[derive(Clone, Debug)]
+pub(crate) struct CameraMotion {
+    channels: Channels,
+    zoom: Curve,
+    turntable: Option<Turntable>,
+    timing: Option<Timing>,
+}
+
+/// The frames of an animation.
+#[derive(Clone, Debug)]
+pub(crate) struct Timing {
+    pub(crate) frames: RangeInclusive<i32>,
+    pub(crate) frames_per_second: f64,
+    /// The time for which the shutter is open, in frames; `None` where frames show a moment.
+    pub(crate) shutter: Option<f64>,
+    /// The frames of the keys, which increase: at no other time a motion bends or jumps.
+    key_frames: Vec<i32>,
+}
+
+impl CameraMotion {
+    /// The motion that the file with this text describes; `None` where a fault was reported.
+    pub(crate) fn new(file: &File, text: &str) -> Option<Self> {
+        checks::check(file, text);
+        let (mut timing, mut turntable) = (None, None);
+        let mut keys: &[Placed<Key>] = &[];
+        if let Some(animation) = &file.animation {
+            let animation = animation.value.as_ref()?;
+            timing = Some(Timing::new(animation)?);
+            match animation {
+                Animation::Keyframes { keys: all, .. } => keys = all,
+                Animation::Turntable { frames, turns, .. } => {
+                    let (frames, turns) = (frames.get()?.0, turns.get()?.0);
+                    turntable = Some(Turntable { frames, turns });
+                }
+            }
+        }
+        let keys = Keys(keys.iter().filter_map(|key| key.value.as_ref()).collect());
+        Some(Self {
+            channels: Channels::new(file.camera.value.as_ref()?, &keys)?,
+            zoom: keys.numbers(file.zoom.get()?.0, |key| &key.zoom),
+            turntable,
+            timing,
+        })
+    }
+
+    /// Places a camera that frames; `false` where there is nothing to be framed.
+    pub(crate) fn frame(&mut self, spheres: &[Sphere], picture: &Picture) -> bool {
+        let angles = self.channels.angles();
+        let turning = match self.turntable {
+            Some(_) => Turning::Around,
+            None if angles.iter().all(|curve| curve.is_constant()) => Turning::Still,
+            None => Turning::Freely,
+        };
+        let axes = axes_of_orbit(angles.map(|curve| curve.at(0.0)));
+        let Some(framing) = Framing::new(spheres, picture, turning, axes) else {
+            return false;
+        };
+        self.channels.frame(&framing);
+        true
+    }
+
+    /// The frames of the animation, `None` for a still.
+    pub(crate) fn timing(&self) -> Option<&Timing> {
+        self.timing.as_ref()
+    }
+
+    /// The place of the camera so many frames after frame `frame`, fewer than 1.
+    pub(crate) fn pose(&self, frame: i32, later: f64) -> Result<Pose, FrameError> {
+        let time = f64::from(frame) + later;
+        let turntable = self.turntable.as_ref();
+        let turned = turntable.map_or(0.0, |turntable| turntable.azimuth_degrees_at(frame, later));
+        let camera = self.channels.at(time, turned);
+        Ok(Pose {
+            camera: camera.map_err(|fault| FrameError { frame, fault })?,
+            zoom: self.zoom.at(time),
+        })
+    }
+
+    /// The number of the frame by which noise is drawn, the same in every turn of a turntable.
+    pub(crate) fn looped(&self, frame: i32) -> i32 {
+        let turntable = self.turntable.as_ref();
+        turntable.map_or(frame, |turntable| turntable.looped(frame))
+    }
+
+    /// Returns whether some key is at this frame.
+    pub(super) fn has_key_at(&self, frame: i32) -> bool {
+        let has_key = |timing: &Timing| timing.key_frames.binary_search(&frame).is_ok();
+        self.timing.as_ref().is_some_and(has_key)
+    }
+}
+
+impl Timing {
+    fn new(animation: &Animation) -> Option<Self> {
+        let (frames, fps, shutter, keys) = match animation {
+            Animation::Keyframes {
+                frames,
+                fps,
+                shutter,
+                keys,
+            } => {
+                let given = optional(frames, |range| Some(range.first..=range.last))?;
+                let frames = given.unwrap_or_else(|| frames_of(keys));
+                (frames, fps, shutter, &keys[..])
+            }
+            Animation::Turntable {
+                frames,
+                fps,
+                shutter,
+                ..
+            } => (1..=frames.get()?.0, fps, shutter, &[][..]),
+        };
+        Some(Self {
+            frames,
+            frames_per_second: fps.get()?.0,
+            shutter: optional(shutter, |shutter| Some(shutter.0))?,
+            key_frames: keys.iter().filter_map(frame_of).collect(),
+        })
+    }
+}
+
+/// The frames from the first key to the last; frame 1 alone without keys.
+fn frames_of(keys: &[Placed<Key>]) -> RangeInclusive<i32> {
+    let (first, last) = (keys.first(), keys.last());
+    match (first.and_then(frame_of), last.and_then(frame_of)) {
+        (Some(first), Some(last)) => first..=last,
+        _ => 1..=1,
+    }
+}
+
+fn frame_of(key: &Placed<Key>) -> Option<i32> {
+    Some(key.value.as_ref()?.frame.get()?.0)
+}

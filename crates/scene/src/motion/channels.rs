@@ -1,0 +1,156 @@
+//! The channels of a camera: its numbers, each of them a curve.
+
+use glam::{DVec2, DVec3};
+use marbles_core::{Angle, Camera};
+
+use super::curve::{Curve, CurveKey};
+use super::error::FrameFault;
+use super::framing::Framing;
+use crate::file::{self, Key};
+use crate::text::Placed;
+use crate::values::Point;
+
+/// The numbers of a camera, each of them a curve; those that its kind lacks are 0.
+#[derive(Clone, Debug)]
+pub(super) struct Channels {
+    kind: Kind,
+    position: PointCurve,
+    target: PointCurve,
+    radius: Curve,
+    /// The displacement of a camera that frames, left and down, in multiples of the radius.
+    aside: Option<DVec2>,
+    pan: Curve,
+    tilt: Curve,
+    azimuth: Curve,
+    elevation: Curve,
+    roll: Curve,
+}
+
+/// The way in which channels give a camera.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Kind {
+    Free,
+    LookAt,
+    Orbit,
+}
+
+impl Channels {
+    /// The channels of the file's camera; one that frames waits for [`Self::frame`].
+    pub(super) fn new(camera: &file::Camera, keys: &Keys<'_>) -> Option<Self> {
+        let rest = camera.at_rest()?;
+        Some(Self {
+            kind: match camera {
+                file::Camera::Free { .. } => Kind::Free,
+                file::Camera::LookAt { .. } => Kind::LookAt,
+                file::Camera::Orbit { .. } | file::Camera::Frame { .. } => Kind::Orbit,
+            },
+            position: keys.points(rest.position, |key| &key.position),
+            target: keys.points(rest.target, |key| &key.target),
+            radius: keys.numbers(rest.radius, |key| &key.radius),
+            aside: None,
+            pan: keys.numbers(rest.pan, |key| &key.pan),
+            tilt: keys.numbers(rest.tilt, |key| &key.tilt),
+            azimuth: keys.numbers(rest.azimuth, |key| &key.azimuth),
+            elevation: keys.numbers(rest.elevation, |key| &key.elevation),
+            roll: keys.numbers(rest.roll, |key| &key.roll),
+        })
+    }
+
+    /// Azimuth, elevation and roll of an orbit.
+    pub(super) fn angles(&self) -> [&Curve; 3] {
+        [&self.azimuth, &self.elevation, &self.roll]
+    }
+
+    /// Places an orbit where it frames its spheres.
+    pub(super) fn frame(&mut self, framing: &Framing) {
+        self.target = PointCurve::constant(framing.target);
+        self.radius = Curve::constant(framing.distance);
+        self.aside = Some(framing.aside);
+    }
+
+    /// The camera at a time in frames; `turned_degrees` is added to the azimuth of an orbit.
+    pub(super) fn at(&self, time: f64, turned_degrees: f64) -> Result<Camera, FrameFault> {
+        let angle = |curve: &Curve| Angle::from_degrees(curve.at(time));
+        let roll = angle(&self.roll);
+        let camera = match self.kind {
+            Kind::Free => {
+                let (pan, tilt) = (angle(&self.pan), angle(&self.tilt));
+                Camera::free(self.position.at(time), pan, tilt, roll)
+            }
+            Kind::LookAt => {
+                let (position, target) = (self.position.at(time), self.target.at(time));
+                look_at(position, target, roll).ok_or(FrameFault::LooksNowhere)?
+            }
+            Kind::Orbit => {
+                let azimuth = Angle::from_degrees(self.azimuth.at(time) + turned_degrees);
+                let (target, radius) = (self.target.at(time), self.radius.at(time));
+                let elevation = angle(&self.elevation);
+                let mut camera = Camera::orbit(target, radius, azimuth, elevation, roll);
+                if let Some(aside) = self.aside {
+                    let aside = radius * aside;
+                    let axes = camera.world_from_camera;
+                    camera.position -= axes.x_axis * aside.x + axes.y_axis * aside.y;
+                }
+                camera
+            }
+        };
+        if camera.position.is_finite() {
+            Ok(camera)
+        } else {
+            Err(FrameFault::TooFar)
+        }
+    }
+}
+
+fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Camera> {
+    if (target - position).is_finite() {
+        return Camera::look_at(position, target, roll);
+    }
+    // Half as long, the way to the target is finite.
+    let (pan, tilt) = Camera::pan_and_tilt_toward(0.5 * target - 0.5 * position)?;
+    Some(Camera::free(position, pan, tilt, roll))
+}
+
+/// A point over time, each coordinate on its own.
+#[derive(Clone, Debug)]
+pub(super) struct PointCurve([Curve; 3]);
+
+impl PointCurve {
+    fn constant(point: DVec3) -> Self {
+        Self(point.to_array().map(Curve::constant))
+    }
+
+    fn at(&self, time: f64) -> DVec3 {
+        DVec3::from_array(self.0.each_ref().map(|curve| curve.at(time)))
+    }
+}
+
+/// The keys of an animation that were not refused, none for a still.
+pub(super) struct Keys<'f>(pub(super) Vec<&'f Key>);
+
+impl Keys<'_> {
+    /// The curve of a channel of numbers: `rest` where no key names it.
+    pub(super) fn numbers<T: Copy + Into<f64>>(
+        &self,
+        rest: f64,
+        channel: impl Fn(&Key) -> &Option<Placed<T>>,
+    ) -> Curve {
+        self.curve(rest, |key| Some(channel(key).as_ref()?.get()?.into()))
+    }
+
+    /// The curve of a channel of points.
+    fn points(&self, rest: DVec3, channel: impl Fn(&Key) -> &Option<Placed<Point>>) -> PointCurve {
+        PointCurve([0, 1, 2].map(|axis| {
+            let value = |key: &Key| Some(channel(key).as_ref()?.get()?.0[axis]);
+            self.curve(rest[axis], value)
+        }))
+    }
+
+    fn curve(&self, rest: f64, value: impl Fn(&Key) -> Option<f64>) -> Curve {
+        let keys = self.0.iter().filter_map(|key| {
+            let (frame, ease) = (key.frame.get()?.0, key.ease.get()?);
+            Some(CurveKey::new(frame, value(key)?, ease))
+        });
+        Curve::new(rest, keys.collect())
+    }
+}

@@ -1,0 +1,22 @@
+//! The frames that cannot be rendered.
+
+/// The reason for which a frame of a valid scene cannot be rendered.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("frame {frame}: {fault}")]
+pub struct FrameError {
+    /// The frame.
+    pub frame: i32,
+    /// The fault of the camera in it.
+    pub fault: FrameFault,
+}
+
+/// The fault of a camera in a frame.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
+pub enum FrameFault {
+    /// Its target is its position.
+    #[error("the camera stands at its target and looks nowhere")]
+    LooksNowhere,
+    /// Its position is beyond the range of numbers.
+    #[error("the camera is infinitely far away")]
+    TooFar,
+}

@@ -1,0 +1,16 @@
+//! The camera over time: curves through keys, turntables, and the place of a camera that frames.
+
+mod camera;
+mod channels;
+mod checks;
+mod curve;
+mod error;
+mod framing;
+
+mod shutter;
+mod turntable;
+
+pub(crate) use camera::CameraMotion;
+pub use error::{FrameError, FrameFault};
+pub(crate) use framing::{Framing, Picture, Turning, axes_of_orbit};
+pub(crate) use shutter::OpenShutter;

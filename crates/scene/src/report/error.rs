@@ -1,0 +1,96 @@
+//! The error of a scene file that was refused.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::located::{SceneFault, line_and_column, locate, message};
+use super::snippet::Style;
+use crate::text::{Fault, LocatedFault};
+
+/// The reason for which a scene file was refused.
+///
+/// `Display` is the complete message: for every fault a line `PATH:LINE:COLUMN: …` and the place
+/// in the file below it. Of a binary table the line is `PATH: row ROW, column COLUMN, byte BYTE: …`.
+#[derive(Clone, Debug)]
+pub struct SceneError {
+    path: PathBuf,
+    faults: Vec<SceneFault>,
+    plain: String,
+    styled: String,
+}
+
+impl SceneError {
+    /// The file in which something is wrong: the scene file, or a table that it names.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The faults that are told, in the order of the file; none where the file could not be read.
+    pub fn faults(&self) -> &[SceneFault] {
+        &self.faults
+    }
+
+    /// The message with ANSI colors, for a terminal; `Display` is the same without.
+    pub fn styled(&self) -> String {
+        self.styled.clone()
+    }
+
+    /// The error of a file that cannot be read.
+    pub(crate) fn unreadable(path: &Path, reason: &str) -> Self {
+        Self {
+            faults: Vec::new(),
+            ..Self::new(path, &[LocatedFault::of_file(reason)], "")
+        }
+    }
+
+    /// The error of a table at `path` that a scene file names in its text at `place`.
+    pub(crate) fn in_table(
+        path: &Path,
+        fault: LocatedFault,
+        (scene, text, place): (&Path, &str, &Range<usize>),
+    ) -> Self {
+        let (line, column) = line_and_column(text, place.start);
+        let scene = scene.display();
+        let end = format!("\nthe table is named at {scene}:{line}:{column}");
+        Self::new(path, &[fault], &end)
+    }
+
+    /// The error of a file in which something is wrong.
+    pub(crate) fn refused(path: &Path, text: &str, mut faults: Vec<Fault>) -> Self {
+        /// The number of faults that are told.
+        const MOST_FAULTS: usize = 10;
+        faults.sort_by_key(|fault| fault.place.start);
+        faults.dedup();
+        let end = match faults.len().saturating_sub(MOST_FAULTS) {
+            0 => String::new(),
+            1 => String::from("\n\nand 1 more fault"),
+            untold => format!("\n\nand {untold} more faults"),
+        };
+        let told = faults.into_iter().take(MOST_FAULTS);
+        let faults: Vec<_> = told.map(|fault| locate(text, fault)).collect();
+        Self::new(path, &faults, &end)
+    }
+
+    /// The error of these faults; `end` follows their messages.
+    fn new(path: &Path, faults: &[LocatedFault], end: &str) -> Self {
+        let all = |style: Style| {
+            let parts = faults.iter().map(|fault| message(path, fault, style));
+            parts.collect::<Vec<_>>().join("\n\n") + end
+        };
+        Self {
+            path: path.to_path_buf(),
+            plain: all(Style::Plain),
+            styled: all(Style::Styled),
+            faults: faults.iter().map(SceneFault::new).collect(),
+        }
+    }
+}
+
+impl fmt::Display for SceneError {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.plain)
+    }
+}
+
+impl std::error::Error for SceneError {}

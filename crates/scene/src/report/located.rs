@@ -1,0 +1,122 @@
+//! Faults with their lines and columns.
+
+use std::ops::Range;
+use std::path::Path;
+
+use super::snippet::{Style, bold, snippet};
+use crate::text::token::{self, Unclosed};
+use crate::text::{Fault, LocatedFault, Place, show};
+
+/// A fault at a place in a file.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct SceneFault {
+    /// The line, from 1; in a binary table the row.
+    pub line: usize,
+    /// The column, in characters from 1; in a binary table that of the table.
+    pub column: usize,
+    /// The expected thing and the found one.
+    pub message: String,
+}
+
+impl SceneFault {
+    /// The fault as programs see it.
+    pub(super) fn new(fault: &LocatedFault) -> Self {
+        let (line, column) = match fault.place {
+            Place::Text {
+                line,
+                ref text,
+                ref span,
+            } => (line, text[..span.start].chars().count() + 1),
+            Place::Row { row, column, .. } => (row, column),
+            Place::File => (1, 1),
+        };
+        Self {
+            line: usize::try_from(line).unwrap_or(usize::MAX),
+            column,
+            message: fault.message.clone(),
+        }
+    }
+}
+
+/// The message about a fault in the file at `path`: its place, the fault, and the line.
+pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style) -> String {
+    let SceneFault {
+        line,
+        column,
+        message,
+    } = SceneFault::new(fault);
+    let path = path.display();
+    let (place, snippet) = match &fault.place {
+        Place::Text { text, span, .. } => (
+            format!("{path}:{line}:{column}:"),
+            snippet(text, span.clone(), line, style),
+        ),
+        Place::Row { byte, .. } => (
+            format!("{path}: row {line}, column {column}, byte {byte}:"),
+            None,
+        ),
+        Place::File => (format!("{path}:"), None),
+    };
+    let header = format!("{} {message}", bold(&place, style));
+    match snippet {
+        Some(snippet) => format!("{header}\n{snippet}"),
+        None => header,
+    }
+}
+
+/// A fault of the text of a scene file at its line.
+pub(super) fn locate(text: &str, fault: Fault) -> LocatedFault {
+    let (place, message) = match fault.found_is_open {
+        true => with_found(text, fault),
+        false => (fault.place, fault.message),
+    };
+    let (line, _) = line_and_column(text, place.start);
+    let (before, after) = text.split_at(place.start);
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let end = after.find(['\n', '\r']);
+    let end = end.map_or(text.len(), |end| place.start + end);
+    let span = place.start - start..place.end.min(end) - start;
+    LocatedFault::in_line(line as u64, &text.as_bytes()[start..end], span, message)
+}
+
+/// The place and the message of a fault that still lacks what was found.
+///
+/// If the text ends before its time, the thing left open is more telling than the end.
+fn with_found(text: &str, fault: Fault) -> (Range<usize>, String) {
+    const END: &str = "found the end of the file";
+    let at = token::skip_trivia(text, fault.place.start);
+    match token::unclosed(text) {
+        Some(Unclosed::String(start)) if start <= at => (
+            start..start + 1,
+            format!("expected a `\"` where this string ends, {END}"),
+        ),
+        Some(Unclosed::Comment(start)) if start <= at => (
+            start..start + 2,
+            format!("expected a `*/` where this comment ends, {END}"),
+        ),
+        Some(Unclosed::Bracket(start)) if at == text.len() => {
+            let (line, column) = line_and_column(text, start);
+            let (opening, closing) = match text.as_bytes()[start] {
+                b'(' => ('(', ')'),
+                b'[' => ('[', ']'),
+                _ => ('{', '}'),
+            };
+            let expected = format!("`{closing}` for the `{opening}` at {line}:{column}");
+            (at..at, format!("expected {expected}, {END}"))
+        }
+        _ if at == text.len() => (at..at, format!("{}, {END}", fault.message)),
+        _ => {
+            let place = at..token::token_end(text, at);
+            let found = show(&text[place.clone()]);
+            (place, format!("{}, found {found}", fault.message))
+        }
+    }
+}
+
+/// Line and column of a byte, both from 1, the column in characters.
+pub(super) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..at];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let newlines = before.bytes().filter(|&byte| byte == b'\n').count();
+    (newlines + 1, before[line_start..].chars().count() + 1)
+}

@@ -1,0 +1,61 @@
+//! The line of a file with a place in it underlined.
+
+use std::ops::Range;
+
+use annotate_snippets::renderer::Effects;
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, renderer};
+
+/// The kind of a message: for a file or for a terminal.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Style {
+    Plain,
+    Styled,
+}
+
+/// The text in bold letters, in a terminal.
+pub(super) fn bold(text: &str, style: Style) -> String {
+    match style {
+        Style::Plain => text.to_owned(),
+        Style::Styled => {
+            let bold = renderer::Style::new().effects(Effects::BOLD);
+            format!("{bold}{text}{bold:#}")
+        }
+    }
+}
+
+/// The line of this number with the place underlined; `None` where there is nothing to see.
+pub(super) fn snippet(
+    text: &str,
+    place: Range<usize>,
+    line: usize,
+    style: Style,
+) -> Option<String> {
+    // Characters of a long line that are shown before and after the start of the place.
+    const BEFORE: usize = 50;
+    const AFTER: usize = 70;
+    const WIDER_THAN_THE_WINDOW: usize = 1000;
+    let (before, after) = text.split_at(place.start);
+    let line_end = after.find(['\n', '\r']).unwrap_or(after.len());
+    let mut characters = before.char_indices().rev();
+    let start = characters.nth(BEFORE).map_or(0, |(at, _)| at);
+    let mut characters = after[..line_end].char_indices();
+    let end = characters.nth(AFTER).map_or(line_end, |(at, _)| at);
+    let (before, after) = (&before[start..], &after[..end]);
+    if before.trim().is_empty() && after.trim().is_empty() {
+        return None;
+    }
+    let cut = |is_cut: bool| if is_cut { "…" } else { "" };
+    let (opening, closing) = (cut(start > 0), cut(end < line_end));
+    let source = format!("{opening}{before}{after}{closing}");
+    let shown_start = opening.len() + before.len();
+    let shown = shown_start..shown_start + place.len().min(end);
+    let renderer = match style {
+        Style::Plain => Renderer::plain(),
+        Style::Styled => Renderer::styled(),
+    };
+    let snippet = Snippet::source(source)
+        .line_start(line)
+        .annotation(AnnotationKind::Primary.span(shown));
+    let group = Group::with_level(Level::ERROR).element(snippet);
+    Some(renderer.term_width(WIDER_THAN_THE_WINDOW).render(&[group]))
+}

@@ -1,0 +1,145 @@
+//! A scene: a world, a camera over time, and the image.
+
+mod load;
+
+use std::ops::{Range, RangeInclusive};
+use std::path::PathBuf;
+
+use glam::{DVec2, DVec3};
+use marbles_core::{Exposure, Lens, Pose, View, World};
+
+use crate::motion::{
+    CameraMotion, FrameError, Framing, OpenShutter, Picture, Turning, axes_of_orbit,
+};
+
+/// A scene file that was read and found valid.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    world: World,
+    motion: CameraMotion,
+    lens: Lens,
+    width: u32,
+    height: u32,
+    description: Description,
+    clouds: Vec<CloudDescription>,
+}
+
+/// The spheres of a table.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct CloudDescription {
+    /// The table as the scene file names it.
+    pub file: PathBuf,
+    /// The range of its spheres in the world.
+    pub spheres: Range<usize>,
+}
+
+/// A scene in words and numbers, for people.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Description {
+    /// Number of materials that the file defines.
+    pub materials: usize,
+    /// The kind of camera: `Free`, `LookAt` or `Orbit`.
+    pub camera: &'static str,
+    /// The kind of animation, `Keyframes` or `Turntable`; `None` for a still.
+    pub animation: Option<&'static str>,
+    /// The lens as the file writes it, for example `Fov(50)`.
+    pub lens: String,
+}
+
+impl Scene {
+    /// The spheres, lights and materials, the same in every frame.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// The view of frame `frame`; any number, inside the animation or not.
+    ///
+    /// # Errors
+    /// Refuses frames in which the camera looks nowhere, in their middle or where their shutter opens
+    /// or closes: keys may lead a `LookAt` camera to its target.
+    pub fn view(&self, frame: i32) -> Result<View, FrameError> {
+        let Pose { camera, zoom } = self.motion.pose(frame, 0.0)?;
+        if let Some(shutter) = self.shutter() {
+            self.motion.pose(frame, -0.5 * shutter)?;
+            self.motion.pose(frame, 0.5 * shutter)?;
+        }
+        Ok(View {
+            camera,
+            lens: self.lens,
+            zoom,
+            width: self.width,
+            height: self.height,
+            frame: i64::from(self.motion.looped(frame)),
+        })
+    }
+
+    /// A view of a frame, which may have another size, with the motion of the camera while the
+    /// frame's shutter is open.
+    pub fn exposure(&self, view: &View) -> Exposure<'_> {
+        let motion = &self.motion;
+        match (self.shutter(), i32::try_from(view.frame)) {
+            (Some(duration), Ok(frame)) => Exposure::of_motion(
+                *view,
+                OpenShutter {
+                    motion,
+                    frame,
+                    duration,
+                },
+            ),
+            _ => Exposure::from(view),
+        }
+    }
+
+    /// The time for which the shutter is open in each frame, in frames: half of it before the
+    /// frame's time, half after it. `None` where a frame shows a moment.
+    pub fn shutter(&self) -> Option<f64> {
+        self.motion.timing()?.shutter
+    }
+
+    /// The frames of the animation, `None` for a still.
+    pub fn frames(&self) -> Option<RangeInclusive<i32>> {
+        Some(self.motion.timing()?.frames.clone())
+    }
+
+    /// Frames per second of the animation, `None` for a still.
+    pub fn frames_per_second(&self) -> Option<f64> {
+        Some(self.motion.timing()?.frames_per_second)
+    }
+
+    /// The scene in words and numbers.
+    pub fn description(&self) -> &Description {
+        &self.description
+    }
+
+    /// The tables of the scene, in the order of the file.
+    pub fn clouds(&self) -> &[CloudDescription] {
+        &self.clouds
+    }
+
+    /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens
+    /// that has some of the world's spheres in its picture from any azimuth.
+    ///
+    /// `None` for no spheres, and where the lens is shifted, so that no target is in the middle.
+    pub fn orbit_around(&self, spheres: Range<usize>, elevation: f64) -> Option<(DVec3, f64)> {
+        const FILL: f64 = 0.9;
+        if self.lens.shift != DVec2::ZERO {
+            return None;
+        }
+        let axes = axes_of_orbit([0.0, elevation, 0.0]);
+        let spheres = self.world.spheres().get(spheres)?;
+        let framing = Framing::new(spheres, &self.picture(FILL), Turning::Around, axes)?;
+        Some((framing.target, framing.distance))
+    }
+
+    /// The picture of which a framing camera fills the part `fill`.
+    fn picture(&self, fill: f64) -> Picture {
+        Picture {
+            lens: self.lens,
+            aspect: f64::from(self.height) / f64::from(self.width),
+            fill,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,20 @@
+//! The text of a scene file: its tokens, values that know their place, and what is wrong there.
+
+mod explain;
+mod fault;
+mod located;
+mod placed;
+mod raw;
+mod show;
+mod slice;
+mod suggest;
+pub(crate) mod token;
+
+pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
+pub(crate) use located::{LocatedFault, Place};
+pub(crate) use placed::{
+    Placed, Read, optional, present, read_file, read_simple, read_structure, read_tuple,
+};
+pub(crate) use show::{quoted, show};
+pub(crate) use slice::Slice;
+pub(crate) use suggest::{closest, did_you_mean, either, list};

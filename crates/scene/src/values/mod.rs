@@ -1,0 +1,15 @@
+//! The simple values of a scene file: numbers, colors, points, names.
+
+mod color;
+mod point;
+mod quantity;
+mod words;
+
+pub(crate) use color::{Color, from_srgb, linear};
+pub(crate) use point::{FrameRange, Point, Shift, ValueRange};
+pub(crate) use quantity::{
+    Amplitude, Degrees, Exponent, FieldOfView, Fill, Frame, FrameCount, FramesPerSecond, GrainSize,
+    ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed, Shininess, Shutter, Strength,
+    Turns, Zoom,
+};
+pub(crate) use words::{ColumnName, FileName, Flag, MaterialName};

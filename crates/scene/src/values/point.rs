@@ -1,0 +1,62 @@
+//! Values of several numbers.
+
+use glam::{DVec2, DVec3};
+
+use super::quantity::{Coordinate, Frame};
+use crate::text::{Read, Slice, read_tuple};
+
+/// A point or a vector of the world, the origin by default.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Point(pub(crate) DVec3);
+
+/// A displacement on the retina.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shift(pub(crate) DVec2);
+
+/// The first and the last frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameRange {
+    pub(crate) first: i32,
+    pub(crate) last: i32,
+}
+
+/// The numbers that have the first and the last color of a colormap.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ValueRange {
+    pub(crate) low: f64,
+    pub(crate) high: f64,
+}
+
+impl<'t> Read<'t> for Point {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let [x, y, z]: [Coordinate; 3] = read_tuple(slice, "three numbers `(x, y, z)`")?;
+        Some(Self(DVec3::new(x.0, y.0, z.0)))
+    }
+}
+
+impl<'t> Read<'t> for Shift {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let [right, up]: [Coordinate; 2] = read_tuple(slice, "two numbers `(right, up)`")?;
+        Some(Self(DVec2::new(right.0, up.0)))
+    }
+}
+
+impl<'t> Read<'t> for FrameRange {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let [Frame(first), Frame(last)] = read_tuple(slice, "two frames `(first, last)`")?;
+        if first > last {
+            return slice.refuse("a first frame that is not after the last");
+        }
+        Some(Self { first, last })
+    }
+}
+
+impl<'t> Read<'t> for ValueRange {
+    fn read(slice: Slice<'t>) -> Option<Self> {
+        let [Coordinate(low), Coordinate(high)] = read_tuple(slice, "two numbers `(low, high)`")?;
+        if low >= high {
+            return slice.refuse("a low number that is less than the high one");
+        }
+        Some(Self { low, high })
+    }
+}

@@ -1,0 +1,110 @@
+//! The place of a cloud in the world.
+
+use glam::{DMat3, DVec3};
+use marbles_core::{Angle, Sphere};
+use rayon::prelude::*;
+
+use crate::bounds::middle;
+
+/// The steps by which a cloud is placed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placement {
+    pub(super) is_centered: bool,
+    pub(super) is_right_handed: bool,
+    pub(super) scale: f64,
+    pub(super) turn: Option<DMat3>,
+    pub(super) position: DVec3,
+}
+
+impl Placement {
+    /// Puts spheres to their place; returns whether they are still finite and have radii.
+    pub(super) fn place(&self, spheres: &mut [Sphere]) -> bool {
+        let middle = match self.is_centered {
+            true => middle(spheres).unwrap_or(DVec3::ZERO),
+            false => DVec3::ZERO,
+        };
+        let is_as_it_is = middle == DVec3::ZERO
+            && !self.is_right_handed
+            && self.scale == 1.0
+            && self.turn.is_none()
+            && self.position == DVec3::ZERO;
+        if is_as_it_is {
+            return true;
+        }
+        let mut axes = DVec3::splat(self.scale);
+        if self.is_right_handed {
+            axes.z = -axes.z;
+        }
+        spheres.par_iter_mut().all(|sphere| {
+            let mut center = (sphere.center() - middle) * axes;
+            if let Some(turn) = self.turn {
+                center = turn * center;
+            }
+            let placed = Sphere::new(center + self.position, sphere.radius() * self.scale);
+            placed.map(|placed| *sphere = placed).is_ok()
+        })
+    }
+}
+
+/// The turn about x by the first angle, then about y, then about z; `None` for no turn.
+///
+/// Positive angles lead from y to z, from z to x, and from x to y.
+pub(super) fn turn(degrees: DVec3) -> Option<DMat3> {
+    if degrees == DVec3::ZERO {
+        return None;
+    }
+    let [x, y, z] = degrees.to_array().map(Angle::from_degrees);
+    let about_x = DMat3::from_cols(
+        DVec3::X,
+        DVec3::new(0.0, x.cos, x.sin),
+        DVec3::new(0.0, -x.sin, x.cos),
+    );
+    let about_y = DMat3::from_cols(
+        DVec3::new(y.cos, 0.0, -y.sin),
+        DVec3::Y,
+        DVec3::new(y.sin, 0.0, y.cos),
+    );
+    let about_z = DMat3::from_cols(
+        DVec3::new(z.cos, z.sin, 0.0),
+        DVec3::new(-z.sin, z.cos, 0.0),
+        DVec3::Z,
+    );
+    Some(about_z * about_y * about_x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_go_from_axis_to_axis() {
+        let turned = |x, y, z, vector: DVec3| turn(DVec3::new(x, y, z)).unwrap() * vector;
+        assert_eq!(turned(90.0, 0.0, 0.0, DVec3::Y), DVec3::Z);
+        assert_eq!(turned(0.0, 90.0, 0.0, DVec3::Z), DVec3::X);
+        assert_eq!(turned(0.0, 0.0, 90.0, DVec3::X), DVec3::Y);
+        // First about x, then about z.
+        assert_eq!(turned(90.0, 0.0, 90.0, DVec3::Y), DVec3::Z);
+        assert_eq!(turned(90.0, 0.0, 90.0, DVec3::X), DVec3::Y);
+        assert!(turn(DVec3::ZERO).is_none());
+    }
+
+    #[test]
+    fn placing_centers_mirrors_scales_turns_and_moves() {
+        let sphere = |x, y, z, radius| Sphere::new(DVec3::new(x, y, z), radius).unwrap();
+        let mut spheres = [sphere(0.0, 0.0, 0.0, 1.0), sphere(9.0, 0.0, 4.0, 2.0)];
+        let placement = Placement {
+            is_centered: true,
+            is_right_handed: true,
+            scale: 2.0,
+            turn: turn(DVec3::new(0.0, 90.0, 0.0)),
+            position: DVec3::new(100.0, 0.0, 0.0),
+        };
+        assert!(placement.place(&mut spheres));
+        // The box is from (-1, -2, -1) to (11, 2, 6).
+        assert_eq!(spheres[0], sphere(105.0, 0.0, 10.0, 2.0));
+        assert_eq!(spheres[1], sphere(97.0, 0.0, -8.0, 4.0));
+        let mut tiny = [sphere(0.0, 0.0, 0.0, 1e-300)];
+        let scale = 1e-300;
+        assert!(!Placement { scale, ..placement }.place(&mut tiny));
+    }
+}
