@@ -27,8 +27,8 @@
 //! This folder needs nothing but `std`, so that it can be tried on any checkout within seconds:
 //!
 //! ```text
-//! rustc --edition 2024 --test tests/src/layers/mod.rs -o /tmp/layers
-//! MARBLES_LAYERS_ROOT=/path/to/checkout /tmp/layers
+//! rustc --edition 2024 --test tests/tests/layers/mod.rs -o layers
+//! MARBLES_LAYERS_ROOT=ANOTHER_CHECKOUT ./layers
 //! ```
 //!
 //! With `MARBLES_LAYERS_ROOT` every crate that has a line is tried, otherwise those of [`CRATES`].
