@@ -2,12 +2,14 @@
 
 use fearless_simd::prelude::*;
 
+use super::part::Part;
 use super::scene::InCamera;
 use crate::edges::cell::Cell;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::numeric::vectors::Vectors;
+use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::picture::tile::Tile;
 
 /// A view of a scene, and how exactly its pixels are asked for.
@@ -40,6 +42,35 @@ impl Context<'_> {
                 pixel * f64::from(tile.height),
             ],
             is_transposed: false,
+        }
+    }
+
+    /// A pixel that sees no sphere.
+    pub(crate) fn empty_pixel(&self) -> Pixel {
+        Pixel {
+            value: self.background,
+            alpha: 0.0,
+            error: 0.0,
+            evidence: Evidence::Bound,
+            status: Status::Met,
+        }
+    }
+
+    /// The pixel with this integral.
+    pub(crate) fn pixel_of(&self, part: &Part) -> Pixel {
+        let error = part.error;
+        Pixel {
+            value: self.scene.spread(part.value),
+            alpha: part.covered,
+            error,
+            evidence: Evidence::Estimate,
+            status: if error <= self.tolerance {
+                Status::Met
+            } else if part.rounding > 0.5 * error {
+                Status::AtRoundoff
+            } else {
+                Status::OutOfBudget
+            },
         }
     }
 

@@ -1,187 +1,217 @@
-//! The integral over a pixel, to a tolerance.
+//! The integral over a pixel, to a tolerance: a ladder of ways, from the cheapest.
 //!
-//! Most pixels see one sphere and no edge: a rule of Gauss's does. In the others all edges are
-//! known as curves, between whose events the light is smooth.
+//! Eight pixels of a row climb the first rungs together, and a pixel with edges climbs alone. A rung
+//! answers, or it gives up and says why ([`GiveUp`]); then the next one begins.
+//!
+//! | rung | answer | worth | leaves to the next rung |
+//! |---|---|---|---|
+//! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
+//! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
+//! | one sphere: [`interior`] | rules with 5, 9 or 17 samples, on bumps in eight parts | estimate | edges, and light that bends too much |
+//! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, bumps, claims above the tolerance |
+//! | parts of the pixel: [`edged`] | quarters, and theirs | estimate | pixels that cost too much |
+//! | looser tolerances: [`edged`] | the same, known to be over | estimate | pixels of which less than that is known |
+//! | 8 × 8 samples: [`integrator`] | the mean, known to be over | guess | nothing |
 
 mod classify;
 mod context;
 mod costs;
 mod edged;
+pub(crate) mod integrator;
 mod interior;
-mod pixel;
+mod part;
 mod points;
 mod scene;
 mod surface;
-mod tile;
 
-use std::num::NonZeroU32;
+use fearless_simd::prelude::*;
 
-use fearless_simd::{Level, dispatch};
-
-use self::classify::magnitude::is_view_moderate;
+use self::classify::magnitude::is_ball_moderate;
+use self::classify::occluder_cache::OccluderCache;
+use self::classify::row::{Coverage, Sight, classify_row, sight};
 use self::context::Context;
 use self::edged::cell::Workspace;
-use self::scene::{InCamera, MOST_LIGHTS};
-use crate::model::color::Color;
-use crate::model::roughness::PixelKey;
-use crate::model::view::View;
-use crate::model::world::World;
-use crate::picture::band::Band;
-use crate::picture::image::Channels;
-use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use self::edged::pixel::EdgedPixel;
+use self::interior::fill::fill;
+use self::interior::filled::FilledRow;
+use self::part::GiveUp;
+use crate::edges::cell::Ball;
+use crate::numeric::bits::set_bits;
+use crate::picture::pixel::{Pixel, Work};
 use crate::picture::tile::Tile;
-use crate::sampling::Supersampling;
-use crate::search::view_index::ViewIndex;
 
-/// Averages to a tolerance.
-#[derive(Clone, Debug)]
-pub(crate) struct Exact<'scene> {
-    context: Context<'scene>,
-    seen: ViewIndex<'scene>,
-    /// Whether doubles can be trusted with the view.
-    is_view_moderate: bool,
-    /// For pixels that cannot be integrated.
-    fallback: Supersampling<'scene>,
-    /// The other groups.
-    others: Vec<Self>,
-    level: Level,
-}
-
-/// Samples on a side of a pixel that cannot be integrated.
-const FALLBACK_SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
-
-impl<'scene> Exact<'scene> {
-    pub(crate) fn new(
-        world: &'scene World,
-        view: &View,
-        seen: &ViewIndex<'scene>,
-        tolerance: f64,
-        alpha: bool,
-    ) -> Self {
-        let groups = world.lights.len().div_ceil(MOST_LIGHTS).max(1);
-        let tolerance = tolerance / groups as f64;
-        let of_group = |group| Self::of_group(world, view, seen, tolerance, alpha, group);
-        Self {
-            others: (1..groups).map(of_group).collect(),
-            ..of_group(0)
-        }
-    }
-
-    fn of_group(
-        world: &'scene World,
-        view: &View,
-        seen: &ViewIndex<'scene>,
-        tolerance: f64,
-        alpha: bool,
-        group: usize,
-    ) -> Self {
-        let channels = Channels::of(world, alpha);
-        let scene = InCamera::new(world, seen.visibility, view, channels, group);
-        let lights = world
-            .lights
-            .iter()
-            .map(|light| light.intensity().max_element());
-        let contrast = 1.0
-            + world.ambient.max_element()
-            + world.background.max_element()
-            + lights.sum::<f64>();
-        Self {
-            is_view_moderate: is_view_moderate(view),
-            context: Context {
-                scene,
-                view: *view,
-                tolerance,
-                background: if alpha || group > 0 {
-                    Color::ZERO
-                } else {
-                    world.background
-                },
-                contrast,
-            },
-            seen: seen.clone(),
-            fallback: Supersampling::new(world, view, seen, FALLBACK_SAMPLES, alpha),
-            others: Vec::new(),
-            level: Level::new(),
-        }
-    }
-}
-
-/// Memory to work in, and what is remembered of the noise.
+/// Memory that a thread works in, for tile after tile.
 #[derive(Debug, Default)]
-pub(crate) struct Room {
-    own: Workspace,
-    /// For further lights.
-    others: Vec<Workspace>,
+struct Scratch {
+    /// The candidates of a tile.
+    balls: Vec<Ball>,
+    coverages: Vec<Coverage>,
+    /// The spheres that a pixel may see.
+    spheres: Vec<(usize, Ball)>,
+    /// The spheres that fill pixels of a row, and these pixels bit by bit.
+    filled: Vec<(usize, u64)>,
+    edged: Workspace,
 }
 
-impl Pixel {
-    /// What is given up, until samples take its place.
-    const LOST: Self = Self {
-        value: Color::ZERO,
-        alpha: 0.0,
-        error: f64::NAN,
-        evidence: Evidence::Estimate,
-        status: Status::OutOfBudget,
+impl Scratch {
+    /// Brings the candidates of a tile into the camera's frame.
+    fn prepare(&mut self, context: &Context<'_>, candidates: &[usize]) {
+        let balls = candidates.iter().map(|&sphere| context.scene.ball(sphere));
+        self.balls.clear();
+        self.balls.extend(balls);
+    }
+
+    /// Whether the numbers of all candidates are moderate enough for edges in doubles.
+    fn are_balls_moderate(&self) -> bool {
+        self.balls.iter().all(is_ball_moderate)
+    }
+
+    /// The work since this was asked the last time.
+    fn take_work(&mut self) -> Work {
+        std::mem::take(&mut self.edged.work)
+    }
+}
+
+/// Appends the pixels of a tile under one group of lights; returns those of which nothing is known, bit by
+/// bit in the order of [`Tile::pixels`].
+#[inline(always)]
+fn tile_pixels<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    tile: Tile,
+    candidates: &[usize],
+    scratch: &mut Scratch,
+    pixels: &mut Vec<Pixel>,
+) -> u64 {
+    let first = pixels.len();
+    pixels.extend(tile.pixels().map(|_| context.empty_pixel()));
+    if candidates.is_empty() {
+        return 0;
+    }
+    let pixel_size = context
+        .cell(Tile {
+            width: 1,
+            height: 1,
+            ..tile
+        })
+        .size[0];
+    let mut cache = OccluderCache::new(context.cell(tile), pixel_size);
+    let mut unknown = 0;
+    for row in 0..tile.height {
+        for left in (0..tile.width).step_by(8) {
+            let place = row * tile.width + left;
+            let start = Tile {
+                col: tile.col + left,
+                row: tile.row + row,
+                width: (tile.width - left).min(8),
+                height: 1,
+            };
+            let pixels = &mut pixels[first + place as usize..][..start.width as usize];
+            let of_row = row_pixels(
+                simd,
+                context,
+                start,
+                candidates,
+                (scratch, &mut cache),
+                pixels,
+            );
+            unknown |= of_row << place;
+        }
+    }
+    scratch.edged.work.candidate_tests += cache.tests;
+    unknown
+}
+
+/// Writes up to eight pixels of a row, which are empty so far; returns those of which nothing is known.
+#[inline(always)]
+fn row_pixels<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    row: Tile,
+    candidates: &[usize],
+    (scratch, cache): (&mut Scratch, &mut OccluderCache),
+    pixels: &mut [Pixel],
+) -> u64 {
+    let Scratch {
+        balls,
+        coverages,
+        spheres,
+        filled,
+        edged,
+    } = scratch;
+    edged.work.candidate_tests += candidates.len() as u64 * u64::from(row.width);
+    coverages.clear();
+    simd.vectorize(
+        #[inline(always)]
+        || classify_row(simd, context, row, (candidates, balls), coverages),
+    );
+    let pixel = |lane: usize| Tile {
+        col: row.col + lane as u32,
+        width: 1,
+        ..row
     };
+    let mut unknown = 0;
 
-    /// Adds what further lights contribute.
-    fn add(&mut self, more: &Self) {
-        self.value += more.value;
-        self.error += more.error;
-        self.evidence = self.evidence.min(more.evidence);
-        if self.status == Status::Met || more.status == Status::OutOfBudget {
-            self.status = more.status;
+    // Pixels that see no sphere are empty already; those with edges climb alone.
+    filled.clear();
+    for (lane, target) in pixels.iter_mut().enumerate() {
+        match sight(context, pixel(lane), lane, coverages, spheres) {
+            Sight::Nothing => {}
+            Sight::Filled(sphere) => match filled.iter_mut().find(|known| known.0 == sphere) {
+                Some((_, lanes)) => *lanes |= 1 << lane,
+                None => filled.push((sphere, 1 << lane)),
+            },
+            Sight::Edges => match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
+                Ok(known) => *target = known,
+                Err(_) => unknown |= 1 << lane,
+            },
         }
     }
-}
 
-impl Exact<'_> {
-    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
-    pub(crate) fn integrate(&self, tile: Tile, room: &mut Room, pixels: &mut Vec<Pixel>) -> Work {
-        let candidates = self.seen.indices(tile);
-        let first = pixels.len();
-        let Room { own, others } = room;
-        let mut work =
-            dispatch!(self.level, simd => self.tile(simd, tile, &candidates, own, pixels));
-        others.resize_with(self.others.len(), Workspace::default);
-        let mut of_group = Vec::new();
-        for (other, workspace) in self.others.iter().zip(others) {
-            of_group.clear();
-            work += dispatch!(self.level, simd => {
-                other.tile(simd, tile, &candidates, workspace, &mut of_group)
-            });
-            for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
-                pixel.add(more);
+    // Pixels that one sphere fills climb together, until a light has an edge in them, or bends too much.
+    for &(sphere, which) in &*filled {
+        let Some(coverage) = coverages.iter().find(|one| one.sphere == sphere) else {
+            continue;
+        };
+        let of_sphere = FilledRow {
+            start: pixel(0),
+            which,
+            coverage,
+        };
+        let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
+        edged.work.samples += done.samples;
+        for lane in set_bits(done.hard) {
+            let spheres = [(sphere, coverage.ball)];
+            match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
+                Ok(known) => pixels[lane] = known,
+                Err(_) => unknown |= 1 << lane,
             }
         }
-        for ((col, row), pixel) in tile.pixels().zip(&mut pixels[first..]) {
-            if pixel.error.is_nan() {
-                let frame = self.context.view.frame;
-                *pixel = self
-                    .fallback
-                    .pixel_of_last_resort(PixelKey { col, row, frame });
-            }
-        }
-        work
     }
-
-    /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
-    pub(crate) fn paint(&self, tile: Tile, room: &mut Room, band: &mut Band<'_>) -> Work {
-        if self.seen.balls(tile).next().is_some() {
-            let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
-            let work = self.integrate(tile, room, &mut pixels);
-            band.write(tile, &pixels);
-            return work;
-        }
-        // Most pictures have empty tiles.
-        let mut pixel: Pixel = self.empty();
-        for other in &self.others {
-            pixel.add(&other.empty());
-        }
-        band.write_same(tile, &pixel);
-        Work::default()
-    }
+    unknown
 }
 
-#[cfg(test)]
-mod tests;
+/// The rungs for a pixel with edges.
+fn edged_pixel<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    pixel: Tile,
+    spheres: &[(usize, Ball)],
+    cache: &mut OccluderCache,
+    workspace: &mut Workspace,
+) -> Result<Pixel, GiveUp> {
+    workspace.contents.pixel = context.key(pixel, 0);
+    let edged = EdgedPixel {
+        context,
+        cell: context.cell(pixel),
+        spheres,
+    };
+    // Along the edges of the whole pixel.
+    let whole = edged.along_edges(simd, cache, workspace);
+    // Highlights are narrow, surfaces have bumps, or the claim is too large: parts of the pixel.
+    let part = match whole {
+        Ok(part) => part,
+        Err(why) => edged.by_parts(simd, why, cache, workspace)?,
+    };
+    Ok(context.pixel_of(&part))
+}

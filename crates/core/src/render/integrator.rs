@@ -1,7 +1,7 @@
 //! The ways to average light over pixels, for a band of a picture at a time.
 
 use super::settings::Settings;
-use crate::exact::{Exact, Room};
+use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::exposure::Exposure;
 use crate::model::world::World;
 use crate::picture::band::Band;
@@ -27,7 +27,7 @@ pub(super) enum Integrator<'scene> {
 /// Memory that a thread works in, for band after band.
 #[derive(Default)]
 pub(super) struct Scratch {
-    exact: Room,
+    exact: GroupScratch,
     sampled: sampling::Scratch,
 }
 

@@ -9,7 +9,7 @@ use super::instants::{Instant, Instants};
 use super::panel::{MOMENTS, Panel, Part};
 use super::panel_levels::PanelLevels;
 use super::pixel_sum::{PixelSum, SHARE_OF_AREA};
-use crate::exact::{Exact, Room};
+use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::world::World;
 use crate::picture::band::Band;
 use crate::picture::pixel::{Pixel, Work};
@@ -68,7 +68,7 @@ impl<'scene> ExactOverTime<'scene> {
     pub(crate) fn paint_band(
         &self,
         band: &mut Band<'_>,
-        room: &mut Room,
+        room: &mut GroupScratch,
         progress: &Progress<'_>,
     ) -> Result<Work, Cancelled> {
         paint_band(band, progress, |part| self.pixels(part, room, progress))
@@ -78,7 +78,7 @@ impl<'scene> ExactOverTime<'scene> {
     pub(super) fn pixels(
         &self,
         area: Tile,
-        room: &mut Room,
+        room: &mut GroupScratch,
         progress: &Progress<'_>,
     ) -> Result<(Vec<Pixel>, Work), Cancelled> {
         let tiles: Vec<Tile> = area.tiles().collect();
@@ -131,7 +131,7 @@ fn integrate_panel(
     integrators: &[Exact<'_>],
     tiles: &[Tile],
     requests: &[Request],
-    (room, progress): (&mut Room, &Progress<'_>),
+    (room, progress): (&mut GroupScratch, &Progress<'_>),
     mut add: impl FnMut(u32, Part),
 ) -> Result<Work, Cancelled> {
     let mut work = Work::default();

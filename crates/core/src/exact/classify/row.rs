@@ -40,12 +40,12 @@ struct Extent<S: Simd> {
 pub(crate) fn classify_row<S: Simd>(
     simd: S,
     context: &Context<'_>,
-    (start, width): (Tile, u32),
+    row: Tile,
     (candidates, balls): (&[usize], &[Ball]),
     coverages: &mut Vec<Coverage>,
 ) {
-    let (ray, size) = context.rays(simd, start);
-    let all = (1_u64 << width) - 1;
+    let (ray, size) = context.rays(simd, Tile { width: 1, ..row });
+    let all = (1_u64 << row.width) - 1;
     let mut end = f64x8::splat(simd, f64::INFINITY);
     for (&sphere, ball) in candidates.iter().zip(balls) {
         let extent = extent(simd, &ray, size, ball);
@@ -135,13 +135,54 @@ fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<
     }
 }
 
+/// The first view of a pixel.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Sight {
+    /// It sees no sphere.
+    Nothing,
+    /// It sees this sphere, and nothing else.
+    Filled(usize),
+    /// It may see edges.
+    Edges,
+}
+
+/// Finds out what the pixel with the number `lane` in its row may see: the spheres are written to
+/// `spheres`.
+pub(crate) fn sight(
+    context: &Context<'_>,
+    pixel: Tile,
+    lane: usize,
+    coverages: &[Coverage],
+    spheres: &mut Vec<(usize, Ball)>,
+) -> Sight {
+    let is_here = |lanes: u64| lanes >> lane & 1 == 1;
+    let mut touching = coverages.iter().filter(|one| is_here(one.touched));
+    let Some(one) = touching.next() else {
+        return Sight::Nothing;
+    };
+    if touching.next().is_none() && is_here(one.covered) {
+        return Sight::Filled(one.sphere);
+    }
+    spheres.clear();
+    visible_spheres(&context.cell(pixel), lane, coverages, spheres);
+    let covers = |sphere| {
+        coverages
+            .iter()
+            .any(|one| one.sphere == sphere && is_here(one.covered))
+    };
+    match spheres[..] {
+        [(sphere, _)] if covers(sphere) => Sight::Filled(sphere),
+        _ => Sight::Edges,
+    }
+}
+
 /// Adds the spheres that the pixel with this number may see to `spheres`, which must be empty: without
 /// those that are hidden by one that fills it.
 ///
 /// A ray meets sphere j wholly before or wholly behind a point of sphere i that lies outside of j.
 /// Which of the two does not change where that holds all over the pixel; and the middle of j's
 /// chord, at B / A, tells.
-pub(crate) fn visible_spheres(
+fn visible_spheres(
     cell: &Cell,
     lane: usize,
     coverages: &[Coverage],

@@ -5,10 +5,12 @@ use fearless_simd::prelude::*;
 use super::boundary::Boundary;
 use super::breaks::Break;
 use super::cut::{Crowded, Cuts, Signature};
-use super::piece::{Part, Piece, Surroundings, Unlike};
+use super::piece::{Piece, Surroundings, Unlike};
 use super::rule::Roots;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::classify::contents::Contents;
+use crate::exact::classify::occluder_cache::OccluderCache;
+use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
@@ -18,11 +20,7 @@ use crate::picture::pixel::Work;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) contents: Contents,
-    /// Whether those are of the cell that is to be integrated next.
-    pub(crate) is_seen: bool,
     cuts: Cuts,
-    /// The candidates of a tile.
-    pub(crate) balls: Vec<Ball>,
     pub(crate) boundary: Boundary,
     pub(crate) scratch: Vec<f64>,
     pub(crate) noise: Option<Box<NoiseCells>>,
@@ -141,6 +139,18 @@ impl Workspace {
             }
             fine => fine,
         }
+    }
+
+    /// Takes in what a cell may see of some spheres.
+    pub(crate) fn see(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        spheres: &[(usize, Ball)],
+        cache: &mut OccluderCache,
+    ) {
+        self.work.candidate_tests += spheres.len() as u64;
+        self.contents.see(scene, cell, spheres, cache);
     }
 
     /// Begins the work on a pixel.

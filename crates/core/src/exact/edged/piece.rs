@@ -1,5 +1,6 @@
 //! The integral over lines that are alike.
 
+use crate::exact::part::Part;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
@@ -13,36 +14,6 @@ use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::scene::InCamera;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
-
-/// An integral over a part of a cell whose area is 1.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Part {
-    pub(crate) value: Color,
-    pub(crate) covered: f64,
-    pub(crate) error: f64,
-    /// What of the error comes from along the lines.
-    pub(crate) along: f64,
-    /// What of the error comes from rounding.
-    pub(crate) rounding: f64,
-}
-
-impl Part {
-    pub(crate) const NOTHING: Self = Self {
-        value: Color::ZERO,
-        covered: 0.0,
-        error: 0.0,
-        along: 0.0,
-        rounding: 0.0,
-    };
-
-    pub(crate) fn add(&mut self, other: &Self, share: f64) {
-        self.value += other.value * share;
-        self.covered += other.covered * share;
-        self.error += other.error * share;
-        self.along += other.along * share;
-        self.rounding += other.rounding * share;
-    }
-}
 
 /// Lines that were held to be alike are not, or may not be at `at`.
 #[derive(Clone, Copy, Debug)]

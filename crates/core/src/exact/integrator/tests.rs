@@ -81,7 +81,7 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
         ..Exact::new(&world, &view, &seen, tolerance, true)
     };
     let mut found = vec![None; (view.width * view.height) as usize];
-    let mut room = Room::default();
+    let mut room = GroupScratch::default();
     for row in (0..view.height).step_by(side as usize) {
         for col in (0..view.width).step_by(side as usize) {
             let tile = Tile {

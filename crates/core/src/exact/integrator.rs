@@ -1,0 +1,161 @@
+//! Averages over pixels to a tolerance, under any number of lights.
+
+use std::num::NonZeroU32;
+
+use fearless_simd::{Level, dispatch};
+
+use super::classify::magnitude::is_view_moderate;
+use super::context::Context;
+use super::scene::{InCamera, MOST_LIGHTS};
+use super::{Scratch, tile_pixels};
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::numeric::bits::set_bits;
+use crate::picture::band::Band;
+use crate::picture::image::Channels;
+use crate::picture::pixel::{Pixel, Status, Work};
+use crate::picture::tile::Tile;
+use crate::sampling::Supersampling;
+use crate::search::view_index::ViewIndex;
+
+/// Averages to a tolerance.
+///
+/// The kernels have room for eight lights. More are integrated in groups of eight, each to its share of
+/// the tolerance, and the groups are summed.
+#[derive(Clone, Debug)]
+pub(crate) struct Exact<'scene> {
+    index: ViewIndex<'scene>,
+    /// Whether the numbers of the view are moderate enough for edges in doubles.
+    is_moderate: bool,
+    /// One for each group of lights.
+    groups: Vec<Context<'scene>>,
+    /// The samples of the last rung.
+    samples: Supersampling<'scene>,
+    level: Level,
+}
+
+/// Samples on a side of a pixel that no other rung answers for.
+const SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
+
+/// Memory for a thread, with a part for each group of lights.
+#[derive(Debug, Default)]
+pub(crate) struct GroupScratch(Vec<Scratch>);
+
+impl<'scene> Exact<'scene> {
+    pub(crate) fn new(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        tolerance: f64,
+        alpha: bool,
+    ) -> Self {
+        let count = world.lights.len().div_ceil(MOST_LIGHTS).max(1);
+        let lights = world.lights.iter();
+        let lights = lights.map(|light| light.intensity().max_element());
+        let contrast = 1.0
+            + world.ambient.max_element()
+            + world.background.max_element()
+            + lights.sum::<f64>();
+        let channels = Channels::of(world, alpha);
+        let context = |group| Context {
+            scene: InCamera::new(world, index.visibility, view, channels, group),
+            view: *view,
+            tolerance: tolerance / count as f64,
+            background: if alpha || group > 0 {
+                Color::ZERO
+            } else {
+                world.background
+            },
+            contrast,
+        };
+        Self {
+            is_moderate: is_view_moderate(view),
+            groups: (0..count).map(context).collect(),
+            samples: Supersampling::new(world, view, index, SAMPLES, alpha),
+            index: index.clone(),
+            level: Level::new(),
+        }
+    }
+
+    /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
+    pub(crate) fn integrate(
+        &self,
+        tile: Tile,
+        GroupScratch(scratch): &mut GroupScratch,
+        pixels: &mut Vec<Pixel>,
+    ) -> Work {
+        let candidates = self.index.indices(tile);
+        scratch.resize_with(self.groups.len(), Scratch::default);
+        let first = pixels.len();
+        let mut of_group = Vec::new();
+        let mut work = Work::default();
+        let mut unknown = 0;
+        for (number, (context, scratch)) in self.groups.iter().zip(scratch).enumerate() {
+            let target = if number == 0 {
+                &mut *pixels
+            } else {
+                of_group.clear();
+                &mut of_group
+            };
+            scratch.prepare(context, &candidates);
+            unknown |= if self.is_moderate && scratch.are_balls_moderate() {
+                dispatch!(self.level, simd => tile_pixels(simd, context, tile, &candidates, scratch, target))
+            } else {
+                target.extend(tile.pixels().map(|_| context.empty_pixel()));
+                !0
+            };
+            work += scratch.take_work();
+            if number > 0 {
+                for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
+                    add(pixel, more);
+                }
+            }
+        }
+
+        // The last rung: samples, which see exactly but claim nothing.
+        if !candidates.is_empty() {
+            for place in set_bits(unknown).take_while(|&place| (place as u64) < tile.count()) {
+                let key = PixelKey {
+                    col: tile.col + place as u32 % tile.width,
+                    row: tile.row + place as u32 / tile.width,
+                    frame: self.groups[0].view.frame,
+                };
+                pixels[first + place] = self.samples.pixel_of_last_resort(key);
+            }
+        }
+        work
+    }
+
+    /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
+    pub(crate) fn paint(
+        &self,
+        tile: Tile,
+        scratch: &mut GroupScratch,
+        band: &mut Band<'_>,
+    ) -> Work {
+        if self.index.balls(tile).next().is_some() {
+            let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
+            let work = self.integrate(tile, scratch, &mut pixels);
+            band.write(tile, &pixels);
+            return work;
+        }
+        // Most pictures have empty tiles. Only the first group of lights has a background.
+        band.write_same(tile, &self.groups[0].empty_pixel());
+        Work::default()
+    }
+}
+
+/// Adds the light of another group.
+fn add(pixel: &mut Pixel, more: &Pixel) {
+    pixel.value += more.value;
+    pixel.error += more.error;
+    pixel.evidence = pixel.evidence.min(more.evidence);
+    if pixel.status == Status::Met || more.status == Status::OutOfBudget {
+        pixel.status = more.status;
+    }
+}
+
+#[cfg(test)]
+mod tests;
