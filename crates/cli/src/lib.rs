@@ -1,49 +1,22 @@
 //! The command line of marbles.
 //!
-//! Every command is a file named after it, `man` being `manual`. Frames follow each other in
-//! `sequence` and become files in `output`; `input` reads pictures back.
+//! Every command is a file of `commands`. Frames follow each other in `sequence`; `formats` writes and
+//! reads pictures, by way of `files`; `terminal` is where the user reads.
 
-mod args;
-mod belt;
-mod check;
-mod compare;
-mod completions;
-mod console;
-mod digest;
-mod failure;
-mod farm;
-mod film;
-mod frames;
-mod input;
-mod interrupt;
-mod loading;
-mod manual;
-mod memory;
-mod merge;
-mod messages;
-mod new;
-mod numbers;
-mod output;
-mod pattern;
-mod preview;
-mod progress;
-mod rational;
-mod region;
-mod render;
-mod report;
+mod base;
+mod commands;
+mod files;
+mod formats;
 mod sequence;
-mod status;
-mod still;
-mod tally;
-mod threads;
+mod terminal;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser;
 
-use crate::args::{Arguments, Command};
-use crate::console::Console;
+use crate::commands::args::{Arguments, Command};
+use crate::terminal::console::Console;
 
 /// Runs the command line `args`, the program's name first, as the binary `marbles` does.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -56,7 +29,7 @@ fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     match console.lost_results() {
         Some(failure) => {
             console.failure(&failure);
-            if code == status::SUCCESS {
+            if code == base::status::SUCCESS {
                 failure.exit_code()
             } else {
                 code
@@ -73,23 +46,23 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Err(message) => {
             console.clap(&message.render(), message.use_stderr());
             return if message.use_stderr() {
-                status::REFUSED
+                base::status::REFUSED
             } else {
-                status::SUCCESS
+                base::status::SUCCESS
             };
         }
     };
     let result = match arguments.command {
-        Command::Render(arguments) => render::run(&arguments, console),
-        Command::Preview(arguments) => preview::run(&arguments, console),
-        Command::Check(arguments) => check::run(&arguments, console),
-        Command::Compare(arguments) => compare::run(&arguments, console),
-        Command::Merge(arguments) => merge::run(&arguments, console),
-        Command::Report(arguments) => report::run(&arguments, console),
-        Command::Farm(arguments) => farm::run(&arguments, console),
-        Command::New(arguments) => new::run(&arguments, console),
-        Command::Completions(arguments) => completions::run(&arguments, console),
-        Command::Man(arguments) => manual::run(&arguments, console),
+        Command::Render(arguments) => commands::render::run(&arguments, console),
+        Command::Preview(arguments) => commands::preview::run(&arguments, console),
+        Command::Check(arguments) => commands::check::run(&arguments, console),
+        Command::Compare(arguments) => commands::compare::run(&arguments, console),
+        Command::Merge(arguments) => commands::merge::run(&arguments, console),
+        Command::Report(arguments) => commands::report::run(&arguments, console),
+        Command::Farm(arguments) => commands::farm::run(&arguments, console),
+        Command::New(arguments) => commands::new::run(&arguments, console),
+        Command::Completions(arguments) => commands::completions::run(&arguments, console),
+        Command::Man(arguments) => commands::man::run(&arguments, console),
     };
     result.unwrap_or_else(|failure| {
         console.failure(&failure);
@@ -100,7 +73,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::console::tests::Text;
+    use crate::terminal::console::tests::Text;
 
     pub(crate) const SCENE: &str = "(
     image: (width: 600, height: 600),

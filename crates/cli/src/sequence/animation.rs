@@ -3,11 +3,11 @@
 use std::sync::mpsc::Receiver;
 
 use super::{Order, Sequence, Tally, Ways};
-use crate::film::Ending;
-use crate::messages;
-use crate::output::Unwritten;
-use crate::progress::Progress;
-use crate::render::FRAME_OF_A_STILL;
+use crate::commands::render::FRAME_OF_A_STILL;
+use crate::formats::Unwritten;
+use crate::sequence::messages;
+use crate::sequence::strip_encoder::Ending;
+use crate::terminal::progress::Progress;
 
 impl Sequence<'_> {
     /// Writes pictures as they come. Without all of them there is no file, and none counts as written.

@@ -9,16 +9,17 @@ use std::sync::{Arc, OnceLock};
 
 use marbles_core::{Exposure, Renderer, Rendering, Window};
 
-use super::flow::Shared;
+use super::workers::Shared;
 use super::{Order, Sequence, Ways};
-use crate::digest::{Digests, Shot};
-use crate::failure::Failure;
-use crate::film::Film;
-use crate::input::finished::{self, Content};
-use crate::messages;
-use crate::output::temporary::{LeftOver, TemporaryFile};
-use crate::output::{self, Encoding, Facts};
-use crate::progress::Progress;
+use crate::base::failure::Failure;
+use crate::files::place;
+use crate::files::temporary::{LeftOver, TemporaryFile};
+use crate::formats::contents::{self, Content};
+use crate::formats::{Encoding, Facts};
+use crate::sequence::digest::{Digests, Shot};
+use crate::sequence::messages;
+use crate::sequence::strip_encoder::Film;
+use crate::terminal::progress::Progress;
 
 /// Gives pictures to render, and orders to write them.
 pub(super) struct Source<'a> {
@@ -138,7 +139,7 @@ impl<'a> Source<'a> {
                 },
             }),
         };
-        output::clean(path, &mut self.left_over);
+        place::clean(path, &mut self.left_over);
         let content = (facts.digest, self.ways.form.part);
         match self.turn(path, content, is_postponed)? {
             Turn::Render(file) => {
@@ -167,15 +168,15 @@ impl<'a> Source<'a> {
             return Ok(Turn::Render(None));
         }
         if !self.sequence.persistence.skip_existing {
-            return Ok(Turn::Render(Some(output::begin(path)?)));
+            return Ok(Turn::Render(Some(place::begin(path)?)));
         }
-        let is_there = || finished::content(path) == Some(content);
+        let is_there = || contents::content(path) == Some(content);
         if is_there() {
             return Ok(Turn::Skip);
         }
-        let file = match output::claim(path)? {
+        let file = match place::claim(path)? {
             None if !has_waited => return Ok(Turn::Wait),
-            None => output::begin(path)?,
+            None => place::begin(path)?,
             Some(file) => file,
         };
         // Somebody may have finished it just before it was ours.

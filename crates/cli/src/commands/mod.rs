@@ -1,0 +1,13 @@
+pub(crate) mod args;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod completions;
+pub(crate) mod farm;
+pub(crate) mod frame;
+pub(crate) mod man;
+pub(crate) mod merge;
+pub(crate) mod new;
+pub(crate) mod preview;
+pub(crate) mod render;
+pub(crate) mod report;
+pub(crate) mod scene;

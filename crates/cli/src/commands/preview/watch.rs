@@ -1,0 +1,257 @@
+//! `--watch`: the picture again whenever its files are saved.
+//!
+//! Files are looked at several times a second. That sees every way to save, by writing or by
+//! renaming, on disks of other machines too, where systems do not tell of changes.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use marbles_core::Cancelled;
+use marbles_scene::{Scene, SceneError};
+
+use super::screen::{Area, OtherScreen, Screen};
+use super::{Picture, fitted, render};
+use crate::base::failure::Failure;
+use crate::base::status;
+use crate::commands::args::PreviewArguments;
+use crate::commands::frame;
+use crate::commands::scene;
+use crate::terminal::console::Console;
+use crate::terminal::interrupt;
+
+/// How often files are looked at. What changes from one look to the next is still being saved.
+const INTERVAL: Duration = Duration::from_millis(100);
+/// The line below the picture.
+const STATUS_LINES: u32 = 1;
+
+/// Shows the picture until the user ends it, on the threads of the current pool.
+pub(super) fn run(
+    arguments: &PreviewArguments,
+    screen: &Screen,
+    console: &Console,
+) -> Result<u8, Failure> {
+    if !screen.is_terminal {
+        return Err(Failure::Usage(
+            "--watch needs a terminal, and the output is none".to_owned(),
+        ));
+    }
+    interrupt::listen(console.farewell());
+    let _other = OtherScreen::enter(console);
+    let mut files = Files::of(&arguments.scene);
+    while !interrupt::requested() {
+        let area = screen.area(STATUS_LINES);
+        let shown = match look(arguments, &area, &mut files, console) {
+            Ok(Ok(picture)) => screen.replace(&picture)?,
+            Ok(Err(Cancelled)) => break,
+            Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
+        };
+        let scene = arguments.scene.display();
+        let status = format!("{scene}: shown again when it is saved; Ctrl-C ends");
+        console.print(&(shown + &status_line(&status, screen.cells())));
+        wait(&mut files, || screen.area(STATUS_LINES) != area);
+    }
+    Ok(status::INTERRUPTED)
+}
+
+/// The picture as the files have it now.
+fn look(
+    arguments: &PreviewArguments,
+    area: &Area,
+    files: &mut Files,
+    console: &Console,
+) -> Result<Result<Picture, Cancelled>, Failure> {
+    let started = SystemTime::now();
+    let scene = scene::load(&arguments.scene, console, true);
+    match &scene {
+        Ok(scene) => files.name(&tables(scene, &arguments.scene), started),
+        Err(Failure::Scene(error)) => files.add(SceneError::path(error), started),
+        Err(_) => {}
+    }
+    let scene = scene?;
+    let view = fitted(frame::view(&scene, arguments.frame)?, area);
+    Ok(render(&scene, &view, arguments.tolerance, None))
+}
+
+/// The tables that a scene names.
+fn tables(scene: &Scene, path: &Path) -> Vec<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let clouds = scene.clouds().iter();
+    clouds.map(|cloud| folder.join(&cloud.file)).collect()
+}
+
+/// Waits until the files have changed and the change is complete, the screen is another, or the user
+/// ends it.
+fn wait(files: &mut Files, is_other: impl Fn() -> bool) {
+    let mut before = files.stamps.clone();
+    while !interrupt::requested() {
+        thread::sleep(INTERVAL);
+        let now = files.look();
+        if now == before && (now != files.stamps || is_other()) {
+            files.stamps = now;
+            return;
+        }
+        before = now;
+    }
+}
+
+/// The files that a picture depends on, and how they were when they were read.
+struct Files {
+    /// The scene, then its tables.
+    paths: Vec<PathBuf>,
+    stamps: Vec<Option<Stamp>>,
+}
+
+/// What tells one state of a file from another; `None` stands for a file that is not there.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+struct Stamp {
+    modified: SystemTime,
+    length: u64,
+}
+
+impl Files {
+    /// A scene whose tables are not known.
+    fn of(scene: &Path) -> Self {
+        let paths = vec![scene.to_owned()];
+        let stamps = paths.iter().map(|path| stamp(path)).collect();
+        Self { paths, stamps }
+    }
+
+    /// How the files are now.
+    fn look(&self) -> Vec<Option<Stamp>> {
+        self.paths.iter().map(|path| stamp(path)).collect()
+    }
+
+    /// Has these tables in place of the others, read since `started`.
+    fn name(&mut self, tables: &[PathBuf], started: SystemTime) {
+        let mut named = Self {
+            paths: self.paths[..1].to_vec(),
+            stamps: self.stamps[..1].to_vec(),
+        };
+        for table in tables {
+            match self.paths.iter().position(|path| path == table) {
+                Some(index) if !named.paths.contains(table) => {
+                    named.paths.push(table.clone());
+                    named.stamps.push(self.stamps[index]);
+                }
+                _ => named.add(table, started),
+            }
+        }
+        *self = named;
+    }
+
+    /// Has another file, read since `started`, if it is another.
+    fn add(&mut self, path: &Path, started: SystemTime) {
+        if self.paths.iter().any(|known| known == path) {
+            return;
+        }
+        // What was written since then may have been read before.
+        let stamp = stamp(path).filter(|stamp| stamp.modified < started);
+        self.paths.push(path.to_owned());
+        self.stamps.push(stamp);
+    }
+}
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let metadata = fs::metadata(path).ok()?;
+    Some(Stamp {
+        modified: metadata.modified().ok()?,
+        length: metadata.len(),
+    })
+}
+
+/// The lines of a message that there is room for, the longer ones wrapped by the terminal.
+fn message(text: &str, (columns, rows): (u32, u32)) -> String {
+    let mut room = rows.saturating_sub(STATUS_LINES) as usize;
+    let mut shown = String::new();
+    for line in text.lines() {
+        let width = ::console::measure_text_width(line);
+        let lines = width.div_ceil(columns as usize).max(1);
+        if lines > room {
+            break;
+        }
+        room -= lines;
+        shown.push_str(line);
+        shown.push('\n');
+    }
+    shown
+}
+
+/// A text in the last line, cut where that ends.
+fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
+    let text = ::console::truncate_str(text, columns as usize, "…");
+    format!("\x1b[{rows};1H{text}\x1b[K")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let process = std::process::id();
+        let folder = std::env::temp_dir().join(format!("marbles-{process}-watch-{name}"));
+        fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    #[test]
+    fn files_change_however_they_are_saved() {
+        let folder = folder("saved");
+        let scene = folder.join("a.ron");
+        let files = Files::of(&scene);
+        assert_eq!(files.look(), [None]);
+        fs::write(&scene, "one").unwrap();
+        assert_ne!(files.look(), files.stamps);
+
+        let files = Files::of(&scene);
+        assert_eq!(files.look(), files.stamps);
+        fs::write(&scene, "longer").unwrap();
+        assert_ne!(files.look(), files.stamps);
+
+        let files = Files::of(&scene);
+        let other = folder.join("a.ron.new");
+        fs::write(&other, "renamed").unwrap();
+        fs::rename(&other, &scene).unwrap();
+        assert_ne!(files.look(), files.stamps);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn the_tables_of_the_last_scene_are_watched() {
+        let folder = folder("tables");
+        let [one, two] = ["one.csv", "two.csv"].map(|name| folder.join(name));
+        fs::write(&one, "1").unwrap();
+        let later = SystemTime::now() + Duration::from_secs(60);
+        let mut files = Files::of(Path::new("a.ron"));
+        files.name(&[one.clone(), one.clone(), two.clone()], later);
+        assert_eq!(files.paths, [Path::new("a.ron"), &one, &two]);
+        assert_eq!(files.look(), files.stamps);
+        fs::write(&two, "2").unwrap();
+        assert_ne!(files.look(), files.stamps);
+        files.name(std::slice::from_ref(&one), later);
+        assert_eq!(files.paths, [Path::new("a.ron"), &one]);
+        assert_eq!(files.look(), files.stamps);
+        // What may have changed while it was read is read again.
+        files.name(&[one, two], SystemTime::UNIX_EPOCH);
+        assert_ne!(files.look(), files.stamps);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn messages_keep_to_the_screen() {
+        let text = "\x1b[1mfirst\x1b[0m\nsecond, which is long\n\nlast";
+        assert_eq!(message(text, (80, 9)), format!("{text}\n"));
+        assert_eq!(
+            message(text, (80, 4)),
+            "\x1b[1mfirst\x1b[0m\nsecond, which is long\n\n"
+        );
+        // Twenty-one letters are three lines of ten.
+        assert_eq!(message(text, (10, 4)), "\x1b[1mfirst\x1b[0m\n");
+        assert_eq!(
+            message(text, (10, 5)),
+            message("\x1b[1mfirst\x1b[0m\nsecond, which is long", (80, 9))
+        );
+        assert_eq!(message(text, (80, 1)), "");
+    }
+}

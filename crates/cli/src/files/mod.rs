@@ -1,0 +1,2 @@
+pub(crate) mod place;
+pub(crate) mod temporary;

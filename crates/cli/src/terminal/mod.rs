@@ -1,0 +1,3 @@
+pub(crate) mod console;
+pub(crate) mod interrupt;
+pub(crate) mod progress;
