@@ -6,20 +6,17 @@ use std::path::Path;
 use marbles_scene::SceneError;
 use thiserror::Error;
 
-use crate::base::status;
+use super::status;
 
 /// A message for the user, and with it the exit code.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
-    /// The command line asks for what cannot be.
+    /// The command line asks for what cannot be, or frames of the scene have no view.
     #[error("{0}")]
     Usage(String),
     /// The scene file was refused.
     #[error("{0}")]
     Scene(Box<SceneError>),
-    /// Frames of the scene have no view.
-    #[error("{0}")]
-    Frames(String),
     /// Something else went wrong.
     #[error("{0}")]
     Work(String),
@@ -31,28 +28,25 @@ impl Failure {
         Self::Work(format!("{}: {what}", path.display()))
     }
 
+    /// A command line that names the file at `path`, which cannot be used.
+    pub(crate) fn unusable(path: &Path, why: &str) -> Self {
+        Self::Usage(format!("{}: {why}", path.display()))
+    }
+
     /// A failure of the operating system to do what `what` names with the file at `path`.
     pub(crate) fn io(path: &Path, what: &str, error: &io::Error) -> Self {
         Self::at(path, &format!("{what}: {}", reason(error)))
     }
 
-    /// What is wrong, in words without colors.
-    pub(crate) fn into_message(self) -> String {
-        match self {
-            Self::Usage(message) | Self::Frames(message) | Self::Work(message) => message,
-            Self::Scene(error) => error.to_string(),
-        }
-    }
-
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
-            Self::Usage(_) | Self::Scene(_) | Self::Frames(_) => status::REFUSED,
+            Self::Usage(_) | Self::Scene(_) => status::REFUSED,
             Self::Work(_) => status::FAILURE,
         }
     }
 }
 
-/// What the operating system says, in our manner.
+/// The words of the operating system, in our manner.
 pub(crate) fn reason(error: &io::Error) -> String {
     let reason = error.to_string();
     // The number in "No such file or directory (os error 2)" helps nobody.

@@ -58,7 +58,7 @@ pub(crate) fn duration(seconds: f64) -> String {
     format!("{} {unit}", digits(seconds / size, 3))
 }
 
-/// How many times something is something else, with two or three digits: `0.12`, `5.3`, `53`,
+/// A ratio, with two or three digits: `0.12`, `5.3`, `53`,
 /// `5260`, `123,000`, `4.7e7`.
 pub(crate) fn factor(ratio: f64) -> String {
     if ratio == 0.0 {
@@ -106,16 +106,16 @@ fn digits(value: f64, digits: i32) -> String {
 
 /// A number of pixels: `360 kpx`, `21.6 Mpx`.
 pub(crate) fn pixels(pixels: u64) -> String {
-    counted(pixels, [(1e9, "Gpx"), (1e6, "Mpx"), (1e3, "kpx")], "px")
+    in_units(pixels, [(1e9, "Gpx"), (1e6, "Mpx"), (1e3, "kpx")], "px")
 }
 
 /// A number of bytes: `360 kB`, `21.6 MB`.
 pub(crate) fn bytes(bytes: u64) -> String {
-    counted(bytes, [(1e9, "GB"), (1e6, "MB"), (1e3, "kB")], "bytes")
+    in_units(bytes, [(1e9, "GB"), (1e6, "MB"), (1e3, "kB")], "bytes")
 }
 
 /// A number of units, in the largest of which there is one.
-fn counted(count: u64, units: [(f64, &str); 3], one: &str) -> String {
+fn in_units(count: u64, units: [(f64, &str); 3], one: &str) -> String {
     for (size, unit) in units {
         let count = count as f64 / size;
         if count >= 100.0 {
@@ -126,6 +126,12 @@ fn counted(count: u64, units: [(f64, &str); 3], one: &str) -> String {
         }
     }
     format!("{count} {one}")
+}
+
+/// A number of things: `1 pixel`, `12 pixels`.
+pub(crate) fn counted(count: u64, noun: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {noun}{plural}")
 }
 
 /// A time to wait: `12 s`, `3 min 20 s`, `2 h 5 min`.

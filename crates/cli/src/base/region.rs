@@ -5,13 +5,13 @@ use std::str::FromStr;
 
 use marbles_core::Window;
 
-use crate::commands::args::Size;
+use super::size::Size;
 
-/// Which part of a picture a file holds.
+/// A part of a picture, or all of it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Region {
     pub(crate) window: Window,
-    /// The picture that it is a part of.
+    /// The size of the picture that it is a part of.
     pub(crate) whole: Size,
 }
 
@@ -40,6 +40,12 @@ impl Region {
 
     pub(crate) fn is_all(&self) -> bool {
         *self == Self::all(self.whole)
+    }
+
+    /// The size of the part.
+    pub(crate) fn size(&self) -> Size {
+        let Window { width, height, .. } = self.window;
+        Size { width, height }
     }
 }
 

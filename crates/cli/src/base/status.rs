@@ -1,4 +1,4 @@
-//! What the process says with its exit code.
+//! Exit codes of the process.
 
 /// All was done, and every pixel met the tolerance.
 pub(crate) const SUCCESS: u8 = 0;

@@ -2,9 +2,9 @@
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::base::failure::{Failure, lower};
+use super::failure::{Failure, lower};
 
-/// So many threads, or one per core.
+/// Starts `count` threads, or one per core.
 pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
     ThreadPoolBuilder::new()
         .num_threads(count.unwrap_or_default())

@@ -6,12 +6,12 @@ use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
 use marbles_scene::{CloudDescription, FrameError, Scene};
 
+use super::args::CheckArguments;
+use super::scene;
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::status;
-use crate::commands::args::CheckArguments;
-use crate::commands::render::FRAME_OF_A_STILL;
-use crate::commands::scene;
+use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
 /// Frames that are looked at, spread evenly over longer animations.
@@ -23,8 +23,7 @@ const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, console, false)?;
-    let still = FRAME_OF_A_STILL..=FRAME_OF_A_STILL;
-    let frames = scene.frames().unwrap_or(still);
+    let frames = frames_of(&scene);
     let (views, errors) = views(&scene, &frames);
 
     let mut rows = vec![("scene", arguments.scene.display().to_string())];
@@ -54,7 +53,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
                     errors.len() - 1
                 ));
             }
-            Err(Failure::Frames(message))
+            Err(Failure::Usage(message))
         }
     }
 }
@@ -63,8 +62,8 @@ fn count(frames: &RangeInclusive<i32>) -> i64 {
     i64::from(*frames.end()) - i64::from(*frames.start()) + 1
 }
 
-/// Views of evenly spread frames, the first and the last among them, and what is wrong with
-/// frames that have none.
+/// Views of evenly spread frames, the first and the last among them, and the errors of frames that
+/// have none.
 fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameError>) {
     let (first, last) = (i64::from(*frames.start()), i64::from(*frames.end()));
     let steps = (last - first).clamp(0, FRAMES_LOOKED_AT - 1);
@@ -197,7 +196,7 @@ fn duration(scene: &Scene) -> String {
     text
 }
 
-/// Where the camera goes and looks.
+/// The places and the directions of the camera.
 fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
     let aims = || {

@@ -1,10 +1,10 @@
-//! `marbles completions`: how shells complete the command line.
+//! `marbles completions`: the files by which shells complete the command line.
 
 use clap::CommandFactory;
 
+use super::args::{Arguments, CompletionsArguments};
 use crate::base::failure::Failure;
 use crate::base::status;
-use crate::commands::args::{Arguments, CompletionsArguments};
 use crate::terminal::console::Console;
 
 pub(crate) fn run(arguments: &CompletionsArguments, console: &Console) -> Result<u8, Failure> {

@@ -5,11 +5,11 @@ use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, roman};
 
+use super::args::{Arguments, ManArguments};
 use crate::base::failure::Failure;
 use crate::base::status;
-use crate::commands::args::{Arguments, ManArguments};
-use crate::files::place;
-use crate::formats;
+use crate::files::destination::prepare;
+use crate::files::save::write_bytes;
 use crate::terminal::console::Console;
 
 pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Failure> {
@@ -17,8 +17,8 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
     if let Some(folder) = &arguments.output {
         for page in pages {
             let path = folder.join(page.man.get_filename());
-            place::prepare(&path)?;
-            formats::write_bytes(&text(&page)?, &path)?;
+            prepare(&path)?;
+            write_bytes(&text(&page)?, &path)?;
             console.result(&path.display().to_string());
         }
         return Ok(status::SUCCESS);
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
     Ok(status::SUCCESS)
 }
 
-/// A page, and what stands at its end as clap has it: examples, exit codes and so on.
+/// A page, and its end as clap has it: examples, exit codes and so on.
 struct Page {
     man: Man,
     end: String,

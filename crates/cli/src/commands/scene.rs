@@ -3,32 +3,25 @@
 use std::fs;
 use std::path::Path;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use marbles_core::View;
 use marbles_scene::{Progress, Scene};
 
 use crate::base::failure::Failure;
 use crate::base::numbers;
+use crate::sequence::frames::frames_of;
+use crate::terminal::bar::{bar, show_line};
 use crate::terminal::console::Console;
 
 /// Smaller files are read before anybody has read a line about them, in bytes.
 const LARGE: u64 = 1 << 20;
 
-/// A line that is cut where the terminal ends.
-pub(crate) const LINE: &str = "{wide_msg}";
-
 /// Loads the scene file at `path`, and the tables that it names, on the threads of the current
 /// rayon pool.
-pub(crate) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene, Failure> {
-    let bar = (console.is_interactive() && !quiet).then(|| ProgressBar::new(0));
-    // Terminals that cannot go back to the start of a line have no bars.
-    let bar = bar.filter(|bar| !bar.is_hidden());
-    if let (Some(bar), Ok(style)) = (&bar, ProgressStyle::with_template(LINE)) {
-        bar.set_style(style);
-    }
+pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene, Failure> {
+    let bar = if quiet { None } else { bar(console) };
     let show = |line: String| {
         if let Some(bar) = &bar {
-            bar.set_message(line);
-            bar.tick();
+            show_line(bar, line);
         }
     };
     let size = fs::metadata(path).map_or(0, |metadata| metadata.len());
@@ -50,7 +43,25 @@ pub(crate) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
     scene.map_err(|error| Failure::Scene(Box::new(error)))
 }
 
-/// How far the reading of a table is.
+/// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where
+/// it names none.
+pub(super) fn view(scene: &Scene, frame: Option<i32>) -> Result<View, Failure> {
+    let frames = frames_of(scene);
+    let frame = frame.unwrap_or(*frames.start());
+    if !frames.contains(&frame) {
+        let expected = match frames.into_inner() {
+            (first, last) if first == last => format!("{first}, the only frame of the scene"),
+            (first, last) => format!("a frame of the scene, from {first} to {last}"),
+        };
+        return Err(Failure::Usage(format!(
+            "--frame: expected {expected}, found {frame}"
+        )));
+    }
+    let view = scene.view(frame);
+    view.map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The progress of reading a table, in a line.
 fn line(progress: &Progress<'_>) -> String {
     let Progress { table, read, size } = progress;
     let table = table.display();

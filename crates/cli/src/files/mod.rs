@@ -1,2 +1,6 @@
-pub(crate) mod place;
+//! Files that are written whole or not at all: under a temporary name beside their place, and moved
+//! there when they are complete.
+
+pub(crate) mod destination;
+pub(crate) mod save;
 pub(crate) mod temporary;

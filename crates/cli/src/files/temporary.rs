@@ -16,10 +16,10 @@ use same_file::Handle;
 
 /// The longest names, in bytes, that common file systems take.
 const LONGEST_NAME: usize = 255;
-/// What is kept free for endings.
+/// Bytes that stay free for endings.
 const LONGEST_ENDING: usize = 16;
 const ENDING: &str = ".tmp";
-/// How many others may be writing the same file.
+/// The number of others that may be writing the same file.
 const MOST_OTHERS: u32 = 1000;
 
 /// The temporary files of this process; whoever holds the lock knows that none appears or moves.
@@ -75,7 +75,7 @@ impl TemporaryFile {
         Self::beside(&self.destination)
     }
 
-    /// What is to be read from and written to.
+    /// The file, to be read from and written to.
     pub(crate) fn file(&mut self) -> &mut File {
         &mut self.file
     }
@@ -127,7 +127,7 @@ fn create(path: &Path) -> io::Result<Option<File>> {
     Ok(None)
 }
 
-/// Removes a file that nobody writes any more; whether it is gone.
+/// Removes a file that nobody writes any more; returns whether it is gone.
 fn remove_left_over(path: &Path) -> bool {
     match File::options().read(true).write(true).open(path) {
         Ok(file) => match file.try_lock() {
@@ -138,7 +138,7 @@ fn remove_left_over(path: &Path) -> bool {
     }
 }
 
-/// Whether this is the file that has that name now.
+/// Returns whether this is the file that has that name now.
 fn is_at(file: &File, path: &Path) -> bool {
     let ours = file.try_clone().and_then(Handle::from_file);
     matches!((ours, Handle::from_path(path)), (Ok(ours), Ok(found)) if ours == found)
@@ -158,7 +158,7 @@ fn stem(path: &Path) -> OsString {
     OsString::from(&name[..end])
 }
 
-/// What a temporary file's name begins with: the name of its destination, or the start of it.
+/// The start of a temporary file's name: the name of its destination, or the start of that.
 fn stem_of_temporary(name: &OsStr) -> Option<&str> {
     let name = name.to_str()?.strip_suffix(ENDING)?;
     Some(match name.rsplit_once('.') {
@@ -176,7 +176,7 @@ pub(crate) struct LeftOver {
 impl LeftOver {
     /// Removes those for one place that nobody writes any more.
     pub(crate) fn remove(&mut self, destination: &Path) {
-        let folder = super::place::folder(destination);
+        let folder = super::destination::folder(destination);
         if !self.folders.contains_key(folder) {
             self.folders.insert(folder.to_owned(), temporaries(folder));
         }

@@ -1,33 +1,37 @@
-//! Strips of pictures as pieces of files.
+//! The encoder of a sequence's pictures: strips become pieces of files, and pieces become files.
 
 use std::ops::Range;
 use std::path::Path;
 
-use exr::block::chunk::Chunk;
+use ::exr::block::chunk::Chunk;
 use marbles_core::{BAND_ROWS, Image};
 
-use super::exr::write::{Blocks, ROWS_OF_A_BLOCK};
+use super::encoding::Encoding;
+use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
+use super::exr::write::write_blocks;
+use super::facts::Facts;
+use super::form::Form;
 use super::png::animation::{Animation, delay};
-use super::png::write::Shape;
-use super::{Encoding, Facts, Fault, Unwritten, write_png};
-use crate::base::memory::Form;
-use crate::files::place::{finish, save};
+use super::png::shape::Shape;
+use super::png::write::{texts, write};
+use crate::files::save::{Fault, Unwritten, finish, save};
 use crate::files::temporary::TemporaryFile;
 
-/// How the pictures of a sequence, which are all of one form, become pieces of files.
+/// The encoder of the pictures of a sequence, which are all of one form.
 #[derive(Debug)]
-pub(crate) struct Coder {
+pub(crate) struct Encoder {
     form: Form,
-    pub(super) format: Format,
+    pub(super) layout: Layout,
 }
 
+/// The layout of samples in a file.
 #[derive(Debug)]
-pub(super) enum Format {
+pub(super) enum Layout {
     Png(Shape),
     Exr(Box<Blocks>),
 }
 
-/// What a strip becomes.
+/// A part of a file, made of a strip.
 #[derive(Debug)]
 pub(crate) enum Piece {
     /// To be compressed after what comes before.
@@ -36,28 +40,29 @@ pub(crate) enum Piece {
     Block(Result<Chunk, String>),
 }
 
-impl Coder {
+impl Encoder {
     pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
-        let format = match encoding {
-            Encoding::Png(options) | Encoding::Apng(options) => Format::Png(options.shape(&form)),
-            Encoding::Exr(options) => Format::Exr(Box::new(options.blocks(&form))),
+        let layout = match encoding {
+            Encoding::Png(options) | Encoding::Apng(options) => {
+                Layout::Png(Shape::of(&form, options))
+            }
+            Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
         };
-        Self { form, format }
+        Self { form, layout }
     }
 
-    /// Bands of a strip: what becomes one piece.
+    pub(crate) fn form(&self) -> &Form {
+        &self.form
+    }
+
+    /// Bands of a strip.
     pub(crate) fn bands(&self) -> u32 {
-        match self.format {
-            Format::Png(_) if self.origin().1.is_multiple_of(BAND_ROWS) => 1,
+        match self.layout {
+            Layout::Png(_) if self.form.region.window.row.is_multiple_of(BAND_ROWS) => 1,
             // What begins within a band renders all of it, so that few should.
-            Format::Png(_) => 4,
-            Format::Exr(_) => ROWS_OF_A_BLOCK / BAND_ROWS,
+            Layout::Png(_) => 4,
+            Layout::Exr(_) => ROWS_OF_A_BLOCK / BAND_ROWS,
         }
-    }
-
-    /// Where the first pixel lies in the whole picture: its column and row.
-    pub(crate) fn origin(&self) -> (u32, u32) {
-        self.form.origin()
     }
 
     /// Rows of a strip.
@@ -65,34 +70,34 @@ impl Coder {
         self.bands() * BAND_ROWS
     }
 
-    /// Pieces of a picture.
+    /// Pieces of a picture, one for each strip.
     pub(crate) fn pieces(&self) -> u32 {
-        self.form.height.div_ceil(self.rows())
+        self.form.region.window.height.div_ceil(self.rows())
     }
 
-    /// Bytes that a strip takes on its way at most.
+    /// Bytes that a strip takes at most on its way to the file.
     pub(crate) fn strip_bytes(&self) -> u64 {
         /// The samples; while a block is compressed, three copies more.
         const COPIES_OF_A_BLOCK: u64 = 4;
         let samples = self.sample_bytes(0) as u64;
-        match self.format {
-            Format::Png(_) => samples,
-            Format::Exr(_) => COPIES_OF_A_BLOCK * samples,
+        match self.layout {
+            Layout::Png(_) => samples,
+            Layout::Exr(_) => COPIES_OF_A_BLOCK * samples,
         }
     }
 
     /// Bytes of the samples of the strip with this index.
     pub(crate) fn sample_bytes(&self, index: u32) -> usize {
-        let rows = (self.form.height - index * self.rows()).min(self.rows());
-        let row_bytes = match &self.format {
-            Format::Png(shape) => shape.row_bytes(),
-            Format::Exr(blocks) => blocks.row_bytes(),
+        let rows = (self.form.region.window.height - index * self.rows()).min(self.rows());
+        let row_bytes = match &self.layout {
+            Layout::Png(shape) => shape.row_bytes(),
+            Layout::Exr(blocks) => blocks.row_bytes(),
         };
         rows as usize * row_bytes
     }
 
     /// Puts some rows of an image where they belong in a strip of as many rows, from the column `col`
-    /// on; how many finite numbers were too large for the format's.
+    /// on; returns how many finite numbers were too large for the format's.
     pub(crate) fn encode(
         &self,
         samples: &mut [u8],
@@ -100,84 +105,72 @@ impl Coder {
         image: &Image,
         rows: Range<u32>,
     ) -> u64 {
-        match &self.format {
-            Format::Png(shape) => {
+        match &self.layout {
+            Layout::Png(shape) => {
                 shape.encode(samples, col, image, rows);
                 0
             }
-            Format::Exr(blocks) => blocks.encode(samples, col, image, rows),
+            Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
         }
     }
 
-    /// What the strip with this index becomes.
+    /// The piece that the samples of the strip with this index become.
     pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
-        match &self.format {
-            Format::Png(_) => Piece::Samples(samples),
-            Format::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
+        match &self.layout {
+            Layout::Png(_) => Piece::Samples(samples),
+            Layout::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
         }
     }
 
     /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
+    ///
+    /// `next` gives the pieces from the top downward, and `None` for one that will not come.
     pub(crate) fn write(
         &self,
         facts: &Facts,
         path: &Path,
-        file: TemporaryFile,
-        pieces: &mut impl Pieces,
+        mut file: TemporaryFile,
+        mut next: impl FnMut() -> Option<Piece>,
     ) -> Result<(), Unwritten> {
-        match &self.format {
-            Format::Png(shape) => write_png(
-                path,
-                Ok(file),
-                *shape,
-                &facts.texts(self.form.part),
-                |stream| {
+        let written = match &self.layout {
+            Layout::Png(shape) => {
+                let texts = texts(&facts.digest, &self.form.region);
+                write(file, *shape, &texts, |stream| {
                     for _ in 0..self.pieces() {
-                        // The others are never made.
-                        if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
-                            stream.write_all(&samples)?;
-                            pieces.give_back(samples);
-                        }
+                        stream.write_all(&samples(next())?)?;
                     }
                     Ok(())
-                },
-            ),
-            Format::Exr(blocks) => finish(path, Ok(file), |mut file| {
-                blocks.write(file.file(), facts, || match pieces.next() {
-                    Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
-                    _ => Err(Fault::Stopped),
-                })?;
-                Ok(file)
-            }),
-        }
+                })
+            }
+            Layout::Exr(blocks) => {
+                write_blocks(file.file(), blocks, facts, || block(next())).map(|()| file)
+            }
+        };
+        finish(path, written)
     }
 
     /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each
     /// of them, and ends it all with `None`.
     ///
     /// An animated PNG, which repeats for ever, of so many frames per second, where that is known.
-    pub(crate) fn write_loop(
+    pub(crate) fn write_animation(
         &self,
         path: &Path,
         frames: u32,
         frames_per_second: Option<f64>,
-        pieces: &mut impl Pieces,
+        mut next: impl FnMut() -> Option<Piece>,
         mut written: impl FnMut() -> Option<()>,
     ) -> Result<(), Unwritten> {
-        let Format::Png(shape) = &self.format else {
-            // Other formats have no loops.
+        let Layout::Png(shape) = &self.layout else {
+            // Other formats have no animations.
             return Err(Unwritten::Stopped);
         };
         save(path, |mut file| {
-            let mut animation =
-                Animation::begin(file.file(), *shape, frames, delay(frames_per_second))?;
+            let delay = delay(frames_per_second);
+            let mut animation = Animation::begin(file.file(), *shape, frames, delay)?;
             for _ in 0..frames {
                 for _ in 0..self.pieces() {
-                    // The others are never made.
-                    if let Piece::Samples(samples) = pieces.next().ok_or(Fault::Stopped)? {
-                        animation.add_samples(&samples);
-                        pieces.give_back(samples);
-                    }
+                    animation.add_samples(&samples(next())?);
                 }
                 animation.end_frame()?;
                 written().ok_or(Fault::Stopped)?;
@@ -188,11 +181,20 @@ impl Coder {
     }
 }
 
-/// The pieces of a picture, from the top downward.
-pub(crate) trait Pieces {
-    /// The next one; `None` where it will not come.
-    fn next(&mut self) -> Option<Piece>;
+/// The samples of a piece of a PNG.
+pub(super) fn samples(piece: Option<Piece>) -> Result<Vec<u8>, Fault> {
+    match piece {
+        Some(Piece::Samples(samples)) => Ok(samples),
+        // Blocks are never made for a PNG.
+        Some(Piece::Block(_)) | None => Err(Fault::Stopped),
+    }
+}
 
-    /// Takes memory that is to be used again.
-    fn give_back(&mut self, samples: Vec<u8>);
+/// The block of a piece of an EXR.
+pub(super) fn block(piece: Option<Piece>) -> Result<Chunk, Fault> {
+    match piece {
+        Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
+        // Samples are never left for an EXR.
+        Some(Piece::Samples(_)) | None => Err(Fault::Stopped),
+    }
 }

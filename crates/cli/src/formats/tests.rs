@@ -10,20 +10,25 @@ use marbles_core::{
     Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View, World,
 };
 
-use super::encoder::Format;
-use super::{Coder, Encoding, ExrOptions, Facts, Fault, Piece, PngOptions, png};
-use crate::base::memory::Form;
+use super::encoder::{Encoder, Layout, block, samples};
+use super::encoding::{Encoding, ExrOptions, PngOptions};
+use super::exr::write::write_blocks;
+use super::facts::Facts;
+use super::form::Form;
+use super::png::write::{compress, texts};
+use crate::base::region::Region;
+use crate::base::size::Size;
 
-/// What the pictures say that they are made from.
-pub(crate) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
+/// The digest that the pictures tell.
+pub(super) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
 
 /// The bytes of a PNG file.
-pub(crate) fn png(image: &Image, options: PngOptions) -> Vec<u8> {
+pub(super) fn png_bytes(image: &Image, options: PngOptions) -> Vec<u8> {
     encode(image, Encoding::Png(options), &facts()).0
 }
 
 /// The bytes of an EXR file.
-pub(crate) fn exr(image: &Image, options: ExrOptions) -> Vec<u8> {
+pub(super) fn exr_bytes(image: &Image, options: ExrOptions) -> Vec<u8> {
     encode(image, Encoding::Exr(options), &facts()).0
 }
 
@@ -37,44 +42,42 @@ fn facts() -> Facts {
     }
 }
 
+/// The size of a picture.
+pub(super) fn size(image: &Image) -> Size {
+    let (width, height) = (image.width(), image.height());
+    Size { width, height }
+}
+
 /// The bytes of a file, and how many numbers were too large.
 pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u8>, u64) {
     let form = Form {
-        width: image.width(),
-        height: image.height(),
+        region: Region::all(size(image)),
         channels: image.channels(),
         alpha: image.has_alpha(),
-        part: None,
     };
-    let coder = Coder::new(encoding, form);
+    let encoder = Encoder::new(encoding, form);
     let mut clipped = 0;
-    let mut pieces = (0..coder.pieces()).map(|index| {
-        let first = index * coder.rows();
-        let rows = first..form.height.min(first + coder.rows());
-        let mut samples = vec![0; coder.sample_bytes(index)];
-        clipped += coder.encode(&mut samples, 0, image, rows);
-        coder.piece(index, samples)
+    let mut pieces = (0..encoder.pieces()).map(|index| {
+        let first = index * encoder.rows();
+        let rows = first..image.height().min(first + encoder.rows());
+        let mut samples = vec![0; encoder.sample_bytes(index)];
+        clipped += encoder.encode(&mut samples, 0, image, rows);
+        encoder.piece(index, samples)
     });
     let mut file = Cursor::new(Vec::new());
-    match &coder.format {
-        Format::Png(shape) => {
-            let has_grown = png::write::write(&mut file, *shape, &facts.texts(None), |stream| {
+    match &encoder.layout {
+        Layout::Png(shape) => {
+            let texts = texts(&facts.digest, &form.region);
+            let has_grown = compress(&mut file, *shape, &texts, |stream| {
                 for piece in pieces {
-                    let Piece::Samples(samples) = piece else {
-                        return Err(Fault::Stopped);
-                    };
-                    stream.write_all(&samples)?;
+                    stream.write_all(&samples(Some(piece))?)?;
                 }
                 Ok(())
             });
             assert!(!has_grown.unwrap());
         }
-        Format::Exr(blocks) => {
-            let next = || match pieces.next() {
-                Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
-                _ => Err(Fault::Stopped),
-            };
-            blocks.write(&mut file, facts, next).unwrap();
+        Layout::Exr(blocks) => {
+            write_blocks(&mut file, blocks, facts, || block(pieces.next())).unwrap();
         }
     }
     (file.into_inner(), clipped)

@@ -1,4 +1,4 @@
-//! What a picture is made from, as a number: two files with the same digest show the same.
+//! The digest of all that a picture is made from: two files with the same digest show the same.
 //!
 //! It covers what the renderer is given, so what a scene and its tables mean and not how they are
 //! written or where they lie. Neither threads nor the clock have a part in it.
@@ -11,9 +11,9 @@ use marbles_core::{
 };
 use rayon::prelude::*;
 
-use crate::formats::{Encoding, ExrOptions, PngOptions};
+use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
 
-/// What the bytes that follow mean; another name wherever that changes, or where the pictures of
+/// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
 /// the same scene do.
 const PURPOSE: &str = "marbles 2026-11 digest of a picture";
 
@@ -22,24 +22,25 @@ const SPHERES: usize = 1 << 14;
 
 /// The digests of a sequence's pictures.
 #[derive(Clone, Debug)]
-pub(crate) struct Digests {
-    /// Of what all of them share.
+pub(super) struct Digests {
+    /// The digest of what all of them share.
     shared: Feed,
 }
 
-/// What a picture is beside the world, the settings and the format, which a sequence shares.
+/// The part of a picture's origin that a sequence does not share, beside the world, the settings and
+/// the format.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shot<'a> {
+pub(super) struct Shot<'a> {
     /// Its view, and what the camera does while the shutter is open.
-    pub(crate) exposure: &'a Exposure<'a>,
+    pub(super) exposure: &'a Exposure<'a>,
     /// The number that the user knows, which may be beyond a turn of the view's.
-    pub(crate) frame: i32,
-    pub(crate) frames_per_second: Option<f64>,
+    pub(super) frame: i32,
+    pub(super) frames_per_second: Option<f64>,
 }
 
 impl Digests {
-    /// Of pictures of a world, hashed on the threads of the current rayon pool.
-    pub(crate) fn new(world: &World, settings: &Settings, encoding: Encoding) -> Self {
+    /// The digests of pictures of a world, hashed on the threads of the current rayon pool.
+    pub(super) fn new(world: &World, settings: &Settings, encoding: Encoding) -> Self {
         let mut shared = Feed(Hasher::new_derive_key(PURPOSE));
         shared.world(world);
         shared.settings(settings);
@@ -47,8 +48,8 @@ impl Digests {
         Self { shared }
     }
 
-    /// Of one of them.
-    pub(crate) fn of(&self, shot: &Shot<'_>) -> Hash {
+    /// The digest of one of them.
+    pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
             exposure,
             frame,
@@ -223,7 +224,7 @@ impl Feed {
     }
 }
 
-/// Of some spheres at a time, each with its material and its color.
+/// The hashes of some spheres at a time, each with its material and its color.
 fn hashes_of_spheres(world: &World) -> Vec<Hash> {
     let parts = world.spheres().par_chunks(SPHERES).enumerate();
     let hash = |(part, spheres): (usize, &[Sphere])| {

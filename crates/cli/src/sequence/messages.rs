@@ -1,18 +1,18 @@
-//! What is said about files that were written.
+//! Messages about files that were written.
 
 use std::path::Path;
 use std::time::Duration;
 
 use marbles_core::{Evidence, Summary};
 
-use crate::base::numbers::bound;
-use crate::formats::Encoding;
-use crate::sequence::frames;
-use crate::sequence::outcome::Tally;
-use crate::sequence::strip_encoder::Worst;
+use super::frames;
+use super::outcome::Outcome;
+use super::results::WorstPixel;
+use crate::base::numbers::{bound, counted};
+use crate::formats::encoding::Encoding;
 
 /// The line of results; `time` is the rendering's alone.
-pub(crate) fn result(path: &str, summary: &Summary, time: Duration) -> String {
+pub(super) fn result(path: &str, summary: &Summary, time: Duration) -> String {
     format!(
         "{path}: {} pixels, {}, {} over the tolerance, {:.3} s",
         summary.pixels,
@@ -24,24 +24,23 @@ pub(crate) fn result(path: &str, summary: &Summary, time: Duration) -> String {
 
 /// The line of results of several files together, in the form of a file's own.
 pub(crate) fn total(files: u64, summary: &Summary, time: Duration) -> String {
-    let noun = if files == 1 { "frame" } else { "frames" };
-    result(&format!("{files} {noun}"), summary, time)
+    result(&counted(files, "frame"), summary, time)
 }
 
 /// The line of results of a file that was there.
-pub(crate) fn skipped(path: &Path) -> String {
+pub(super) fn skipped(path: &Path) -> String {
     format!("{}: skipped, complete and of this scene", path.display())
 }
 
-/// How many frames were written, and which failed, in the form that `--frames` reads.
-pub(crate) fn counts(tally: &Tally) -> String {
-    let Tally {
+/// The number of frames that were written, and those that failed, in the form that `--frames` reads.
+pub(crate) fn counts(outcome: &Outcome) -> String {
+    let Outcome {
         frames,
         written,
         skipped,
         failed,
         ..
-    } = tally;
+    } = outcome;
     let mut counts = format!("{written} of {frames} frames written");
     if *skipped > 0 {
         counts.push_str(&format!(", {skipped} skipped"));
@@ -52,7 +51,7 @@ pub(crate) fn counts(tally: &Tally) -> String {
     counts
 }
 
-/// How large the errors are, and what that is worth: `error <= 8.3e-04 (bound)`.
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound)`.
 pub(crate) fn claim(summary: &Summary) -> String {
     let evidence = match summary.evidence {
         Evidence::Bound => "bound",
@@ -61,26 +60,26 @@ pub(crate) fn claim(summary: &Summary) -> String {
     format!("error <= {} ({evidence})", bound(summary.largest_error))
 }
 
-/// That numbers were too large for the file's floats.
-pub(crate) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
-    let numbers = if count == 1 { "number" } else { "numbers" };
+/// The warning that numbers were too large for the file's floats.
+pub(super) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
+    let numbers = counted(count, "number");
     match encoding {
         Encoding::Exr(options) if !options.float => format!(
-            "{path}: {count} {numbers} above 65504, the largest half, stored as that; \
+            "{path}: {numbers} above 65504, the largest half, stored as that; \
              --float has room for more"
         ),
-        _ => format!("{path}: {count} {numbers} too large for the file, stored as the largest"),
+        _ => format!("{path}: {numbers} too large for the file, stored as the largest"),
     }
 }
 
-/// That pixels did not meet the tolerance, and which one least of all.
-pub(crate) fn over_tolerance(path: &str, count: u64, worst: Option<Worst>) -> String {
-    let worst = worst.map_or(String::new(), |Worst { col, row, error }| {
+/// The warning that pixels did not meet the tolerance, with the worst of them.
+pub(super) fn over_tolerance(path: &str, count: u64, worst: Option<WorstPixel>) -> String {
+    let worst = worst.map_or(String::new(), |WorstPixel { col, row, error }| {
         let error = bound(error);
         format!(", the worst in column {col}, row {row} with an error <= {error}")
     });
-    let pixels = if count == 1 { "pixel" } else { "pixels" };
-    format!("{path}: {count} {pixels} over the tolerance{worst}")
+    let pixels = counted(count, "pixel");
+    format!("{path}: {pixels} over the tolerance{worst}")
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What became of the frames of a sequence.
+//! The outcome of a sequence: frames that were written, skipped and failed.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -11,9 +11,9 @@ use marbles_core::Summary;
 use crate::base::failure::Failure;
 use crate::terminal::progress::Progress;
 
-/// What became of a sequence.
+/// The outcome of a sequence.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Tally {
+pub(crate) struct Outcome {
     /// Frames that were asked for.
     pub(crate) frames: u64,
     /// Frames whose files were written.
@@ -22,15 +22,15 @@ pub(crate) struct Tally {
     pub(crate) skipped: u64,
     /// Frames that could not be rendered or written.
     pub(crate) failed: Vec<i32>,
-    /// What the written frames together achieved.
+    /// The results of the written frames together.
     pub(crate) total: Option<Summary>,
-    /// What rendering the written frames took.
+    /// The time that rendering the written frames took.
     pub(crate) time: Duration,
     /// Whether the user ended the work.
     pub(crate) interrupted: bool,
 }
 
-impl Tally {
+impl Outcome {
     /// Counts a frame that was written.
     pub(crate) fn add(&mut self, summary: Summary, time: Duration) {
         self.written += 1;
@@ -38,14 +38,14 @@ impl Tally {
         self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
     }
 
-    /// Whether some pixel of a written frame did not meet the tolerance.
+    /// Returns whether some pixel of a written frame did not meet the tolerance.
     pub(crate) fn is_over_tolerance(&self) -> bool {
         self.total.is_some_and(|total| total.over_tolerance > 0)
     }
 }
 
 /// Frames that failed, as several threads find out.
-pub(crate) struct Failures {
+pub(super) struct Failures {
     /// Whether the first one ends the work.
     is_fatal: bool,
     stop: AtomicBool,
@@ -55,13 +55,13 @@ pub(crate) struct Failures {
 #[derive(Default)]
 struct State {
     frames: Vec<i32>,
-    /// What was said already.
+    /// Reasons that were told already.
     reasons: HashSet<String>,
 }
 
 impl Failures {
-    /// None yet.
-    pub(crate) fn new(is_fatal: bool) -> Self {
+    /// No failures yet.
+    pub(super) fn new(is_fatal: bool) -> Self {
         Self {
             is_fatal,
             stop: AtomicBool::new(false),
@@ -69,9 +69,10 @@ impl Failures {
         }
     }
 
-    /// Counts a frame whose file would be at `path`, and says why it failed unless that was said
-    /// of another: on a full disk a thousand fail alike.
-    pub(crate) fn add(&self, frame: i32, path: &Path, message: String, progress: &Progress) {
+    /// Counts a frame whose file would be at `path`, and tells the reason unless it was told of another
+    /// frame: on a full disk a thousand fail alike.
+    pub(super) fn add(&self, frame: i32, path: &Path, failure: &Failure, progress: &Progress) {
+        let message = failure.to_string();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.frames.push(frame);
         // What comes before the reason is another file or frame each time.
@@ -86,13 +87,13 @@ impl Failures {
         }
     }
 
-    /// Whether no more frames are wanted.
-    pub(crate) fn stop(&self) -> bool {
+    /// Returns whether no more frames are wanted.
+    pub(super) fn stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
     /// The frames that failed.
-    pub(crate) fn into_frames(self) -> Vec<i32> {
+    pub(super) fn into_frames(self) -> Vec<i32> {
         let state = self.state.into_inner();
         state.unwrap_or_else(PoisonError::into_inner).frames
     }
@@ -112,20 +113,20 @@ mod tests {
             evidence,
             over_tolerance,
         };
-        let mut tally = Tally::default();
-        assert!(!tally.is_over_tolerance());
+        let mut outcome = Outcome::default();
+        assert!(!outcome.is_over_tolerance());
         let time = Duration::from_millis(5);
-        tally.add(summary(1e-4, Evidence::Bound, 0), time);
-        assert_eq!(tally.total, Some(summary(1e-4, Evidence::Bound, 0)));
-        assert!(!tally.is_over_tolerance());
-        tally.add(summary(3e-4, Evidence::Estimate, 2), time);
-        tally.add(summary(2e-4, Evidence::Bound, 1), time);
+        outcome.add(summary(1e-4, Evidence::Bound, 0), time);
+        assert_eq!(outcome.total, Some(summary(1e-4, Evidence::Bound, 0)));
+        assert!(!outcome.is_over_tolerance());
+        outcome.add(summary(3e-4, Evidence::Estimate, 2), time);
+        outcome.add(summary(2e-4, Evidence::Bound, 1), time);
         let total = Summary {
             pixels: 300,
             ..summary(3e-4, Evidence::Estimate, 3)
         };
-        assert_eq!(tally.total, Some(total));
-        assert_eq!((tally.written, tally.time), (3, 3 * time));
-        assert!(tally.is_over_tolerance());
+        assert_eq!(outcome.total, Some(total));
+        assert_eq!((outcome.written, outcome.time), (3, 3 * time));
+        assert!(outcome.is_over_tolerance());
     }
 }

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use crate::formats::encoding::Format;
+
 /// More digits than this are a slip of the keyboard, and no file system takes them.
 const MOST_DIGITS: usize = 100;
 /// Digits of the frame number in names that the user left out.
@@ -23,22 +25,13 @@ pub(crate) struct Pattern {
     format: Format,
 }
 
-/// A file format, known by the ending of the name.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) enum Format {
-    Png,
-    /// All frames in one file.
-    Apng,
-    Exr,
-}
-
 /// A frame number, padded with zeros to `digits` characters.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Number {
     digits: usize,
 }
 
-/// Why a text is no pattern.
+/// A reason why a text is no pattern.
 #[derive(Clone, Debug, Eq, Error, PartialEq)]
 pub(crate) enum PatternError {
     #[error("expected a file name that ends in .png, .apng or .exr, found `{0}`")]
@@ -52,7 +45,7 @@ pub(crate) enum PatternError {
 }
 
 impl Pattern {
-    /// Reads what the user wrote.
+    /// Reads a pattern as users write it.
     pub(crate) fn parse(path: &Path) -> Result<Self, PatternError> {
         let shown = || path.display().to_string();
         // A trailing slash means a folder, which `file_name` would overlook.
@@ -133,19 +126,9 @@ impl Pattern {
         self.format
     }
 
-    /// Whether different frames have different names.
+    /// Returns whether different frames have different names.
     pub(crate) fn is_numbered(&self) -> bool {
         self.number.is_some()
-    }
-}
-
-impl Format {
-    /// The format that the ending of a name asks for.
-    pub(crate) fn of(name: &str) -> Option<Self> {
-        let (_, ending) = name.rsplit_once('.')?;
-        [("png", Self::Png), ("apng", Self::Apng), ("exr", Self::Exr)]
-            .into_iter()
-            .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
     }
 }
 

@@ -1,5 +1,5 @@
-//! Threads that go from picture to picture: who finds nothing to begin in one prepares the next, or
-//! goes on with it, while others end the one before.
+//! The workers: threads that go from picture to picture. A thread that finds no part left to begin
+//! prepares the next picture, or starts on it, while others finish the one before.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -8,8 +8,8 @@ use std::time::Duration;
 use rayon::Yield;
 
 /// Work that threads share.
-pub(super) trait Shared: Send + Sync {
-    /// How many parts of it nobody has begun.
+pub(super) trait SharedWork: Send + Sync {
+    /// The number of its parts that nobody has begun.
     fn left(&self) -> u32;
 
     /// Does parts of it until there is none that nobody has begun; breaks when all work ends.
@@ -21,88 +21,89 @@ pub(super) trait Shared: Send + Sync {
 /// While the last parts of something are done, the next is prepared, and not more: `prepare` is called
 /// by one thread at a time, and those that have nothing to do take parts in what it does by way of
 /// rayon.
-pub(super) fn run<T: Shared>(prepare: impl FnMut() -> Option<T> + Send) {
-    let flow = Flow {
+pub(super) fn run<T: SharedWork>(prepare: impl FnMut() -> Option<T> + Send) {
+    let workers = Workers {
         state: Mutex::new(State {
             current: None,
             next: None,
-            source: Source::Ready,
+            preparation: Preparation::Waiting,
             is_over: false,
         }),
         changed: Condvar::new(),
     };
     let prepare = Mutex::new(prepare);
-    rayon::broadcast(|context| flow.work(context.num_threads() as u32, &prepare));
+    rayon::broadcast(|context| workers.work(context.num_threads() as u32, &prepare));
 }
 
-struct Flow<T> {
+struct Workers<T> {
     state: Mutex<State<T>>,
     changed: Condvar,
 }
 
 struct State<T> {
-    /// What is being done.
+    /// The work that is being done.
     current: Option<Arc<T>>,
-    /// What comes after it.
+    /// The work that comes after it.
     next: Option<Arc<T>>,
-    source: Source,
+    preparation: Preparation,
     is_over: bool,
 }
 
-/// What comes after that.
+/// The state of the preparation of what comes after that.
 #[derive(Clone, Copy, Eq, PartialEq)]
-enum Source {
-    Ready,
-    /// Somebody prepares it.
-    Busy,
-    /// Nothing.
-    Dry,
+enum Preparation {
+    /// Nobody has begun it.
+    Waiting,
+    /// A thread is at it.
+    Running,
+    /// There is no more work.
+    Over,
 }
 
-/// What a thread does.
-enum Turn<T> {
+/// The next step of a thread.
+enum Step<T> {
     Prepare,
     Help(Arc<T>),
     End,
 }
 
-impl<T: Shared> Flow<T> {
+impl<T: SharedWork> Workers<T> {
     fn work(&self, threads: u32, prepare: &Mutex<impl FnMut() -> Option<T>>) {
         // Nobody waits for a thread that has panicked.
         let ending = Ending(self);
         loop {
-            match self.turn(threads) {
-                Turn::Prepare => {
+            match self.next_step(threads) {
+                Step::Prepare => {
                     let mut prepare = prepare.lock().unwrap_or_else(PoisonError::into_inner);
                     let next = prepare();
                     let mut state = self.lock();
-                    state.source = if next.is_some() {
-                        Source::Ready
+                    state.preparation = if next.is_some() {
+                        Preparation::Waiting
                     } else {
-                        Source::Dry
+                        Preparation::Over
                     };
                     state.next = next.map(Arc::new);
                     self.changed.notify_all();
                 }
-                Turn::Help(work) => {
+                Step::Help(work) => {
                     if work.help().is_break() {
                         return;
                     }
                 }
-                Turn::End => break,
+                Step::End => break,
             }
         }
         std::mem::forget(ending);
     }
 
     /// Waits until there is something to do.
-    fn turn(&self, threads: u32) -> Turn<T> {
+    fn next_step(&self, threads: u32) -> Step<T> {
         /// How long a thread waits before it looks again for work that another one shares.
         const PAUSE: Duration = Duration::from_micros(200);
         let mut state = self.lock();
         loop {
             if state.is_over {
-                return Turn::End;
+                return Step::End;
             }
             if state.current.as_ref().is_none_or(|work| work.left() == 0) {
                 state.current = state.next.take();
@@ -110,22 +111,22 @@ impl<T: Shared> Flow<T> {
             let left = state.current.as_ref().map_or(0, |work| work.left());
             // The others have enough to do meanwhile.
             let is_time = left <= 2 * (threads - 1);
-            if is_time && state.next.is_none() && state.source == Source::Ready {
-                state.source = Source::Busy;
-                return Turn::Prepare;
+            if is_time && state.next.is_none() && state.preparation == Preparation::Waiting {
+                state.preparation = Preparation::Running;
+                return Step::Prepare;
             }
             if let Some(work) = &state.current
                 && left > 0
             {
-                return Turn::Help(Arc::clone(work));
+                return Step::Help(Arc::clone(work));
             }
-            if state.source == Source::Dry && state.next.is_none() {
-                return Turn::End;
+            if state.preparation == Preparation::Over && state.next.is_none() {
+                return Step::End;
             }
             drop(state);
             let has_helped = rayon::yield_now() == Some(Yield::Executed);
             state = self.lock();
-            if !has_helped && state.source == Source::Busy {
+            if !has_helped && state.preparation == Preparation::Running {
                 let waited = self.changed.wait_timeout(state, PAUSE);
                 state = waited.unwrap_or_else(PoisonError::into_inner).0;
             }
@@ -138,9 +139,9 @@ impl<T: Shared> Flow<T> {
 }
 
 /// Ends all work when it goes out of scope.
-struct Ending<'a, T: Shared>(&'a Flow<T>);
+struct Ending<'a, T: SharedWork>(&'a Workers<T>);
 
-impl<T: Shared> Drop for Ending<'_, T> {
+impl<T: SharedWork> Drop for Ending<'_, T> {
     fn drop(&mut self) {
         self.0.lock().is_over = true;
         self.0.changed.notify_all();

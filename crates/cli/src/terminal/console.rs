@@ -5,8 +5,8 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::builder::StyledStr;
-use serde::Serialize;
 
+use super::json;
 use crate::base::failure::{Failure, reason};
 
 const BOLD_RED: &str = "\x1b[1;31m";
@@ -19,30 +19,23 @@ const RESET: &str = "\x1b[0m";
 pub(crate) struct Console {
     out: Stream,
     err: Stream,
-    /// The program that reads, where one is known.
+    /// The reader of messages, where it is known not to be people.
     reader: OnceLock<Reader>,
 }
 
-/// A program that has its own form of messages.
+/// A reader of messages, in a form of its own.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Reader {
-    /// Reads objects of JSON, one a line, on stderr.
+    People,
+    /// A program that reads objects of JSON, one a line, on stderr.
     Json,
-    /// Runs jobs of Open Job Description, and reads what went wrong on stdout.
+    /// A runner of jobs of Open Job Description, which reads what went wrong on stdout.
     OpenJd,
-}
-
-/// A message in JSON.
-#[derive(Serialize)]
-#[serde(tag = "event", rename_all = "snake_case")]
-enum Message<'a> {
-    Warning { message: &'a str },
-    Error { message: &'a str },
 }
 
 struct Stream {
     write: Mutex<Box<dyn Write + Send>>,
-    /// Why something could not be printed, the first time.
+    /// The reason why something could not be printed, the first time.
     error: OnceLock<io::Error>,
     terminal: bool,
     styled: bool,
@@ -53,19 +46,11 @@ impl Console {
     pub(crate) fn of_process() -> Self {
         let colors = env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
             && env::var_os("TERM").is_none_or(|value| value != "dumb");
+        let (out, err) = (io::stdout(), io::stderr());
+        let (out_terminal, err_terminal) = (out.is_terminal(), err.is_terminal());
         Self {
-            out: Stream {
-                write: Mutex::new(Box::new(io::stdout())),
-                error: OnceLock::new(),
-                terminal: io::stdout().is_terminal(),
-                styled: colors && io::stdout().is_terminal(),
-            },
-            err: Stream {
-                write: Mutex::new(Box::new(io::stderr())),
-                error: OnceLock::new(),
-                terminal: io::stderr().is_terminal(),
-                styled: colors && io::stderr().is_terminal(),
-            },
+            out: Stream::new(out, out_terminal, colors),
+            err: Stream::new(err, err_terminal, colors),
             reader: OnceLock::new(),
         }
     }
@@ -73,30 +58,29 @@ impl Console {
     /// A console that is no terminal.
     #[cfg(test)]
     pub(crate) fn to(out: impl Write + Send + 'static, err: impl Write + Send + 'static) -> Self {
-        let plain = |write: Box<dyn Write + Send>| Stream {
-            write: Mutex::new(write),
-            error: OnceLock::new(),
-            terminal: false,
-            styled: false,
-        };
         Self {
-            out: plain(Box::new(out)),
-            err: plain(Box::new(err)),
+            out: Stream::new(out, false, false),
+            err: Stream::new(err, false, false),
             reader: OnceLock::new(),
         }
     }
 
-    /// Speaks to a program from now on.
+    /// Speaks to this reader from now on.
     pub(crate) fn speak_to(&self, reader: Reader) {
         self.reader.get_or_init(|| reader);
     }
 
-    /// Whether messages go to a terminal.
+    /// The reader of messages.
+    pub(crate) fn reader(&self) -> Reader {
+        self.reader.get().copied().unwrap_or(Reader::People)
+    }
+
+    /// Returns whether messages go to a terminal.
     pub(crate) fn is_interactive(&self) -> bool {
         self.err.terminal
     }
 
-    /// Whether results go to a terminal.
+    /// Returns whether results go to a terminal.
     pub(crate) fn shows_results(&self) -> bool {
         self.out.terminal
     }
@@ -111,7 +95,7 @@ impl Console {
         self.out.print(text);
     }
 
-    /// That results could not be printed, where a reader still waits for them.
+    /// The failure to print results, where a reader still waits for them.
     pub(crate) fn lost_results(&self) -> Option<Failure> {
         let error = self.out.error.get()?;
         let message = format!("cannot write the results: {}", reason(error));
@@ -123,70 +107,63 @@ impl Console {
         self.err.print(&format!("{line}\n"));
     }
 
-    /// A line of JSON about how things go.
-    pub(crate) fn event(&self, event: &impl Serialize) {
-        // Events are plain numbers and texts, which always have a form in JSON.
-        if let Ok(line) = serde_json::to_string(event) {
-            self.note(&line);
-        }
-    }
-
     /// Something that the user should know, though the work goes on.
     pub(crate) fn warn(&self, message: &str) {
-        if self.reader.get() == Some(&Reader::Json) {
-            return self.event(&Message::Warning { message });
+        if self.reader() == Reader::Json {
+            return self.message_event("warning", message);
         }
-        self.note(&format!(
-            "{} {message}",
-            self.err.paint("marbles:", BOLD_YELLOW)
-        ));
+        let name = self.err.paint("marbles:", BOLD_YELLOW);
+        self.note(&format!("{name} {message}"));
     }
 
-    /// Why something was not done.
+    /// The reason why something was not done.
     pub(crate) fn failure(&self, failure: &Failure) {
         let text = failure.to_string();
         let message = text.trim_end();
-        match self.reader.get() {
-            Some(Reader::Json) => return self.event(&Message::Error { message }),
-            Some(Reader::OpenJd) => self.reason(message),
-            None => {}
+        match self.reader() {
+            Reader::Json => return self.message_event("error", message),
+            Reader::OpenJd => self.reason(message),
+            Reader::People => {}
         }
         self.note(&self.message(failure));
     }
 
-    /// What [`Self::failure`] prints, without the end of the last line.
+    /// A line of JSON with a message.
+    fn message_event(&self, event: &str, message: &str) {
+        let message = json::string(message);
+        self.note(&format!(r#"{{"event":"{event}","message":{message}}}"#));
+    }
+
+    /// The text that [`Self::failure`] prints, without the end of the last line.
     pub(crate) fn message(&self, failure: &Failure) -> String {
-        match failure {
-            Failure::Usage(message) | Failure::Frames(message) | Failure::Work(message) => {
-                format!(
-                    "{} {}",
-                    self.err.paint("marbles:", BOLD_RED),
-                    message.trim_end()
-                )
+        let text = match failure {
+            Failure::Usage(message) | Failure::Work(message) => {
+                format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
             }
-            Failure::Scene(error) if self.err.styled => error.styled().trim_end().to_owned(),
-            Failure::Scene(error) => error.to_string().trim_end().to_owned(),
-        }
+            Failure::Scene(error) if self.err.styled => error.styled(),
+            Failure::Scene(error) => error.to_string(),
+        };
+        text.trim_end().to_owned()
     }
 
     /// The last line on stderr of a process that has to end at once.
     pub(crate) fn farewell(&self) -> &'static str {
-        match self.reader.get() {
-            Some(Reader::Json) => r#"{"event":"warning","message":"interrupted"}"#,
+        match self.reader() {
+            Reader::Json => r#"{"event":"warning","message":"interrupted"}"#,
             // Below the bar that may be there.
-            Some(Reader::OpenJd) | None => "\nmarbles: interrupted",
+            Reader::OpenJd | Reader::People => "\nmarbles: interrupted",
         }
     }
 
-    /// Why the exit code will not be 0, for runners of jobs, which show only this of a log.
+    /// The reason why the exit code will not be 0, for runners of jobs, which show only this of a log.
     pub(crate) fn reason(&self, message: &str) {
-        if self.reader.get() == Some(&Reader::OpenJd) {
+        if self.reader() == Reader::OpenJd {
             let first = message.lines().next().unwrap_or_default();
             self.result(&format!("openjd_fail: {first}"));
         }
     }
 
-    /// What clap has to say, about a wrong command line or as help.
+    /// The text of clap, about a wrong command line or as help.
     pub(crate) fn clap(&self, message: &StyledStr, is_error: bool) {
         let stream = if is_error { &self.err } else { &self.out };
         if stream.styled {
@@ -198,6 +175,15 @@ impl Console {
 }
 
 impl Stream {
+    fn new(write: impl Write + Send + 'static, terminal: bool, colors: bool) -> Self {
+        Self {
+            write: Mutex::new(Box::new(write)),
+            error: OnceLock::new(),
+            terminal,
+            styled: colors && terminal,
+        }
+    }
+
     fn print(&self, text: &str) {
         let mut write = self.write.lock().unwrap_or_else(PoisonError::into_inner);
         let written = write
@@ -229,7 +215,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// What was printed.
+    /// The text that was printed.
     #[derive(Clone, Default)]
     pub(crate) struct Text(Arc<Mutex<Vec<u8>>>);
 
@@ -249,7 +235,7 @@ pub(crate) mod tests {
         }
     }
 
-    /// What goes to stdout and to stderr about a warning and a failure.
+    /// The texts on stdout and on stderr about a warning and a failure.
     fn say(reader: Option<Reader>) -> (String, String) {
         let (out, err) = (Text::default(), Text::default());
         let console = Console::to(out.clone(), err.clone());

@@ -10,26 +10,27 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use super::alternate_screen;
+use super::console::Console;
 use crate::base::status::INTERRUPTED;
-use crate::commands::preview::screen;
 use crate::files::temporary;
 
-/// How long pictures that are ready may take to be written: users are promised a second.
+/// The time in which pictures that are ready may be written: users are promised a second.
 const GRACE: Duration = Duration::from_millis(700);
-/// How long the farewell may take on a terminal that does not answer.
+/// The time that the farewell may take on a terminal that does not answer.
 const FAREWELL: Duration = Duration::from_millis(50);
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Whether the user wants the work to end.
+/// Returns whether the user wants the work to end.
 pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
 }
 
-/// Listens from now on, for as long as the process lives; `farewell` is the last line of a process
-/// that has to end at once.
-pub(crate) fn listen(farewell: &'static str) {
+/// Listens from now on, for as long as the process lives.
+pub(crate) fn listen(console: &Console) {
     static LISTENING: OnceLock<()> = OnceLock::new();
+    let farewell = console.farewell();
     LISTENING.get_or_init(|| {
         // Where no handler can be installed, the signals end the process as they always do.
         let _ = ctrlc::set_handler(move || {
@@ -51,7 +52,7 @@ fn end(farewell: &'static str) -> ! {
     let _no_more_files = temporary::abandon_all();
     // Another thread may hold the lock of stdout or stderr for as long as nobody reads from it.
     let said = thread::Builder::new().spawn(move || {
-        screen::restore();
+        alternate_screen::restore();
         let _ = writeln!(std::io::stderr(), "{farewell}");
     });
     if said.is_ok() {

@@ -1,25 +1,39 @@
-//! How far the work is: a bar on a terminal, lines elsewhere, or nothing.
+//! The progress of a sequence: a bar on a terminal, lines elsewhere, or nothing.
 
-mod lines;
-
-use std::fmt::Write;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use indicatif::{ProgressBar, ProgressState, ProgressStyle};
+use clap::ValueEnum;
+use indicatif::ProgressBar;
 
-use self::lines::{Lines, Reader};
+use super::bar::{bar, show_line, style};
+use super::console::{Console, Reader};
+use super::lines::Lines;
 use crate::base::failure::Failure;
-use crate::base::numbers;
-use crate::commands::args::ProgressForm;
-use crate::commands::scene::LINE;
-use crate::terminal::console::Console;
 
-/// Two columns at the end of the line, and the way back before them: there terminals show `^C`, which
-/// would else begin another line, and the bar would stay where it was.
-const ROOM: &str = "  \x1b[2D";
+/// A form of progress, for people or programs.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum ProgressForm {
+    /// Lines on stdout that a runner of Open Job Description reads
+    #[value(name = "openjd")]
+    OpenJd,
+    /// Lines on stderr, each an object in JSON
+    Json,
+    /// A line on stderr for each frame, or now and then
+    Plain,
+    /// Nothing
+    None,
+}
 
-/// Shades of the bar, from full to empty.
-const SHADES: &str = "█▉▊▋▌▍▎▏ ";
+impl ProgressForm {
+    /// The reader of messages in this form.
+    pub(crate) fn reader(self) -> Reader {
+        match self {
+            Self::OpenJd => Reader::OpenJd,
+            Self::Json => Reader::Json,
+            Self::Plain | Self::None => Reader::People,
+        }
+    }
+}
 
 /// The progress of a sequence, and the way by which lines reach the user without disturbing it.
 pub(crate) struct Progress<'a> {
@@ -47,23 +61,14 @@ impl<'a> Progress<'a> {
         quiet: bool,
         frames: u64,
     ) -> Self {
-        let lines = |reader| Display::Lines(Lines::new(console, reader, frames));
         let display = match form {
-            Some(ProgressForm::OpenJd) => lines(Reader::OpenJd),
-            Some(ProgressForm::Json) => lines(Reader::Json),
-            Some(ProgressForm::Plain) => lines(Reader::People),
             Some(ProgressForm::None) => Display::Nothing,
+            Some(_) => Display::Lines(Lines::new(console, frames)),
             None if quiet => Display::Nothing,
-            None if console.is_interactive() => {
-                let bar = ProgressBar::new(0).with_style(style(frames > 1));
-                // Terminals that cannot go back to the start of a line have no bars.
-                if bar.is_hidden() {
-                    lines(Reader::People)
-                } else {
-                    Display::Bar(bar)
-                }
-            }
-            None => lines(Reader::People),
+            None => match bar(console) {
+                Some(bar) => Display::Bar(bar.with_style(style(frames > 1))),
+                None => Display::Lines(Lines::new(console, frames)),
+            },
         };
         Self {
             console,
@@ -74,7 +79,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Prepares what so many spheres are rendered with.
+    /// Does what prepares the rendering of so many spheres.
     pub(crate) fn while_preparing<T>(&self, spheres: usize, prepare: impl FnOnce() -> T) -> T {
         /// Fewer take no time.
         const MANY: usize = 1 << 15;
@@ -84,11 +89,7 @@ impl<'a> Progress<'a> {
         if spheres < MANY {
             return prepare();
         }
-        if let Ok(line) = ProgressStyle::with_template(LINE) {
-            bar.set_style(line);
-        }
-        bar.set_message(format!("preparing {spheres} spheres"));
-        bar.tick();
+        show_line(bar, format!("preparing {spheres} spheres"));
         prepare()
     }
 
@@ -129,7 +130,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame's file is complete; how many were written until now, and how many skipped.
+    /// A frame's file is complete, and so many were written and skipped until now.
     pub(crate) fn written(&self, frame: i32, written: u64, skipped: u64) {
         if let Display::Lines(lines) = &self.display {
             lines.written(frame, written, skipped);
@@ -148,7 +149,7 @@ impl<'a> Progress<'a> {
         self.aside(|| self.console.warn(message));
     }
 
-    /// Why something was not done.
+    /// The reason why something was not done.
     pub(crate) fn failure(&self, failure: &Failure) {
         self.aside(|| self.console.failure(failure));
     }
@@ -167,23 +168,4 @@ impl<'a> Progress<'a> {
             Display::Nothing | Display::Lines(_) => print(),
         }
     }
-}
-
-/// A bar in pixels, after a message where there is one.
-pub(crate) fn style(has_message: bool) -> ProgressStyle {
-    let message = if has_message { "{msg} " } else { "" };
-    let template = format!("{message}{{wide_bar}} {{percent:>3}}% of {{total}}{{left}}{ROOM}");
-    ProgressStyle::with_template(&template)
-        // Without its template the bar is plainer, no reason to stop.
-        .unwrap_or_else(|_| ProgressStyle::default_bar())
-        .progress_chars(SHADES)
-        .with_key("total", |state: &ProgressState, text: &mut dyn Write| {
-            // Writing into a string cannot fail.
-            let _ = text.write_str(&numbers::pixels(state.len().unwrap_or(0)));
-        })
-        .with_key("left", |state: &ProgressState, text: &mut dyn Write| {
-            if state.pos() > 0 {
-                let _ = write!(text, ", {} left", numbers::wait(state.eta()));
-            }
-        })
 }

@@ -6,6 +6,7 @@
 )]
 
 mod animation;
+mod compare;
 #[cfg(unix)]
 mod farm;
 mod files;
@@ -15,6 +16,7 @@ mod memory;
 #[cfg(target_os = "linux")]
 mod preview;
 mod progress;
+mod report;
 mod sequences;
 mod signals;
 #[cfg(target_os = "linux")]

@@ -7,10 +7,8 @@ use std::path::PathBuf;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, FromArgMatches, Subcommand};
 
-use super::{RenderArguments, whole_number};
-
-/// More frames than this in one task would not make the rest of its work any smaller.
-const LARGEST_CHUNK: i64 = 1_000_000;
+use super::render::RenderArguments;
+use super::values::chunk;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -76,7 +74,7 @@ struct Given {
 }
 
 impl GivenArguments {
-    /// Whether the option with this long name is on the command line.
+    /// Returns whether the option with this long name is on the command line.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.given.iter().any(|given| given.name == name)
     }
@@ -148,9 +146,4 @@ impl Args for GivenArguments {
     fn augment_args_for_update(command: Command) -> Command {
         Self::augment_args(command)
     }
-}
-
-fn chunk(text: &str) -> Result<NonZeroU32, String> {
-    let chunk = whole_number(text, 1, LARGEST_CHUNK)?;
-    Ok(NonZeroU32::new(chunk as u32).unwrap_or(NonZeroU32::MIN))
 }

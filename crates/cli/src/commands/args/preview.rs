@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::tolerance_above_zero;
+use super::values::tolerance_above_zero;
 
 const EXAMPLES: &str = "\
 Examples:

@@ -4,10 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{Size, threads, whole_number};
-
-/// More runs than this do not make a median better.
-const MOST_RUNS: i64 = 1000;
+use super::values::{runs, seconds, threads};
+use crate::base::size::Size;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -73,24 +71,11 @@ pub(crate) struct ReportArguments {
     #[arg(long, value_name = "FILE")]
     pub(crate) csv: Option<PathBuf>,
 
-    /// Draw time against RMSE; the ending .svg or .png chooses the format
+    /// Draw time against RMSE, as an .svg
     #[arg(long, value_name = "FILE")]
     pub(crate) plot: Option<PathBuf>,
 
     /// Print nothing but errors and warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    /// About eleven days.
-    const MOST: f64 = 1e6;
-    text.parse()
-        .ok()
-        .filter(|seconds| (0.0..=MOST).contains(seconds))
-        .ok_or_else(|| format!("expected a number of seconds from 0 to {MOST}"))
-}
-
-fn runs(text: &str) -> Result<usize, String> {
-    whole_number(text, 1, MOST_RUNS).map(|runs| runs as usize)
 }

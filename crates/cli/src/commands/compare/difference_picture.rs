@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Pair;
+use super::pair::Pair;
 use super::statistics::Statistics;
 use crate::base::failure::Failure;
-use crate::formats;
-use crate::sequence::pattern::Format;
+use crate::formats::encoding::Format;
+use crate::formats::exr::write::write_floats;
+use crate::formats::png::write::write_grey;
 
 /// The difference in the middle of the scale of a PNG where no tolerance is given.
 const USUAL_MIDDLE: f64 = 1e-3;
@@ -29,8 +30,7 @@ pub(super) struct DifferencePicture {
 impl DifferencePicture {
     /// The picture at `path`, whose ending chooses the format.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
-        let name = path.file_name().and_then(|name| name.to_str());
-        let holds_floats = match name.and_then(Format::of) {
+        let holds_floats = match Format::of_file(path) {
             Some(Format::Png) => false,
             Some(Format::Exr) => true,
             Some(Format::Apng) | None => {
@@ -50,7 +50,7 @@ impl DifferencePicture {
         &self.path
     }
 
-    /// What its values say.
+    /// The meaning of its values.
     pub(super) fn scale(&self, tolerance: Option<f64>) -> String {
         if self.holds_floats {
             return "the differences of each channel".to_owned();
@@ -70,21 +70,21 @@ impl DifferencePicture {
         statistics: &Statistics,
         tolerance: Option<f64>,
     ) -> Result<(), Failure> {
-        let (width, height) = (pair.a.width, pair.a.height);
+        let size = pair.size();
         if self.holds_floats {
             let channel = |&channel: &usize| {
-                let differences = pair
-                    .pixels()
-                    .map(|(col, row)| pair.differences(col, row)[channel] as f32);
+                let differences = size.places();
+                let differences =
+                    differences.map(|(col, row)| pair.differences(col, row)[channel] as f32);
                 (pair.name(channel), differences.collect())
             };
             let channels = pair.channels().iter().map(channel).collect();
-            return formats::write_floats(width, height, channels, &self.path);
+            return write_floats(size, channels, &self.path);
         }
         let middle = middle(tolerance);
         let codes = statistics.differences.iter();
         let codes: Vec<u8> = codes.map(|&size| code(size, middle)).collect();
-        formats::write_codes(width, height, &codes, &self.path)
+        write_grey(size, &codes, &self.path)
     }
 }
 

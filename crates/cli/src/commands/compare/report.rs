@@ -1,13 +1,15 @@
-//! What `marbles compare` prints.
+//! The results that `marbles compare` prints.
 //!
 //! Every row begins with its name, which stays what it is; numbers about differences have four
 //! digits and are rounded up.
 
 use super::difference_picture::DifferencePicture;
+use super::pair::Pair;
 use super::statistics::{Difference, Statistics};
-use super::{Pair, Picture};
 use crate::base::numbers::{bound, bound_with, short};
+use crate::base::size::Size;
 use crate::commands::args::CompareArguments;
+use crate::formats::picture::Picture;
 
 /// Width of the column with the names of rows.
 const NAMES: usize = 12;
@@ -88,9 +90,9 @@ impl Report<'_> {
         }
     }
 
-    /// What rounding accounts for where the difference is largest.
+    /// The difference that rounding accounts for where the difference is largest.
     fn rounding(&self, worst: &Difference) -> String {
-        let of = |picture: &Picture| picture.rounding(worst.col, worst.row)[worst.channel];
+        let of = |picture: &Picture| picture.samples.rounding(worst.col, worst.row)[worst.channel];
         let (a, b) = (of(&self.pair.a), of(&self.pair.b));
         format!(
             "{} at the largest: {} of A, {} of B",
@@ -123,7 +125,7 @@ impl Report<'_> {
             size,
         } in worst
         {
-            let value = |picture: &Picture| short(picture.rgba(col, row)[channel]);
+            let value = |picture: &Picture| short(picture.samples.rgba(col, row)[channel]);
             let rounding = self.pair.rounding(col, row)[channel];
             let cells = [
                 &*col.to_string(),
@@ -141,13 +143,8 @@ impl Report<'_> {
 }
 
 fn about(picture: &Picture) -> String {
-    let Picture {
-        width,
-        height,
-        description,
-        ..
-    } = picture;
-    format!("{width} x {height}, {description}")
+    let Size { width, height } = picture.size;
+    format!("{width} x {height}, {}", picture.description)
 }
 
 /// Four digits, rounded up.

@@ -2,9 +2,9 @@
 //!
 //! The difference of a pixel is the largest one of its channels.
 
-use super::Pair;
+use super::pair::Pair;
 
-/// What is known about the differences of two pictures.
+/// The statistics of the differences of two pictures.
 #[derive(Debug)]
 pub(super) struct Statistics {
     /// Row by row, the difference of every pixel; infinite where a value is no finite number.
@@ -40,7 +40,7 @@ impl Statistics {
     pub(super) fn of(pair: &Pair, tolerance: Option<f64>, worst: usize) -> Self {
         let channels = pair.channels();
         let mut statistics = Self {
-            differences: Vec::with_capacity(pair.pixels().size_hint().0),
+            differences: Vec::with_capacity(pair.size().pixels() as usize),
             rms: 0.0,
             percentile: 0.0,
             over_tolerance: 0,
@@ -51,7 +51,7 @@ impl Statistics {
             worst: Vec::new(),
         };
         let mut squares = 0.0;
-        for (col, row) in pair.pixels() {
+        for (col, row) in pair.size().places() {
             let differences = pair.differences(col, row);
             let largest = channels.iter().map(|&channel| differences[channel]);
             let largest = largest.fold(0.0, f64::max);
@@ -81,7 +81,7 @@ impl Statistics {
         statistics.worst = largest(&statistics.differences, worst.max(1))
             .into_iter()
             .map(|index| {
-                let width = pair.a.width as usize;
+                let width = pair.size().width as usize;
                 let (col, row) = ((index % width) as u32, (index / width) as u32);
                 worst_channel(pair, col, row)
             })
@@ -94,7 +94,7 @@ impl Statistics {
     }
 }
 
-/// Whether a difference needs more than the rounding of the files, whose numbers, themselves
+/// Returns whether a difference needs more than the rounding of the files, whose numbers, themselves
 /// rounded to doubles, leave the last few bits open.
 fn exceeds(difference: f64, rounding: f64) -> bool {
     /// More than operations on doubles lose, and less than anybody would call a difference.

@@ -26,7 +26,7 @@ pub(super) fn expression(frames: &[i32]) -> String {
     items.join(",")
 }
 
-/// How many frames from the first on are as far apart as the first two.
+/// The number of frames from the first on that are as far apart as the first two.
 fn evenly_spaced(frames: &[i32]) -> usize {
     let step = |pair: &[i32]| i64::from(pair[1]) - i64::from(pair[0]);
     let mut steps = frames.windows(2).map(step);

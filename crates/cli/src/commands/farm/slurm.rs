@@ -1,13 +1,13 @@
 //! A script for `sbatch`: an array of tasks, one for each chunk of frames.
 
-use super::Job;
 use super::chunks::expression;
+use super::job::Job;
 use crate::base::failure::Failure;
 
 /// The most tasks that Slurm's largest `MaxArraySize` has room for.
 const MOST_TASKS: usize = 4_000_000;
 
-/// What a task does with signals, before the renderer starts beside the shell, which gets them.
+/// The part of a task that handles signals, before the renderer starts beside the shell, which gets them.
 ///
 /// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
 /// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
@@ -25,7 +25,7 @@ trap 'sleep 1; end' TERM INT
 trap 'again=1; end' USR1
 "#;
 
-/// What it does while the renderer runs: `wait` returns whenever a signal comes.
+/// The part of a task that waits for the renderer: `wait` returns whenever a signal comes.
 const WAIT: &str = r#"renderer=$!
 [ -z "$ended" ] || kill -TERM "$renderer"
 signaled=1
@@ -46,7 +46,7 @@ exit "$code"
 /// The script.
 pub(super) fn script(job: &Job) -> Result<String, Failure> {
     let chunk = job.chunk.get() as usize;
-    let tasks = job.frames.len().div_ceil(chunk);
+    let tasks = job.tasks();
     if tasks > MOST_TASKS {
         return Err(Failure::Usage(format!(
             "--chunk {chunk}: expected at most {MOST_TASKS} tasks, Slurm's limit, found {tasks}"

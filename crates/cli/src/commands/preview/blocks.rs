@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::Picture;
+use super::picture::Picture;
 
 /// Its letters are the upper pixel, what is behind them the lower one.
 const UPPER_HALF: char = '▀';
@@ -11,10 +11,10 @@ const RESET: &str = "\x1b[0m";
 /// A line for each two rows of pixels, the colors in 24 bit, each line ended by `end`.
 pub(super) fn text(picture: &Picture, end: &str) -> String {
     let mut text = String::new();
-    for row in (0..picture.height).step_by(2) {
+    for row in (0..picture.size.height).step_by(2) {
         let upper = picture.row(row);
         // Below the last row of an odd number of them there is none.
-        let lower = (row + 1 < picture.height).then(|| picture.row(row + 1));
+        let lower = (row + 1 < picture.size.height).then(|| picture.row(row + 1));
         let (mut letter, mut ground) = (None, None);
         for (col, &color) in upper.iter().enumerate() {
             set(&mut text, 38, &mut letter, Some(color));
@@ -41,6 +41,7 @@ fn set(text: &mut String, which: u8, chosen: &mut Option<[u8; 3]>, color: Option
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::size::Size;
 
     const RED: [u8; 3] = [255, 0, 0];
     const GREEN: [u8; 3] = [0, 128, 0];
@@ -49,8 +50,10 @@ mod tests {
     #[test]
     fn two_rows_are_a_line() {
         let picture = Picture {
-            width: 2,
-            height: 2,
+            size: Size {
+                width: 2,
+                height: 2,
+            },
             codes: vec![RED, RED, GREEN, BLUE],
         };
         assert_eq!(
@@ -62,8 +65,10 @@ mod tests {
     #[test]
     fn the_last_row_of_an_odd_number_has_nothing_below() {
         let picture = Picture {
-            width: 1,
-            height: 3,
+            size: Size {
+                width: 1,
+                height: 3,
+            },
             codes: vec![RED, RED, BLUE],
         };
         assert_eq!(

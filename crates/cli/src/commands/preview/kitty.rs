@@ -2,29 +2,24 @@
 //!
 //! Source: "Terminal graphics protocol", sw.kovidgoyal.net/kitty/graphics-protocol.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-
-use super::Picture;
+use super::picture::Picture;
 use crate::base::failure::Failure;
-use crate::formats;
+use crate::formats::png::write::rgb_bytes;
 
 /// The longest piece that the protocol allows, in bytes of base64.
 const PIECE: usize = 4096;
 
-/// What takes this process's picture from the screen, and from the terminal's memory.
+/// The text that takes this process's picture from the screen, and from the terminal's memory.
 pub(super) fn delete() -> String {
     let process = std::process::id();
     format!("\x1b_Ga=d,d=I,i={process},q=2\x1b\\")
 }
 
-/// What has the terminal show the picture where the cursor is, which moves below it.
+/// The text that has the terminal show the picture where the cursor is, which moves below it.
 ///
 /// It takes the place of the one that this process has shown before.
 pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
-    let Picture { width, height, .. } = *picture;
-    let png = formats::rgb_png(width, height, picture.codes.as_flattened())?;
-    let data = STANDARD.encode(png);
+    let data = base64(&rgb_bytes(picture.size, picture.codes.as_flattened())?);
     let mut text = String::new();
     let mut rest = &*data;
     // Transmit and show (a), as a PNG (f), under a name that others do not use (i), and answer
@@ -40,9 +35,42 @@ pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
     Ok(text)
 }
 
+/// Bytes as letters, digits, `+` and `/`, six bits each, with `=` in place of those that lack.
+///
+/// Source: RFC 4648, section 4.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |index: usize| three.get(index).copied().map_or(0, u32::from);
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (place, shift) in [18, 12, 6, 0].into_iter().enumerate() {
+            let letter = LETTERS[(bits >> shift & 63) as usize];
+            text.push(if place <= three.len() {
+                letter.into()
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
+    use base64::Engine;
+    use base64::engine::general_purpose::STANDARD;
+
     use super::*;
+    use crate::base::size::Size;
+
+    #[test]
+    fn bytes_are_base64() {
+        let bytes: Vec<u8> = (0..=255).collect();
+        for length in [0, 1, 2, 3, 4, 255, 256] {
+            assert_eq!(base64(&bytes[..length]), STANDARD.encode(&bytes[..length]));
+        }
+    }
 
     #[test]
     fn pieces_are_the_picture() {
@@ -50,8 +78,10 @@ mod tests {
         let numbers = 0..60 * 60_u32;
         let codes = numbers.map(|n| [13, 17, 29].map(|f| ((n * n * f + n * 101 * f) >> 5) as u8));
         let picture = Picture {
-            width: 60,
-            height: 60,
+            size: Size {
+                width: 60,
+                height: 60,
+            },
             codes: codes.collect(),
         };
         let text = text(&picture).unwrap();

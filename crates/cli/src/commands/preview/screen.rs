@@ -1,13 +1,15 @@
 //! The terminal that shows pictures: what it can show, and how large.
 
 use std::env;
-use std::io::{self, Write};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::io;
 
-use ::console::Term;
+use console::Term;
+use marbles_core::View;
 
-use super::{Picture, blocks, kitty};
+use super::picture::Picture;
+use super::{blocks, kitty};
 use crate::base::failure::Failure;
+use crate::base::size::Size;
 use crate::terminal::console::Console;
 
 /// Columns and rows of text that is for no terminal.
@@ -17,7 +19,11 @@ const MOST_CELLS: u32 = 1000;
 /// As for cells, in pixels.
 const MOST_PIXELS: u32 = 8192;
 
-/// Where pictures are shown.
+const HOME: &str = "\x1b[H";
+const CLEAR: &str = "\x1b[H\x1b[2J";
+const CLEAR_BELOW: &str = "\x1b[J";
+
+/// The screen on which pictures are shown.
 pub(super) struct Screen {
     pub(super) is_terminal: bool,
     has_graphics: bool,
@@ -33,7 +39,7 @@ pub(super) struct Area {
 }
 
 impl Screen {
-    /// What stdout is.
+    /// The screen of stdout.
     ///
     /// # Errors
     /// Refuses terminals that can do nothing but print letters.
@@ -80,7 +86,7 @@ impl Screen {
         }
     }
 
-    /// What shows the picture where the cursor is, which moves below it.
+    /// The text that shows the picture where the cursor is, which moves below it.
     pub(super) fn show(&self, picture: &Picture) -> Result<String, Failure> {
         if self.has_graphics {
             kitty::text(picture)
@@ -89,7 +95,7 @@ impl Screen {
         }
     }
 
-    /// What shows the picture alone, in place of all that is there.
+    /// The text that shows the picture alone, in place of all that is there.
     pub(super) fn replace(&self, picture: &Picture) -> Result<String, Failure> {
         if self.has_graphics {
             let picture = kitty::text(picture)?;
@@ -101,49 +107,29 @@ impl Screen {
         }
     }
 
-    /// What takes everything away.
+    /// The text that takes everything away.
     pub(super) fn clear(&self) -> String {
         let delete = self.has_graphics.then(kitty::delete);
         format!("{}{CLEAR}", delete.unwrap_or_default())
     }
 }
 
-const HOME: &str = "\x1b[H";
-const CLEAR: &str = "\x1b[H\x1b[2J";
-const CLEAR_BELOW: &str = "\x1b[J";
-/// To a screen of its own, with the cursor hidden, and back.
-const ENTER: &str = "\x1b[?1049h\x1b[?25l";
-const LEAVE: &str = "\x1b[?25h\x1b[?1049l";
-
-static HAS_ENTERED: AtomicBool = AtomicBool::new(false);
-
-/// A screen that is there while this lives, and then the one that was before.
-pub(super) struct OtherScreen;
-
-impl OtherScreen {
-    pub(super) fn enter(console: &Console) -> Self {
-        HAS_ENTERED.store(true, Ordering::Relaxed);
-        console.print(ENTER);
-        Self
+impl Area {
+    /// The view with as many pixels as fill the area one way, and keep the picture's form.
+    pub(super) fn fit(&self, view: View) -> View {
+        let (width, height) = (f64::from(view.width), f64::from(view.height));
+        let scale = (f64::from(self.width) / width).min(f64::from(self.height) / height);
+        let scale = if self.enlarges { scale } else { scale.min(1.0) };
+        let side = |length: f64, most: u32| ((length * scale).round() as u32).clamp(1, most);
+        let size = Size {
+            width: side(width, self.width),
+            height: side(height, self.height),
+        };
+        size.resize(view)
     }
 }
 
-impl Drop for OtherScreen {
-    fn drop(&mut self) {
-        restore();
-    }
-}
-
-/// Leaves the terminal as it was, whoever ends the process.
-pub(crate) fn restore() {
-    if HAS_ENTERED.swap(false, Ordering::Relaxed) {
-        let mut out = io::stdout();
-        // A terminal that is gone needs nothing.
-        let _ = out.write_all(LEAVE.as_bytes()).and_then(|()| out.flush());
-    }
-}
-
-/// Whether a terminal speaks kitty's graphics protocol, by what it says in `TERM` and
+/// Returns whether a terminal speaks kitty's graphics protocol, by what it says in `TERM` and
 /// `TERM_PROGRAM`. Programs that stand between, like tmux, have names of their own there.
 fn speaks_kitty(term: &str, program: &str) -> bool {
     let between = ["screen", "tmux"].iter().any(|name| term.starts_with(name));

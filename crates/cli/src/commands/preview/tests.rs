@@ -2,9 +2,11 @@ use std::fs::{self, File};
 use std::io::BufReader;
 
 use glam::DVec2;
-use marbles_core::{Angle, Camera, Lens};
+use marbles_core::{Angle, Camera, Lens, View};
+use marbles_scene::Scene;
 
-use super::*;
+use super::picture::render;
+use super::screen::Area;
 use crate::tests::{SCENE, run_here};
 
 fn view(width: u32, height: u32) -> View {
@@ -30,7 +32,7 @@ fn pictures_fill_the_area_one_way() {
             height,
             enlarges,
         };
-        let view = fitted(view(size.0, size.1), &area);
+        let view = area.fit(view(size.0, size.1));
         (view.width, view.height)
     };
     assert_eq!(fit((600, 600), (80, 44), true), (44, 44));
@@ -105,9 +107,9 @@ fn pixels_are_those_of_a_file() {
         height: 20,
         enlarges: true,
     };
-    let view = fitted(scene.view(1).unwrap(), &area);
+    let view = area.fit(scene.view(1).unwrap());
     let picture = render(&scene, &view, 1e-2, None).unwrap();
-    assert_eq!((picture.width, picture.height), (20, 20));
+    assert_eq!((picture.size.width, picture.size.height), (20, 20));
     assert_eq!(picture.codes.as_flattened(), codes);
     assert!(codes.iter().any(|&code| code > 100) && codes.contains(&0));
     fs::remove_dir_all(folder).unwrap();

@@ -11,17 +11,17 @@ use std::time::{Duration, SystemTime};
 use marbles_core::Cancelled;
 use marbles_scene::{Scene, SceneError};
 
-use super::screen::{Area, OtherScreen, Screen};
-use super::{Picture, fitted, render};
+use super::picture::{Picture, render};
+use super::screen::{Area, Screen};
 use crate::base::failure::Failure;
 use crate::base::status;
 use crate::commands::args::PreviewArguments;
-use crate::commands::frame;
 use crate::commands::scene;
+use crate::terminal::alternate_screen::AlternateScreen;
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 
-/// How often files are looked at. What changes from one look to the next is still being saved.
+/// The time between two looks at the files. What changes from one look to the next is still being saved.
 const INTERVAL: Duration = Duration::from_millis(100);
 /// The line below the picture.
 const STATUS_LINES: u32 = 1;
@@ -37,8 +37,8 @@ pub(super) fn run(
             "--watch needs a terminal, and the output is none".to_owned(),
         ));
     }
-    interrupt::listen(console.farewell());
-    let _other = OtherScreen::enter(console);
+    interrupt::listen(console);
+    let _screen = AlternateScreen::enter(console);
     let mut files = Files::of(&arguments.scene);
     while !interrupt::requested() {
         let area = screen.area(STATUS_LINES);
@@ -70,7 +70,7 @@ fn look(
         Err(_) => {}
     }
     let scene = scene?;
-    let view = fitted(frame::view(&scene, arguments.frame)?, area);
+    let view = area.fit(scene::view(&scene, arguments.frame)?);
     Ok(render(&scene, &view, arguments.tolerance, None))
 }
 
@@ -96,14 +96,14 @@ fn wait(files: &mut Files, is_other: impl Fn() -> bool) {
     }
 }
 
-/// The files that a picture depends on, and how they were when they were read.
+/// The files that a picture depends on, and their states when they were read.
 struct Files {
     /// The scene, then its tables.
     paths: Vec<PathBuf>,
     stamps: Vec<Option<Stamp>>,
 }
 
-/// What tells one state of a file from another; `None` stands for a file that is not there.
+/// The state of a file; `None` stands for a file that is not there.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Stamp {
     modified: SystemTime,
@@ -118,7 +118,7 @@ impl Files {
         Self { paths, stamps }
     }
 
-    /// How the files are now.
+    /// The states of the files now.
     fn look(&self) -> Vec<Option<Stamp>> {
         self.paths.iter().map(|path| stamp(path)).collect()
     }
@@ -166,7 +166,7 @@ fn message(text: &str, (columns, rows): (u32, u32)) -> String {
     let mut room = rows.saturating_sub(STATUS_LINES) as usize;
     let mut shown = String::new();
     for line in text.lines() {
-        let width = ::console::measure_text_width(line);
+        let width = console::measure_text_width(line);
         let lines = width.div_ceil(columns as usize).max(1);
         if lines > room {
             break;
@@ -180,7 +180,7 @@ fn message(text: &str, (columns, rows): (u32, u32)) -> String {
 
 /// A text in the last line, cut where that ends.
 fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
-    let text = ::console::truncate_str(text, columns as usize, "…");
+    let text = console::truncate_str(text, columns as usize, "…");
     format!("\x1b[{rows};1H{text}\x1b[K")
 }
 

@@ -1,6 +1,9 @@
-//! How far a picture is from a reference, and how far it says it is.
+//! The errors of a picture against a reference, and those that it claims.
 
-use marbles_core::{Channels, Image};
+use marbles_core::Image;
+
+use crate::base::size::Size;
+use crate::formats::form::color_count;
 
 /// A reference that claims more than this leaves a pixel unknown: a tenth of the smallest
 /// tolerance that is measured.
@@ -25,7 +28,7 @@ pub(super) struct Accuracy {
     pub(super) missed: u64,
 }
 
-/// Whether a pixel of the reference is as good as exact.
+/// Returns whether a pixel of the reference is as good as exact.
 pub(super) fn is_known(reference: &Image, (col, row): (u32, u32)) -> bool {
     reference.error(col, row) <= LARGEST_UNKNOWN
 }
@@ -33,10 +36,7 @@ pub(super) fn is_known(reference: &Image, (col, row): (u32, u32)) -> bool {
 impl Accuracy {
     /// Holds a picture against a reference of the same size; without a tolerance no pixel is over.
     pub(super) fn of(image: &Image, reference: &Image, tolerance: Option<f64>) -> Self {
-        let channels = match image.channels() {
-            Channels::Grey => 1,
-            Channels::Rgb => 3,
-        };
+        let channels = color_count(image.channels());
         let mut accuracy = Self {
             rmse: 0.0,
             largest: 0.0,
@@ -47,7 +47,7 @@ impl Accuracy {
         };
         let (mut squares, mut count) = (0.0, 0_u64);
         let mut ratios = Vec::new();
-        for (col, row) in pixels(image) {
+        for (col, row) in places(image) {
             let says_so = image.status(col, row).is_over_tolerance();
             if !is_known(reference, (col, row)) {
                 accuracy.missed += u64::from(says_so);
@@ -80,10 +80,10 @@ impl Accuracy {
     }
 }
 
-/// Row by row, the places of all pixels.
-pub(super) fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
-    let width = image.width();
-    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
+/// The places of all pixels, row by row.
+pub(super) fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+    let (width, height) = (image.width(), image.height());
+    Size { width, height }.places()
 }
 
 /// The number in the middle, or the mean of both there.
@@ -122,8 +122,8 @@ mod tests {
         // Supersampled edges claim too much for a reference; what is left claims nothing.
         assert_eq!(accuracy.median_of_claimed, None);
         assert!(accuracy.largest_claimed <= LARGEST_UNKNOWN);
-        let known = pixels(&picture).filter(|&pixel| is_known(&picture, pixel));
+        let known = places(&picture).filter(|&pixel| is_known(&picture, pixel));
         let known = known.count();
-        assert!(known > 0 && known < pixels(&picture).count());
+        assert!(known > 0 && known < places(&picture).count());
     }
 }

@@ -2,7 +2,7 @@
 
 use marbles_core::{Evidence, Method};
 
-use super::Report;
+use super::results::Report;
 use super::row::Row;
 
 const TITLES: &str = "scene,frame,width,height,threads,method,tolerance,samples_a_side,runs,\
@@ -136,7 +136,7 @@ fn quoted(cell: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::report::tests::report;
+    use crate::commands::report::results::tests::report;
 
     #[test]
     fn cells_are_quoted_where_they_must_be() {

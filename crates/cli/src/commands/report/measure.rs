@@ -6,8 +6,9 @@ use std::time::{Duration, Instant};
 
 use marbles_core::{Cancelled, Exposure, Image, Method, Renderer, Settings, Summary, Work};
 
-use super::accuracy::{Accuracy, LARGEST_UNKNOWN, is_known, median, pixels};
+use super::accuracy::{Accuracy, LARGEST_UNKNOWN, is_known, median, places};
 use super::progress::Progress;
+use crate::base::size::Size;
 use crate::terminal::interrupt;
 
 /// The tolerances that are measured.
@@ -24,7 +25,7 @@ const MOST_SIDES: u32 = 512;
 const PLANNED: f64 = 0.75;
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 
-/// What is measured, and for how long.
+/// The plan of measuring: the picture, and the time.
 pub(super) struct Plan<'a> {
     pub(super) renderer: &'a Renderer<'a>,
     pub(super) exposure: &'a Exposure<'a>,
@@ -34,7 +35,7 @@ pub(super) struct Plan<'a> {
     pub(super) progress: &'a Progress<'a>,
 }
 
-/// What came of it.
+/// The results of measuring.
 pub(super) struct Measurement {
     pub(super) reference: Reference,
     /// Tolerances, then samples.
@@ -44,13 +45,13 @@ pub(super) struct Measurement {
 }
 
 impl Measurement {
-    /// How often every setting was run.
+    /// The number of runs of every setting.
     pub(super) fn runs(&self) -> usize {
         self.settings.first().map_or(0, |first| first.times.len())
     }
 }
 
-/// What the others are held against.
+/// The picture that the others are held against.
 pub(super) struct Reference {
     pub(super) tolerance: f64,
     pub(super) image: Image,
@@ -59,7 +60,7 @@ pub(super) struct Reference {
     pub(super) known: u64,
 }
 
-/// A way to render, and how it fared.
+/// A way to render, and its results.
 #[derive(Clone, Debug)]
 pub(super) struct Setting {
     pub(super) method: Method,
@@ -115,7 +116,7 @@ impl Plan<'_> {
     fn reference_at(&self, tolerance: f64, seconds: Option<f64>) -> Result<Reference, Cancelled> {
         let name = format!("reference, tolerance {tolerance:e}");
         let (image, time) = self.render(Method::Tolerance(tolerance), &name, seconds, None)?;
-        let known = pixels(&image).filter(|&pixel| is_known(&image, pixel));
+        let known = places(&image).filter(|&pixel| is_known(&image, pixel));
         let known = known.count() as u64;
         Ok(Reference {
             tolerance,
@@ -207,9 +208,8 @@ impl Plan<'_> {
         seconds: Option<f64>,
         spent: Option<Image>,
     ) -> Result<(Image, Duration), Cancelled> {
-        let view = self.exposure.view();
-        let pixels = u64::from(view.width) * u64::from(view.height);
-        self.progress.begin(name, pixels);
+        let size = Size::of(self.exposure.view());
+        self.progress.begin(name, size.pixels());
         let settings = Settings {
             method,
             alpha: false,
@@ -235,14 +235,14 @@ fn seconds_of_a_round(settings: &[Setting]) -> f64 {
 }
 
 impl Reference {
-    /// Whether all pixels are as good as exact.
+    /// Returns whether all pixels are as good as exact.
     pub(super) fn is_complete(&self) -> bool {
         self.known == self.image.summary().pixels
     }
 
     /// The root of the mean square of what the known pixels claim.
     pub(super) fn claimed_rms(&self) -> f64 {
-        let known = pixels(&self.image).filter(|&pixel| is_known(&self.image, pixel));
+        let known = places(&self.image).filter(|&pixel| is_known(&self.image, pixel));
         let squares = known.map(|(col, row)| {
             let error = self.image.error(col, row);
             error * error

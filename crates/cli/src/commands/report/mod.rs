@@ -10,44 +10,40 @@ mod curve;
 mod measure;
 mod plot;
 mod progress;
+mod results;
 mod row;
 mod table;
 
-use std::fs;
-use std::path::Path;
+use marbles_core::{Channels, Renderer};
 
-use marbles_core::{Renderer, View};
-use marbles_scene::Scene;
-
-use self::measure::{Measurement, Plan, Reference};
-use self::plot::PlotFile;
+use self::measure::Plan;
 use self::progress::Progress;
+use self::results::{Report, title};
 use self::row::Row;
+use super::args::ReportArguments;
+use super::scene;
 use crate::base::failure::Failure;
-use crate::base::memory::{self, Form};
-use crate::base::status;
-use crate::base::threads;
-use crate::commands::args::ReportArguments;
-use crate::commands::frame;
-use crate::commands::scene;
-use crate::files::place;
-use crate::formats;
+use crate::base::size::Size;
+use crate::base::{memory, status, threads};
+use crate::files::destination::{is_same, prepare};
+use crate::files::save::write_bytes;
+use crate::formats::form::color_count;
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
-    let plot = arguments.plot.as_deref().map(PlotFile::at).transpose()?;
+    plot::check_name(arguments.plot.as_deref())?;
     let scene = scene::load(&arguments.scene, console, arguments.quiet)?;
-    let view = frame::view(&scene, arguments.frame)?;
-    let view = frame::resized(view, arguments.size);
+    let view = scene::view(&scene, arguments.frame)?;
+    let view = arguments.size.map_or(view, |size| size.resize(view));
     // What cannot be written is refused before the long work.
     check_files(arguments)?;
     let pool = threads::start(arguments.threads)?;
-    interrupt::listen(console.farewell());
+    interrupt::listen(console);
     for path in arguments.csv.iter().chain(&arguments.plot) {
-        place::prepare(path)?;
+        prepare(path)?;
     }
-    memory::check_pictures(&Form::of(&view, scene.world(), false), PICTURES)?;
+    check_memory(Size::of(&view), Channels::of(scene.world(), false))?;
 
     let progress = Progress::new(console, arguments.quiet);
     let renderer = Renderer::new(scene.world());
@@ -74,10 +70,10 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         measurement,
     };
     if let Some(path) = &arguments.csv {
-        formats::write_bytes(&csv::bytes(&report), path)?;
+        write_bytes(&csv::bytes(&report), path)?;
     }
-    if let Some(plot) = &plot {
-        plot.write(&report)?;
+    if let Some(path) = &arguments.plot {
+        write_bytes(plot::svg(&report).as_bytes(), path)?;
     }
     if !arguments.quiet {
         for line in table::lines(&report) {
@@ -87,67 +83,37 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     Ok(conclusion(&report))
 }
 
-/// Pictures in memory at a time: the reference, another one in its place, and what is measured.
-const PICTURES: u64 = 3;
-
-/// All that is known about a scene.
-struct Report {
-    /// Scene, frame, size and threads, for people.
-    title: String,
-    scene: String,
-    view: View,
-    threads: usize,
-    measurement: Measurement,
-    rows: Vec<Row>,
-}
-
-impl Report {
-    fn reference(&self) -> &Reference {
-        &self.measurement.reference
-    }
-}
-
 /// Refuses files that would take the place of the scene or of each other.
 fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
-    let place = |path: &Path| fs::canonicalize(path).ok();
-    let same = |one: &Path, other: &Path| {
-        one == other || place(one).is_some_and(|one| place(other) == Some(one))
-    };
     let ReportArguments {
         scene, csv, plot, ..
     } = arguments;
     for (option, path) in [("--csv", csv), ("--plot", plot)] {
         if let Some(path) = path
-            && same(path, scene)
+            && is_same(path, scene)
         {
-            return Err(Failure::Usage(format!(
-                "{}: {option} would overwrite the scene",
-                path.display()
-            )));
+            let why = format!("{option} would overwrite the scene");
+            return Err(Failure::unusable(path, &why));
         }
     }
     match (csv, plot) {
-        (Some(csv), Some(plot)) if same(csv, plot) => Err(Failure::Usage(format!(
-            "{}: --csv and --plot name the same file",
-            csv.display()
-        ))),
+        (Some(csv), Some(plot)) if is_same(csv, plot) => Err(Failure::unusable(
+            csv,
+            "--csv and --plot name the same file",
+        )),
         _ => Ok(()),
     }
 }
 
-/// `ball.ron, frame 7, 600 x 600 pixels, 2 threads`.
-fn title(path: &Path, view: &View, scene: &Scene, threads: usize) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    let mut title = name.to_string_lossy().into_owned();
-    if scene.frames().is_some() {
-        title.push_str(&format!(", frame {}", view.frame));
-    }
-    let plural = if threads == 1 { "" } else { "s" };
-    let View { width, height, .. } = view;
-    title.push_str(&format!(
-        ", {width} x {height} pixels, {threads} thread{plural}"
-    ));
-    title
+/// Refuses pictures that do not fit into the memory together.
+fn check_memory(size: Size, channels: Channels) -> Result<(), Failure> {
+    /// The reference, another one in its place, and what is measured.
+    const PICTURES: u64 = 3;
+    // The channels and the error in double precision, what stands behind it, and the status.
+    let pixel_bytes = 8 * (color_count(channels) as u64 + 1) + 2;
+    let Size { width, height } = size;
+    let pictures = format!("{PICTURES} pictures of {width} x {height} pixels need");
+    memory::require(PICTURES * size.pixels() * pixel_bytes, &pictures)
 }
 
 /// The exit code of a report.
@@ -162,47 +128,17 @@ fn conclusion(report: &Report) -> u8 {
 
 #[cfg(test)]
 mod tests {
-    use std::time::Duration;
-
-    use glam::{DVec2, DVec3};
-    use marbles_core::{Angle, Camera, Lens};
-
     use super::*;
-    use crate::formats::tests::{Scene, render};
+    use crate::commands::report::results::tests::report;
 
-    /// A report as if it had been measured.
-    pub(super) fn report() -> Report {
-        let settings = row::tests::settings();
-        let image = render(Scene::Grey, false);
-        let known = image.summary().pixels;
-        Report {
-            title: "ball, red.ron, 23 x 19 pixels, 2 threads".to_owned(),
-            scene: "ball, red.ron".to_owned(),
-            threads: 2,
-            view: View {
-                camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
-                lens: Lens {
-                    width: 0.6,
-                    distance: 1.0,
-                    shift: DVec2::ZERO,
-                },
-                zoom: 1.0,
-                width: image.width(),
-                height: image.height(),
-                frame: 1,
-            },
-            rows: Row::all(&settings),
-            measurement: Measurement {
-                reference: Reference {
-                    tolerance: 1e-9,
-                    image,
-                    time: Duration::from_secs(3),
-                    known,
-                },
-                settings,
-                runs_planned: 5,
-            },
-        }
+    #[test]
+    fn whole_pictures_are_refused_where_they_do_not_fit() {
+        let square = |side| Size {
+            width: side,
+            height: side,
+        };
+        assert!(check_memory(square(9), Channels::Rgb).is_ok());
+        assert!(check_memory(square(1 << 26), Channels::Rgb).is_err());
     }
 
     #[test]

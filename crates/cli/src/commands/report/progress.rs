@@ -1,14 +1,14 @@
-//! How far the measuring is: a bar on a terminal, a line for every setting elsewhere, or nothing.
+//! The progress of measuring: a bar on a terminal, a line for every setting elsewhere, or nothing.
 
 use std::time::Duration;
 
 use indicatif::ProgressBar;
 
 use crate::base::numbers;
+use crate::terminal::bar::{bar, style};
 use crate::terminal::console::Console;
-use crate::terminal::progress::style;
 
-/// Where a long measurement says what it does.
+/// The progress of a long measurement.
 pub(super) struct Progress<'a> {
     console: &'a Console,
     display: Display,
@@ -22,17 +22,11 @@ enum Display {
 
 impl<'a> Progress<'a> {
     pub(super) fn new(console: &'a Console, quiet: bool) -> Self {
-        let display = if quiet {
-            Display::Quiet
-        } else if console.is_interactive() {
-            let bar = ProgressBar::new(0).with_style(style(true));
-            if bar.is_hidden() {
-                Display::Lines
-            } else {
-                Display::Bar(bar)
-            }
-        } else {
-            Display::Lines
+        let bar = if quiet { None } else { bar(console) };
+        let display = match bar {
+            Some(bar) => Display::Bar(bar.with_style(style(true))),
+            None if quiet => Display::Quiet,
+            None => Display::Lines,
         };
         Self { console, display }
     }

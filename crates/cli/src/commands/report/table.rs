@@ -1,7 +1,7 @@
 //! What `marbles report` prints: facts, a table in Markdown that reads well as it is, notes.
 
-use super::Report;
 use super::measure::name;
+use super::results::Report;
 use super::row::{Row, supersampling};
 use crate::base::numbers::{bound, duration, factor, fraction};
 use crate::sequence::messages;
@@ -181,7 +181,7 @@ fn markdown<const N: usize>(titles: &[String; N], rows: &[[String; N]]) -> Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::report::tests::report;
+    use crate::commands::report::results::tests::report;
 
     #[test]
     fn tables_are_aligned() {

@@ -1,21 +1,24 @@
-//! Which of the channels of a file are its picture.
+//! The choice of the channels of a file that are its picture.
 
 use std::collections::BTreeSet;
 
-use super::read::Part;
+use exr::prelude::{AnyChannels, FlatSamples, Layer};
 
-/// Where the light of a picture is found.
-pub(in crate::formats) struct Chosen {
-    pub(in crate::formats) part: usize,
-    /// What stands before the names of its channels: nothing, or `layer.`.
-    pub(in crate::formats) prefix: String,
+/// A part of a file, with all its channels.
+pub(super) type Part = Layer<AnyChannels<FlatSamples>>;
+
+/// The place where the light of a picture is found.
+pub(crate) struct Chosen {
+    pub(crate) part: usize,
+    /// The start of the names of its channels: nothing, or `layer.`.
+    pub(crate) prefix: String,
     /// The names after the prefix.
-    pub(in crate::formats) colors: &'static [&'static str],
+    pub(crate) colors: &'static [&'static str],
 }
 
 /// The first part with channels `R`, `G`, `B` or `Y`; failing that, the first with a layer that
 /// has such, in the order of the layers' names.
-pub(in crate::formats) fn choose(parts: &[Part]) -> Result<Chosen, String> {
+pub(crate) fn choose(parts: &[Part]) -> Result<Chosen, String> {
     const COLORS: [&[&str]; 2] = [&["R", "G", "B"], &["Y"]];
     let names: Vec<BTreeSet<String>> = parts
         .iter()

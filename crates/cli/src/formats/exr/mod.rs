@@ -1,4 +1,10 @@
+//! OpenEXR.
+
+mod attribute_order;
+pub(crate) mod blocks;
 mod channels;
 mod header;
-pub(in crate::formats) mod read;
-pub(in crate::formats) mod write;
+pub(crate) mod read;
+pub(crate) mod rows;
+pub(crate) mod stored;
+pub(crate) mod write;

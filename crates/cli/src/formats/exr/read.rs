@@ -4,19 +4,15 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use exr::meta::MetaData;
-use exr::prelude::{
-    AnyChannels, FlatSamples, Image, IntegerBounds, Layer, ReadChannels, ReadLayers, f16,
-};
+use exr::prelude::{FlatSamples, Image, ReadChannels, ReadLayers, f16};
 
 use super::channels::choose;
-use crate::formats::picture::{self, Picture, check_memory};
-
-/// A part of a file, with all its channels.
-pub(in crate::formats) type Part = Layer<AnyChannels<FlatSamples>>;
+use crate::base::size::Size;
+use crate::formats::picture::{Picture, Samples, check_memory};
 
 /// The numbers of a file, channel by channel.
 #[derive(Debug)]
-pub(in crate::formats) struct Samples {
+struct Numbers {
     /// The top left corner of the data window, from that of the display window.
     origin: (i64, i64),
     /// The size of the data window. Outside of it there is no light.
@@ -27,8 +23,8 @@ pub(in crate::formats) struct Samples {
 }
 
 /// The picture in the bytes of an EXR file.
-pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
-    check_sizes(bytes)?;
+pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    let picture_size = check_sizes(bytes)?;
     let Image {
         attributes,
         layer_data: parts,
@@ -89,15 +85,13 @@ pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
             ", data window {width} x {height} at column {col}, row {row}"
         ));
     }
-    let side = |side: usize| u32::try_from(side).map_err(|error| error.to_string());
     Ok(Picture {
-        width: side(display.size.width())?,
-        height: side(display.size.height())?,
+        size: picture_size,
         grey: colors.len() == 1,
         alpha: alpha.is_some(),
         description,
         remarks: Vec::new(),
-        samples: picture::Samples::Exr(Samples {
+        samples: Box::new(Numbers {
             origin,
             size,
             colors,
@@ -106,21 +100,21 @@ pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
     })
 }
 
-/// Refuses what there is no memory for, before the pixels are read.
-fn check_sizes(bytes: &[u8]) -> Result<(), String> {
+/// The size of the picture; refuses what there is no memory for, before the pixels are read.
+fn check_sizes(bytes: &[u8]) -> Result<Size, String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false)
         .map_err(|error| error.to_string())?;
+    let mut picture = Err("it has no parts".to_owned());
     for header in &meta.headers {
-        let IntegerBounds { size, .. } = header.shared_attributes.display_window;
-        check_memory(size.width(), size.height(), 1)?;
-        let bytes_per_pixel = header.channels.bytes_per_pixel;
-        check_memory(
-            header.layer_size.width(),
-            header.layer_size.height(),
-            bytes_per_pixel,
-        )?;
+        let (display, data) = (header.shared_attributes.display_window, header.layer_size);
+        picture = Ok(check_memory(
+            display.size.width(),
+            display.size.height(),
+            1,
+        )?);
+        check_memory(data.width(), data.height(), header.channels.bytes_per_pixel)?;
     }
-    Ok(())
+    picture
 }
 
 /// The types of numbers, each once: `half`, `float + half`.
@@ -135,14 +129,12 @@ fn kinds<'a>(channels: impl Iterator<Item = &'a FlatSamples>) -> String {
     kinds.into_iter().collect::<Vec<_>>().join(" + ")
 }
 
-impl Samples {
-    /// See [`Picture::rgba`].
-    pub(in crate::formats) fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
+impl Samples for Numbers {
+    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
         self.of_pixel(col, row, value)
     }
 
-    /// See [`Picture::rounding`].
-    pub(in crate::formats) fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
         let mut steps = self.of_pixel(col, row, half_step);
         if self.alpha.is_none() {
             steps[3] = 0.0;
@@ -150,8 +142,7 @@ impl Samples {
         steps
     }
 
-    /// See [`Picture::is_full`].
-    pub(in crate::formats) fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
         let full = self.of_pixel(col, row, |samples, index| {
             let largest = match samples {
                 FlatSamples::F16(_) => f16::MAX.to_f64(),
@@ -162,8 +153,10 @@ impl Samples {
         });
         full.map(|full| full == 1.0)
     }
+}
 
-    /// What `get` finds at a pixel, and outside the data window what there is of nothing.
+impl Numbers {
+    /// The numbers that `get` finds at a pixel; outside the data window there is no light.
     fn of_pixel(&self, col: u32, row: u32, get: fn(&FlatSamples, usize) -> f64) -> [f64; 4] {
         let inside = |at: u32, origin: i64, size: usize| {
             let at = usize::try_from(i64::from(at) - origin).ok()?;

@@ -9,16 +9,17 @@ use std::io::{BufWriter, Seek, Write};
 
 use png::{Compression, Writer};
 
-use super::write::{CHUNK_BYTES, Shape, encoder};
+use super::shape::Shape;
+use super::write::{CHUNK_BYTES, encoder};
 use crate::base::memory;
-use crate::formats::Fault;
+use crate::files::save::Fault;
 use crate::formats::frame_rate;
 
 /// Frames per second where nothing is known, as in scene files.
 const FRAMES_PER_SECOND: f64 = 24.0;
 
 /// A file that is being written.
-pub(in crate::formats) struct Animation<W: Write> {
+pub(crate) struct Animation<W: Write> {
     writer: Writer<BufWriter<W>>,
     /// Of one picture.
     samples: Vec<u8>,
@@ -26,14 +27,14 @@ pub(in crate::formats) struct Animation<W: Write> {
 
 impl<W: Write + Seek> Animation<W> {
     /// Begins a file of so many pictures, each of which is shown for `delay`.
-    pub(in crate::formats) fn begin(
+    pub(crate) fn begin(
         file: W,
         shape: Shape,
         frames: u32,
         delay: (u16, u16),
     ) -> Result<Self, Fault> {
         const FOR_EVER: u32 = 0;
-        let bytes = shape.row_bytes() * shape.height as usize;
+        let bytes = shape.row_bytes() * shape.size.height as usize;
         let samples = memory::reserve(bytes).map_err(Fault::Encoding)?;
         let file = BufWriter::with_capacity(CHUNK_BYTES, file);
         // Such files are sent about, and small ones are worth some time.
@@ -46,25 +47,25 @@ impl<W: Write + Seek> Animation<W> {
     }
 
     /// Adds rows of the picture, from the top.
-    pub(in crate::formats) fn add_samples(&mut self, samples: &[u8]) {
+    pub(crate) fn add_samples(&mut self, samples: &[u8]) {
         self.samples.extend_from_slice(samples);
     }
 
     /// Writes the picture, all of whose rows were added.
-    pub(in crate::formats) fn end_frame(&mut self) -> Result<(), Fault> {
+    pub(crate) fn end_frame(&mut self) -> Result<(), Fault> {
         self.writer.write_image_data(&self.samples)?;
         self.samples.clear();
         Ok(())
     }
 
     /// Ends the file.
-    pub(in crate::formats) fn finish(self) -> Result<(), Fault> {
+    pub(crate) fn finish(self) -> Result<(), Fault> {
         Ok(self.writer.finish()?)
     }
 }
 
-/// How long a picture is shown, in seconds as numerator and denominator.
-pub(in crate::formats) fn delay(frames_per_second: Option<f64>) -> (u16, u16) {
+/// The time for which a picture is shown, in seconds as numerator and denominator.
+pub(crate) fn delay(frames_per_second: Option<f64>) -> (u16, u16) {
     /// Denominator where the fraction is too large for the format.
     const FINE: u16 = 60_000;
     let rate = frames_per_second.unwrap_or(FRAMES_PER_SECOND);

@@ -16,7 +16,7 @@ const SRGB_TRANSFER: u8 = 13;
 
 /// How codes from 0 to 1 stand for light.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::formats) enum Curve {
+pub(crate) enum Curve {
     Srgb,
     Linear,
     /// Light is this power of the code.
@@ -27,7 +27,7 @@ impl Curve {
     /// What a file says about its curve, the strongest word first, and what could not be followed.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
-    pub(in crate::formats) fn of(info: &Info) -> Result<(Self, Vec<String>), String> {
+    pub(crate) fn of(info: &Info) -> Result<(Self, Vec<String>), String> {
         if let Some(points) = info.coding_independent_code_points {
             return match points.transfer_function {
                 SRGB_TRANSFER => Ok((Self::Srgb, Vec::new())),
@@ -53,7 +53,7 @@ impl Curve {
     }
 
     /// Its name, for people.
-    pub(in crate::formats) fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         match self {
             Self::Srgb => "sRGB".to_owned(),
             Self::Linear => "linear".to_owned(),
@@ -62,7 +62,7 @@ impl Curve {
     }
 
     /// The light of a code from 0 to 1.
-    pub(in crate::formats) fn light(self, code: f64) -> f64 {
+    pub(crate) fn light(self, code: f64) -> f64 {
         match self {
             Self::Srgb => srgb::decode(code),
             Self::Linear => code,

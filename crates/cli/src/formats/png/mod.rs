@@ -1,4 +1,10 @@
-pub(in crate::formats) mod animation;
+//! PNG.
+
+pub(crate) mod animation;
 mod curve;
-pub(in crate::formats) mod read;
-pub(in crate::formats) mod write;
+mod decoder;
+pub(crate) mod read;
+pub(crate) mod rows;
+pub(crate) mod shape;
+pub(crate) mod stored;
+pub(crate) mod write;

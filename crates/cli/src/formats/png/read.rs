@@ -2,14 +2,15 @@
 
 use std::io::Cursor;
 
-use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
+use png::{BitDepth, ColorType, Transformations};
 
 use super::curve::Curve;
-use crate::formats::picture::{self, Picture, check_memory};
+use super::decoder::decoder;
+use crate::formats::picture::{Picture, Samples, check_memory};
 
 /// The codes of a file, and their light.
 #[derive(Debug)]
-pub(in crate::formats) struct Samples {
+struct Codes {
     width: usize,
     /// Row by row, of 8 bit or of 16 with the big end first.
     codes: Vec<u8>,
@@ -24,22 +25,16 @@ pub(in crate::formats) struct Samples {
 }
 
 /// The picture in the bytes of a PNG file.
-pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
-    // The file is in memory already; a large one is no reason to refuse it.
-    let limits = Limits { bytes: usize::MAX };
-    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    let mut decoder = decoder(Cursor::new(bytes));
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let (color_type, depth) = reader.output_color_type();
     let deep = depth == BitDepth::Sixteen;
     let depth_bytes = if deep { 2 } else { 1 };
     let info = reader.info();
-    let (width, height) = (info.width, info.height);
-    check_memory(
-        width as usize,
-        height as usize,
-        color_type.samples() * depth_bytes,
-    )?;
+    let (width, height) = (info.width as usize, info.height as usize);
+    let picture_size = check_memory(width, height, color_type.samples() * depth_bytes)?;
     let (curve, remarks) = Curve::of(info)?;
     // The entries of a palette have 8 bit, however short their numbers are.
     let bits = match info.color_type {
@@ -63,14 +58,13 @@ pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         codes.map(move |code| curve.light((f64::from(code) + offset) / most))
     };
     Ok(Picture {
-        width,
-        height,
+        size: picture_size,
         grey,
         alpha,
         description,
         remarks,
-        samples: picture::Samples::Png(Samples {
-            width: width as usize,
+        samples: Box::new(Codes {
+            width,
             codes,
             color_type,
             deep,
@@ -81,19 +75,16 @@ pub(in crate::formats) fn decode(bytes: &[u8]) -> Result<Picture, String> {
     })
 }
 
-impl Samples {
-    /// See [`Picture::rgba`].
-    pub(in crate::formats) fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
+impl Samples for Codes {
+    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
         let [red, green, blue, alpha] = self.codes(col, row);
         let alpha = alpha as f64 / most(self.deep);
         let [red, green, blue] = [red, green, blue].map(|code| self.light[code] * alpha);
         [red, green, blue, alpha]
     }
 
-    /// See [`Picture::rounding`].
-    ///
     /// Color and alpha are rounded on their own, and the farthest is where both were rounded down.
-    pub(in crate::formats) fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
         let most = most(self.deep);
         let [red, green, blue, alpha] = self.codes(col, row);
         let alpha_step = if self.has_alpha() {
@@ -108,12 +99,13 @@ impl Samples {
         [red, green, blue, alpha_step]
     }
 
-    /// See [`Picture::is_full`].
-    pub(in crate::formats) fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
         let full = most(self.deep) as usize;
         self.codes(col, row).map(|code| code == full)
     }
+}
 
+impl Codes {
     fn has_alpha(&self) -> bool {
         matches!(self.color_type, ColorType::GrayscaleAlpha | ColorType::Rgba)
     }
@@ -150,6 +142,7 @@ fn most(deep: bool) -> f64 {
     }
 }
 
+/// The names of the channels.
 fn names(grey: bool, alpha: bool) -> &'static str {
     match (grey, alpha) {
         (true, false) => "grey",

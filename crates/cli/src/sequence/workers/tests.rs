@@ -14,7 +14,7 @@ struct Parts<'a> {
     number: u32,
 }
 
-impl Shared for Parts<'_> {
+impl SharedWork for Parts<'_> {
     fn left(&self) -> u32 {
         let next = self.next.load(Ordering::Relaxed);
         self.count.saturating_sub(next)

@@ -1,7 +1,9 @@
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 
 use super::*;
-use crate::formats;
+use crate::base::size::Size;
+use crate::formats::exr::write::write_floats;
+use crate::formats::load;
 use crate::formats::picture::Picture;
 
 /// A picture of floats, one line high.
@@ -9,8 +11,9 @@ fn line(values: &[f32]) -> Picture {
     let width = values.len() as u32;
     let name = format!("marbles-{}-{:p}.exr", std::process::id(), values);
     let path = std::env::temp_dir().join(name);
-    formats::write_floats(width, 1, vec![("Y", values.to_vec())], &path).unwrap();
-    let picture = Picture::load(&path).unwrap();
+    let size = Size { width, height: 1 };
+    write_floats(size, vec![("Y", values.to_vec())], &path).unwrap();
+    let picture = load::picture(&path).unwrap();
     std::fs::remove_file(path).unwrap();
     picture
 }
@@ -25,7 +28,7 @@ fn png(color_type: ColorType, samples: &[u8]) -> Picture {
     let mut writer = encoder.write_header().unwrap();
     writer.write_image_data(samples).unwrap();
     writer.finish().unwrap();
-    Picture::decode(&bytes).unwrap()
+    load::decode(&bytes).unwrap()
 }
 
 fn statistics(a: Picture, b: Picture, tolerance: f64) -> Statistics {

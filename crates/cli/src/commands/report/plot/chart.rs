@@ -9,8 +9,8 @@ use super::axis::Axis;
 use super::drawing::{Anchor, Color, Drawing, Place, Shape, Size, Text};
 use super::labels::{Labels, Side};
 use crate::base::numbers::factor;
-use crate::commands::report::Report;
 use crate::commands::report::curve::Point;
+use crate::commands::report::results::Report;
 use crate::commands::report::row::{Row, supersampling};
 
 const WIDTH: f64 = 800.0;

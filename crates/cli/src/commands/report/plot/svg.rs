@@ -143,7 +143,7 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
     use crate::commands::report::plot::chart;
-    use crate::commands::report::tests::report;
+    use crate::commands::report::results::tests::report;
 
     /// The elements of a well-formed document, each with its attributes; panics on any other.
     fn elements(document: &str) -> Vec<String> {
@@ -186,6 +186,9 @@ mod tests {
         let mut report = report();
         report.title = "a < b & \"c\" > 'd'\u{1}, \n".to_owned();
         let document = text(&chart::draw(&report));
+        if let Ok(p) = std::env::var("SVG_OUT") {
+            std::fs::write(p, &document).unwrap();
+        }
         let elements = elements(&document);
         assert!(elements[0].starts_with("svg xmlns="));
         let count = |name: &str| {

@@ -1,10 +1,13 @@
 use exr::prelude::{
-    AnyChannel, Encoding, ImageAttributes, LayerAttributes, SmallVec, Vec2, WritableImage,
+    AnyChannel, AnyChannels, Encoding, ImageAttributes, IntegerBounds, Layer, LayerAttributes,
+    SmallVec, Vec2, WritableImage,
 };
 
 use super::*;
-use crate::formats::tests::{Scene, render};
-use crate::formats::{self, ExrOptions};
+use crate::formats::encoding::ExrOptions;
+use crate::formats::exr::channels::Part;
+use crate::formats::load;
+use crate::formats::tests::{Scene, exr_bytes, render, size};
 
 type Parts = Image<exr::image::Layers<AnyChannels<FlatSamples>>>;
 
@@ -41,7 +44,7 @@ fn bytes(file: &Parts) -> Vec<u8> {
 /// A picture of one line.
 fn line(width: usize, channels: &[(&str, FlatSamples)]) -> Picture {
     let part = part((width, 1), LayerAttributes::default(), channels);
-    Picture::decode(&file([part])).unwrap()
+    decode(&file([part])).unwrap()
 }
 
 fn one(value: f32) -> FlatSamples {
@@ -52,15 +55,15 @@ fn one(value: f32) -> FlatSamples {
 fn rounding_is_half_a_step() {
     let halves = [1.0, 1.999, 0.0, 1e-6, 65504.0].map(f16::from_f32);
     let picture = line(5, &[("Y", FlatSamples::F16(halves.to_vec()))]);
-    let steps = [0, 1, 2, 3, 4].map(|col| picture.rounding(col, 0)[0]);
+    let steps = [0, 1, 2, 3, 4].map(|col| picture.samples.rounding(col, 0)[0]);
     let power = |exponent| libm::ldexp(1.0, exponent);
     assert_eq!(
         steps,
         [power(-11), power(-11), power(-25), power(-25), 16.0]
     );
-    let full = [0, 1, 2, 3, 4].map(|col| picture.is_full(col, 0)[0]);
+    let full = [0, 1, 2, 3, 4].map(|col| picture.samples.is_full(col, 0)[0]);
     assert_eq!(full, [false, false, false, false, true]);
-    let float = line(1, &[("Y", one(1.0))]).rounding(0, 0);
+    let float = line(1, &[("Y", one(1.0))]).samples.rounding(0, 0);
     assert_eq!(float, [power(-24), power(-24), power(-24), 0.0]);
 }
 
@@ -77,8 +80,8 @@ fn channels_of_all_types_are_read() {
         ],
     );
     assert_eq!(picture.description, "EXR, float + half + uint, RGBA");
-    assert_eq!(picture.rgba(0, 0), [0.5, -2.0, 7.0, 0.25]);
-    let [red, green, blue, alpha] = picture.rgba(1, 0);
+    assert_eq!(picture.samples.rgba(0, 0), [0.5, -2.0, 7.0, 0.25]);
+    let [red, green, blue, alpha] = picture.samples.rgba(1, 0);
     assert!(red.is_nan());
     assert_eq!((green, blue, alpha), (f64::INFINITY, u32::MAX.into(), 1.0));
 }
@@ -96,15 +99,15 @@ fn layers_are_found() {
         ],
     );
     assert_eq!(picture.description, "EXR, float, RGB of layer light");
-    assert_eq!(picture.rgba(0, 0), [1.0, 2.0, 3.0, 1.0]);
+    assert_eq!(picture.samples.rgba(0, 0), [1.0, 2.0, 3.0, 1.0]);
 
     let parts = [("depth", "Z", 9.0), ("grey", "Y", 2.0)].map(|(name, channel, value)| {
         let attributes = LayerAttributes::named(name);
         part((1, 1), attributes, &[(channel, one(value))])
     });
-    let picture = Picture::decode(&file(parts)).unwrap();
+    let picture = decode(&file(parts)).unwrap();
     assert_eq!(picture.description, "EXR, float, Y of layer grey");
-    assert_eq!(picture.rgba(0, 0), [2.0, 2.0, 2.0, 1.0]);
+    assert_eq!(picture.samples.rgba(0, 0), [2.0, 2.0, 2.0, 1.0]);
 }
 
 #[test]
@@ -120,11 +123,11 @@ fn outside_the_data_window_there_is_nothing() {
         ImageAttributes::new(display),
         parts.into_iter().collect::<exr::image::Layers<_>>(),
     );
-    let picture = Picture::decode(&bytes(&image)).unwrap();
-    assert_eq!((picture.width, picture.height), (4, 2));
+    let picture = decode(&bytes(&image)).unwrap();
+    assert_eq!((picture.size.width, picture.size.height), (4, 2));
     let expected = "EXR, float, Y, data window 2 x 2 at column 1, row -1";
     assert_eq!(picture.description, expected);
-    let row = |row| [0, 1, 2, 3].map(|col| picture.rgba(col, row)[0]);
+    let row = |row| [0, 1, 2, 3].map(|col| picture.samples.rgba(col, row)[0]);
     assert_eq!((row(0), row(1)), ([0.0, 3.0, 4.0, 0.0], [0.0; 4]));
 }
 
@@ -141,7 +144,7 @@ fn refuses_files_without_light() {
         ),
     ] {
         let file = file([part((1, 1), LayerAttributes::default(), channels)]);
-        let refusal = Picture::decode(&file).unwrap_err();
+        let refusal = load::decode(&file).unwrap_err();
         assert_eq!(refusal, format!("not a usable EXR: {reason}"));
     }
 }
@@ -155,7 +158,7 @@ fn truncated_files_are_refused() {
         &[("Y", numbers)],
     )]);
     for length in 0..file.len() {
-        assert!(Picture::decode(&file[..length]).is_err(), "{length}");
+        assert!(decode(&file[..length]).is_err(), "{length}");
     }
 }
 
@@ -164,12 +167,12 @@ fn what_render_writes_comes_back() {
     for scene in [Scene::Grey, Scene::Color] {
         for (alpha, float) in [(false, false), (false, true), (true, false)] {
             let image = render(scene, alpha);
-            let bytes = formats::tests::exr(&image, ExrOptions { float, error: true });
-            let picture = Picture::decode(&bytes).unwrap();
+            let bytes = exr_bytes(&image, ExrOptions { float, error: true });
+            let picture = decode(&bytes).unwrap();
             assert_eq!(picture.alpha, alpha);
-            for (col, row) in (0..19).flat_map(|row| (0..23).map(move |col| (col, row))) {
-                let (expected, found) = (image.rgba(col, row), picture.rgba(col, row));
-                let rounding = picture.rounding(col, row);
+            for (col, row) in size(&image).places() {
+                let (expected, found) = (image.rgba(col, row), picture.samples.rgba(col, row));
+                let rounding = picture.samples.rounding(col, row);
                 for channel in 0..4 {
                     let error = (expected[channel] - found[channel]).abs();
                     assert!(error <= rounding[channel], "{error:e} in {col}, {row}");

@@ -1,8 +1,11 @@
 use std::io::Cursor;
 
+use marbles_core::{Channels, Image};
+use png::{BitDepth, Decoder};
+
 use super::*;
-use crate::formats::tests::{Scene, png, render};
-use crate::formats::write_rgb_codes;
+use crate::formats::encoding::PngOptions;
+use crate::formats::tests::{Scene, png_bytes, render, size};
 
 const ALL: [PngOptions; 4] = [
     PngOptions {
@@ -36,7 +39,7 @@ fn pictures_come_back() {
 }
 
 fn check(image: &Image, options: PngOptions) {
-    let decoder = Decoder::new(Cursor::new(png(image, options)));
+    let decoder = Decoder::new(Cursor::new(png_bytes(image, options)));
     let mut reader = decoder.read_info().unwrap();
     let info = reader.info();
     assert_eq!((info.width, info.height), (image.width(), image.height()));
@@ -104,30 +107,31 @@ fn check(image: &Image, options: PngOptions) {
 #[test]
 fn partly_covered_pixels_keep_their_light() {
     let image = render(Scene::Grey, true);
-    let width = image.width();
-    let edge = (0..image.height())
-        .flat_map(|row| (0..width).map(move |col| (col, row)))
-        .any(|(col, row)| {
-            let [light, .., alpha] = image.rgba(col, row);
-            alpha > 0.0 && alpha < 1.0 && light > 0.0
-        });
+    let edge = size(&image).places().any(|(col, row)| {
+        let [light, .., alpha] = image.rgba(col, row);
+        alpha > 0.0 && alpha < 1.0 && light > 0.0
+    });
     assert!(edge, "the scene should test something");
 }
 
 #[test]
 fn noise_does_not_grow() {
-    const SIDES: (u32, u32) = (700, 300);
+    const SIDES: Size = Size {
+        width: 700,
+        height: 300,
+    };
     let mut state = 1_u32;
     let mut noise = || {
         // Numerical Recipes' generator, whose high bits are good.
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (state >> 24) as u8
     };
-    let samples: Vec<u8> = (0..SIDES.0 * SIDES.1 * 3).map(|_| noise()).collect();
-    let shape = Shape::of_codes(SIDES.0, SIDES.1, false);
+    let samples: Vec<u8> = (0..SIDES.pixels() * 3).map(|_| noise()).collect();
+    let shape = Shape::of_codes(SIDES, ColorType::Rgb);
     let name = format!("marbles-{}-noise.png", std::process::id());
     let path = std::env::temp_dir().join(name);
-    write_rgb_codes(SIDES.0, SIDES.1, &samples, &path).unwrap();
+    let codes = |stream: &mut dyn Write| Ok(stream.write_all(&samples)?);
+    save(&path, |file| write(file, shape, &[], codes)).unwrap();
     let bytes = std::fs::read(&path).unwrap();
     std::fs::remove_file(&path).unwrap();
     assert!(bytes.len() as u64 <= shape.file_bytes());
@@ -138,8 +142,5 @@ fn noise_does_not_grow() {
     assert!(decoded == samples);
     // In a hurry it would have grown.
     let mut hurried = Cursor::new(Vec::new());
-    let has_grown = write(&mut hurried, shape, &[], |stream| {
-        Ok(stream.write_all(&samples)?)
-    });
-    assert!(has_grown.unwrap());
+    assert!(compress(&mut hurried, shape, &[], codes).unwrap());
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::commands::report::tests::report;
+use crate::commands::report::results::tests::report;
 
 fn texts(drawing: Drawing) -> Vec<String> {
     let text = |shape| match shape {

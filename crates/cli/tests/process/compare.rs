@@ -1,8 +1,9 @@
 //! `marbles compare` as a process: exit codes, results, pictures of differences.
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
+
+use crate::folder::{Folder, text};
 
 /// A ball before the camera.
 const BALL: &str = "(
@@ -15,50 +16,25 @@ const BALL: &str = "(
 )
 ";
 
-/// A folder with pictures of the ball, removed when the test ends.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let name = format!("compare-{}-{name}", std::process::id());
-        let folder = Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
-        fs::create_dir_all(&folder.0).unwrap();
-        fs::write(folder.0.join("ball.ron"), BALL).unwrap();
-        for arguments in [
-            "-o a.exr --samples 4",
-            "-o a.png --samples 4",
-            "-o float.exr --samples 4 --float",
-            "-o deep.png --samples 4 --bits 16 --rgb",
-            "-o fine.exr --samples 16",
-            "-o wide.exr --samples 4 --size 60x41",
-        ] {
-            let output = folder.run(&format!("render ball.ron --quiet {arguments}"));
-            assert!(output.status.success(), "{arguments}");
-        }
-        folder
+/// A folder with pictures of the ball.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    fs::write(folder.path("ball.ron"), BALL).unwrap();
+    for arguments in [
+        "-o a.exr --samples 4",
+        "-o a.png --samples 4",
+        "-o float.exr --samples 4 --float",
+        "-o deep.png --samples 4 --bits 16 --rgb",
+        "-o fine.exr --samples 16",
+        "-o wide.exr --samples 4 --size 60x41",
+    ] {
+        let output = folder.run(&format!("render ball.ron --quiet {arguments}"));
+        assert!(output.status.success(), "{arguments}");
     }
-
-    fn run(&self, arguments: &str) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_marbles"))
-            .args(arguments.split_whitespace())
-            .current_dir(&self.0)
-            .stdin(Stdio::null())
-            .output()
-            .unwrap()
-    }
+    folder
 }
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// What stands in the row `name` of the result.
+/// The row `name` of the result.
 fn row(output: &Output, name: &str) -> String {
     let lines = text(&output.stdout);
     let line = lines.lines().find(|line| line.starts_with(name));
@@ -69,8 +45,8 @@ fn row(output: &Output, name: &str) -> String {
 
 #[test]
 fn exit_codes_tell_what_happened() {
-    let folder = Folder::new("codes");
-    fs::write(folder.0.join("cut.exr"), b"\x76\x2f\x31\x01cut").unwrap();
+    let folder = folder();
+    fs::write(folder.path("cut.exr"), b"\x76\x2f\x31\x01cut").unwrap();
     for (arguments, expected) in [
         ("a.exr a.exr --tolerance 0", 0),
         ("a.exr fine.exr", 0),
@@ -103,7 +79,7 @@ fn exit_codes_tell_what_happened() {
 
 #[test]
 fn sizes_that_differ_are_named() {
-    let folder = Folder::new("sizes");
+    let folder = folder();
     let output = folder.run("compare a.png wide.exr");
     assert_eq!(text(&output.stdout), "");
     assert_eq!(
@@ -114,7 +90,7 @@ fn sizes_that_differ_are_named() {
 
 #[test]
 fn formats_differ_by_their_rounding_alone() {
-    let folder = Folder::new("formats");
+    let folder = folder();
     for pair in [
         "a.png a.exr",
         "a.exr float.exr",
@@ -136,7 +112,7 @@ fn formats_differ_by_their_rounding_alone() {
 
 #[test]
 fn the_result_is_a_table() {
-    let folder = Folder::new("table");
+    let folder = folder();
     let output = folder.run("compare a.exr fine.exr --tolerance 1e-3 --worst 2 --diff diff.png");
     let lines = text(&output.stdout);
     let names: Vec<&str> = lines.lines().map(|line| line[..12].trim()).collect();
@@ -156,9 +132,9 @@ fn the_result_is_a_table() {
 
 #[test]
 fn the_picture_of_differences_holds_them() {
-    let folder = Folder::new("differences");
+    let folder = folder();
     let compared = folder.run("compare a.exr fine.exr --diff diff.exr");
-    fs::write(folder.0.join("black.ron"), BALL.replace("15", "1e-9")).unwrap();
+    fs::write(folder.path("black.ron"), BALL.replace("15", "1e-9")).unwrap();
     folder.run("render black.ron -o black.exr --float --quiet");
     let output = folder.run("compare diff.exr black.exr");
     for name in ["largest", "rms", "99.9 %"] {
@@ -168,7 +144,7 @@ fn the_picture_of_differences_holds_them() {
 
 #[test]
 fn the_error_channel_is_told_and_not_compared() {
-    let folder = Folder::new("error");
+    let folder = folder();
     let rendered = folder.run("render ball.ron -o e.exr --samples 4 --error-channel --quiet");
     assert!(rendered.status.success());
     let output = folder.run("compare a.exr e.exr --tolerance 0");
@@ -186,7 +162,7 @@ fn the_error_channel_is_told_and_not_compared() {
 
 #[test]
 fn quiet_prints_nothing() {
-    let folder = Folder::new("quiet");
+    let folder = folder();
     let output = folder.run("compare a.exr fine.exr --tolerance 1e-9 --quiet");
     assert_eq!(output.status.code(), Some(1));
     assert!(output.stdout.is_empty() && output.stderr.is_empty());

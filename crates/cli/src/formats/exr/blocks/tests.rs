@@ -2,14 +2,18 @@ use std::io::Cursor;
 use std::num::NonZeroU32;
 
 use exr::prelude::{
-    AnyChannels, FlatSamples, Image as ExrImage, Layer, ReadChannels, ReadLayers, f16,
+    AnyChannels, AttributeValue, FlatSamples, Image as ExrImage, Layer, ReadChannels, ReadLayers,
+    Text, f16,
 };
-use glam::DVec4;
-use marbles_core::Angle;
+use glam::{DVec3, DVec4};
+use marbles_core::{Angle, Camera, Method};
 
 use super::*;
-use crate::formats::tests::{DIGEST, Scene, encode, render};
-use crate::formats::{Encoding, Facts};
+use crate::formats::encoding::Encoding;
+use crate::formats::exr::attribute_order::sort_attributes;
+use crate::formats::exr::header::REC_709;
+use crate::formats::facts::{Facts, SOFTWARE};
+use crate::formats::tests::{DIGEST, Scene, encode, render, size};
 
 const HALF: ExrOptions = ExrOptions {
     float: false,
@@ -34,11 +38,6 @@ fn facts() -> Facts {
 /// The bytes of a file, and how many numbers were too large.
 fn file(image: &Image, options: ExrOptions, facts: &Facts) -> (Vec<u8>, u64) {
     encode(image, Encoding::Exr(options), facts)
-}
-
-fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
-    let width = image.width();
-    (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
 }
 
 type Layers = ExrImage<Layer<AnyChannels<FlatSamples>>>;
@@ -79,7 +78,9 @@ fn compare(image: &Image, channels: &AnyChannels<FlatSamples>, is_float: bool) {
     assert_eq!(names.join(","), expected);
     for channel in &channels.list {
         let index = "RGBA".find(&channel.name.to_string()).unwrap();
-        let expected = pixels(image).map(|(col, row)| image.rgba(col, row)[index]);
+        let expected = size(image)
+            .places()
+            .map(|(col, row)| image.rgba(col, row)[index]);
         match &channel.sample_data {
             FlatSamples::F16(samples) if !is_float => {
                 assert!(samples.iter().copied().eq(expected.map(half::nearest)));
@@ -108,7 +109,7 @@ fn errors_are_floats_that_stay_bounds() {
             panic!("expected floats");
         };
         let mut some = false;
-        for (&stored, (col, row)) in stored.iter().zip(pixels(&image)) {
+        for (&stored, (col, row)) in stored.iter().zip(size(&image).places()) {
             let (stored, error) = (f64::from(stored), image.error(col, row));
             assert!(stored >= error && stored <= error * (1.0 + f64::from(f32::EPSILON)));
             some |= error > 0.0;
@@ -181,7 +182,7 @@ fn attributes_are_sorted_and_bytes_repeat() {
         assert!(file(&image, HALF, &facts()).0 == first);
     }
     let mut sorted = first.clone();
-    header::sort_attributes(&mut sorted).unwrap();
+    sort_attributes(&mut sorted).unwrap();
     assert!(sorted == first);
 }
 
@@ -189,7 +190,9 @@ fn attributes_are_sorted_and_bytes_repeat() {
 fn numbers_above_the_range_become_the_largest() {
     let image = render(Scene::Bright, false);
     let (bytes, clipped) = file(&image, HALF, &facts());
-    let above = pixels(&image).filter(|&(col, row)| image.rgba(col, row)[0] > half::LARGEST);
+    let above = size(&image)
+        .places()
+        .filter(|&(col, row)| image.rgba(col, row)[0] > half::LARGEST);
     let above = above.count() as u64;
     assert!(above > 0);
     assert_eq!(clipped, 3 * above);

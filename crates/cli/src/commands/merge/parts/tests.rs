@@ -9,7 +9,7 @@ fn parts(windows: &[[u32; 4]]) -> Vec<Part> {
             width,
             height,
         },
-        source: None,
+        reader: None,
     };
     windows.iter().map(part).collect()
 }
@@ -71,6 +71,6 @@ fn overlaps_are_refused() {
         [[0, 0, 10, 8], [3, 3, 1, 1]],
     ] {
         let refusal = check_cover(&parts(&windows), WHOLE).unwrap_err();
-        assert!(refusal.into_message().contains(" overlaps "), "{windows:?}");
+        assert!(refusal.to_string().contains(" overlaps "), "{windows:?}");
     }
 }

@@ -4,14 +4,14 @@ use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
 use std::path::Path;
 
+use super::args::NewArguments;
 use crate::base::failure::Failure;
 use crate::base::status;
-use crate::commands::args::NewArguments;
 use crate::terminal::console::Console;
 
-const STILL: &str = include_str!("still.ron");
-const TURNTABLE: &str = include_str!("turntable.ron");
-/// What stands for the file in the comments of the scenes.
+const STILL: &str = include_str!("new/still.ron");
+const TURNTABLE: &str = include_str!("new/turntable.ron");
+/// The word that stands for the file in the comments of the scenes.
 const NAME: &str = "NAME";
 
 pub(crate) fn run(arguments: &NewArguments, console: &Console) -> Result<u8, Failure> {
