@@ -1,4 +1,4 @@
-//! Why a command ended before its work was done.
+//! Reasons why a command ended before its work was done.
 
 use std::io;
 use std::path::Path;

@@ -49,7 +49,7 @@ impl Region {
     }
 }
 
-/// As files keep it: `32,0,16,8 of 600x400`.
+/// The form in which files keep it: `32,0,16,8 of 600x400`.
 impl fmt::Display for Region {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Size { width, height } = self.whole;

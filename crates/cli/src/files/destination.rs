@@ -16,7 +16,7 @@ pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
 /// The place of the file for `path`: at the end of symbolic links, which stay as they are, and only in
 /// place of another file.
 pub(super) fn destination(path: &Path) -> Result<PathBuf, Failure> {
-    /// As many as Linux follows.
+    /// The number of links that Linux follows.
     const MOST_LINKS: usize = 40;
     let mut destination = path.to_owned();
     for _ in 0..=MOST_LINKS {

@@ -2,7 +2,7 @@
 
 /// The rates that television slows down by 1000 / 1001.
 const SLOWED: [u32; 5] = [24, 30, 48, 60, 120];
-/// How far from such a rate people write it: 23.98, 29.97.
+/// The distance from such a rate at which people write it: 23.98, 29.97.
 const SLOWED_WITHIN: f64 = 0.005;
 /// The largest denominator that is tried.
 const LARGEST_DENOMINATOR: f64 = 1e6;

@@ -11,7 +11,7 @@ pub(super) const LARGEST: f64 = 65504.0;
 pub(super) fn nearest(value: f64) -> f16 {
     /// The exponent that subnormal halves have as well.
     const LEAST_EXPONENT: i64 = -14;
-    /// How many mantissa bits a half has, and a double.
+    /// The numbers of mantissa bits of a half and a double.
     const BITS: i64 = 10;
     const DOUBLE_BITS: i64 = 52;
     const DOUBLE_BIAS: i64 = 1023;

@@ -12,7 +12,7 @@ use crate::base::size::{LONGEST_SIDE, Size};
 #[derive(Debug)]
 pub(crate) struct Picture {
     pub(crate) size: Size,
-    /// Whether there is one channel of light instead of three.
+    /// True where there is one channel of light instead of three.
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
     /// The kind of the file, for people: `PNG, 8 bit sRGB, grey`.

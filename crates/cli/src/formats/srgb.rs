@@ -71,11 +71,11 @@ fn threshold(code: u8) -> f64 {
     }
 }
 
-/// From linear light to 8 bit codes with one look into a table and one comparison.
+/// A way from linear light to 8 bit codes with one look into a table and one comparison.
 struct Encoder {
     /// The least linear light of every code; code 0 needs none, and nothing reaches code 256.
     thresholds: [f64; 257],
-    /// Where the cell of `thresholds[1]` begins.
+    /// The start of the cell of `thresholds[1]`.
     least: f64,
     /// The code of the least light in every cell of equal exponent and leading mantissa bits,
     /// from the cell of `thresholds[1]` to that of 1.

@@ -26,7 +26,7 @@ pub(crate) struct Outcome {
     pub(crate) total: Option<Summary>,
     /// The time that rendering the written frames took.
     pub(crate) time: Duration,
-    /// Whether the user ended the work.
+    /// True where the user ended the work.
     pub(crate) interrupted: bool,
 }
 
@@ -46,7 +46,7 @@ impl Outcome {
 
 /// Frames that failed, as several threads find out.
 pub(super) struct Failures {
-    /// Whether the first one ends the work.
+    /// True where the first failure ends the work.
     is_fatal: bool,
     stop: AtomicBool,
     state: Mutex<State>,

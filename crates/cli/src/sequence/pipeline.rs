@@ -42,7 +42,7 @@ pub(super) struct Pipeline<'a> {
 pub(super) struct Order {
     pub(super) facts: Facts,
     pub(super) path: PathBuf,
-    /// None where all frames are one file.
+    /// The file to write; `None` where all frames are one file.
     pub(super) file: Option<TemporaryFile>,
     /// The number of the first piece in the buffer that belongs to the next picture.
     pub(super) end: u64,

@@ -15,7 +15,7 @@ use crate::formats::form::Form;
 pub(crate) struct Request {
     pub(crate) scene: Scene,
     pub(crate) frames: FrameList,
-    /// In place of the scene's.
+    /// A size in place of the scene's.
     pub(crate) size: Option<Size>,
     /// The part of the picture that is wanted, if not all of it.
     pub(crate) window: Option<Window>,
@@ -23,9 +23,9 @@ pub(crate) struct Request {
     pub(crate) settings: Settings,
     pub(crate) pattern: Pattern,
     pub(crate) encoding: Encoding,
-    /// Whether frames are left out whose files are there.
+    /// True where frames are left out whose files are there.
     pub(crate) skip_existing: bool,
-    /// Whether the first failure ends the work.
+    /// True where the first failure ends the work.
     pub(crate) fail_fast: bool,
 }
 

@@ -98,7 +98,7 @@ impl<T: SharedWork> Workers<T> {
 
     /// Waits until there is something to do.
     fn next_step(&self, threads: u32) -> Step<T> {
-        /// How long a thread waits before it looks again for work that another one shares.
+        /// The time that a thread waits before it looks again for work that another one shares.
         const PAUSE: Duration = Duration::from_micros(200);
         let mut state = self.lock();
         loop {

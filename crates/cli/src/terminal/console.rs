@@ -1,4 +1,4 @@
-//! Where the user reads: results on stdout, all else on stderr.
+//! The console: results on stdout, all else on stderr.
 
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};

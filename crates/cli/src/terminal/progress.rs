@@ -53,7 +53,7 @@ enum Display<'a> {
 impl<'a> Progress<'a> {
     /// Begins with none of `frames` frames done.
     ///
-    /// In the form that is asked for; else where the user wants it `quiet` there is nothing, on a
+    /// It takes the form that is asked for; else where the user wants it `quiet` there is nothing, on a
     /// terminal a bar, and lines elsewhere.
     pub(crate) fn new(
         console: &'a Console,

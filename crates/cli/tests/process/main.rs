@@ -1,4 +1,4 @@
-//! What only the real process shows: exit codes, signals, disks, pipes.
+//! Tests of what only the real process shows: exit codes, signals, disks, pipes.
 
 #![allow(
     clippy::print_stderr,

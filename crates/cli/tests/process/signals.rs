@@ -123,7 +123,7 @@ fn a_stuck_process_ends_soon_when_interrupted() {
 /// hurry.
 #[test]
 fn a_second_interrupt_hurries_a_stuck_process() {
-    /// What a process that is interrupted once has, at least, to write what is ready.
+    /// The time that a process which is interrupted once has, at least, to write what is ready.
     const GRACE: Duration = Duration::from_millis(700);
     const ATTEMPTS: u32 = 5;
     let folder = Folder::new();

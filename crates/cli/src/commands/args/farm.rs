@@ -69,7 +69,7 @@ pub(crate) struct GivenArguments {
 #[derive(Debug)]
 struct Given {
     name: String,
-    /// As they are written, one for each time that the option is given; none of a flag.
+    /// The values as they are written, one for each time that the option is given; none of a flag.
     values: Vec<OsString>,
 }
 

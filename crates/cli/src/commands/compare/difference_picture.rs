@@ -23,7 +23,7 @@ const MIDDLE_CODE: u8 = 127;
 #[derive(Debug)]
 pub(super) struct DifferencePicture {
     path: PathBuf,
-    /// Whether it is an EXR, and no PNG.
+    /// True for an EXR, and false for a PNG.
     holds_floats: bool,
 }
 

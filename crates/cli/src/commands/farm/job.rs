@@ -15,19 +15,19 @@ const FRAMES_LOOKED_AT: usize = 100_000;
 
 /// The common parts of a job's tasks; paths are absolute.
 pub(super) struct Job {
-    /// Without spaces, quotes and what else scripts and templates read.
+    /// A name without spaces, quotes and what else scripts and templates read.
     pub(super) name: String,
     pub(super) scene: String,
-    /// In the order of rendering.
+    /// The frames in the order of rendering.
     pub(super) frames: Vec<i32>,
     pub(super) chunk: NonZeroU32,
     /// The option that names the files.
     pub(super) output: String,
     /// Other options.
     pub(super) options: Vec<String>,
-    /// Whether the options say how many threads.
+    /// True where the options say how many threads.
     pub(super) threads: bool,
-    /// Whether they say how to tell progress.
+    /// True where the options say how to tell progress.
     pub(super) progress: bool,
 }
 
@@ -81,7 +81,7 @@ impl Job {
 
 /// A name of a job that any program takes.
 fn name(scene: &Path) -> String {
-    /// What Open Job Description has room for.
+    /// The longest name that Open Job Description has room for.
     const LONGEST: usize = 128;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |letter: char| match letter {

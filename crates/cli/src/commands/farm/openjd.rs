@@ -12,19 +12,6 @@ const NOTICE_SECONDS: u32 = 5;
 
 /// The template, in JSON.
 pub(super) fn template(job: &Job) -> Result<String, Failure> {
-    const FIRST: [&str; 4] = [
-        "render",
-        "--skip-existing",
-        "--progress=openjd",
-        "--frames={{Task.Param.Frame}}",
-    ];
-    let mut args = FIRST.map(str::to_owned).to_vec();
-    for word in job.options.iter().chain([&job.output]) {
-        args.push(literal(word)?.to_owned());
-    }
-    args.extend(["--".to_owned(), literal(&job.scene)?.to_owned()]);
-    let args: Vec<String> = args.iter().map(|word| string(word)).collect();
-
     // Ranges may not overlap, and their order means nothing.
     let mut frames = job.frames.clone();
     frames.sort_unstable();
@@ -73,8 +60,25 @@ pub(super) fn template(job: &Job) -> Result<String, Failure> {
         name = string(&job.name),
         range = string(&expression(&frames)),
         chunk = job.chunk,
-        args = args.join(",\n              "),
+        args = arguments(job)?.join(",\n              "),
     ))
+}
+
+/// The command line of a task, each word in JSON.
+fn arguments(job: &Job) -> Result<Vec<String>, Failure> {
+    const FIRST: [&str; 4] = [
+        "render",
+        "--skip-existing",
+        "--progress=openjd",
+        "--frames={{Task.Param.Frame}}",
+    ];
+    let options = job.options.iter().chain([&job.output]);
+    let mut words = FIRST.to_vec();
+    for word in options {
+        words.push(literal(word)?);
+    }
+    words.extend(["--", literal(&job.scene)?]);
+    Ok(words.into_iter().map(string).collect())
 }
 
 /// A word that runners hand over as it is: they know no way to escape `{{`, and refuse control

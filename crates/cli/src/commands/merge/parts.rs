@@ -17,7 +17,7 @@ pub(super) struct Parts {
     parts: Vec<Part>,
     pub(super) whole: Size,
     pub(super) digest: Hash,
-    /// Of every part, since their digests are alike.
+    /// The kind of every part, since their digests are alike.
     pub(super) kind: Kind,
 }
 

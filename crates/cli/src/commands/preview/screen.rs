@@ -16,7 +16,7 @@ use crate::terminal::console::Console;
 const PLAIN: (u32, u32) = (80, 24);
 /// Nobody has more columns or rows, and pictures of more take long.
 const MOST_CELLS: u32 = 1000;
-/// As for cells, in pixels.
+/// The same limit in pixels.
 const MOST_PIXELS: u32 = 8192;
 
 const HOME: &str = "\x1b[H";
@@ -34,7 +34,7 @@ pub(super) struct Screen {
 pub(super) struct Area {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Whether smaller pictures are enlarged until they fill it.
+    /// True where smaller pictures are enlarged until they fill it.
     pub(super) enlarges: bool,
 }
 

@@ -1,4 +1,4 @@
-//! What supersampling takes to an error, between and beyond the runs that measured it.
+//! The time that supersampling takes to an error, between and beyond the runs that measured it.
 
 /// A measured setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,14 +11,14 @@ pub(super) struct Point {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Time {
     pub(super) seconds: f64,
-    /// Whether the error is smaller than any that was measured.
+    /// True where the error is smaller than any that was measured.
     pub(super) extrapolated: bool,
 }
 
 /// Time against RMSE, straight between the points where both axes are logarithmic.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
-    /// From the cheapest, each more accurate than the one before.
+    /// The points from the cheapest on, each more accurate than the one before.
     points: Vec<Point>,
     /// The exponent of time as a power of RMSE where the curve ends, below 0.
     slope: Option<f64>,

@@ -30,7 +30,7 @@ pub(super) struct Plan<'a> {
     pub(super) renderer: &'a Renderer<'a>,
     pub(super) exposure: &'a Exposure<'a>,
     pub(super) runs: usize,
-    /// For all runs but the reference, and for every better reference.
+    /// The time for all runs but the reference, and for every better reference.
     pub(super) seconds: f64,
     pub(super) progress: &'a Progress<'a>,
 }
@@ -64,7 +64,7 @@ pub(super) struct Reference {
 #[derive(Clone, Debug)]
 pub(super) struct Setting {
     pub(super) method: Method,
-    /// Of each run.
+    /// The time of each run.
     pub(super) times: Vec<Duration>,
     pub(super) accuracy: Accuracy,
     pub(super) summary: Summary,

@@ -73,7 +73,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         write_bytes(&csv::bytes(&report), path)?;
     }
     if let Some(path) = &arguments.plot {
-        write_bytes(plot::svg(&report).as_bytes(), path)?;
+        write_bytes(plot::draw(&report).as_bytes(), path)?;
     }
     if !arguments.quiet {
         for line in table::lines(&report) {

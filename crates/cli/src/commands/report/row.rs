@@ -10,7 +10,7 @@ use super::measure::Setting;
 pub(super) struct Row {
     pub(super) setting: Setting,
     pub(super) seconds: f64,
-    /// What supersampling takes to the same RMSE.
+    /// The time that supersampling takes to the same RMSE.
     pub(super) supersampling: Option<Time>,
 }
 
@@ -29,7 +29,7 @@ impl Row {
         settings.iter().map(row).collect()
     }
 
-    /// How many times faster than supersampling, and whether that is extrapolated. Supersampling
+    /// The speed in multiples of supersampling's, and whether that is extrapolated. Supersampling
     /// itself is as fast as itself.
     pub(super) fn speed_up(&self) -> Option<(f64, bool)> {
         match self.setting.method {

@@ -1,4 +1,4 @@
-//! What `marbles report` prints: facts, a table in Markdown that reads well as it is, notes.
+//! The results that `marbles report` prints: facts, a table in Markdown that reads well as it is, notes.
 
 use super::measure::name;
 use super::results::Report;
@@ -21,9 +21,9 @@ const TITLES: [&str; 10] = [
     "lines",
 ];
 
-/// What follows a number that is extrapolated.
+/// The mark behind a number that is extrapolated.
 const EXTRAPOLATED: &str = " *";
-/// What follows an RMSE that the reference cannot tell.
+/// The mark behind an RMSE that the reference cannot tell.
 const BELOW_REFERENCE: &str = " ?";
 
 pub(super) fn lines(report: &Report) -> Vec<String> {
@@ -116,7 +116,7 @@ fn cells(row: &Row, report: &Report) -> [String; 10] {
     ]
 }
 
-/// Whether an RMSE is no larger than what the reference may be off by.
+/// Returns whether an RMSE is no larger than what the reference may be off by.
 fn is_below_reference(row: &Row, report: &Report) -> bool {
     row.setting.accuracy.rmse <= report.reference().claimed_rms()
 }

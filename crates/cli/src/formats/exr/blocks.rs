@@ -22,12 +22,12 @@ const ERROR_CHANNEL: &str = "error";
 /// Rows that are compressed together.
 pub(crate) const ROWS_OF_A_BLOCK: u32 = 16;
 
-/// How the light and the errors of pictures become blocks of a file.
+/// The layout of blocks, which hold the light and the errors of a picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
     options: ExrOptions,
     channels: Vec<Channel>,
-    /// Without the facts about the picture, which do not matter to the blocks.
+    /// The header without the facts about the picture, which do not matter to the blocks.
     pub(super) header: Header,
 }
 
@@ -43,7 +43,7 @@ struct Channel {
 /// The source of a channel's numbers.
 #[derive(Clone, Copy, Debug)]
 enum Source {
-    /// From red, green, blue and alpha, by number.
+    /// One of red, green, blue and alpha, by number.
     Light(usize),
     Error,
 }

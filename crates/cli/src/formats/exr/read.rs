@@ -56,47 +56,39 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         let index = channels.iter().position(|channel| channel.name == *name)?;
         Some(channels.remove(index).sample_data)
     };
-    let colors: Vec<FlatSamples> = chosen
-        .colors
-        .iter()
-        .filter_map(|&name| take(name))
-        .collect();
+    let colors = chosen.colors.iter().filter_map(|&name| take(name));
+    let colors = colors.collect();
     let alpha = take("A");
-
-    let mut description = format!(
-        "EXR, {}, {}{}",
-        kinds(colors.iter().chain(&alpha)),
-        chosen.colors.concat(),
-        if alpha.is_some() { "A" } else { "" }
-    );
-    if take("error").is_some() {
-        description.push_str(" and error");
-    }
+    let has_error = take("error").is_some();
     let layer = match chosen.prefix.strip_suffix('.') {
         Some(prefix) => Some(prefix.to_owned()),
         None => part_name.filter(|_| chosen.part > 0),
     };
+
+    let numbers = Numbers {
+        origin,
+        size,
+        colors,
+        alpha,
+    };
+    let mut description = format!("EXR, {}, {}", numbers.kinds(), chosen.colors.concat());
+    if numbers.alpha.is_some() {
+        description.push('A');
+    }
+    if has_error {
+        description.push_str(" and error");
+    }
     if let Some(layer) = layer {
         description.push_str(&format!(" of layer {layer}"));
     }
-    if origin != (0, 0) || size != (display.size.width(), display.size.height()) {
-        let ((col, row), (width, height)) = (origin, size);
-        description.push_str(&format!(
-            ", data window {width} x {height} at column {col}, row {row}"
-        ));
-    }
+    description.push_str(&numbers.data_window(picture_size));
     Ok(Picture {
         size: picture_size,
-        grey: colors.len() == 1,
-        alpha: alpha.is_some(),
+        grey: numbers.colors.len() == 1,
+        alpha: numbers.alpha.is_some(),
         description,
         remarks: Vec::new(),
-        samples: Box::new(Numbers {
-            origin,
-            size,
-            colors,
-            alpha,
-        }),
+        samples: Box::new(numbers),
     })
 }
 
@@ -115,18 +107,6 @@ fn check_sizes(bytes: &[u8]) -> Result<Size, String> {
         check_memory(data.width(), data.height(), header.channels.bytes_per_pixel)?;
     }
     picture
-}
-
-/// The types of numbers, each once: `half`, `float + half`.
-fn kinds<'a>(channels: impl Iterator<Item = &'a FlatSamples>) -> String {
-    let kinds: BTreeSet<&str> = channels
-        .map(|samples| match samples {
-            FlatSamples::F16(_) => "half",
-            FlatSamples::F32(_) => "float",
-            FlatSamples::U32(_) => "uint",
-        })
-        .collect();
-    kinds.into_iter().collect::<Vec<_>>().join(" + ")
 }
 
 impl Samples for Numbers {
@@ -156,6 +136,29 @@ impl Samples for Numbers {
 }
 
 impl Numbers {
+    /// The types of numbers, each once: `half`, `float + half`.
+    fn kinds(&self) -> String {
+        let channels = self.colors.iter().chain(&self.alpha);
+        let kinds = channels.map(|samples| match samples {
+            FlatSamples::F16(_) => "half",
+            FlatSamples::F32(_) => "float",
+            FlatSamples::U32(_) => "uint",
+        });
+        let kinds: BTreeSet<&str> = kinds.collect();
+        kinds.into_iter().collect::<Vec<_>>().join(" + ")
+    }
+
+    /// The words about the data window where it is not the whole picture.
+    fn data_window(&self, picture: Size) -> String {
+        let ((col, row), (width, height)) = (self.origin, self.size);
+        if (col, row) == (0, 0)
+            && (width, height) == (picture.width as usize, picture.height as usize)
+        {
+            return String::new();
+        }
+        format!(", data window {width} x {height} at column {col}, row {row}")
+    }
+
     /// The numbers that `get` finds at a pixel; outside the data window there is no light.
     fn of_pixel(&self, col: u32, row: u32, get: fn(&FlatSamples, usize) -> f64) -> [f64; 4] {
         let inside = |at: u32, origin: i64, size: usize| {

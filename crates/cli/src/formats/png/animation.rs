@@ -21,7 +21,7 @@ const FRAMES_PER_SECOND: f64 = 24.0;
 /// A file that is being written.
 pub(crate) struct Animation<W: Write> {
     writer: Writer<BufWriter<W>>,
-    /// Of one picture.
+    /// The samples of one picture.
     samples: Vec<u8>,
 }
 

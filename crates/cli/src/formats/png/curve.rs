@@ -1,4 +1,4 @@
-//! How the codes of a PNG stand for light.
+//! The curve by which the codes of a PNG stand for light.
 
 use png::Info;
 
@@ -6,7 +6,7 @@ use crate::formats::srgb;
 
 /// A gAMA chunk counts in these units.
 const GAMMA_UNIT: f64 = 100_000.0;
-/// What gAMA says of sRGB pictures, whose curve it can only approximate.
+/// The gAMA of sRGB pictures, whose curve it can only approximate.
 const GAMMA_OF_SRGB: u32 = 45_455;
 /// "Linear" and "sRGB" in a cICP chunk.
 ///
@@ -14,7 +14,7 @@ const GAMMA_OF_SRGB: u32 = 45_455;
 const LINEAR_TRANSFER: u8 = 8;
 const SRGB_TRANSFER: u8 = 13;
 
-/// How codes from 0 to 1 stand for light.
+/// The curve by which codes from 0 to 1 stand for light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Curve {
     Srgb,
@@ -24,7 +24,8 @@ pub(crate) enum Curve {
 }
 
 impl Curve {
-    /// What a file says about its curve, the strongest word first, and what could not be followed.
+    /// The curve that a file tells, by the strongest word about it, and warnings about what could not be
+    /// followed.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
     pub(crate) fn of(info: &Info) -> Result<(Self, Vec<String>), String> {

@@ -58,7 +58,7 @@ fn the_table_agrees_with_the_formula() {
     }
 }
 
-/// In the last place, how far thresholds may be off.
+/// The error that thresholds may have, in units of the last place.
 const UNITS: u32 = 3;
 
 /// With x = p / q the middle between two codes after the offset and the factor of the curve,
@@ -80,7 +80,7 @@ fn every_threshold_is_exact_to_a_few_units() {
     }
 }
 
-/// Whether `linear` is not below the middle of the codes `code − 1` and `code`, exactly.
+/// Returns whether `linear` is not below the middle of the codes `code − 1` and `code`, exactly.
 fn is_at_or_above(linear: f64, code: u32) -> bool {
     let middle = 2 * code - 1; // over 510
     let exponent = (linear.to_bits() >> 52) as u32; // positive and normal

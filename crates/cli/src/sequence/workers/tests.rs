@@ -92,7 +92,7 @@ fn the_next_begins_while_others_end_the_last() {
     assert_eq!(begun.into_inner().unwrap(), last);
 }
 
-/// Who comes to work that is nearly done prepares the next, before there is nothing left to begin: no
+/// A thread that comes to work that is nearly done prepares the next, before there is nothing left to begin: no
 /// part ends here until that has happened.
 #[test]
 fn the_next_is_prepared_while_others_do_the_last() {
@@ -114,7 +114,7 @@ fn the_next_is_prepared_while_others_do_the_last() {
     });
 }
 
-/// As long as there is much to do, nothing is prepared.
+/// Nothing is prepared as long as there is much to do.
 #[test]
 fn the_next_is_not_prepared_too_early() {
     const COUNT: u32 = 50;
@@ -135,7 +135,7 @@ fn the_next_is_not_prepared_too_early() {
     }
 }
 
-/// What is ahead takes memory.
+/// Work that is ahead takes memory.
 #[test]
 fn no_more_than_the_next_is_prepared() {
     let (prepared, ended) = (AtomicU32::new(0), AtomicU32::new(0));

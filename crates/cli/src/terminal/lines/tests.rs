@@ -3,7 +3,7 @@ use serde_json::{Value, json};
 use super::*;
 use crate::terminal::console::tests::Text;
 
-/// What goes to stdout and to stderr while three frames are rendered, one is left out.
+/// The texts on stdout and on stderr while three frames are rendered and one is left out.
 fn tell(reader: Reader) -> (String, String) {
     let (out, err) = (Text::default(), Text::default());
     let console = Console::to(out.clone(), err.clone());
@@ -24,7 +24,7 @@ fn tell(reader: Reader) -> (String, String) {
     (out.read(), err.read())
 }
 
-/// Without the time that is left, which depends on the machine.
+/// The lines without the time that is left, which depends on the machine.
 fn timeless(text: &str) -> Vec<&str> {
     let lines = text.lines();
     let cut = |line| str::split_once(line, " done, ").map_or(line, |(start, _)| start);

@@ -15,7 +15,7 @@ pub(super) struct Tick {
     pub(super) at: f64,
     /// The power of ten, at every one or, on long axes, at every other, and so on.
     pub(super) label: Option<i32>,
-    /// Whether it is at a power of ten.
+    /// True at a power of ten.
     pub(super) is_decade: bool,
 }
 
@@ -46,7 +46,7 @@ impl Axis {
         }
     }
 
-    /// Where a value lies.
+    /// The place of a value.
     pub(super) fn place(&self, value: f64) -> f64 {
         let ((first, start), (last, end)) = (self.start, self.end);
         let along = (libm::log10(value) - f64::from(first)) / f64::from(last - first);

@@ -6,8 +6,8 @@
 use marbles_core::Method;
 
 use super::axis::Axis;
-use super::drawing::{Anchor, Color, Drawing, Place, Shape, Size, Text};
 use super::labels::{Labels, Side};
+use super::svg::{Anchor, Place, Style, Svg};
 use crate::base::numbers::factor;
 use crate::commands::report::curve::Point;
 use crate::commands::report::results::Report;
@@ -21,20 +21,37 @@ const RIGHT: f64 = 776.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 444.0;
 
-const INK: Color = Color([0x22, 0x28, 0x30]);
-const SOFT_INK: Color = Color([0x5a, 0x64, 0x70]);
-const GRID: Color = Color([0xe3, 0xe7, 0xec]);
+const INK: &str = "#222830";
+const SOFT_INK: &str = "#5a6470";
+const GRID: &str = "#e3e7ec";
 /// Blue and vermilion, which people with any color vision tell apart.
-const TOLERANCES: Color = Color([0x00, 0x5f, 0xae]);
-const SAMPLES: Color = Color([0xc8, 0x4e, 0x00]);
+const TOLERANCES: &str = "#005fae";
+const SAMPLES: &str = "#c84e00";
+
+const NORMAL: Style = Style {
+    anchor: Anchor::Start,
+    size: 14.0,
+    is_bold: false,
+    color: INK,
+};
+const TITLE: Style = Style {
+    size: 16.0,
+    is_bold: true,
+    ..NORMAL
+};
+const SMALL: Style = Style {
+    size: 12.0,
+    ..NORMAL
+};
 
 /// Labels along an axis.
 const MOST_LABELS: u32 = 9;
-/// How many times longer than anything measured an extrapolated time may be and still be shown.
+/// The ratio of the longest extrapolated time that is still shown to the longest measured one.
 const EXTRAPOLATED_RANGE: f64 = 1e3;
 const MARK: f64 = 4.0;
 
-pub(super) fn draw(report: &Report) -> Drawing {
+/// The chart as an SVG.
+pub(in crate::commands::report) fn draw(report: &Report) -> String {
     let mut chart = Chart::of(report);
     chart.axes();
     chart.legend(report);
@@ -42,19 +59,31 @@ pub(super) fn draw(report: &Report) -> Drawing {
     chart.curves();
     chart.distance();
     chart.labels();
-    chart.drawing
+    chart.svg.finish()
 }
 
 struct Chart<'a> {
-    drawing: Drawing,
-    /// Where there is room for labels.
+    svg: Svg,
+    /// The places of labels and of what they avoid.
     room: Labels,
     x: Axis,
     y: Axis,
-    tolerances: Vec<&'a Row>,
-    samples: Vec<&'a Row>,
-    /// Where supersampling ends, and where it would be at the smallest error of the tolerances.
+    samples: Series<'a>,
+    tolerances: Series<'a>,
+    /// The end of supersampling, and the place where it would be at the smallest error of the
+    /// tolerances.
     extrapolation: Option<[Point; 2]>,
+}
+
+/// The settings of a method.
+struct Series<'a> {
+    rows: Vec<&'a Row>,
+    color: &'static str,
+    /// True where its marks are disks, and not squares.
+    is_round: bool,
+    /// The sides of points on which labels may be, the best first: where the curves leave room as
+    /// a rule.
+    sides: [Side; 5],
 }
 
 impl<'a> Chart<'a> {
@@ -75,18 +104,35 @@ impl<'a> Chart<'a> {
         let beyond = extrapolation.map(|[_, to]| to).filter(shown);
         let times = points().chain(beyond).map(|point| point.seconds);
         Self {
-            drawing: Drawing {
-                width: WIDTH,
-                height: HEIGHT,
-                title: report.title.clone(),
-                shapes: Vec::new(),
-            },
+            svg: Svg::new(WIDTH, HEIGHT, &report.title),
             // Labels may reach a little beyond the axes on the right.
             room: Labels::within((LEFT + 2.0, TOP - 8.0), (WIDTH - 4.0, BOTTOM - 2.0)),
             x: Axis::around(points().map(|point| point.rmse), (LEFT, RIGHT), true),
             y: Axis::around(times, (BOTTOM, TOP), false),
-            tolerances,
-            samples,
+            samples: Series {
+                rows: samples,
+                color: SAMPLES,
+                is_round: false,
+                sides: [
+                    Side::AboveLeft,
+                    Side::Above,
+                    Side::Left,
+                    Side::Right,
+                    Side::BelowRight,
+                ],
+            },
+            tolerances: Series {
+                rows: tolerances,
+                color: TOLERANCES,
+                is_round: true,
+                sides: [
+                    Side::BelowRight,
+                    Side::Below,
+                    Side::Right,
+                    Side::Left,
+                    Side::Above,
+                ],
+            },
             extrapolation,
         }
     }
@@ -95,108 +141,75 @@ impl<'a> Chart<'a> {
         (self.x.place(point.rmse), self.y.place(point.seconds))
     }
 
+    fn places(&self, series: &Series<'_>) -> Vec<Place> {
+        let rows = series.rows.iter();
+        rows.map(|row| self.place(row.point())).collect()
+    }
+
     fn axes(&mut self) {
+        let svg = &mut self.svg;
+        let middle = Style {
+            anchor: Anchor::Middle,
+            ..NORMAL
+        };
         for tick in self.x.ticks(MOST_LABELS) {
             if tick.is_decade {
-                let (top, bottom) = ((tick.at, TOP), (tick.at, BOTTOM));
-                self.drawing.line(top, bottom, 1.0, GRID);
+                svg.line(&[(tick.at, TOP), (tick.at, BOTTOM)], 1.0, GRID);
             } else {
-                let (top, bottom) = ((tick.at, BOTTOM), (tick.at, BOTTOM + 4.0));
-                self.drawing.line(top, bottom, 1.0, SOFT_INK);
+                svg.line(&[(tick.at, BOTTOM), (tick.at, BOTTOM + 4.0)], 1.0, SOFT_INK);
             }
             if let Some(exponent) = tick.label {
-                self.power((tick.at, BOTTOM + 22.0), Anchor::Middle, exponent);
+                svg.power((tick.at, BOTTOM + 22.0), middle, exponent);
             }
         }
         for tick in self.y.ticks(MOST_LABELS) {
             if tick.is_decade {
-                self.drawing
-                    .line((LEFT, tick.at), (RIGHT, tick.at), 1.0, GRID);
+                svg.line(&[(LEFT, tick.at), (RIGHT, tick.at)], 1.0, GRID);
             } else {
-                let (left, right) = ((LEFT - 4.0, tick.at), (LEFT, tick.at));
-                self.drawing.line(left, right, 1.0, SOFT_INK);
+                svg.line(&[(LEFT - 4.0, tick.at), (LEFT, tick.at)], 1.0, SOFT_INK);
             }
             if let Some(exponent) = tick.label {
                 let place = (LEFT - 10.0, tick.at + 4.5);
+                let style = Style {
+                    anchor: Anchor::End,
+                    ..NORMAL
+                };
                 match time(exponent) {
-                    Some(text) => self
-                        .drawing
-                        .text(place, Anchor::End, Size::Normal, INK, text),
-                    None => self.power(place, Anchor::End, exponent),
+                    Some(text) => svg.text(place, style, text),
+                    None => svg.power(place, style, exponent),
                 }
             }
         }
-        self.drawing
-            .line((LEFT, BOTTOM), (RIGHT, BOTTOM), 1.25, SOFT_INK);
-        self.drawing
-            .line((LEFT, TOP), (LEFT, BOTTOM), 1.25, SOFT_INK);
-        let y = BOTTOM + 44.0;
-        let middle = (LEFT + RIGHT) / 2.0;
+        svg.line(&[(LEFT, BOTTOM), (RIGHT, BOTTOM)], 1.25, SOFT_INK);
+        svg.line(&[(LEFT, TOP), (LEFT, BOTTOM)], 1.25, SOFT_INK);
+        let place = ((LEFT + RIGHT) / 2.0, BOTTOM + 44.0);
         let title = "RMSE of the picture, more accurate to the right";
-        self.drawing
-            .text((middle, y), Anchor::Middle, Size::Normal, INK, title);
-    }
-
-    /// The label of a power of ten.
-    fn power(&mut self, place: Place, anchor: Anchor, exponent: i32) {
-        self.drawing.shapes.push(Shape::Text(Text {
-            place,
-            anchor,
-            size: Size::Normal,
-            color: INK,
-            text: "10".to_owned(),
-            exponent: exponent.to_string(),
-        }));
+        svg.text(place, middle, title);
     }
 
     /// The title, and what the marks mean.
     fn legend(&mut self, report: &Report) {
         let y = 58.0;
-        let (start, size) = (Anchor::Start, Size::Normal);
-        let place = (12.0, 28.0);
         let title = format!("Time to an error: {}", report.title);
-        self.drawing.text(place, start, Size::Title, INK, &title);
-        self.drawing.text((12.0, y), start, size, INK, "time");
-        self.mark((LEFT + 10.0, y - 4.5), TOLERANCES, true);
-        let place = (LEFT + 22.0, y);
-        self.drawing
-            .text(place, start, size, TOLERANCES, "marbles, by tolerance");
-        self.mark((LEFT + 232.0, y - 4.5), SAMPLES, false);
-        let place = (LEFT + 244.0, y);
-        self.drawing
-            .text(place, start, size, SAMPLES, "supersampling, points a pixel");
-        if self.extrapolation.is_some() {
-            let (from, to) = ((LEFT + 512.0, y - 4.5), (LEFT + 552.0, y - 4.5));
-            self.dashes(from, to);
-            let place = (LEFT + 560.0, y);
-            self.drawing
-                .text(place, start, size, SAMPLES, "extrapolated");
+        self.svg.text((12.0, 28.0), TITLE, &title);
+        self.svg.text((12.0, y), NORMAL, "time");
+        for (x, series, name) in [
+            (10.0, &self.tolerances, "marbles, by tolerance"),
+            (232.0, &self.samples, "supersampling, points a pixel"),
+        ] {
+            let color = series.color;
+            series.mark(&mut self.svg, (LEFT + x, y - 4.5));
+            let place = (LEFT + x + 12.0, y);
+            self.svg.text(place, Style { color, ..NORMAL }, name);
         }
-    }
-
-    fn mark(&mut self, center: Place, color: Color, round: bool) {
-        self.drawing.shapes.push(if round {
-            Shape::Disk {
-                center,
-                radius: MARK + 0.5,
-                color,
-            }
-        } else {
-            Shape::Square {
-                center,
-                side: 2.0 * MARK,
-                color,
-            }
-        });
-    }
-
-    fn dashes(&mut self, from: Place, to: Place) {
-        self.drawing.shapes.push(Shape::Line {
-            places: vec![from, to],
-            width: 2.0,
-            color: SAMPLES,
-            dashed: true,
-        });
+        if self.extrapolation.is_some() {
+            let color = SAMPLES;
+            let line = [(LEFT + 512.0, y - 4.5), (LEFT + 552.0, y - 4.5)];
+            self.svg.dashes(&line, 2.0, color);
+            let place = (LEFT + 560.0, y);
+            self.svg
+                .text(place, Style { color, ..NORMAL }, "extrapolated");
+        }
     }
 
     /// The line beyond the measured samples, as far as there is room.
@@ -215,76 +228,48 @@ impl<'a> Chart<'a> {
             from.0 + along * (to.0 - from.0),
             from.1 + along * (to.1 - from.1),
         );
-        self.dashes(from, end);
+        self.svg.dashes(&[from, end], 2.0, SAMPLES);
         self.room.avoid_line(from, end);
     }
 
     fn curves(&mut self) {
-        for (rows, color, round) in [
-            (self.samples.clone(), SAMPLES, false),
-            (self.tolerances.clone(), TOLERANCES, true),
-        ] {
-            let places = rows.iter().map(|row| self.place(row.point())).collect();
-            self.drawing.shapes.push(Shape::Line {
-                places,
-                width: 2.0,
-                color,
-                dashed: false,
-            });
-            for row in rows {
-                self.mark(self.place(row.point()), color, round);
-            }
-        }
-    }
-
-    /// The settings beside their points: where the curves leave room as a rule, and on another side
-    /// where points are close; none where there is no room at all.
-    fn labels(&mut self) {
-        const OF_SAMPLES: [Side; 5] = [
-            Side::AboveLeft,
-            Side::Above,
-            Side::Left,
-            Side::Right,
-            Side::BelowRight,
-        ];
-        const OF_TOLERANCES: [Side; 5] = [
-            Side::BelowRight,
-            Side::Below,
-            Side::Right,
-            Side::Left,
-            Side::Above,
-        ];
-        for rows in [&self.samples, &self.tolerances] {
-            let places: Vec<Place> = rows.iter().map(|row| self.place(row.point())).collect();
+        for series in [&self.samples, &self.tolerances] {
+            let places = self.places(series);
+            self.svg.line(&places, 2.0, series.color);
             for &place in &places {
+                series.mark(&mut self.svg, place);
                 self.room.avoid(place, MARK);
             }
             for pair in places.windows(2) {
                 self.room.avoid_line(pair[0], pair[1]);
             }
         }
-        let series: [(&[&Row], Color, &[Side]); 2] = [
-            (&self.samples, SAMPLES, &OF_SAMPLES),
-            (&self.tolerances, TOLERANCES, &OF_TOLERANCES),
-        ];
-        for (rows, color, sides) in series {
-            for row in rows {
+    }
+
+    /// The settings beside their points; none where there is no room at all.
+    fn labels(&mut self) {
+        for series in [&self.samples, &self.tolerances] {
+            for (row, point) in series.rows.iter().zip(self.places(series)) {
                 let text = label(row.setting.method);
-                let place = self.room.place(self.place(row.point()), &text, sides);
-                if let Some((place, anchor)) = place {
-                    self.drawing.text(place, anchor, Size::Small, color, &text);
+                if let Some((place, anchor)) = self.room.place(point, &text, &series.sides) {
+                    let style = Style {
+                        anchor,
+                        color: series.color,
+                        ..SMALL
+                    };
+                    self.svg.text(place, style, &text);
                 }
             }
         }
     }
 
-    /// How far the curves are apart where that was measured and is most, or else where it is
+    /// The distance of the curves where that was measured and is most, or else where it is
     /// extrapolated and can be shown.
     fn distance(&mut self) {
         /// A smaller one needs no words.
         const LEAST: f64 = 1.5;
         let top = self.y.range().1;
-        let candidates = self.tolerances.iter().filter_map(|row| {
+        let candidates = self.tolerances.rows.iter().filter_map(|row| {
             let (ratio, extrapolated) = row.speed_up()?;
             let time = row.supersampling?.seconds;
             (ratio >= LEAST && time <= top).then_some((!extrapolated, ratio, *row, time))
@@ -303,29 +288,41 @@ impl<'a> Chart<'a> {
         if low.1 - high.1 < 2.0 * gap {
             return;
         }
-        self.drawing.line(low, high, 1.25, SOFT_INK);
+        self.svg.line(&[low, high], 1.25, SOFT_INK);
         for (tip, direction) in [(low, -1.0), (high, 1.0)] {
             for side in [-4.0, 4.0] {
                 let end = (tip.0 + side, tip.1 + 6.0 * direction);
-                self.drawing.line(tip, end, 1.25, SOFT_INK);
+                self.svg.line(&[tip, end], 1.25, SOFT_INK);
             }
         }
-        let middle = (low.1 + high.1) / 2.0;
+        let (left, middle) = (low.0 + 10.0, (low.1 + high.1) / 2.0);
         let text = format!("{} times faster", factor(ratio));
-        let (start, size) = (Anchor::Start, Size::Normal);
-        self.drawing
-            .text((low.0 + 10.0, middle), start, size, INK, &text);
-        let place = (low.0 + 10.0, middle + 17.0);
-        self.drawing
-            .text(place, start, Size::Small, SOFT_INK, "at the same RMSE");
+        self.svg.text((left, middle), NORMAL, &text);
+        let style = Style {
+            color: SOFT_INK,
+            ..SMALL
+        };
+        self.svg
+            .text((left, middle + 17.0), style, "at the same RMSE");
         self.room.avoid_line(low, high);
-        let (left, right) = (low.0 + 10.0, low.0 + 10.0 + 8.5 * text.len() as f64);
+        let right = left + 8.5 * text.len() as f64;
         let (top, bottom) = (middle - 12.0, middle + 20.0);
         self.room.avoid_box((left, top), (right, bottom));
     }
 }
 
-/// Where supersampling ends, and where it would reach the smallest error.
+impl Series<'_> {
+    /// Draws the mark of a point.
+    fn mark(&self, svg: &mut Svg, center: Place) {
+        if self.is_round {
+            svg.disk(center, MARK + 0.5, self.color);
+        } else {
+            svg.square(center, 2.0 * MARK, self.color);
+        }
+    }
+}
+
+/// The end of supersampling, and the place where it would reach the smallest error.
 fn extrapolation(report: &Report, smallest: f64) -> Option<[Point; 2]> {
     let curve = supersampling(&report.measurement.settings);
     let time = curve.time(smallest)?;

@@ -1,8 +1,8 @@
 //! Places for labels beside points, so that they hide neither each other nor the curves.
 
-use super::drawing::{Anchor, Place};
+use super::svg::{Anchor, Place};
 
-/// What a small letter takes, about, in the fonts that readers have.
+/// The width of a small letter, about, in the fonts that readers have.
 const LETTER_WIDTH: f64 = 7.0;
 /// Above the base line.
 const HEIGHT: f64 = 9.0;
@@ -12,7 +12,7 @@ const GAP: f64 = 9.0;
 /// Between the places of a line that labels avoid.
 const STEP: f64 = 4.0;
 
-/// Where labels, points and lines are.
+/// The places of labels, points and lines.
 #[derive(Clone, Debug)]
 pub(super) struct Labels {
     area: Box,
@@ -26,7 +26,7 @@ struct Box {
     high: Place,
 }
 
-/// On which side of a point a label is.
+/// The side of a point on which a label is.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Side {
     Below,

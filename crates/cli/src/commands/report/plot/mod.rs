@@ -2,13 +2,12 @@
 
 mod axis;
 mod chart;
-mod drawing;
 mod labels;
 mod svg;
 
 use std::path::Path;
 
-use super::results::Report;
+pub(super) use self::chart::draw;
 use crate::base::failure::Failure;
 
 /// Refuses a name of the plot's file that does not end in `.svg`.
@@ -24,9 +23,4 @@ pub(super) fn check_name(path: Option<&Path>) -> Result<(), Failure> {
         "--plot: expected a file name that ends in .svg, the one format of plots, found `{}`",
         path.display()
     )))
-}
-
-/// The plot as a text.
-pub(super) fn svg(report: &Report) -> String {
-    svg::text(&chart::draw(report))
 }

@@ -1,17 +1,73 @@
 use super::*;
 use crate::commands::report::results::tests::report;
 
-fn texts(drawing: Drawing) -> Vec<String> {
-    let text = |shape| match shape {
-        Shape::Text(text) => Some(text.text),
-        _ => None,
+/// The elements of a well-formed document, each with its attributes; panics on any other.
+fn elements(document: &str) -> Vec<String> {
+    let (mut open, mut found) = (Vec::new(), Vec::new());
+    let mut rest = document;
+    while let Some(start) = rest.find('<') {
+        let between = &rest[..start];
+        assert!(!between.contains('>'), "{between}");
+        assert!(!open.is_empty() || between.trim().is_empty(), "{between}");
+        for entity in between.split('&').skip(1) {
+            let known = ["amp;", "lt;", "gt;", "quot;", "apos;"];
+            assert!(
+                known.iter().any(|name| entity.starts_with(name)),
+                "{entity}"
+            );
+        }
+        let end = rest.find('>').expect("an end of the tag");
+        let tag = &rest[start + 1..end];
+        assert!(
+            !tag.contains('<') && tag.matches('"').count().is_multiple_of(2),
+            "{tag}"
+        );
+        let name = |tag: &str| tag.split([' ', '/']).next().unwrap_or_default().to_owned();
+        if let Some(closed) = tag.strip_prefix('/') {
+            assert_eq!(open.pop().as_deref(), Some(closed));
+        } else {
+            found.push(tag.to_owned());
+            if !tag.ends_with('/') {
+                open.push(name(tag));
+            }
+        }
+        rest = &rest[end + 1..];
+    }
+    assert!(open.is_empty() && rest.trim().is_empty());
+    found
+}
+
+/// The numbers in an attribute of an element, where it has that.
+fn numbers(element: &str, attribute: &str) -> Vec<f64> {
+    let value = element.split_once(&format!(" {attribute}=\""));
+    let value = value.and_then(|(_, rest)| rest.split_once('"'));
+    let numbers = value.map_or("", |(value, _)| value).split([',', ' ']);
+    numbers
+        .filter(|number| !number.is_empty())
+        .map(|number| number.parse().unwrap())
+        .collect()
+}
+
+#[test]
+fn documents_are_well_formed() {
+    let mut report = report();
+    report.title = "a < b & \"c\" > 'd'\u{1}, \n".to_owned();
+    let document = draw(&report);
+    let elements = elements(&document);
+    assert!(elements[0].starts_with("svg xmlns="));
+    let count = |name: &str| {
+        let of_name = |tag: &&String| tag.split(' ').next() == Some(name);
+        elements.iter().filter(of_name).count()
     };
-    drawing.shapes.into_iter().filter_map(text).collect()
+    // Two points and the mark of the legend; two points, the mark and the background.
+    assert_eq!((count("circle"), count("rect")), (3, 4));
+    assert!(count("text") > 20 && count("tspan") >= 5 && count("polyline") > 20);
+    assert!(document.contains("a &lt; b &amp; &quot;c&quot; &gt; &apos;d&apos;\u{fffd},  <"));
 }
 
 #[test]
 fn settings_and_distance_are_labeled() {
-    let texts = texts(draw(&report()));
+    let document = draw(&report());
     for expected in [
         "1e-1",
         "1e-2",
@@ -21,10 +77,8 @@ fn settings_and_distance_are_labeled() {
         "100 times faster",
         "extrapolated",
     ] {
-        assert!(
-            texts.contains(&expected.to_owned()),
-            "no {expected} in {texts:?}"
-        );
+        let text = format!(">{expected}</text>");
+        assert!(document.contains(&text), "no {expected} in {document}");
     }
 }
 
@@ -34,19 +88,22 @@ fn nothing_leaves_the_picture() {
     // So far beyond the samples that the extrapolation leaves the axes.
     report.measurement.settings[1].accuracy.rmse = 1e-12;
     report.rows = Row::all(&report.measurement.settings);
-    let inside = |(x, y): Place| {
-        assert!(
-            (0.0..=WIDTH).contains(&x) && (0.0..=HEIGHT).contains(&y),
-            "{x}, {y}"
-        );
-    };
-    for shape in draw(&report).shapes {
-        match shape {
-            Shape::Line { places, .. } => places.into_iter().for_each(inside),
-            Shape::Disk { center, .. } | Shape::Square { center, .. } => inside(center),
-            Shape::Text(text) => inside(text.place),
+    let mut seen = 0;
+    for element in elements(&draw(&report)) {
+        let points = numbers(&element, "points");
+        let across = points.iter().step_by(2).copied();
+        let down = points.iter().skip(1).step_by(2).copied();
+        let of = |names: [&str; 2]| names.map(|name| numbers(&element, name)).concat();
+        for x in across.chain(of(["x", "cx"])) {
+            assert!((0.0..=WIDTH).contains(&x), "{element}");
+            seen += 1;
+        }
+        for y in down.chain(of(["y", "cy"])) {
+            assert!((0.0..=HEIGHT).contains(&y), "{element}");
+            seen += 1;
         }
     }
+    assert!(seen > 200);
 }
 
 #[test]
