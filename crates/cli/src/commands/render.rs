@@ -53,7 +53,7 @@ pub(super) fn request(
     console: &Console,
 ) -> Result<Request, Failure> {
     let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
-    let pattern = pattern.map_err(|error| Failure::Usage(error.to_string()))?;
+    let pattern = pattern.map_err(Failure::Usage)?;
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
     let encoding = encoding(arguments, format)?;
 

@@ -20,7 +20,7 @@ use crate::files::temporary::TemporaryFile;
 /// The encoder of the pictures of a sequence, which are all of one form.
 #[derive(Debug)]
 pub(crate) struct Encoder {
-    form: Form,
+    pub(crate) form: Form,
     pub(super) layout: Layout,
 }
 
@@ -49,10 +49,6 @@ impl Encoder {
             Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
         };
         Self { form, layout }
-    }
-
-    pub(crate) fn form(&self) -> &Form {
-        &self.form
     }
 
     /// Bands of a strip.

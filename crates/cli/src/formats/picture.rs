@@ -17,8 +17,8 @@ pub(crate) struct Picture {
     pub(crate) alpha: bool,
     /// The kind of the file, for people: `PNG, 8 bit sRGB, grey`.
     pub(crate) description: String,
-    /// Warnings about how the file was understood.
-    pub(crate) remarks: Vec<String>,
+    /// A warning about how the file was understood.
+    pub(crate) warning: Option<&'static str>,
     pub(crate) samples: Box<dyn Samples>,
 }
 

@@ -92,6 +92,22 @@ pub(crate) enum Scene {
     Bright,
 }
 
+/// The view of the small pictures.
+pub(crate) fn view() -> View {
+    View {
+        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        lens: Lens {
+            width: 0.6,
+            distance: 1.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 23,
+        height: 19,
+        frame: 1,
+    }
+}
+
 /// A small picture of a ball before a background.
 pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
     let (albedo, background, intensity) = match scene {
@@ -109,23 +125,11 @@ pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
     let toward = DVec3::new(-1.0, 1.0, -1.0);
     let light = DirectionalLight::new(toward, DVec3::splat(intensity)).unwrap();
     world.lights.push(light);
-    let view = View {
-        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
-        lens: Lens {
-            width: 0.6,
-            distance: 1.0,
-            shift: DVec2::ZERO,
-        },
-        zoom: 1.0,
-        width: 23,
-        height: 19,
-        frame: 1,
-    };
     let settings = Settings {
         method: Method::Samples(NonZeroU32::new(3).unwrap()),
         alpha,
     };
     marbles_core::Renderer::new(&world)
-        .render(&view, &settings, &|_| ControlFlow::Continue(()))
+        .render(&view(), &settings, &|_| ControlFlow::Continue(()))
         .unwrap()
 }

@@ -7,7 +7,6 @@ use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use marbles_scene::Scene;
-use thiserror::Error;
 
 /// The longest list that users may write, each frame as often as it is named: nobody waits for
 /// more pictures, and so many frames are counted in no time.
@@ -37,28 +36,6 @@ struct Range {
     first: i64,
     last: i64,
     step: i64,
-}
-
-/// A reason why a text is no list of frames.
-#[derive(Clone, Debug, Eq, Error, PartialEq)]
-pub(crate) enum FrameListError {
-    #[error("expected frames such as 7, 1-100 or 1-100x2 between the commas, found nothing")]
-    Empty,
-    #[error("expected frames such as 7, 1-100 or 1-100x2, found `{0}`")]
-    Syntax(String),
-    #[error("expected frame numbers from {min} to {max}, found {0}", min = i32::MIN, max = i32::MAX)]
-    Number(String),
-    #[error("expected a step from 1 to {max}, or from -{max} to -1, found {0}", max = u32::MAX)]
-    Step(String),
-    #[error("expected the smaller frame first, from {last} to {first}, found `{first}-{last}`")]
-    Backward { first: i32, last: i32 },
-    #[error(
-        "expected the larger frame first where the step is negative, from {last} to {first}, \
-         found `{first}-{last}`"
-    )]
-    Forward { first: i32, last: i32 },
-    #[error("expected a list of at most {MOST_FRAMES} frames, found one of {0}")]
-    TooMany(u64),
 }
 
 impl FrameList {
@@ -132,14 +109,16 @@ impl From<RangeInclusive<i32>> for FrameList {
 }
 
 impl FromStr for FrameList {
-    type Err = FrameListError;
+    type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let ranges = text.split(',').map(|item| item.trim().parse());
         let ranges: Vec<Range> = ranges.collect::<Result<_, _>>()?;
         match ranges.iter().map(|range| range.len()).sum() {
             0..=MOST_FRAMES => Ok(Self { ranges }),
-            frames => Err(FrameListError::TooMany(frames)),
+            frames => Err(format!(
+                "expected a list of at most {MOST_FRAMES} frames, found one of {frames}"
+            )),
         }
     }
 }
@@ -160,50 +139,41 @@ impl Range {
 }
 
 impl FromStr for Range {
-    type Err = FrameListError;
+    type Err = String;
 
     fn from_str(item: &str) -> Result<Self, Self::Err> {
+        const EXPECTED: &str = "expected frames such as 7, 1-100 or 1-100x2";
         if item.is_empty() {
-            return Err(FrameListError::Empty);
+            return Err(format!("{EXPECTED} between the commas, found nothing"));
         }
-        let syntax = || FrameListError::Syntax(item.to_owned());
+        let syntax = || format!("{EXPECTED}, found `{item}`");
         let (first, rest) = leading_number(item).ok_or_else(syntax)?;
         let first = frame_number(first)?;
-        if rest.is_empty() {
-            return Ok(Self {
-                first: i64::from(first),
-                last: i64::from(first),
-                step: 1,
-            });
-        }
-        let (last, rest) = rest
-            .strip_prefix('-')
-            .and_then(leading_number)
-            .ok_or_else(syntax)?;
-        let last = frame_number(last)?;
-        let step = match rest.strip_prefix(['x', ':']) {
-            Some(step) => match leading_number(step) {
-                Some((step, "")) => step,
+        let (last, step) = if rest.is_empty() {
+            (first, 1)
+        } else {
+            let rest = rest.strip_prefix('-').and_then(leading_number);
+            let (last, rest) = rest.ok_or_else(syntax)?;
+            let last = frame_number(last)?;
+            let step = rest.strip_prefix(['x', ':']).map(leading_number);
+            match step {
+                Some(Some((number, ""))) => (last, step_number(number)?),
+                None if rest.is_empty() => (last, 1),
                 _ => return Err(syntax()),
-            },
-            None if rest.is_empty() => "1",
-            None => return Err(syntax()),
-        };
-        let step = match step.parse::<i64>() {
-            Ok(step) if (1..=u64::from(u32::MAX)).contains(&step.unsigned_abs()) => step,
-            _ => return Err(FrameListError::Step(step.to_owned())),
+            }
         };
         if step > 0 && last < first {
-            return Err(FrameListError::Backward { first, last });
+            return Err(format!(
+                "expected the smaller frame first, from {last} to {first}, found `{first}-{last}`"
+            ));
         }
         if step < 0 && last > first {
-            return Err(FrameListError::Forward { first, last });
+            return Err(format!(
+                "expected the larger frame first where the step is negative, from {last} to \
+                 {first}, found `{first}-{last}`"
+            ));
         }
-        Ok(Self {
-            first: i64::from(first),
-            last: i64::from(last),
-            step,
-        })
+        Ok(Self { first, last, step })
     }
 }
 
@@ -216,9 +186,22 @@ fn leading_number(text: &str) -> Option<(&str, &str)> {
     (number.len() > text.len() - digits.len()).then(|| (number, rest.trim_start()))
 }
 
-fn frame_number(text: &str) -> Result<i32, FrameListError> {
-    text.parse()
-        .map_err(|_| FrameListError::Number(text.to_owned()))
+fn frame_number(text: &str) -> Result<i64, String> {
+    const RANGE: RangeInclusive<i64> = i32::MIN as i64..=i32::MAX as i64;
+    let number = text.parse().ok().filter(|number| RANGE.contains(number));
+    number.ok_or_else(|| {
+        let (min, max) = RANGE.into_inner();
+        format!("expected frame numbers from {min} to {max}, found {text}")
+    })
+}
+
+fn step_number(text: &str) -> Result<i64, String> {
+    const MOST: i64 = u32::MAX as i64;
+    let step = text.parse().ok();
+    let step = step.filter(|step: &i64| *step != 0 && (-MOST..=MOST).contains(step));
+    step.ok_or_else(|| {
+        format!("expected a step from 1 to {MOST}, or from -{MOST} to -1, found {text}")
+    })
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! File names with a place for the frame number: `####`, `%04d` or `{frame:04}`.
 
 use std::ffi::{OsStr, OsString};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-use thiserror::Error;
 
 use crate::formats::encoding::Format;
 
@@ -20,73 +19,53 @@ const DEFAULT_DIGITS: usize = 4;
 pub(crate) struct Pattern {
     folder: PathBuf,
     before: OsString,
-    number: Option<Number>,
+    /// The width to which a frame number is padded with zeros; `None` where there is no place for it.
+    digits: Option<usize>,
     after: OsString,
     format: Format,
 }
 
-/// A frame number, padded with zeros to `digits` characters.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-struct Number {
-    digits: usize,
-}
-
-/// A reason why a text is no pattern.
-#[derive(Clone, Debug, Eq, Error, PartialEq)]
-pub(crate) enum PatternError {
-    #[error("expected a file name that ends in .png, .apng or .exr, found `{0}`")]
-    Ending(String),
-    #[error("expected a file name in UTF-8, found `{0}`")]
-    Encoding(String),
-    #[error("expected a frame number such as ####, %04d or {{frame:04}}, found `{0}`")]
-    Number(String),
-    #[error("expected one place for the frame number, found `{0}` and `{1}`")]
-    SecondNumber(String, String),
-}
-
 impl Pattern {
-    /// Reads a pattern as users write it.
-    pub(crate) fn parse(path: &Path) -> Result<Self, PatternError> {
-        let shown = || path.display().to_string();
+    /// Reads a pattern as users write it, or says what is wrong with it.
+    pub(crate) fn parse(path: &Path) -> Result<Self, String> {
+        let wrong_ending = || {
+            let path = path.display();
+            format!("expected a file name that ends in .png, .apng or .exr, found `{path}`")
+        };
         // A trailing slash means a folder, which `file_name` would overlook.
-        let name = path
-            .file_name()
-            .filter(|name| {
-                path.as_os_str()
-                    .as_encoded_bytes()
-                    .ends_with(name.as_encoded_bytes())
-            })
-            .ok_or_else(|| PatternError::Ending(shown()))?
-            .to_str()
-            .ok_or_else(|| PatternError::Encoding(shown()))?;
-        let format = Format::of(name).ok_or_else(|| PatternError::Ending(shown()))?;
+        let bytes = path.as_os_str().as_encoded_bytes();
+        let name = path.file_name();
+        let name = name.filter(|name| bytes.ends_with(name.as_encoded_bytes()));
+        let name = name.ok_or_else(wrong_ending)?.to_str().ok_or_else(|| {
+            let path = path.display();
+            format!("expected a file name in UTF-8, found `{path}`")
+        })?;
+        let format = Format::of(name).ok_or_else(wrong_ending)?;
 
-        let mut found: Option<(usize, Token)> = None;
+        let mut found: Option<(Range<usize>, usize)> = None;
         let mut start = 0;
         while start < name.len() {
-            match token(&name[start..])? {
-                Some(token) => {
-                    if let Some((first, length)) = found.map(|(at, token)| (at, token.length)) {
-                        return Err(PatternError::SecondNumber(
-                            name[first..first + length].to_owned(),
-                            name[start..start + token.length].to_owned(),
-                        ));
-                    }
-                    found = Some((start, token));
-                    start += token.length;
-                }
-                None => start += name[start..].chars().next().map_or(1, char::len_utf8),
+            let Some((length, digits)) = place(&name[start..])? else {
+                start += name[start..].chars().next().map_or(1, char::len_utf8);
+                continue;
+            };
+            let here = start..start + length;
+            if let Some((first, _)) = found {
+                let (first, second) = (&name[first], &name[here]);
+                return Err(format!(
+                    "expected one place for the frame number, found `{first}` and `{second}`"
+                ));
             }
+            start = here.end;
+            found = Some((here, digits));
         }
-        let (before, after) = match found {
-            Some((at, token)) => (&name[..at], &name[at + token.length..]),
-            None => (name, ""),
-        };
+        let (place, digits) = found.unzip();
+        let place = place.unwrap_or(name.len()..name.len());
         Ok(Self {
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
-            before: before.into(),
-            number: found.map(|(_, token)| token.number),
-            after: after.into(),
+            before: name[..place.start].into(),
+            digits,
+            after: name[place.end..].into(),
             format,
         })
     }
@@ -103,9 +82,7 @@ impl Pattern {
         Self {
             folder: PathBuf::new(),
             before,
-            number: numbered.then_some(Number {
-                digits: DEFAULT_DIGITS,
-            }),
+            digits: numbered.then_some(DEFAULT_DIGITS),
             after: ".png".into(),
             format: Format::Png,
         }
@@ -114,7 +91,7 @@ impl Pattern {
     /// The name of a frame's file.
     pub(crate) fn path(&self, frame: i32) -> PathBuf {
         let mut name = self.before.clone();
-        if let Some(Number { digits }) = self.number {
+        if let Some(digits) = self.digits {
             name.push(format!("{frame:0digits$}"));
         }
         name.push(&self.after);
@@ -128,35 +105,28 @@ impl Pattern {
 
     /// Returns whether different frames have different names.
     pub(crate) fn is_numbered(&self) -> bool {
-        self.number.is_some()
+        self.digits.is_some()
     }
 }
 
-/// A place for the frame number, as written.
-#[derive(Clone, Copy)]
-struct Token {
-    length: usize,
-    number: Number,
-}
-
-/// The token at the start of `text`, if there is one.
-fn token(text: &str) -> Result<Option<Token>, PatternError> {
+/// The place for the frame number at the start of `text`, if there is one: its length, and the width
+/// of the number.
+fn place(text: &str) -> Result<Option<(usize, usize)>, String> {
+    let refused = |length: usize| {
+        let found = &text[..length];
+        format!("expected a frame number such as ####, %04d or {{frame:04}}, found `{found}`")
+    };
     let spelled = |length: usize, digits: &str| {
-        let refused = || PatternError::Number(text[..length].to_owned());
         // Without the leading 0 printf would pad with spaces.
-        let digits = match digits.strip_prefix('0') {
-            None if digits.is_empty() => 0,
-            None => return Err(refused()),
-            Some("") => 0,
-            Some(digits) => digits.parse().map_err(|_| refused())?,
+        let width = match digits.strip_prefix('0') {
+            None => digits.is_empty().then_some(0),
+            Some("") => Some(0),
+            Some(digits) => digits.parse().ok(),
         };
-        if digits > MOST_DIGITS {
-            return Err(refused());
+        match width {
+            Some(width) if width <= MOST_DIGITS => Ok(Some((length, width))),
+            _ => Err(refused(length)),
         }
-        Ok(Some(Token {
-            length,
-            number: Number { digits },
-        }))
     };
     if text.starts_with('#') {
         let length = text.len() - text.trim_start_matches('#').len();
@@ -177,97 +147,11 @@ fn token(text: &str) -> Result<Option<Token>, PatternError> {
             .strip_prefix(':')
             .and_then(|rest| rest.split_once('}'))
             .map(|(digits, _)| digits)
-            .ok_or_else(|| PatternError::Number(text[..length].to_owned()))?;
+            .ok_or_else(|| refused(length))?;
         return spelled(length, digits);
     }
     Ok(None)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn name(pattern: &str, frame: i32) -> String {
-        let pattern = Pattern::parse(Path::new(pattern)).unwrap();
-        pattern.path(frame).into_os_string().into_string().unwrap()
-    }
-
-    fn refusal(pattern: &str) -> String {
-        Pattern::parse(Path::new(pattern)).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn every_spelling_takes_the_frame() {
-        assert_eq!(name("a.####.png", 7), "a.0007.png");
-        assert_eq!(name("a#.png", 12), "a12.png");
-        assert_eq!(name("out/%04d.exr", 7), "out/0007.exr");
-        assert_eq!(name("%d.png", 7), "7.png");
-        assert_eq!(name("{frame:04}_a.png", 7), "0007_a.png");
-        assert_eq!(name("a{frame}.png", 7), "a7.png");
-        assert_eq!(name("%012d.png", 7), "000000000007.png");
-        assert_eq!(name("####.png", 123_456), "123456.png");
-    }
-
-    #[test]
-    fn negative_frames_are_padded_as_printf_does() {
-        for pattern in ["####.png", "%04d.png", "{frame:04}.png"] {
-            assert_eq!(name(pattern, -5), "-005.png");
-        }
-    }
-
-    #[test]
-    fn names_without_a_number_stay() {
-        let pattern = Pattern::parse(Path::new("50% {off}.png")).unwrap();
-        assert!(!pattern.is_numbered());
-        assert_eq!(pattern.path(3), Path::new("50% {off}.png"));
-    }
-
-    #[test]
-    fn folders_are_taken_as_written() {
-        assert_eq!(name("shot#1/%d/{frame}.png", 2), "shot#1/%d/2.png");
-        assert_eq!(name("/a.png/../ä#é.png", 2), "/a.png/../ä2é.png");
-    }
-
-    #[test]
-    fn endings_choose_the_format() {
-        let format = |name: &str| Pattern::parse(Path::new(name)).unwrap().format();
-        assert_eq!(format("a.PNG"), Format::Png);
-        assert_eq!(format("a.b.Exr"), Format::Exr);
-        assert_eq!(format("a.png.apng"), Format::Apng);
-        for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
-            assert!(
-                refusal(wrong).contains("ends in .png, .apng or .exr"),
-                "{wrong}"
-            );
-        }
-    }
-
-    #[test]
-    fn refuses_numbers_that_cannot_be() {
-        for wrong in [
-            "%4d.png",
-            "{frame:4}.png",
-            "{frame:x}.png",
-            "{frame.png",
-            "%0999d.png",
-        ] {
-            assert!(
-                refusal(wrong).contains("####, %04d or {frame:04}"),
-                "{wrong}"
-            );
-        }
-        assert_eq!(
-            refusal("#a_%04d.png"),
-            "expected one place for the frame number, found `#` and `%04d`"
-        );
-    }
-
-    #[test]
-    fn names_come_from_the_scene() {
-        let scene = Path::new("scenes/two#balls.ron");
-        let still = Pattern::named_after(scene, false);
-        assert_eq!(still.path(1), Path::new("two#balls.png"));
-        let sequence = Pattern::named_after(scene, true);
-        assert_eq!(sequence.path(-3), Path::new("two#balls.-003.png"));
-    }
-}
+mod tests;

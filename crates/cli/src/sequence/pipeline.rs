@@ -106,7 +106,7 @@ impl<'a> Pipeline<'a> {
 fn capacity(encoder: &Encoder) -> Result<u64, Failure> {
     const LEAST: u64 = 2;
     let strip = encoder.strip_bytes();
-    let Size { width, height } = encoder.form().region.size();
+    let Size { width, height } = encoder.form.region.size();
     let work = format!("rendering and writing a picture of {width} x {height} pixels needs");
     memory::require(strip.saturating_mul(LEAST), &work)?;
     Ok((STRIPS_BYTES / strip.max(1)).max(LEAST))

@@ -159,7 +159,7 @@ impl<'a> Source<'a> {
         if !request.skip_existing {
             return Ok(Decision::Render(Some(save::begin(path)?)));
         }
-        let contents = (facts.digest, self.pipeline.encoder.form().region);
+        let contents = (facts.digest, self.pipeline.encoder.form.region);
         let is_there = || load::contents(path) == Some(contents);
         if is_there() {
             return Ok(Decision::Skip);
@@ -209,7 +209,7 @@ impl<'a> Source<'a> {
         let prepare = || Renderer::new(world);
         let prepare = || progress.while_preparing(world.spheres().len(), prepare);
         let renderer = self.renderer.get_or_init(prepare);
-        let region = encoder.form().region;
+        let region = encoder.form.region;
         progress.begin(self.begun, region.size().pixels());
         self.begun += 1;
         Some(InFlight {

@@ -107,7 +107,7 @@ impl Strip for StripEncoder<'_> {
         self.picture.apart(|| {
             let rows = 0..part.height();
             let clipped = encoder.encode(&mut self.samples, col, part, rows);
-            let window = encoder.form().region.window;
+            let window = encoder.form.region.window;
             let first_row = window.row + self.index * encoder.rows();
             let place = (window.col + col, first_row);
             self.results.add(&Results::of(part, place, clipped));

@@ -85,8 +85,8 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
 /// A picture, with a warning where it was not understood in full.
 fn load(path: &Path, console: &Console) -> Result<Picture, Failure> {
     let picture = load::picture(path)?;
-    for remark in &picture.remarks {
-        console.warn(&format!("{}: {remark}", path.display()));
+    if let Some(warning) = picture.warning {
+        console.warn(&format!("{}: {warning}", path.display()));
     }
     Ok(picture)
 }

@@ -1,38 +1,25 @@
 use std::fs::{self, File};
 use std::io::BufReader;
 
-use glam::DVec2;
-use marbles_core::{Angle, Camera, Lens, View};
 use marbles_scene::Scene;
 
 use super::picture::render;
 use super::screen::Area;
+use crate::base::size::Size;
+use crate::formats::tests::view;
 use crate::tests::{SCENE, run_here};
-
-fn view(width: u32, height: u32) -> View {
-    View {
-        camera: Camera::free(glam::DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
-        lens: Lens {
-            width: 1.0,
-            distance: 1.0,
-            shift: DVec2::ZERO,
-        },
-        zoom: 1.0,
-        width,
-        height,
-        frame: 1,
-    }
-}
 
 #[test]
 fn pictures_fill_the_area_one_way() {
-    let fit = |size: (u32, u32), (width, height), enlarges| {
+    let fit = |(width, height), area: (u32, u32), enlarges| {
+        let size = Size { width, height };
+        let (width, height) = area;
         let area = Area {
             width,
             height,
             enlarges,
         };
-        let view = area.fit(view(size.0, size.1));
+        let view = area.fit(size.resize(view()));
         (view.width, view.height)
     };
     assert_eq!(fit((600, 600), (80, 44), true), (44, 44));

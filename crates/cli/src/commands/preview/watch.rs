@@ -3,6 +3,7 @@
 //! Files are looked at several times a second. That sees every way to save, by writing or by
 //! renaming, on disks of other machines too, where systems do not tell of changes.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::thread;
@@ -65,8 +66,8 @@ fn look(
     let started = SystemTime::now();
     let scene = scene::load(&arguments.scene, console, true);
     match &scene {
-        Ok(scene) => files.name(&tables(scene, &arguments.scene), started),
-        Err(Failure::Scene(error)) => files.add(SceneError::path(error), started),
+        Ok(scene) => files.name(tables(scene, &arguments.scene), started),
+        Err(Failure::Scene(error)) => files.add(SceneError::path(error).to_owned(), started),
         Err(_) => {}
     }
     let scene = scene?;
@@ -98,12 +99,14 @@ fn wait(files: &mut Files, is_other: impl Fn() -> bool) {
 
 /// The files that a picture depends on, and their states when they were read.
 struct Files {
-    /// The scene, then its tables.
-    paths: Vec<PathBuf>,
-    stamps: Vec<Option<Stamp>>,
+    scene: PathBuf,
+    stamps: Stamps,
 }
 
-/// The state of a file; `None` stands for a file that is not there.
+/// The states of files; `None` stands for a file that is not there.
+type Stamps = BTreeMap<PathBuf, Option<Stamp>>;
+
+/// The state of a file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Stamp {
     modified: SystemTime,
@@ -113,43 +116,33 @@ struct Stamp {
 impl Files {
     /// A scene whose tables are not known.
     fn of(scene: &Path) -> Self {
-        let paths = vec![scene.to_owned()];
-        let stamps = paths.iter().map(|path| stamp(path)).collect();
-        Self { paths, stamps }
+        Self {
+            scene: scene.to_owned(),
+            stamps: Stamps::from([(scene.to_owned(), stamp(scene))]),
+        }
     }
 
     /// The states of the files now.
-    fn look(&self) -> Vec<Option<Stamp>> {
-        self.paths.iter().map(|path| stamp(path)).collect()
+    fn look(&self) -> Stamps {
+        let paths = self.stamps.keys();
+        paths.map(|path| (path.clone(), stamp(path))).collect()
     }
 
     /// Has these tables in place of the others, read since `started`.
-    fn name(&mut self, tables: &[PathBuf], started: SystemTime) {
-        let mut named = Self {
-            paths: self.paths[..1].to_vec(),
-            stamps: self.stamps[..1].to_vec(),
-        };
+    fn name(&mut self, tables: Vec<PathBuf>, started: SystemTime) {
+        let scene = &self.scene;
+        self.stamps
+            .retain(|path, _| path == scene || tables.contains(path));
         for table in tables {
-            match self.paths.iter().position(|path| path == table) {
-                Some(index) if !named.paths.contains(table) => {
-                    named.paths.push(table.clone());
-                    named.stamps.push(self.stamps[index]);
-                }
-                _ => named.add(table, started),
-            }
+            self.add(table, started);
         }
-        *self = named;
     }
 
     /// Has another file, read since `started`, if it is another.
-    fn add(&mut self, path: &Path, started: SystemTime) {
-        if self.paths.iter().any(|known| known == path) {
-            return;
-        }
+    fn add(&mut self, path: PathBuf, started: SystemTime) {
         // What was written since then may have been read before.
-        let stamp = stamp(path).filter(|stamp| stamp.modified < started);
-        self.paths.push(path.to_owned());
-        self.stamps.push(stamp);
+        let stamp = stamp(&path).filter(|stamp| stamp.modified < started);
+        self.stamps.entry(path).or_insert(stamp);
     }
 }
 
@@ -185,73 +178,4 @@ fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn folder(name: &str) -> PathBuf {
-        let process = std::process::id();
-        let folder = std::env::temp_dir().join(format!("marbles-{process}-watch-{name}"));
-        fs::create_dir_all(&folder).unwrap();
-        folder
-    }
-
-    #[test]
-    fn files_change_however_they_are_saved() {
-        let folder = folder("saved");
-        let scene = folder.join("a.ron");
-        let files = Files::of(&scene);
-        assert_eq!(files.look(), [None]);
-        fs::write(&scene, "one").unwrap();
-        assert_ne!(files.look(), files.stamps);
-
-        let files = Files::of(&scene);
-        assert_eq!(files.look(), files.stamps);
-        fs::write(&scene, "longer").unwrap();
-        assert_ne!(files.look(), files.stamps);
-
-        let files = Files::of(&scene);
-        let other = folder.join("a.ron.new");
-        fs::write(&other, "renamed").unwrap();
-        fs::rename(&other, &scene).unwrap();
-        assert_ne!(files.look(), files.stamps);
-        fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn the_tables_of_the_last_scene_are_watched() {
-        let folder = folder("tables");
-        let [one, two] = ["one.csv", "two.csv"].map(|name| folder.join(name));
-        fs::write(&one, "1").unwrap();
-        let later = SystemTime::now() + Duration::from_secs(60);
-        let mut files = Files::of(Path::new("a.ron"));
-        files.name(&[one.clone(), one.clone(), two.clone()], later);
-        assert_eq!(files.paths, [Path::new("a.ron"), &one, &two]);
-        assert_eq!(files.look(), files.stamps);
-        fs::write(&two, "2").unwrap();
-        assert_ne!(files.look(), files.stamps);
-        files.name(std::slice::from_ref(&one), later);
-        assert_eq!(files.paths, [Path::new("a.ron"), &one]);
-        assert_eq!(files.look(), files.stamps);
-        // What may have changed while it was read is read again.
-        files.name(&[one, two], SystemTime::UNIX_EPOCH);
-        assert_ne!(files.look(), files.stamps);
-        fs::remove_dir_all(folder).unwrap();
-    }
-
-    #[test]
-    fn messages_keep_to_the_screen() {
-        let text = "\x1b[1mfirst\x1b[0m\nsecond, which is long\n\nlast";
-        assert_eq!(message(text, (80, 9)), format!("{text}\n"));
-        assert_eq!(
-            message(text, (80, 4)),
-            "\x1b[1mfirst\x1b[0m\nsecond, which is long\n\n"
-        );
-        // Twenty-one letters are three lines of ten.
-        assert_eq!(message(text, (10, 4)), "\x1b[1mfirst\x1b[0m\n");
-        assert_eq!(
-            message(text, (10, 5)),
-            message("\x1b[1mfirst\x1b[0m\nsecond, which is long", (80, 9))
-        );
-        assert_eq!(message(text, (80, 1)), "");
-    }
-}
+mod tests;

@@ -146,7 +146,7 @@ fn quoted(cell: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::report::results::tests::report;
+    use crate::commands::report::tests::report;
 
     #[test]
     fn cells_are_quoted_where_they_must_be() {

@@ -73,10 +73,7 @@ pub(super) struct Setting {
 
 impl Setting {
     pub(super) fn tolerance(&self) -> Option<f64> {
-        match self.method {
-            Method::Tolerance(tolerance) => Some(tolerance),
-            Method::Samples(_) => None,
-        }
+        tolerance_of(self.method)
     }
 
     /// The median time.
@@ -186,10 +183,7 @@ impl Plan<'_> {
         let name = format!("run 1 of {}, {}", self.runs, name(method));
         let (image, time) = self.render(method, &name, None, None)?;
         self.progress.picture_done(&name, time);
-        let tolerance = match method {
-            Method::Tolerance(tolerance) => Some(tolerance),
-            Method::Samples(_) => None,
-        };
+        let tolerance = tolerance_of(method);
         Ok(Setting {
             method,
             times: vec![time],
@@ -248,6 +242,13 @@ impl Reference {
             error * error
         });
         (squares.sum::<f64>() / self.known.max(1) as f64).sqrt()
+    }
+}
+
+fn tolerance_of(method: Method) -> Option<f64> {
+    match method {
+        Method::Tolerance(tolerance) => Some(tolerance),
+        Method::Samples(_) => None,
     }
 }
 

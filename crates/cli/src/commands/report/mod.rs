@@ -96,13 +96,13 @@ fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
             return Err(Failure::unusable(path, &why));
         }
     }
-    match (csv, plot) {
-        (Some(csv), Some(plot)) if is_same(csv, plot) => Err(Failure::unusable(
-            csv,
-            "--csv and --plot name the same file",
-        )),
-        _ => Ok(()),
+    if let (Some(csv), Some(plot)) = (csv, plot)
+        && is_same(csv, plot)
+    {
+        let why = "--csv and --plot name the same file";
+        return Err(Failure::unusable(csv, why));
     }
+    Ok(())
 }
 
 /// Refuses pictures that do not fit into the memory together.
@@ -127,25 +127,4 @@ fn conclusion(report: &Report) -> u8 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::commands::report::results::tests::report;
-
-    #[test]
-    fn whole_pictures_are_refused_where_they_do_not_fit() {
-        let square = |side| Size {
-            width: side,
-            height: side,
-        };
-        assert!(check_memory(square(9), Channels::Rgb).is_ok());
-        assert!(check_memory(square(1 << 26), Channels::Rgb).is_err());
-    }
-
-    #[test]
-    fn a_pixel_that_misses_its_tolerance_decides_the_exit_code() {
-        let mut report = report();
-        assert_eq!(conclusion(&report), status::SUCCESS);
-        report.measurement.settings[1].accuracy.missed = 1;
-        assert_eq!(conclusion(&report), status::FAILURE);
-    }
-}
+mod tests;

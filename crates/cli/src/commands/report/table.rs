@@ -181,7 +181,7 @@ fn markdown<const N: usize>(titles: &[String; N], rows: &[[String; N]]) -> Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::commands::report::results::tests::report;
+    use crate::commands::report::tests::report;
 
     #[test]
     fn tables_are_aligned() {

@@ -35,25 +35,18 @@ pub(crate) struct Blocks {
 #[derive(Clone, Copy, Debug)]
 struct Channel {
     name: &'static str,
-    source: Source,
+    /// The number of red, green, blue or alpha; `None` for the error.
+    light: Option<usize>,
     /// Bytes of a sample.
     bytes: usize,
-}
-
-/// The source of a channel's numbers.
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    /// One of red, green, blue and alpha, by number.
-    Light(usize),
-    Error,
 }
 
 impl Blocks {
     /// The blocks of a picture of this form.
     pub(crate) fn new(form: &Form, options: ExrOptions) -> Self {
-        let light = |(source, name)| Channel {
+        let light = |(number, name)| Channel {
             name,
-            source: Source::Light(source),
+            light: Some(number),
             bytes: if options.float { 4 } else { 2 },
         };
         // In the order of their names.
@@ -63,7 +56,7 @@ impl Blocks {
         if options.error {
             channels.push(Channel {
                 name: ERROR_CHANNEL,
-                source: Source::Error,
+                light: None,
                 // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
                 bytes: 4,
             });
@@ -112,24 +105,24 @@ impl Blocks {
                 let start = end + col as usize * channel.bytes;
                 let own = start..start + image.width() as usize * channel.bytes;
                 end += columns * channel.bytes;
-                clipped += match channel.source {
-                    Source::Error => {
+                clipped += match channel.light {
+                    None => {
                         let (floats, _) = samples[own].as_chunks_mut();
                         for (float, col) in floats.iter_mut().zip(0..) {
                             *float = float_above(image.error(col, row)).to_ne_bytes();
                         }
                         0
                     }
-                    Source::Light(source) => match &grey {
-                        Some((first, clipped)) if source < 3 => {
+                    Some(light) => match &grey {
+                        Some((first, clipped)) if light < 3 => {
                             samples.copy_within(Range::clone(first), start);
                             *clipped
                         }
                         _ => {
-                            let light = (0..image.width()).map(|col| image.rgba(col, row)[source]);
+                            let values = (0..image.width()).map(|col| image.rgba(col, row)[light]);
                             let samples = &mut samples[own.clone()];
-                            let clipped = encode_light(samples, self.options.float, light);
-                            if is_grey && source < 3 {
+                            let clipped = encode_light(samples, self.options.float, values);
+                            if is_grey && light < 3 {
                                 grey = Some((own, clipped));
                             }
                             clipped

@@ -87,7 +87,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         grey: numbers.colors.len() == 1,
         alpha: numbers.alpha.is_some(),
         description,
-        remarks: Vec::new(),
+        warning: None,
         samples: Box::new(numbers),
     })
 }

@@ -24,15 +24,15 @@ pub(crate) enum Curve {
 }
 
 impl Curve {
-    /// The curve that a file tells, by the strongest word about it, and warnings about what could not be
+    /// The curve that a file tells, by the strongest word about it, and a warning about what could not be
     /// followed.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
-    pub(crate) fn of(info: &Info) -> Result<(Self, Vec<String>), String> {
+    pub(crate) fn of(info: &Info) -> Result<(Self, Option<&'static str>), String> {
         if let Some(points) = info.coding_independent_code_points {
             return match points.transfer_function {
-                SRGB_TRANSFER => Ok((Self::Srgb, Vec::new())),
-                LINEAR_TRANSFER => Ok((Self::Linear, Vec::new())),
+                SRGB_TRANSFER => Ok((Self::Srgb, None)),
+                LINEAR_TRANSFER => Ok((Self::Linear, None)),
                 other => Err(format!(
                     "its cICP chunk names the transfer function {other}, expected \
                      {SRGB_TRANSFER} (sRGB) or {LINEAR_TRANSFER} (linear)"
@@ -40,8 +40,8 @@ impl Curve {
             };
         }
         if info.icc_profile.is_some() {
-            let remark = "its ICC profile is not applied, its colors are taken as sRGB";
-            return Ok((Self::Srgb, vec![remark.to_owned()]));
+            let warning = "its ICC profile is not applied, its colors are taken as sRGB";
+            return Ok((Self::Srgb, Some(warning)));
         }
         let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
         let curve = match gamma {
@@ -50,7 +50,7 @@ impl Curve {
             Some(gamma) if f64::from(gamma) == GAMMA_UNIT => Self::Linear,
             Some(gamma) => Self::Power(GAMMA_UNIT / f64::from(gamma)),
         };
-        Ok((curve, Vec::new()))
+        Ok((curve, None))
     }
 
     /// Its name, for people.

@@ -35,7 +35,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
     let info = reader.info();
     let (width, height) = (info.width as usize, info.height as usize);
     let picture_size = check_memory(width, height, color_type.samples() * depth_bytes)?;
-    let (curve, remarks) = Curve::of(info)?;
+    let (curve, warning) = Curve::of(info)?;
     // The entries of a palette have 8 bit, however short their numbers are.
     let bits = match info.color_type {
         ColorType::Indexed => 8,
@@ -62,7 +62,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         grey,
         alpha,
         description,
-        remarks,
+        warning,
         samples: Box::new(Codes {
             width,
             codes,

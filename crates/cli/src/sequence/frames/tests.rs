@@ -9,7 +9,7 @@ fn frames(text: &str) -> Vec<i32> {
 }
 
 fn refusal(text: &str) -> String {
-    text.parse::<FrameList>().unwrap_err().to_string()
+    text.parse::<FrameList>().unwrap_err()
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use super::*;
-use crate::commands::report::results::tests::report;
+use crate::commands::report::tests::report;
 
 /// The elements of a well-formed document, each with its attributes; panics on any other.
 fn elements(document: &str) -> Vec<String> {
