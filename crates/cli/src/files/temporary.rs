@@ -1,9 +1,9 @@
 //! Files that exist under a temporary name until they are complete.
 //!
 //! `a.png` is written as `a.png.tmp`, and by a second process at the same time as `a.png.1.tmp`.
-//! Whoever writes a file holds a lock on it, which ends with the process however that ends: what
-//! is not locked was left by one that was killed, and may be removed. Only who has the lock
-//! removes or moves a file, so that its name cannot come to mean another one meanwhile.
+//! The process that writes a file holds a lock on it, which ends with the process however that ends: a
+//! file that is not locked was left by one that was killed, and may be removed. Only the process that
+//! has the lock removes or moves a file, so that its name cannot come to mean another one meanwhile.
 
 use std::collections::HashMap;
 use std::ffi::{OsStr, OsString};
@@ -22,7 +22,7 @@ const ENDING: &str = ".tmp";
 /// The number of others that may be writing the same file.
 const MOST_OTHERS: u32 = 1000;
 
-/// The temporary files of this process; whoever holds the lock knows that none appears or moves.
+/// The temporary files of this process; a thread that holds the lock knows that none appears or moves.
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
 /// A file beside the place where it belongs, removed when it is dropped before its time.
@@ -46,7 +46,7 @@ impl TemporaryFile {
         Err(io::Error::new(ErrorKind::AlreadyExists, message))
     }
 
-    /// Creates the file unless somebody else is writing what belongs there.
+    /// Creates the file unless another process is writing what belongs there.
     pub(crate) fn claim(destination: &Path) -> io::Result<Option<Self>> {
         Self::numbered(destination, 0)
     }
@@ -96,7 +96,7 @@ impl Drop for TemporaryFile {
         let mut open = lock();
         if let Some(index) = open.iter().position(|path| *path == self.path) {
             open.swap_remove(index);
-            // Nobody waits for the answer.
+            // No caller waits for the answer.
             let _ = fs::remove_file(&self.path);
         }
     }
@@ -104,16 +104,16 @@ impl Drop for TemporaryFile {
 
 /// Creates a file and locks it; `None` where there is one that is not left over.
 fn create(path: &Path) -> io::Result<Option<File>> {
-    /// Each time that somebody comes in between, somebody else gets on.
+    /// Each time that another process comes in between, that one gets on.
     const ATTEMPTS: u32 = 10;
     for _ in 0..ATTEMPTS {
         let mut options = File::options();
         match options.read(true).write(true).create_new(true).open(path) {
             Ok(file) => match file.try_lock() {
-                // Somebody took it for left over.
+                // Another process took it for left over.
                 Err(TryLockError::WouldBlock) => {}
                 Ok(()) if !is_at(&file, path) => {}
-                // Without locks nobody will take it for left over.
+                // Without locks no process will take it for left over.
                 Ok(()) | Err(TryLockError::Error(_)) => return Ok(Some(file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
@@ -127,7 +127,7 @@ fn create(path: &Path) -> io::Result<Option<File>> {
     Ok(None)
 }
 
-/// Removes a file that nobody writes any more; returns whether it is gone.
+/// Removes a file that no process writes any more; returns whether it is gone.
 fn remove_left_over(path: &Path) -> bool {
     match File::options().read(true).write(true).open(path) {
         Ok(file) => match file.try_lock() {
@@ -174,7 +174,7 @@ pub(crate) struct LeftOver {
 }
 
 impl LeftOver {
-    /// Removes those for one place that nobody writes any more.
+    /// Removes those for one place that no process writes any more.
     pub(crate) fn remove(&mut self, destination: &Path) {
         let folder = super::destination::folder(destination);
         if !self.folders.contains_key(folder) {

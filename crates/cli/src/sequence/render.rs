@@ -20,8 +20,8 @@ use crate::terminal::progress::Progress;
 /// long run the slower of rendering and writing sets the pace.
 const WAITING_PICTURES: usize = 1;
 
-/// Renders and writes all frames in order, but for those that somebody else is at: they come
-/// last, if they are not there then.
+/// Renders and writes all frames in order, but for those that another process is rendering: they
+/// come last, if they are not there then.
 ///
 /// A frame that cannot be rendered or written is reported and left out.
 pub(crate) fn render(

@@ -26,10 +26,10 @@ struct State {
     is_closed: bool,
 }
 
-/// Closes the buffer when it goes out of scope, so that nobody waits for a thread that has ended.
+/// Closes the buffer when it goes out of scope, so that no thread waits for one that has ended.
 pub(super) struct Closing<'buffer>(&'buffer ReorderBuffer);
 
-/// The slot of a piece; closes the buffer when nothing is put into it though somebody wants it.
+/// The slot of a piece; closes the buffer when nothing is put into it though the piece is wanted.
 pub(super) struct Slot<'buffer> {
     buffer: &'buffer ReorderBuffer,
     number: u64,
@@ -47,7 +47,7 @@ impl ReorderBuffer {
     }
 
     /// Waits until the piece with this number may be made, and returns its slot. `None` when the buffer
-    /// is closed, or nobody wants the piece.
+    /// is closed, or the piece is not wanted.
     pub(super) fn admit(&self, number: u64) -> Option<Slot<'_>> {
         let mut state = self.lock();
         while number >= state.taken + self.capacity && !state.is_closed {
@@ -112,7 +112,7 @@ impl Drop for Closing<'_> {
 }
 
 impl Slot<'_> {
-    /// Puts the piece there, if anybody wants it.
+    /// Puts the piece there, if it is wanted.
     pub(super) fn put(self, piece: Piece) {
         let mut state = self.buffer.lock();
         if self.number >= state.taken {

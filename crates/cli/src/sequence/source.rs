@@ -27,7 +27,7 @@ pub(super) struct Source<'a> {
     renderer: &'a OnceLock<Renderer<'a>>,
     writer: SyncSender<Order>,
     frames: Box<dyn Iterator<Item = i32> + Send + 'a>,
-    /// Frames that somebody else is at.
+    /// Frames that another process is rendering.
     postponed: VecDeque<i32>,
     digests: Digests,
     left_over: LeftOver,
@@ -47,7 +47,7 @@ enum Decision {
     Render(Option<TemporaryFile>),
     /// Its file is there.
     Skip,
-    /// Somebody else is writing its file.
+    /// Another process is writing its file.
     Wait,
 }
 
@@ -147,7 +147,7 @@ impl<'a> Source<'a> {
         Ok(None)
     }
 
-    /// Begins the file of a frame, unless it is there or somebody else writes it.
+    /// Begins the file of a frame, unless it is there or another process writes it.
     ///
     /// A process that has waited once begins it all the same: another one that stands still would else
     /// keep all others from the end, and both write the same.
@@ -169,7 +169,7 @@ impl<'a> Source<'a> {
             None => save::begin(path)?,
             Some(file) => file,
         };
-        // Somebody may have finished it just before it was ours.
+        // Another process may have finished it just before it was ours.
         Ok(if is_there() {
             Decision::Skip
         } else {
@@ -177,8 +177,8 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Orders that a frame be written, and makes it ready to be rendered; `None` when nobody writes any
-    /// more.
+    /// Orders that a frame be written, and makes it ready to be rendered; `None` when the writer has
+    /// ended.
     fn begin(&mut self, wanted: Wanted<'a>, path: &Path) -> Option<InFlight<'a>> {
         let Wanted {
             exposure,

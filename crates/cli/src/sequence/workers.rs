@@ -9,10 +9,10 @@ use rayon::Yield;
 
 /// Work that threads share.
 pub(super) trait SharedWork: Send + Sync {
-    /// The number of its parts that nobody has begun.
+    /// The number of its parts that no thread has begun.
     fn left(&self) -> u32;
 
-    /// Does parts of it until there is none that nobody has begun; breaks when all work ends.
+    /// Does parts of it until every one is begun; breaks when all work ends.
     fn help(&self) -> ControlFlow<()>;
 }
 
@@ -52,7 +52,7 @@ struct State<T> {
 /// The state of the preparation of what comes after that.
 #[derive(Clone, Copy, Eq, PartialEq)]
 enum Preparation {
-    /// Nobody has begun it.
+    /// No thread has begun it.
     Waiting,
     /// A thread is at it.
     Running,
@@ -69,7 +69,7 @@ enum Step<T> {
 
 impl<T: SharedWork> Workers<T> {
     fn work(&self, threads: u32, prepare: &Mutex<impl FnMut() -> Option<T>>) {
-        // Nobody waits for a thread that has panicked.
+        // No thread waits for one that has panicked.
         let ending = Ending(self);
         loop {
             match self.next_step(threads) {

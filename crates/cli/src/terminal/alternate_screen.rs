@@ -28,7 +28,7 @@ impl Drop for AlternateScreen {
     }
 }
 
-/// Leaves the terminal as it was, whoever ends the process.
+/// Leaves the terminal as it was, also where a signal ends the process.
 pub(super) fn restore() {
     if HAS_ENTERED.swap(false, Ordering::Relaxed) {
         let mut out = io::stdout();

@@ -66,7 +66,7 @@ impl<'a> Lines<'a> {
             Reader::People => SILENCE,
             Reader::Json | Reader::OpenJd => Duration::ZERO,
         };
-        // Lines come in order because nobody prints without this lock.
+        // Lines come in order because no thread prints without this lock.
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         if percent > told.percent && told.at.elapsed() >= silence {
             told.percent = percent;
