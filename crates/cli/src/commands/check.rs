@@ -98,10 +98,7 @@ fn lens(view: &View) -> String {
 fn world(scene: &Scene) -> Vec<(&'static str, String)> {
     let world = scene.world();
     let mut rows = vec![("spheres", spheres(world.spheres()))];
-    if let Some((low, high)) = bounds(world.spheres()) {
-        rows.push(("  from", vector(low)));
-        rows.push(("  to", vector(high)));
-    }
+    rows.extend(bounds(world.spheres()));
     for cloud in scene.clouds() {
         rows.extend(self::cloud(scene, cloud));
     }
@@ -133,10 +130,7 @@ fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)>
     let all = &scene.world().spheres()[cloud.spheres.clone()];
     let file = cloud.file.display();
     let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
-    if let Some((low, high)) = bounds(all) {
-        rows.push(("  from", vector(low)));
-        rows.push(("  to", vector(high)));
-    }
+    rows.extend(bounds(all));
     if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
         let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
@@ -156,14 +150,14 @@ fn spheres(spheres: &[Sphere]) -> String {
 }
 
 /// The corners of the box around all spheres.
-fn bounds(spheres: &[Sphere]) -> Option<(DVec3, DVec3)> {
-    spheres
-        .iter()
-        .map(|sphere| {
-            let reach = DVec3::splat(sphere.radius());
-            (sphere.center() - reach, sphere.center() + reach)
-        })
-        .reduce(|(low, high), (other_low, other_high)| (low.min(other_low), high.max(other_high)))
+fn bounds(spheres: &[Sphere]) -> Vec<(&'static str, String)> {
+    let boxes = spheres.iter().map(|sphere| {
+        let reach = DVec3::splat(sphere.radius());
+        (sphere.center() - reach, sphere.center() + reach)
+    });
+    let around = boxes.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+    let rows = around.map(|(low, high)| [("  from", vector(low)), ("  to", vector(high))]);
+    rows.into_iter().flatten().collect()
 }
 
 fn directional(light: &DirectionalLight) -> String {

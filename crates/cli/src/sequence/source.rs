@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 use std::sync::mpsc::{SyncSender, channel};
 
@@ -43,18 +43,19 @@ pub(super) struct InFlight<'a> {
 }
 
 /// The decision about a frame.
-enum Decision {
-    Render(Option<TemporaryFile>),
+enum Decision<'a> {
+    Render(Box<Wanted<'a>>),
     /// Its file is there.
     Skip,
     /// Another process is writing its file.
     Wait,
 }
 
-/// A frame that is wanted, and the part of its file that is there.
+/// A frame that is wanted.
 struct Wanted<'a> {
     exposure: Exposure<'a>,
     facts: Facts,
+    /// The file to write; `None` where all frames are one file.
     file: Option<TemporaryFile>,
 }
 
@@ -87,9 +88,14 @@ impl<'a> Source<'a> {
             let is_postponed = next.is_none();
             let frame = next.or_else(|| self.postponed.pop_front())?;
             let path = self.pipeline.request.pattern.path(frame);
-            match self.wanted(frame, &path, is_postponed) {
-                Ok(Some(wanted)) => return self.begin(wanted, &path),
-                Ok(None) => {}
+            match self.decide(frame, &path, is_postponed) {
+                Ok(Decision::Render(wanted)) => return self.begin(*wanted, path),
+                Ok(Decision::Wait) => self.postponed.push_back(frame),
+                Ok(Decision::Skip) => {
+                    self.pipeline.skip();
+                    self.pipeline.progress.result(&messages::skipped(&path));
+                    self.pipeline.progress.leave_out();
+                }
                 Err(failure) => {
                     self.pipeline.fail(frame, &path, &failure);
                     self.pipeline.progress.leave_out();
@@ -99,16 +105,17 @@ impl<'a> Source<'a> {
         None
     }
 
-    /// The frame as it is rendered, if it is to be rendered now.
-    fn wanted(
+    /// Begins the file of a frame, unless it is there or another process writes it.
+    ///
+    /// A process that has waited once begins it all the same: another one that stands still would else
+    /// keep all others from the end, and both write the same.
+    fn decide(
         &mut self,
         frame: i32,
         path: &Path,
-        is_postponed: bool,
-    ) -> Result<Option<Wanted<'a>>, Failure> {
-        let Pipeline {
-            request, progress, ..
-        } = self.pipeline;
+        has_waited: bool,
+    ) -> Result<Decision<'a>, Failure> {
+        let request = self.pipeline.request;
         let view = request.scene.view(frame);
         let view = view.map_err(|error| Failure::Work(error.to_string()))?;
         let view = request.resized(view);
@@ -129,57 +136,36 @@ impl<'a> Source<'a> {
             }),
         };
         save::clean(path, &mut self.left_over);
-        match self.decide(path, &facts, is_postponed)? {
-            Decision::Render(file) => {
-                return Ok(Some(Wanted {
-                    exposure,
-                    facts,
-                    file,
-                }));
-            }
-            Decision::Skip => {
-                self.pipeline.skip();
-                progress.result(&messages::skipped(path));
-                progress.leave_out();
-            }
-            Decision::Wait => self.postponed.push_back(frame),
-        }
-        Ok(None)
-    }
-
-    /// Begins the file of a frame, unless it is there or another process writes it.
-    ///
-    /// A process that has waited once begins it all the same: another one that stands still would else
-    /// keep all others from the end, and both write the same.
-    fn decide(&self, path: &Path, facts: &Facts, has_waited: bool) -> Result<Decision, Failure> {
-        let request = self.pipeline.request;
-        if request.is_animation() {
-            return Ok(Decision::Render(None));
-        }
-        if !request.skip_existing {
-            return Ok(Decision::Render(Some(save::begin(path)?)));
-        }
         let contents = (facts.digest, self.pipeline.encoder.form.region);
         let is_there = || load::contents(path) == Some(contents);
-        if is_there() {
+        let file = if request.is_animation() {
+            None
+        } else if !request.skip_existing {
+            Some(save::begin(path)?)
+        } else if is_there() {
             return Ok(Decision::Skip);
-        }
-        let file = match save::claim(path)? {
-            None if !has_waited => return Ok(Decision::Wait),
-            None => save::begin(path)?,
-            Some(file) => file,
-        };
-        // Another process may have finished it just before it was ours.
-        Ok(if is_there() {
-            Decision::Skip
         } else {
-            Decision::Render(Some(file))
-        })
+            let file = match save::claim(path)? {
+                None if !has_waited => return Ok(Decision::Wait),
+                None => save::begin(path)?,
+                Some(file) => file,
+            };
+            // Another process may have finished it just before it was ours.
+            if is_there() {
+                return Ok(Decision::Skip);
+            }
+            Some(file)
+        };
+        Ok(Decision::Render(Box::new(Wanted {
+            exposure,
+            facts,
+            file,
+        })))
     }
 
     /// Orders that a frame be written, and makes it ready to be rendered; `None` when the writer has
     /// ended.
-    fn begin(&mut self, wanted: Wanted<'a>, path: &Path) -> Option<InFlight<'a>> {
+    fn begin(&mut self, wanted: Wanted<'a>, path: PathBuf) -> Option<InFlight<'a>> {
         let Wanted {
             exposure,
             facts,
@@ -198,7 +184,7 @@ impl<'a> Source<'a> {
         let (sender, finished) = channel();
         let order = Order {
             facts,
-            path: path.to_owned(),
+            path,
             file,
             end: first_piece + u64::from(encoder.pieces()),
             finished,
@@ -206,9 +192,10 @@ impl<'a> Source<'a> {
         self.writer.send(order).ok()?;
 
         let world = request.scene.world();
-        let prepare = || Renderer::new(world);
-        let prepare = || progress.while_preparing(world.spheres().len(), prepare);
-        let renderer = self.renderer.get_or_init(prepare);
+        let renderer = self.renderer.get_or_init(|| {
+            progress.prepare(world.spheres().len());
+            Renderer::new(world)
+        });
         let region = encoder.form.region;
         progress.begin(self.begun, region.size().pixels());
         self.begun += 1;

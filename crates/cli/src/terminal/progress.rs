@@ -79,18 +79,15 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Does what prepares the rendering of so many spheres.
-    pub(crate) fn while_preparing<T>(&self, spheres: usize, prepare: impl FnOnce() -> T) -> T {
+    /// The rendering of so many spheres is prepared.
+    pub(crate) fn prepare(&self, spheres: usize) {
         /// Fewer take no time.
         const MANY: usize = 1 << 15;
-        let Display::Bar(bar) = &self.display else {
-            return prepare();
-        };
-        if spheres < MANY {
-            return prepare();
+        if let Display::Bar(bar) = &self.display
+            && spheres >= MANY
+        {
+            show_line(bar, format!("preparing {spheres} spheres"));
         }
-        show_line(bar, format!("preparing {spheres} spheres"));
-        prepare()
     }
 
     /// A frame begins, the one with this index of those that are not left out; the others are

@@ -13,6 +13,7 @@ mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+mod merge;
 #[cfg(target_os = "linux")]
 mod preview;
 mod progress;

@@ -32,10 +32,10 @@ pub(super) fn render(
     progress: Option<&Progress<'_>>,
 ) -> Result<Picture, Cancelled> {
     let world = scene.world();
-    let renderer = match progress {
-        Some(progress) => progress.while_preparing(world.spheres().len(), || Renderer::new(world)),
-        None => Renderer::new(world),
-    };
+    if let Some(progress) = progress {
+        progress.prepare(world.spheres().len());
+    }
+    let renderer = Renderer::new(world);
     let settings = Settings {
         method: Method::Tolerance(tolerance),
         alpha: false,
