@@ -99,8 +99,8 @@ fn check_names(
             "all frames are one file, whose name has no place for their number",
         ));
     }
-    if frames.is_sequence() && !pattern.is_numbered() && !is_animation {
-        let count = frames.count();
+    let count = frames.count();
+    if count > 1 && !pattern.is_numbered() && !is_animation {
         return Err(Failure::unusable(
             &pattern.path(FRAME_OF_A_STILL),
             &format!(

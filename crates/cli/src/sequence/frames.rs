@@ -66,11 +66,6 @@ impl FrameList {
         frames.dedup();
         frames.len() as u64
     }
-
-    /// Returns whether there is more than one frame.
-    pub(crate) fn is_sequence(&self) -> bool {
-        self.iter().nth(1).is_some()
-    }
 }
 
 /// Frames as users write them, in order: `3-7,9`, and no more than one can look at.

@@ -1,7 +1,7 @@
 //! The state that the threads which render and the one which writes have in common.
 
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::AtomicU64;
 use std::sync::mpsc::Receiver;
 
 use marbles_core::Channels;
@@ -35,7 +35,7 @@ pub(super) struct Pipeline<'a> {
     pub(super) clock: Clock,
     pub(super) failures: Failures,
     /// Frames whose files were there.
-    skipped: AtomicU64,
+    pub(super) skipped: AtomicU64,
 }
 
 /// A picture that is on its way to its file.
@@ -88,16 +88,6 @@ impl<'a> Pipeline<'a> {
     /// Counts a frame that could not be rendered or written, and says so.
     pub(super) fn fail(&self, frame: i32, path: &Path, failure: &Failure) {
         self.failures.add(frame, path, failure, self.progress);
-    }
-
-    /// Counts a frame whose file is there.
-    pub(super) fn skip(&self) {
-        self.skipped.fetch_add(1, Ordering::Relaxed);
-    }
-
-    /// The number of frames whose files were there.
-    pub(super) fn skipped(&self) -> u64 {
-        self.skipped.load(Ordering::Relaxed)
     }
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn render(
         let written = writer.join();
         written.unwrap_or_else(|panic| panic::resume_unwind(panic))
     });
-    let (frames, skipped) = (request.frames.count(), pipeline.skipped());
+    let (frames, skipped) = (request.frames.count(), pipeline.skipped.into_inner());
     Ok(Outcome {
         frames,
         skipped,

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::{SyncSender, channel};
 
 use marbles_core::{Exposure, Renderer, Rendering};
@@ -92,7 +93,7 @@ impl<'a> Source<'a> {
                 Ok(Decision::Render(wanted)) => return self.begin(*wanted, path),
                 Ok(Decision::Wait) => self.postponed.push_back(frame),
                 Ok(Decision::Skip) => {
-                    self.pipeline.skip();
+                    self.pipeline.skipped.fetch_add(1, Ordering::Relaxed);
                     self.pipeline.progress.result(&messages::skipped(&path));
                     self.pipeline.progress.leave_out();
                 }

@@ -1,5 +1,6 @@
 //! The thread that writes: pictures become files in the order of their rendering.
 
+use std::sync::atomic::Ordering;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
@@ -20,7 +21,7 @@ pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> O
         match write_file(order, pipeline) {
             Ok((summary, time)) => {
                 outcome.add(summary, time);
-                let skipped = pipeline.skipped();
+                let skipped = pipeline.skipped.load(Ordering::Relaxed);
                 pipeline.progress.written(frame, outcome.written, skipped);
             }
             Err(Unwritten::Stopped) => break,

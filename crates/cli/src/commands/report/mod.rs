@@ -14,6 +14,8 @@ mod results;
 mod row;
 mod table;
 
+use std::path::Path;
+
 use marbles_core::{Channels, Renderer};
 
 use self::measure::Plan;
@@ -32,7 +34,7 @@ use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
-    plot::check_name(arguments.plot.as_deref())?;
+    arguments.plot.as_deref().map_or(Ok(()), check_plot)?;
     let scene = scene::load(&arguments.scene, console, arguments.quiet)?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
@@ -81,6 +83,18 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         }
     }
     Ok(conclusion(&report))
+}
+
+/// Refuses a name of the plot's file that does not end in `.svg`.
+fn check_plot(path: &Path) -> Result<(), Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--plot: expected a file name that ends in .svg, the one format of plots, found `{}`",
+        path.display()
+    )))
 }
 
 /// Refuses files that would take the place of the scene or of each other.

@@ -36,17 +36,17 @@ pub(crate) fn write_floats(
         ..LayerAttributes::default()
     };
     let header = header_of(size, names.collect()).with_attributes(attributes);
-    let row_of = |values: &[f32], row: u32| {
-        let start = row as usize * size.width as usize;
-        let row = &values[start..start + size.width as usize];
-        row.iter()
-            .flat_map(|value| value.to_ne_bytes())
-            .collect::<Vec<u8>>()
-    };
+    let width = size.width as usize;
     Ok(save(path, |mut file| {
         write_rows(file.file(), header, |rows| {
-            let rows = rows.flat_map(|row| channels.iter().map(move |(_, values)| (values, row)));
-            Ok(rows.flat_map(|(values, row)| row_of(values, row)).collect())
+            let mut samples = Vec::new();
+            for row in rows {
+                for (_, values) in &channels {
+                    let row = &values[row as usize * width..][..width];
+                    samples.extend(row.iter().flat_map(|value| value.to_ne_bytes()));
+                }
+            }
+            Ok(samples)
         })?;
         Ok(file)
     })?)

@@ -4,7 +4,6 @@ fn frames(text: &str) -> Vec<i32> {
     let list: FrameList = text.parse().unwrap();
     let frames: Vec<i32> = list.iter().collect();
     assert_eq!(list.count(), frames.len() as u64, "{text}");
-    assert_eq!(list.is_sequence(), frames.len() > 1, "{text}");
     frames
 }
 
@@ -67,7 +66,6 @@ fn frames_are_listed_as_users_write_them() {
 fn extremes_are_lazy() {
     let list = FrameList::from(i32::MIN..=i32::MAX);
     assert_eq!(list.count(), 1 << 32);
-    assert!(list.is_sequence());
     let ends = "-2147483648-2147483647x4294967295";
     assert_eq!(frames(ends), [i32::MIN, i32::MAX]);
 }
@@ -85,7 +83,6 @@ fn long_lists_are_counted_or_refused_at_once() {
 
     let list: FrameList = overlapping(-900_000, 900_000).parse().unwrap();
     assert!((1_000_000..1_800_001).contains(&list.count()));
-    assert!(list.is_sequence());
     assert_eq!(
         refusal("5,1-10000000"),
         format!("{expected}{}", MOST_FRAMES + 1)
