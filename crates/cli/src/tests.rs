@@ -1,5 +1,7 @@
 //! Command lines as a whole, without a process.
 
+use std::path::PathBuf;
+
 use super::*;
 use crate::terminal::console::tests::Text;
 
@@ -11,6 +13,12 @@ pub(crate) const SCENE: &str = "(
     spheres: [(center: (0, 0, 400), radius: 300)],
 )
 ";
+
+/// A path that no other test uses.
+pub(crate) fn temporary(name: &str) -> PathBuf {
+    let process = std::process::id();
+    std::env::temp_dir().join(format!("marbles-{process}-{name}"))
+}
 
 /// The exit code, and what is on stdout and stderr.
 pub(crate) fn run_here(args: &[&str]) -> (u8, String, String) {
@@ -33,8 +41,7 @@ fn help_goes_to_stdout_and_errors_to_stderr() {
 
 #[test]
 fn check_tells_what_the_scene_contains() {
-    let name = format!("marbles-{}-check.ron", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let path = temporary("check.ron");
     std::fs::write(&path, SCENE).unwrap();
     let (code, out, err) = run_here(&["check", path.to_str().unwrap()]);
     std::fs::remove_file(&path).unwrap();

@@ -219,10 +219,7 @@ fn ended_by(signal: &str, child: Child, folder: &Folder) -> Output {
         assert!(started.elapsed() < Duration::from_secs(60));
         sleep(Duration::from_millis(5));
     }
-    let kill = Command::new("kill")
-        .args([&format!("-{signal}"), &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    crate::signals::signal(signal, &child);
     child.wait_with_output().unwrap()
 }
 

@@ -1,10 +1,12 @@
 //! `marbles report` as a process: exit codes, files, the form of its results.
 
 use std::fs;
-use std::process::{Command, Stdio};
+use std::process::Stdio;
 use std::time::Duration;
 
 use crate::folder::{Folder, text};
+#[cfg(unix)]
+use crate::signals::signal;
 
 /// A ball before the camera, so small that all settings are measured in no time.
 const BALL: &str = "(
@@ -213,10 +215,7 @@ fn interrupted_reports_write_nothing() {
     let mut errors = child.stderr.take().unwrap();
     std::io::Read::read_exact(&mut errors, &mut first).unwrap();
     std::thread::sleep(Duration::from_millis(20));
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    signal("INT", &child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(output.stdout.is_empty());

@@ -8,7 +8,7 @@ use std::time::Duration;
 use exr::meta::MetaData;
 
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
-use crate::signals::wait_until;
+use crate::signals::{signal, wait_until};
 
 /// A turntable of three balls in color.
 pub(crate) const TURNTABLE: &str = "(
@@ -62,12 +62,6 @@ fn start(folder: &Folder, arguments: &str) -> Child {
     let mut marbles = folder.marbles(arguments);
     let marbles = marbles.stdout(Stdio::piped()).stderr(Stdio::piped());
     marbles.spawn().unwrap()
-}
-
-fn signal(name: &str, child: &Child) {
-    let id = child.id().to_string();
-    let kill = Command::new("kill").args([name, &id]).status();
-    assert!(kill.unwrap().success());
 }
 
 #[test]
@@ -197,7 +191,7 @@ fn what_a_living_process_writes_is_left_alone() {
     let render = "render turn.ron -o out/#.png --frames 1-2 --samples 60 --skip-existing";
     let mut living = start(&folder, render);
     wait_until("a start", || folder.path("out/1.png.tmp").exists());
-    signal("-STOP", &living);
+    signal("STOP", &living);
     // As another that was killed leaves it.
     fs::write(folder.path("out/2.png.3.tmp"), "").unwrap();
     let output = folder.run(render);
@@ -205,7 +199,7 @@ fn what_a_living_process_writes_is_left_alone() {
     assert!(folder.path("out/1.png.tmp").exists());
     assert!(!folder.path("out/2.png.3.tmp").exists());
     let bytes = [1, 2].map(|frame| folder.read(&format!("out/{frame}.png")));
-    signal("-CONT", &living);
+    signal("CONT", &living);
     assert_eq!(living.wait().unwrap().code(), Some(0));
     assert_eq!(folder.names("out"), ["1.png", "2.png"]);
     for (frame, bytes) in (1..).zip(bytes) {

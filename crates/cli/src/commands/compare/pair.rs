@@ -13,8 +13,8 @@ pub(super) struct Pair {
 const CHANNELS: [&str; 4] = ["R", "G", "B", "A"];
 
 impl Pair {
-    /// The channels of red, green, blue and alpha that are compared: one of the colors where both pictures are
-    /// grey, alpha where one has it.
+    /// The channels of red, green, blue and alpha that are compared: one of the colors where both
+    /// pictures are grey, alpha where one has it.
     pub(super) fn channels(&self) -> &'static [usize] {
         let grey = self.a.grey && self.b.grey;
         match (grey, self.a.alpha || self.b.alpha) {

@@ -7,7 +7,8 @@ use crate::base::failure::Failure;
 /// The most tasks that Slurm's largest `MaxArraySize` has room for.
 const MOST_TASKS: usize = 4_000_000;
 
-/// The part of a task that handles signals, before the renderer starts beside the shell, which gets them.
+/// The part of a task that handles signals, before the renderer starts beside the shell, which gets
+/// them.
 ///
 /// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
 /// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from

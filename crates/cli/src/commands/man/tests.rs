@@ -1,7 +1,7 @@
 use std::fs;
 
 use super::*;
-use crate::tests::run_here;
+use crate::tests::{run_here, temporary};
 
 #[test]
 fn every_command_has_a_page() {
@@ -63,8 +63,7 @@ fn unknown_commands_have_none() {
 
 #[test]
 fn a_folder_takes_all_pages() {
-    let name = format!("marbles-{}-man", std::process::id());
-    let folder = std::env::temp_dir().join(name);
+    let folder = temporary("man");
     let (code, out, err) = run_here(&["man", "-o", folder.to_str().unwrap()]);
     assert_eq!((code, &*err), (0, ""));
     let pages = fs::read_dir(&folder).unwrap().count();

@@ -1,16 +1,9 @@
-use std::path::PathBuf;
-
 use super::*;
-use crate::tests::run_here;
-
-fn folder(name: &str) -> PathBuf {
-    let process = std::process::id();
-    std::env::temp_dir().join(format!("marbles-{process}-new-{name}"))
-}
+use crate::tests::{run_here, temporary};
 
 #[test]
 fn new_scenes_are_valid_and_rendered() {
-    let folder = folder("valid");
+    let folder = temporary("new-valid");
     for (name, option) in [("still", None), ("turn", Some("--turntable"))] {
         let scene = folder.join(format!("{name}.ron"));
         let scene = scene.to_str().unwrap();
@@ -37,7 +30,7 @@ fn new_scenes_are_valid_and_rendered() {
 
 #[test]
 fn files_that_are_there_stay() {
-    let folder = folder("there");
+    let folder = temporary("new-there");
     fs::create_dir_all(&folder).unwrap();
     let scene = folder.join("mine.ron");
     fs::write(&scene, "mine").unwrap();

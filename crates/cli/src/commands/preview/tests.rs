@@ -7,7 +7,7 @@ use super::picture::render;
 use super::screen::Area;
 use crate::base::size::Size;
 use crate::formats::tests::view;
-use crate::tests::{SCENE, run_here};
+use crate::tests::{SCENE, run_here, temporary};
 
 #[test]
 fn pictures_fill_the_area_one_way() {
@@ -33,8 +33,7 @@ fn pictures_fill_the_area_one_way() {
 
 #[test]
 fn without_a_terminal_the_picture_is_a_text() {
-    let name = format!("marbles-{}-preview.ron", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let path = temporary("preview.ron");
     fs::write(&path, SCENE).unwrap();
     let scene = path.to_str().unwrap();
     let (code, out, err) = run_here(&["preview", scene]);
@@ -56,8 +55,7 @@ fn without_a_terminal_the_picture_is_a_text() {
 
 #[test]
 fn the_frame_that_is_asked_for_is_shown() {
-    let name = format!("marbles-{}-preview-frames.ron", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let path = temporary("preview-frames.ron");
     let away = "camera: Free(),
     animation: Keyframes(frames: (1, 2), keys: [(frame: 1, pan: 0), (frame: 2, pan: 180)])";
     fs::write(&path, SCENE.replace("camera: Free()", away)).unwrap();
@@ -75,7 +73,7 @@ fn the_frame_that_is_asked_for_is_shown() {
 
 #[test]
 fn pixels_are_those_of_a_file() {
-    let folder = std::env::temp_dir().join(format!("marbles-{}-preview", std::process::id()));
+    let folder = temporary("preview");
     fs::create_dir_all(&folder).unwrap();
     let [scene, file] = ["ball.ron", "ball.png"].map(|name| folder.join(name));
     fs::write(&scene, SCENE).unwrap();

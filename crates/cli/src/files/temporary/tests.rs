@@ -1,12 +1,7 @@
 use std::io::Write;
 
 use super::*;
-
-/// A file name in the tests' own folder that no other test uses.
-fn destination(name: &str) -> PathBuf {
-    let process = std::process::id();
-    std::env::temp_dir().join(format!("marbles-{process}-{name}"))
-}
+use crate::tests::temporary as destination;
 
 #[test]
 fn files_appear_when_they_are_complete() {

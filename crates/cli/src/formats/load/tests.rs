@@ -7,6 +7,7 @@ use crate::base::size::Size;
 use crate::formats::encoding::{ExrOptions, PngOptions};
 use crate::formats::png::write::write_grey;
 use crate::formats::tests::{DIGEST, Scene, exr_bytes, png_bytes, render, size};
+use crate::tests::temporary;
 
 #[test]
 fn refuses_what_is_no_picture() {
@@ -39,8 +40,7 @@ fn whole_pictures_tell_their_digest() {
     for file in files() {
         assert_eq!(of(&file), Some((DIGEST, whole)));
     }
-    let name = format!("marbles-{}-undigested.png", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let path = temporary("undigested.png");
     let (width, height) = (2, 1);
     write_grey(Size { width, height }, &[0, 1], &path).unwrap();
     assert_eq!(contents(&path), None);

@@ -92,8 +92,8 @@ fn the_next_begins_while_others_end_the_last() {
     assert_eq!(begun.into_inner().unwrap(), last);
 }
 
-/// A thread that comes to work that is nearly done prepares the next, before there is nothing left to begin: no
-/// part ends here until that has happened.
+/// A thread that comes to work that is nearly done prepares the next, before there is nothing left to
+/// begin: no part ends here until that has happened.
 #[test]
 fn the_next_is_prepared_while_others_do_the_last() {
     /// Far longer than it should take.

@@ -5,12 +5,12 @@ use crate::base::size::Size;
 use crate::formats::exr::write::write_floats;
 use crate::formats::load;
 use crate::formats::picture::Picture;
+use crate::tests::temporary;
 
 /// A picture of floats, one line high.
 fn line(values: &[f32]) -> Picture {
     let width = values.len() as u32;
-    let name = format!("marbles-{}-{:p}.exr", std::process::id(), values);
-    let path = std::env::temp_dir().join(name);
+    let path = temporary(&format!("{values:p}.exr"));
     let size = Size { width, height: 1 };
     write_floats(size, vec![("Y", values.to_vec())], &path).unwrap();
     let picture = load::picture(&path).unwrap();

@@ -1,8 +1,8 @@
 use super::*;
+use crate::tests::temporary;
 
 fn folder(name: &str) -> PathBuf {
-    let process = std::process::id();
-    let folder = std::env::temp_dir().join(format!("marbles-{process}-watch-{name}"));
+    let folder = temporary(&format!("watch-{name}"));
     fs::create_dir_all(&folder).unwrap();
     folder
 }

@@ -6,6 +6,7 @@ use png::{BitDepth, Decoder};
 use super::*;
 use crate::formats::encoding::PngOptions;
 use crate::formats::tests::{Scene, png_bytes, render, size};
+use crate::tests::temporary;
 
 const ALL: [PngOptions; 4] = [
     PngOptions {
@@ -128,8 +129,7 @@ fn noise_does_not_grow() {
     };
     let samples: Vec<u8> = (0..SIDES.pixels() * 3).map(|_| noise()).collect();
     let shape = Shape::of_codes(SIDES, ColorType::Rgb);
-    let name = format!("marbles-{}-noise.png", std::process::id());
-    let path = std::env::temp_dir().join(name);
+    let path = temporary("noise.png");
     let codes = |stream: &mut dyn Write| Ok(stream.write_all(&samples)?);
     save(&path, |file| write(file, shape, &[], codes)).unwrap();
     let bytes = std::fs::read(&path).unwrap();
