@@ -24,8 +24,7 @@ pub(crate) enum Curve {
 }
 
 impl Curve {
-    /// The curve that a file tells, by the strongest word about it, and a warning about what could not
-    /// be followed.
+    /// The curve by a file's strongest word about it, and a warning where that cannot be followed.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
     pub(crate) fn of(info: &Info) -> Result<(Self, Option<&'static str>), String> {
