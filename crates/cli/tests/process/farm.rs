@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::folder::{BALL, Folder, code, text};
 
-/// What shells, directives and templates would read as something else.
+/// Names that shells, directives and templates would read as something else.
 const ODD: &str = "it's \"one\" $HOME `id` \\n !x *;& #1 {é} ";
 /// Prints the words of its command line.
 const ECHO: &str = "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
@@ -206,23 +206,20 @@ fn tasks_are_queued_again_though_the_renderer_has_just_started() {
     );
 }
 
-/// Whether shells that this process starts ignore SIGINT, as all do in the background of a script.
+/// Returns whether shells that this process starts ignore SIGINT, as all do in the background of a script.
 fn ignores_interrupts() -> bool {
     let shell = Command::new("sh").args(["-c", "kill -INT $$"]).status();
     shell.unwrap().success()
 }
 
-/// What a task says that gets a signal as soon as it renders.
+/// The output of a task that gets a signal as soon as it renders.
 fn ended_by(signal: &str, child: Child, folder: &Folder) -> Output {
     let started = Instant::now();
     while !folder.path("started").exists() {
         assert!(started.elapsed() < Duration::from_secs(60));
         sleep(Duration::from_millis(5));
     }
-    let kill = Command::new("kill")
-        .args([&format!("-{signal}"), &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    crate::signals::signal(signal, &child);
     child.wait_with_output().unwrap()
 }
 

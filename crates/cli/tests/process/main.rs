@@ -1,4 +1,4 @@
-//! What only the real process shows: exit codes, signals, disks, pipes.
+//! Tests of what only the real process shows: exit codes, signals, disks, pipes.
 
 #![allow(
     clippy::print_stderr,
@@ -6,15 +6,18 @@
 )]
 
 mod animation;
+mod compare;
 #[cfg(unix)]
 mod farm;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
+mod merge;
 #[cfg(target_os = "linux")]
 mod preview;
 mod progress;
+mod report;
 mod sequences;
 mod signals;
 #[cfg(target_os = "linux")]

@@ -18,13 +18,17 @@ pub(crate) fn wait_until(what: &str, condition: impl Fn() -> bool) {
     }
 }
 
+/// Sends the process the signal with this name.
+pub(crate) fn signal(name: &str, child: &Child) {
+    let arguments = [format!("-{name}"), child.id().to_string()];
+    let kill = Command::new("kill").args(arguments).status();
+    assert!(kill.unwrap().success());
+}
+
 /// Asks the process to end and waits: its exit code, and how long it took.
 pub(crate) fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
     let started = Instant::now();
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    signal("INT", child);
     let status = child.wait().unwrap();
     (status.code(), started.elapsed())
 }
@@ -123,7 +127,7 @@ fn a_stuck_process_ends_soon_when_interrupted() {
 /// hurry.
 #[test]
 fn a_second_interrupt_hurries_a_stuck_process() {
-    /// What a process that is interrupted once has, at least, to write what is ready.
+    /// The time that a process which is interrupted once has, at least, to write what is ready.
     const GRACE: Duration = Duration::from_millis(700);
     const ATTEMPTS: u32 = 5;
     let folder = Folder::new();
@@ -132,10 +136,7 @@ fn a_second_interrupt_hurries_a_stuck_process() {
         let started = Instant::now();
         // Two that come at once are one.
         while child.try_wait().unwrap().is_none() {
-            let kill = Command::new("kill")
-                .args(["-INT", &child.id().to_string()])
-                .status();
-            assert!(kill.unwrap().success());
+            signal("INT", &child);
             sleep(Duration::from_millis(30));
         }
         let is_early = started.elapsed() < GRACE;

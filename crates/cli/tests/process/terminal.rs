@@ -1,11 +1,11 @@
-//! What a terminal shows while the work goes on.
+//! Tests of what a terminal shows while the work goes on.
 
 use std::fs;
 use std::process::{Command, Stdio};
 
 use crate::folder::{Folder, text};
 
-/// What `marbles` prints on a terminal of this width; `None` where there is no way to have one.
+/// The output of `marbles` on a terminal of this width; `None` where there is no way to have one.
 fn run_on_terminal(folder: &Folder, columns: u32, arguments: &str) -> Option<String> {
     let marbles = folder.marbles(arguments);
     let program = marbles.get_program().to_str().unwrap();

@@ -1,0 +1,66 @@
+//! Reasons why a command ended before its work was done.
+
+use std::io;
+use std::path::Path;
+
+use marbles_scene::SceneError;
+use thiserror::Error;
+
+use super::status;
+
+/// A message for the user, and with it the exit code.
+#[derive(Debug, Error)]
+pub(crate) enum Failure {
+    /// The command line asks for what cannot be, or frames of the scene have no view.
+    #[error("{0}")]
+    Usage(String),
+    /// The scene file was refused.
+    #[error("{0}")]
+    Scene(Box<SceneError>),
+    /// Something else went wrong.
+    #[error("{0}")]
+    Work(String),
+}
+
+impl Failure {
+    /// A failure to do something with the file at `path`.
+    pub(crate) fn at(path: &Path, what: &str) -> Self {
+        Self::Work(format!("{}: {what}", path.display()))
+    }
+
+    /// A command line that names the file at `path`, which cannot be used.
+    pub(crate) fn unusable(path: &Path, why: &str) -> Self {
+        Self::Usage(format!("{}: {why}", path.display()))
+    }
+
+    /// A failure of the operating system to do what `what` names with the file at `path`.
+    pub(crate) fn io(path: &Path, what: &str, error: &io::Error) -> Self {
+        Self::at(path, &format!("{what}: {}", reason(error)))
+    }
+
+    pub(crate) fn exit_code(&self) -> u8 {
+        match self {
+            Self::Usage(_) | Self::Scene(_) => status::REFUSED,
+            Self::Work(_) => status::FAILURE,
+        }
+    }
+}
+
+/// The words of the operating system, in our manner.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let reason = error.to_string();
+    // The number in "No such file or directory (os error 2)" helps nobody.
+    let reason = reason
+        .rsplit_once(" (os error")
+        .map_or(&*reason, |(reason, _)| reason);
+    lower(reason)
+}
+
+/// A message of others in our manner, without a capital letter at the start.
+pub(crate) fn lower(message: &str) -> String {
+    let mut letters = message.chars();
+    match letters.next() {
+        Some(first) => first.to_lowercase().chain(letters).collect(),
+        None => String::new(),
+    }
+}

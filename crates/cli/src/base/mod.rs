@@ -1,0 +1,9 @@
+//! Failures and exit codes, sizes and parts of pictures, numbers for people.
+
+pub(crate) mod failure;
+pub(crate) mod memory;
+pub(crate) mod numbers;
+pub(crate) mod region;
+pub(crate) mod size;
+pub(crate) mod status;
+pub(crate) mod threads;

@@ -1,0 +1,86 @@
+//! The command line, as clap reads it.
+
+mod check;
+mod compare;
+mod farm;
+mod manual;
+mod merge;
+mod new;
+mod preview;
+mod render;
+mod report;
+mod values;
+
+use clap::{Parser, Subcommand};
+
+pub(crate) use self::check::CheckArguments;
+pub(crate) use self::compare::CompareArguments;
+pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
+pub(crate) use self::manual::{CompletionsArguments, ManArguments};
+pub(crate) use self::merge::MergeArguments;
+pub(crate) use self::new::NewArguments;
+pub(crate) use self::preview::PreviewArguments;
+pub(crate) use self::render::RenderArguments;
+pub(crate) use self::report::ReportArguments;
+
+/// Render scenes of spheres to pictures whose pixels are known
+#[derive(Debug, Parser)]
+#[command(name = "marbles", version, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Render(RenderArguments),
+    Preview(PreviewArguments),
+    Check(CheckArguments),
+    Compare(CompareArguments),
+    Merge(MergeArguments),
+    Report(ReportArguments),
+    Farm(FarmArguments),
+    New(NewArguments),
+    Completions(CompletionsArguments),
+    Man(ManArguments),
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn frames_may_begin_with_a_minus() {
+        for list in ["-5", "-10--5", "-5-5", "1-4"] {
+            let arguments = Arguments::try_parse_from(["marbles", "render", "a", "--frames", list]);
+            let Ok(Arguments {
+                command: Command::Render(render),
+            }) = arguments
+            else {
+                panic!("{list}: {arguments:?}");
+            };
+            assert_eq!(render.frames, list.parse().ok());
+        }
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_refused() {
+        for option in [
+            "--samples=0",
+            "--samples=1001",
+            "--threads=0",
+            "--threads=-1",
+            "--bits=12",
+        ] {
+            let arguments = Arguments::try_parse_from(["marbles", "render", "a", option]);
+            assert_eq!(arguments.unwrap_err().exit_code(), 2, "{option}");
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The arguments of `marbles render`.
+
+use std::num::NonZeroU32;
+use std::path::PathBuf;
+
+use clap::Args;
+use marbles_core::Window;
+
+use super::values::{above_zero, bits, samples, threads, tolerance_above_zero};
+use crate::base::region::window_of;
+use crate::base::size::Size;
+use crate::sequence::frames::FrameList;
+use crate::terminal::progress::ProgressForm;
+
+const EXAMPLES: &str = "\
+Examples:
+  marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
+  marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
+  marbles render ball.ron -o b%03d.png --frames 1-9x2,20
+  marbles render turn.ron -o turn.apng                a loop that browsers play
+  marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
+  marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
+  marbles render ball.ron -o small.png --frames 7 --size 150x150
+
+Exit codes:
+  0  everything is written, and every pixel met the tolerance
+  1  something failed, or some pixel did not meet the tolerance
+  2  the command line or the scene file is wrong
+  130  interrupted";
+
+/// Render the frames of a scene, one file each
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct RenderArguments {
+    /// Scene file
+    pub(crate) scene: PathBuf,
+
+    /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png or
+    /// .exr chooses the format, and .apng has all frames in one file, an animated PNG that plays in
+    /// a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    #[arg(short, long, value_name = "PATTERN")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Frames in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every other), 9-1:-1
+    /// (backward), and several of these with commas [default: all of the scene's]
+    #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
+    pub(crate) frames: Option<FrameList>,
+
+    /// Frames per second, in place of the scene's
+    #[arg(long, value_name = "FPS", value_parser = above_zero)]
+    pub(crate) fps: Option<f64>,
+
+    /// Leave out frames whose files are complete and made from the same scene and settings
+    #[arg(long)]
+    pub(crate) skip_existing: bool,
+
+    /// End at the first frame that cannot be rendered or written, instead of going on to the next
+    #[arg(long)]
+    pub(crate) fail_fast: bool,
+
+    /// Bring every channel of every pixel within E of its exact value, the average over the
+    /// pixel's square in linear light; E is absolute, and a white surface facing a light of
+    /// intensity 1 has the value 1
+    #[arg(long, value_name = "E", default_value = "1e-3", value_parser = tolerance_above_zero)]
+    pub(crate) tolerance: f64,
+
+    /// Average N × N samples in every pixel instead, whatever the error
+    #[arg(long, value_name = "N", value_parser = samples, conflicts_with = "tolerance")]
+    pub(crate) samples: Option<NonZeroU32>,
+
+    /// Render on N threads; the picture is the same for every N [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+
+    /// Size of the picture in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+
+    /// Render only a part of the picture, from column X and row Y on; `marbles merge` puts parts
+    /// together
+    #[arg(long, value_name = "X,Y,W,H", value_parser = window_of)]
+    pub(crate) region: Option<Window>,
+
+    /// Leave the background out, and store how much of each pixel the spheres cover
+    #[arg(long)]
+    pub(crate) alpha: bool,
+
+    /// Bits of a number in a PNG, 8 or 16 [default: 8]
+    #[arg(long, value_name = "BITS", value_parser = bits)]
+    pub(crate) bits: Option<u8>,
+
+    /// Write a PNG in color even if nothing in the scene has color
+    #[arg(long)]
+    pub(crate) rgb: bool,
+
+    /// Write an EXR in single precision instead of half
+    #[arg(long)]
+    pub(crate) float: bool,
+
+    /// Store each pixel's error in an EXR as well, in a channel `error` in single precision
+    #[arg(long)]
+    pub(crate) error_channel: bool,
+
+    /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
+    #[arg(long, value_name = "FORM")]
+    pub(crate) progress: Option<ProgressForm>,
+
+    /// Print nothing but errors and warnings, and progress only where --progress asks for it
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,247 @@
+//! `marbles check`: validates a scene file and tells what it contains.
+
+use std::ops::RangeInclusive;
+
+use glam::{DVec2, DVec3};
+use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
+use marbles_scene::{CloudDescription, FrameError, Scene};
+
+use super::args::CheckArguments;
+use super::scene;
+use crate::base::failure::Failure;
+use crate::base::numbers::short;
+use crate::base::status;
+use crate::sequence::frames::frames_of;
+use crate::terminal::console::Console;
+
+/// Frames that are looked at, spread evenly over longer animations.
+const FRAMES_LOOKED_AT: i64 = 100_000;
+/// Lights that are listed one by one.
+const LIGHTS_LISTED: usize = 8;
+/// Width of the column with the names of things.
+const NAMES: usize = 12;
+
+pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
+    let scene = scene::load(&arguments.scene, console, false)?;
+    let frames = frames_of(&scene);
+    let (views, errors) = views(&scene, &frames);
+
+    let mut rows = vec![("scene", arguments.scene.display().to_string())];
+    if let Some(view) = views.first() {
+        rows.push(("image", format!("{} x {} pixels", view.width, view.height)));
+        let written = &scene.description().lens;
+        rows.push(("lens", format!("{written}: {}", lens(view))));
+    }
+    rows.extend(world(&scene));
+    rows.push(("frames", duration(&scene)));
+    let (count, looked_at) = (count(&frames), views.len() + errors.len());
+    if looked_at as i64 != count {
+        rows.push(("", format!("{looked_at} of {count} were looked at")));
+    }
+    rows.extend(cameras(scene.description().camera, &views));
+    for (name, text) in rows {
+        console.result(format!("{name:NAMES$}{text}").trim_end());
+    }
+
+    match errors.first() {
+        None => Ok(status::SUCCESS),
+        Some(error) => {
+            let mut message = format!("{}: {error}", arguments.scene.display());
+            if errors.len() > 1 {
+                message.push_str(&format!(
+                    ", and {} more of the {looked_at} frames that were looked at have no view",
+                    errors.len() - 1
+                ));
+            }
+            Err(Failure::Usage(message))
+        }
+    }
+}
+
+fn count(frames: &RangeInclusive<i32>) -> i64 {
+    i64::from(*frames.end()) - i64::from(*frames.start()) + 1
+}
+
+/// Views of evenly spread frames, the first and the last among them, and the errors of frames that
+/// have none.
+fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameError>) {
+    let (first, last) = (i64::from(*frames.start()), i64::from(*frames.end()));
+    let steps = (last - first).clamp(0, FRAMES_LOOKED_AT - 1);
+    let mut views = Vec::new();
+    let mut errors = Vec::new();
+    for step in 0..=steps {
+        let frame = first + (last - first) * step / steps.max(1);
+        match scene.view(frame as i32) {
+            Ok(view) => views.push(view),
+            Err(error) => errors.push(error),
+        }
+    }
+    (views, errors)
+}
+
+fn lens(view: &View) -> String {
+    let lens = view.lens;
+    let half_angle = libm::atan(0.5 * lens.width / (lens.distance * view.zoom));
+    let mut text = format!(
+        "retina {} wide at distance {}, {}° across",
+        short(lens.width),
+        short(lens.distance),
+        short(2.0 * half_angle.to_degrees())
+    );
+    if lens.shift != DVec2::ZERO {
+        let (right, up) = (short(lens.shift.x), short(lens.shift.y));
+        text.push_str(&format!(", shifted by ({right}, {up})"));
+    }
+    text
+}
+
+fn world(scene: &Scene) -> Vec<(&'static str, String)> {
+    let world = scene.world();
+    let mut rows = vec![("spheres", spheres(world.spheres()))];
+    rows.extend(bounds(world.spheres()));
+    for cloud in scene.clouds() {
+        rows.extend(self::cloud(scene, cloud));
+    }
+    let materials = scene.description().materials;
+    rows.push(("materials", materials.to_string()));
+    rows.push(("lights", world.lights.len().to_string()));
+    for light in world.lights.iter().take(LIGHTS_LISTED) {
+        rows.push(("", directional(light)));
+    }
+    if world.lights.len() > LIGHTS_LISTED {
+        rows.push(("", "…".to_owned()));
+    }
+    let shadows = if world.shadows { "on" } else { "off" };
+    rows.push(("shadows", shadows.to_owned()));
+    rows.push(("ambient", color(world.ambient)));
+    rows.push(("background", color(world.background)));
+    let channels = if world.is_grey() {
+        "none: one channel is rendered"
+    } else {
+        "red, green, blue"
+    };
+    rows.push(("color", channels.to_owned()));
+    rows
+}
+
+/// A table, and a camera that has all of it in the picture.
+fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
+    const ELEVATION: f64 = 15.0;
+    let all = &scene.world().spheres()[cloud.spheres.clone()];
+    let file = cloud.file.display();
+    let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
+    rows.extend(bounds(all));
+    if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {
+        let (target, radius) = (vector(target), short(radius));
+        let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
+        rows.push(("  seen by", camera));
+    }
+    rows
+}
+
+fn spheres(spheres: &[Sphere]) -> String {
+    let radii = spheres.iter().map(Sphere::radius);
+    let radii = range(radii);
+    match spheres.len() {
+        0 => "none".to_owned(),
+        1 => format!("1, radius {radii}"),
+        count => format!("{count}, radius {radii}"),
+    }
+}
+
+/// The corners of the box around all spheres.
+fn bounds(spheres: &[Sphere]) -> Vec<(&'static str, String)> {
+    let boxes = spheres.iter().map(|sphere| {
+        let reach = DVec3::splat(sphere.radius());
+        (sphere.center() - reach, sphere.center() + reach)
+    });
+    let around = boxes.reduce(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+    let rows = around.map(|(low, high)| [("  from", vector(low)), ("  to", vector(high))]);
+    rows.into_iter().flatten().collect()
+}
+
+fn directional(light: &DirectionalLight) -> String {
+    let (toward, intensity) = (vector(light.toward()), color(light.intensity()));
+    format!("toward {toward}, intensity {intensity}")
+}
+
+fn duration(scene: &Scene) -> String {
+    let Some(frames) = scene.frames() else {
+        return "a still".to_owned();
+    };
+    let (first, last) = (*frames.start(), *frames.end());
+    let count = count(&frames);
+    let mut text = if count == 1 {
+        format!("{first}")
+    } else {
+        format!("{first} to {last}, {count} in all")
+    };
+    if let Some(kind) = scene.description().animation {
+        text = format!("{kind}: {text}");
+    }
+    if let Some(rate) = scene.frames_per_second() {
+        let seconds = short(count as f64 / rate);
+        text.push_str(&format!(", {} per second, {seconds} s", short(rate)));
+    }
+    if let Some(shutter) = scene.shutter() {
+        let shutter = short(shutter);
+        text.push_str(&format!(", the shutter open for {shutter} of a frame"));
+    }
+    text
+}
+
+/// The places and the directions of the camera.
+fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
+    let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
+    let aims = || {
+        let aim = |view: &View| Camera::pan_and_tilt_toward(view.camera.forward());
+        views.iter().filter_map(aim)
+    };
+    if views.is_empty() {
+        return Vec::new();
+    }
+    let (x, y, z) = (along(|p| p.x), along(|p| p.y), along(|p| p.z));
+    let mut rows = vec![
+        ("camera", format!("{kind}: x {x}, y {y}, z {z}")),
+        (
+            "  pan",
+            format!("{}°", range(aims().map(|(pan, _)| pan.degrees()))),
+        ),
+        (
+            "  tilt",
+            format!("{}°", range(aims().map(|(_, tilt)| tilt.degrees()))),
+        ),
+    ];
+    if views.iter().any(|view| view.zoom != 1.0) {
+        rows.push(("  zoom", range(views.iter().map(|view| view.zoom))));
+    }
+    rows
+}
+
+/// The least and the largest of some numbers, as one number where they look the same.
+fn range(numbers: impl Iterator<Item = f64>) -> String {
+    let (least, largest) = numbers.fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(least, largest), number| (least.min(number), largest.max(number)),
+    );
+    let (least, largest) = (short(least), short(largest));
+    if least == largest {
+        least
+    } else {
+        format!("{least} to {largest}")
+    }
+}
+
+fn vector(vector: DVec3) -> String {
+    let [x, y, z] = vector.to_array().map(short);
+    format!("({x}, {y}, {z})")
+}
+
+/// A color as scene files have it: a number where it is grey.
+fn color(color: Color) -> String {
+    if color.x == color.y && color.y == color.z {
+        short(color.x)
+    } else {
+        vector(color)
+    }
+}

@@ -1,0 +1,141 @@
+//! A picture of where two pictures differ.
+
+use std::path::{Path, PathBuf};
+
+use super::pair::Pair;
+use super::statistics::Statistics;
+use crate::base::failure::Failure;
+use crate::formats::encoding::Format;
+use crate::formats::exr::write::write_floats;
+use crate::formats::png::write::write_grey;
+
+/// The difference in the middle of the scale of a PNG where no tolerance is given.
+const USUAL_MIDDLE: f64 = 1e-3;
+/// Powers of ten from the middle of the scale to black and to white.
+const DECADES: f64 = 3.0;
+/// The largest code of a pixel that is not over the tolerance.
+const MIDDLE_CODE: u8 = 127;
+
+/// The file of `--diff`.
+///
+/// An EXR holds the differences themselves, channel by channel. A PNG is for the eye: grey on a
+/// logarithmic scale around the tolerance, and whatever is lighter than its middle is over it.
+#[derive(Debug)]
+pub(super) struct DifferencePicture {
+    path: PathBuf,
+    /// True for an EXR, and false for a PNG.
+    holds_floats: bool,
+}
+
+impl DifferencePicture {
+    /// The picture at `path`, whose ending chooses the format.
+    pub(super) fn at(path: &Path) -> Result<Self, Failure> {
+        let holds_floats = match Format::of_file(path) {
+            Some(Format::Png) => false,
+            Some(Format::Exr) => true,
+            Some(Format::Apng) | None => {
+                return Err(Failure::Usage(format!(
+                    "--diff: expected a file name that ends in .png or .exr, found `{}`",
+                    path.display()
+                )));
+            }
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            holds_floats,
+        })
+    }
+
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The meaning of its values.
+    pub(super) fn scale(&self, tolerance: Option<f64>) -> String {
+        if self.holds_floats {
+            return "the differences of each channel".to_owned();
+        }
+        let middle = middle(tolerance);
+        let decades = libm::pow(10.0, DECADES);
+        format!(
+            "log scale, black <= {:.1e}, middle {middle:e}, white >= {:.1e}",
+            middle / decades,
+            middle * decades
+        )
+    }
+
+    pub(super) fn write(
+        &self,
+        pair: &Pair,
+        statistics: &Statistics,
+        tolerance: Option<f64>,
+    ) -> Result<(), Failure> {
+        let size = pair.size();
+        if self.holds_floats {
+            let channel = |&channel: &usize| {
+                let differences = size.places();
+                let differences =
+                    differences.map(|(col, row)| pair.differences(col, row)[channel] as f32);
+                (pair.name(channel), differences.collect())
+            };
+            let channels = pair.channels().iter().map(channel).collect();
+            return write_floats(size, channels, &self.path);
+        }
+        let middle = middle(tolerance);
+        let codes = statistics.differences.iter();
+        let codes: Vec<u8> = codes.map(|&size| code(size, middle)).collect();
+        write_grey(size, &codes, &self.path)
+    }
+}
+
+/// The difference in the middle of the scale.
+fn middle(tolerance: Option<f64>) -> f64 {
+    tolerance
+        .filter(|&tolerance| tolerance > 0.0)
+        .unwrap_or(USUAL_MIDDLE)
+}
+
+/// The grey of a difference: up to [`MIDDLE_CODE`] exactly where it does not exceed `middle`.
+fn code(size: f64, middle: f64) -> u8 {
+    if size == 0.0 {
+        return 0;
+    }
+    let decades = (libm::log10(size / middle) / DECADES).clamp(-1.0, 1.0);
+    let above = f64::from(u8::MAX - MIDDLE_CODE - 1);
+    // The casts saturate.
+    if size > middle {
+        MIDDLE_CODE + 1 + (decades * above) as u8
+    } else {
+        (f64::from(MIDDLE_CODE) * (1.0 + decades)) as u8
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_middle_of_the_scale_tells_what_is_over_it() {
+        let tolerance = 3e-4;
+        for (size, expected) in [
+            (0.0, 0),
+            (f64::MIN_POSITIVE, 0),
+            (3e-7, 0),
+            (tolerance, 127),
+            (tolerance.next_up(), 128),
+            (0.3, 255),
+            (1.0, 255),
+            (f64::INFINITY, 255),
+        ] {
+            assert_eq!(code(size, middle(Some(tolerance))), expected, "{size:e}");
+        }
+        let codes = (1..1000).map(|step| code(f64::from(step) * 1e-5, 1e-3));
+        assert!(codes.is_sorted());
+    }
+
+    #[test]
+    fn without_a_tolerance_there_is_a_scale_as_well() {
+        assert_eq!(middle(None), USUAL_MIDDLE);
+        assert_eq!(middle(Some(0.0)), USUAL_MIDDLE);
+    }
+}

@@ -1,0 +1,92 @@
+//! `marbles compare`: how far two pictures differ, and where.
+//!
+//! The exit code answers the question of a test: is any pixel over the tolerance? Pictures of
+//! different sizes fail like pictures that differ (1), since both are good files and the command
+//! line asks for nothing odd; what cannot be read as a picture is refused (2), as an invalid scene
+//! is.
+
+mod difference_picture;
+mod pair;
+mod report;
+mod statistics;
+
+use std::path::Path;
+
+use self::difference_picture::DifferencePicture;
+use self::pair::Pair;
+use self::report::Report;
+use self::statistics::Statistics;
+use super::args::CompareArguments;
+use crate::base::failure::Failure;
+use crate::base::status;
+use crate::files::destination::{is_same, prepare};
+use crate::formats::load;
+use crate::formats::picture::Picture;
+use crate::terminal::console::Console;
+
+pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8, Failure> {
+    let CompareArguments {
+        a,
+        b,
+        tolerance,
+        diff,
+        ..
+    } = arguments;
+    if let Some(diff) = diff
+        && diff.exists()
+        && (is_same(diff, a) || is_same(diff, b))
+    {
+        let why = "--diff would overwrite a picture that is compared";
+        return Err(Failure::unusable(diff, why));
+    }
+    let difference_picture = diff.as_deref().map(DifferencePicture::at).transpose()?;
+    let pair = Pair {
+        a: load(a, console)?,
+        b: load(b, console)?,
+    };
+    let [size_a, size_b] = [&pair.a, &pair.b].map(|picture| picture.size);
+    if size_a != size_b {
+        return Err(Failure::Work(format!(
+            "the pictures have different sizes: {} is {} x {}, {} is {} x {}",
+            a.display(),
+            size_a.width,
+            size_a.height,
+            b.display(),
+            size_b.width,
+            size_b.height
+        )));
+    }
+    if let Some(picture) = &difference_picture {
+        prepare(picture.path())?;
+    }
+
+    let statistics = Statistics::of(&pair, *tolerance, arguments.worst);
+    if let Some(picture) = &difference_picture {
+        picture.write(&pair, &statistics, *tolerance)?;
+    }
+    if !arguments.quiet {
+        let report = Report {
+            arguments,
+            pair: &pair,
+            statistics: &statistics,
+            difference_picture: difference_picture.as_ref(),
+        };
+        for line in report.lines() {
+            console.result(&line);
+        }
+    }
+    Ok(if statistics.over_tolerance == 0 {
+        status::SUCCESS
+    } else {
+        status::FAILURE
+    })
+}
+
+/// A picture, with a warning where it was not understood in full.
+fn load(path: &Path, console: &Console) -> Result<Picture, Failure> {
+    let picture = load::picture(path)?;
+    if let Some(warning) = picture.warning {
+        console.warn(&format!("{}: {warning}", path.display()));
+    }
+    Ok(picture)
+}

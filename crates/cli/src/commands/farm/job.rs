@@ -1,0 +1,106 @@
+//! The job that is written, whatever the engine.
+
+use std::ffi::OsString;
+use std::num::NonZeroU32;
+use std::path::{self, Path};
+
+use crate::base::failure::Failure;
+use crate::base::threads;
+use crate::commands::args::JobArguments;
+use crate::commands::render::request;
+use crate::terminal::console::Console;
+
+/// Frames that are looked at before the job is written; more would take long.
+const FRAMES_LOOKED_AT: usize = 100_000;
+
+/// The common parts of a job's tasks; paths are absolute.
+pub(super) struct Job {
+    /// A name without spaces, quotes and what else scripts and templates read.
+    pub(super) name: String,
+    pub(super) scene: String,
+    /// The frames in the order of rendering.
+    pub(super) frames: Vec<i32>,
+    pub(super) chunk: NonZeroU32,
+    /// The option that names the files.
+    pub(super) output: String,
+    /// Other options.
+    pub(super) options: Vec<String>,
+    /// True where the options say how many threads.
+    pub(super) threads: bool,
+    /// True where the options say how to tell progress.
+    pub(super) progress: bool,
+}
+
+impl Job {
+    /// Reads the scene and makes sure that its frames can be rendered with these options.
+    pub(super) fn checked(
+        arguments: &JobArguments,
+        is_slurm: bool,
+        console: &Console,
+    ) -> Result<Self, Failure> {
+        let render = &arguments.render.parsed;
+        let request = request(render, &threads::start(None)?, console)?;
+        if request.is_animation() {
+            return Err(Failure::Usage(
+                "tasks write a file for each frame, and the output has all of them".to_owned(),
+            ));
+        }
+        for frame in request.frames.iter().take(FRAMES_LOOKED_AT) {
+            request.check(frame)?;
+        }
+        if !is_slurm && arguments.render.has("progress") {
+            return Err(Failure::Usage(
+                "--progress: runners of Open Job Description read --progress=openjd, which their \
+                 templates always have"
+                    .to_owned(),
+            ));
+        }
+        // The parts of a job have their own of these, and tell apart what a path is.
+        let own = ["frames", "output", "skip-existing"];
+        let options = arguments.render.options_without(&own);
+        let output = render.output.as_deref().unwrap_or(Path::new(""));
+        let mut output_option = OsString::from("--output=");
+        output_option.push(absolute(output)?);
+        Ok(Self {
+            name: name(&render.scene),
+            scene: text(absolute(&render.scene)?)?,
+            frames: request.frames.iter().collect(),
+            chunk: arguments.chunk,
+            output: text(output_option)?,
+            options: options.map(text).collect::<Result<_, _>>()?,
+            threads: arguments.render.has("threads"),
+            progress: arguments.render.has("progress"),
+        })
+    }
+
+    /// The number of tasks.
+    pub(super) fn tasks(&self) -> usize {
+        self.frames.len().div_ceil(self.chunk.get() as usize)
+    }
+}
+
+/// A name of a job that any program takes.
+fn name(scene: &Path) -> String {
+    /// The longest name that Open Job Description has room for.
+    const LONGEST: usize = 128;
+    let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
+    let plain = |letter: char| match letter {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '-' | '.' => letter,
+        _ => '_',
+    };
+    let name = format!("marbles-{}", stem.chars().map(plain).collect::<String>());
+    name.chars().take(LONGEST).collect()
+}
+
+fn absolute(path: &Path) -> Result<OsString, Failure> {
+    let absolute = path::absolute(path);
+    absolute
+        .map(OsString::from)
+        .map_err(|error| Failure::io(path, "cannot find the folder", &error))
+}
+
+/// A word as a part of a job, whose engines read UTF-8.
+fn text(word: OsString) -> Result<String, Failure> {
+    word.into_string()
+        .map_err(|word| Failure::Usage(format!("expected UTF-8, found `{}`", word.display())))
+}

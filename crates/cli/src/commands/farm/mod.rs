@@ -1,0 +1,52 @@
+//! `marbles farm`: the job by which a farm renders the frames of a scene.
+//!
+//! It is checked here as far as it can be, so that what is wrong does not show on a thousand machines.
+
+mod chunks;
+mod job;
+mod openjd;
+mod slurm;
+
+use self::job::Job;
+use super::args::{Engine, FarmArguments};
+use crate::base::failure::Failure;
+use crate::base::status;
+use crate::files::save::write_bytes;
+use crate::terminal::console::Console;
+
+/// The tasks that an array may have where nobody has set Slurm's `MaxArraySize`.
+const USUAL_TASKS: usize = 1001;
+
+pub(crate) fn run(arguments: &FarmArguments, console: &Console) -> Result<u8, Failure> {
+    let (arguments, is_slurm) = match &arguments.engine {
+        Engine::Slurm(arguments) => (arguments, true),
+        Engine::OpenJd(arguments) => (arguments, false),
+    };
+    let job = Job::checked(arguments, is_slurm, console)?;
+    let text = if is_slurm {
+        slurm::script(&job)?
+    } else {
+        openjd::template(&job)?
+    };
+    let tasks = job.tasks();
+    match &arguments.job {
+        None => console.result(text.trim_end()),
+        Some(path) => {
+            write_bytes(text.as_bytes(), path)?;
+            if !arguments.render.parsed.quiet {
+                console.result(&format!(
+                    "{}: {} frames in {tasks} tasks",
+                    path.display(),
+                    job.frames.len()
+                ));
+            }
+        }
+    }
+    if is_slurm && tasks > USUAL_TASKS {
+        console.warn(&format!(
+            "an array of {tasks} tasks: unless MaxArraySize is set, Slurm takes {USUAL_TASKS}; a \
+             larger --chunk makes fewer"
+        ));
+    }
+    Ok(status::SUCCESS)
+}

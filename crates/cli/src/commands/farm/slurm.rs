@@ -1,0 +1,107 @@
+//! A script for `sbatch`: an array of tasks, one for each chunk of frames.
+
+use super::chunks::expression;
+use super::job::Job;
+use crate::base::failure::Failure;
+
+/// The most tasks that Slurm's largest `MaxArraySize` has room for.
+const MOST_TASKS: usize = 4_000_000;
+
+/// The part of a task that handles signals, before the renderer starts beside the shell, which gets
+/// them.
+///
+/// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
+/// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
+/// outside kills them, or sends SIGTERM.
+const SIGNALS: &str = r#"renderer=
+ended=
+again=
+end() {
+    ended=1
+    signaled=1
+    [ -z "$renderer" ] || kill -TERM "$renderer" 2>/dev/null
+}
+# Slurm tells the renderer as well, which ends within a second; a second signal would hurry it.
+trap 'sleep 1; end' TERM INT
+trap 'again=1; end' USR1
+"#;
+
+/// The part of a task that waits for the renderer: `wait` returns whenever a signal comes.
+const WAIT: &str = r#"renderer=$!
+[ -z "$ended" ] || kill -TERM "$renderer"
+signaled=1
+while [ -n "$signaled" ]; do
+    signaled=
+    wait "$renderer"
+    code=$?
+done
+
+# Interrupted, or ended by the signal before it listened.
+if [ -n "$again" ] && { [ "$code" -eq 130 ] || [ "$code" -eq 143 ]; } &&
+    [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
+    scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
+fi
+exit "$code"
+"#;
+
+/// The script.
+pub(super) fn script(job: &Job) -> Result<String, Failure> {
+    let chunk = job.chunk.get() as usize;
+    let tasks = job.tasks();
+    if tasks > MOST_TASKS {
+        return Err(Failure::Usage(format!(
+            "--chunk {chunk}: expected at most {MOST_TASKS} tasks, Slurm's limit, found {tasks}"
+        )));
+    }
+    let chunks = job.frames.chunks(chunk);
+    let chunks: Vec<String> = chunks
+        .map(|frames| format!("    {}\n", expression(frames)))
+        .collect();
+    let threads = match job.threads {
+        true => "",
+        false => r#" --threads="${SLURM_CPUS_PER_TASK:-${SLURM_CPUS_ON_NODE:-1}}""#,
+    };
+    let progress = if job.progress {
+        ""
+    } else {
+        " --progress=plain"
+    };
+    let options = job.options.iter().chain([&job.output]);
+    let options: Vec<String> = options.map(|word| quoted(word)).collect::<Result<_, _>>()?;
+    Ok(format!(
+        r#"#!/bin/bash
+#SBATCH --job-name={name}
+#SBATCH --array=0-{last}
+#SBATCH --requeue
+#SBATCH --open-mode=append
+#SBATCH --signal=B:USR1@60
+
+# Written by `marbles farm slurm`. CPUs, memory and time are the cluster's to give: options of
+# sbatch, such as --cpus-per-task=8 --time=60.
+
+# The frames of each task.
+chunk={chunk}
+chunks=(
+{chunks})
+
+{SIGNALS}
+marbles render --skip-existing{progress}{threads} \
+    --frames="${{chunks[$SLURM_ARRAY_TASK_ID]}}" \
+    {options} \
+    -- {scene} &
+{WAIT}"#,
+        name = job.name,
+        last = tasks.saturating_sub(1),
+        chunks = chunks.concat(),
+        options = options.join(" \\\n    "),
+        scene = quoted(&job.scene)?,
+    ))
+}
+
+/// The word as a shell reads it.
+fn quoted(word: &str) -> Result<String, Failure> {
+    match shlex::try_quote(word) {
+        Ok(quoted) => Ok(quoted.into_owned()),
+        Err(error) => Err(Failure::Usage(format!("{word:?}: {error}"))),
+    }
+}

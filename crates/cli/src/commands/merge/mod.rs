@@ -1,0 +1,36 @@
+//! `marbles merge`: the picture whose parts were rendered on their own.
+//!
+//! It is written row by row, while the parts that a row crosses are read row by row, so that
+//! pictures may be larger than the memory.
+
+mod parts;
+
+use self::parts::Parts;
+use super::args::MergeArguments;
+use crate::base::failure::Failure;
+use crate::base::numbers::counted;
+use crate::base::status;
+use crate::files::destination::prepare;
+use crate::formats::encoding::Format;
+use crate::terminal::console::Console;
+
+pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, Failure> {
+    let path = &arguments.output;
+    let format = Format::of_file(path)
+        .ok_or_else(|| Failure::unusable(path, "expected a file name that ends in .png or .exr"))?;
+    let mut parts = Parts::examine(&arguments.parts)?;
+    let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
+    prepare(path)?;
+    if kind.format() != format {
+        let expected = "expected the ending of the parts";
+        return Err(Failure::unusable(path, expected));
+    }
+    kind.write(path, whole, &digest, |rows| parts.rows(rows))?;
+    if !arguments.quiet {
+        let pixels = whole.pixels();
+        let parts = counted(arguments.parts.len() as u64, "part");
+        let path = path.display();
+        console.result(&format!("{path}: {pixels} pixels from {parts}"));
+    }
+    Ok(status::SUCCESS)
+}

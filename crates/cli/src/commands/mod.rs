@@ -1,0 +1,14 @@
+//! The commands, each a file or a folder named after it, and their arguments.
+
+pub(crate) mod args;
+pub(crate) mod check;
+pub(crate) mod compare;
+pub(crate) mod completions;
+pub(crate) mod farm;
+pub(crate) mod man;
+pub(crate) mod merge;
+pub(crate) mod new;
+pub(crate) mod preview;
+pub(crate) mod render;
+pub(crate) mod report;
+mod scene;

@@ -1,0 +1,61 @@
+use super::*;
+use crate::tests::{run_here, temporary};
+
+#[test]
+fn new_scenes_are_valid_and_rendered() {
+    let folder = temporary("new-valid");
+    for (name, option) in [("still", None), ("turn", Some("--turntable"))] {
+        let scene = folder.join(format!("{name}.ron"));
+        let scene = scene.to_str().unwrap();
+        let made = run_here(&[&["new", scene], option.as_slice()].concat());
+        assert_eq!(made, (0, format!("{scene}\n"), String::new()));
+        let text = fs::read_to_string(scene).unwrap();
+        assert!(text.contains(&format!("marbles preview {scene} --watch ")));
+        assert!(!text.contains(NAME));
+        let (code, out, err) = run_here(&["check", scene]);
+        assert_eq!((code, &*err), (0, ""));
+        assert_eq!(
+            out.contains("frames      a still"),
+            option.is_none(),
+            "{out}"
+        );
+        let picture = folder.join(format!("{name}.png"));
+        let picture = picture.to_str().unwrap();
+        let (code, out, err) = run_here(&["render", scene, "--frames", "1", "-o", picture]);
+        assert_eq!((code, &*err), (0, ""));
+        assert!(out.contains(" 0 over the tolerance"), "{out}");
+    }
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn files_that_are_there_stay() {
+    let folder = temporary("new-there");
+    fs::create_dir_all(&folder).unwrap();
+    let scene = folder.join("mine.ron");
+    fs::write(&scene, "mine").unwrap();
+    let (code, out, err) = run_here(&["new", scene.to_str().unwrap()]);
+    assert_eq!((code, &*out), (1, ""));
+    assert!(
+        err.ends_with("mine.ron: the file is already there\n"),
+        "{err}"
+    );
+    assert_eq!(fs::read(&scene).unwrap(), b"mine");
+    fs::remove_dir_all(folder).unwrap();
+}
+
+#[test]
+fn other_endings_are_refused() {
+    for name in ["ball", "ball.png", "ron", ".ron", "ball.ron.txt"] {
+        let (code, out, err) = run_here(&["new", &format!("missing/{name}")]);
+        assert_eq!((code, &*out), (2, ""), "{err}");
+    }
+    assert!(!Path::new("missing").exists());
+}
+
+#[test]
+fn names_in_comments_can_be_pasted() {
+    assert_eq!(shown(Path::new("out/ball.ron")), "out/ball.ron");
+    assert_eq!(shown(Path::new("my ball.ron")), "'my ball.ron'");
+    assert_eq!(shown(Path::new("a\nb.ron")), NAME);
+}

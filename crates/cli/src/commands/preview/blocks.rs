@@ -1,0 +1,79 @@
+//! Pictures as text: a half block for two pixels, one above the other.
+
+use std::fmt::Write;
+
+use super::picture::Picture;
+
+/// Its letters are the upper pixel, what is behind them the lower one.
+const UPPER_HALF: char = '▀';
+const RESET: &str = "\x1b[0m";
+
+/// A line for each two rows of pixels, the colors in 24 bit, each line ended by `end`.
+pub(super) fn text(picture: &Picture, end: &str) -> String {
+    let mut text = String::new();
+    for row in (0..picture.size.height).step_by(2) {
+        let upper = picture.row(row);
+        // Below the last row of an odd number of them there is none.
+        let lower = (row + 1 < picture.size.height).then(|| picture.row(row + 1));
+        let (mut letter, mut ground) = (None, None);
+        for (col, &color) in upper.iter().enumerate() {
+            set(&mut text, 38, &mut letter, Some(color));
+            set(&mut text, 48, &mut ground, lower.map(|lower| lower[col]));
+            text.push(UPPER_HALF);
+        }
+        text.push_str(RESET);
+        text.push_str(end);
+    }
+    text
+}
+
+/// Chooses a color, 38 that of letters and 48 that behind them, where it is not chosen already.
+fn set(text: &mut String, which: u8, chosen: &mut Option<[u8; 3]>, color: Option<[u8; 3]>) {
+    if let Some([red, green, blue]) = color
+        && *chosen != color
+    {
+        // Writing into a string cannot fail.
+        let _ = write!(text, "\x1b[{which};2;{red};{green};{blue}m");
+        *chosen = color;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::size::Size;
+
+    const RED: [u8; 3] = [255, 0, 0];
+    const GREEN: [u8; 3] = [0, 128, 0];
+    const BLUE: [u8; 3] = [1, 2, 250];
+
+    #[test]
+    fn two_rows_are_a_line() {
+        let picture = Picture {
+            size: Size {
+                width: 2,
+                height: 2,
+            },
+            codes: vec![RED, RED, GREEN, BLUE],
+        };
+        assert_eq!(
+            text(&picture, "\n"),
+            "\x1b[38;2;255;0;0m\x1b[48;2;0;128;0m▀\x1b[48;2;1;2;250m▀\x1b[0m\n"
+        );
+    }
+
+    #[test]
+    fn the_last_row_of_an_odd_number_has_nothing_below() {
+        let picture = Picture {
+            size: Size {
+                width: 1,
+                height: 3,
+            },
+            codes: vec![RED, RED, BLUE],
+        };
+        assert_eq!(
+            text(&picture, "|"),
+            "\x1b[38;2;255;0;0m\x1b[48;2;255;0;0m▀\x1b[0m|\x1b[38;2;1;2;250m▀\x1b[0m|"
+        );
+    }
+}

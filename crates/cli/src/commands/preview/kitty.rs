@@ -1,0 +1,113 @@
+//! Pictures in the graphics protocol of kitty: a PNG in base64, cut into pieces.
+//!
+//! Source: "Terminal graphics protocol", sw.kovidgoyal.net/kitty/graphics-protocol.
+
+use super::picture::Picture;
+use crate::base::failure::Failure;
+use crate::formats::png::write::rgb_bytes;
+
+/// The longest piece that the protocol allows, in bytes of base64.
+const PIECE: usize = 4096;
+
+/// The text that takes this process's picture from the screen, and from the terminal's memory.
+pub(super) fn delete() -> String {
+    let process = std::process::id();
+    format!("\x1b_Ga=d,d=I,i={process},q=2\x1b\\")
+}
+
+/// The text that has the terminal show the picture where the cursor is, which moves below it.
+///
+/// It takes the place of the one that this process has shown before.
+pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
+    let data = base64(&rgb_bytes(picture.size, picture.codes.as_flattened())?);
+    let mut text = String::new();
+    let mut rest = &*data;
+    // Transmit and show (a), as a PNG (f), under a name that others do not use (i), and answer
+    // nothing (q).
+    let mut control = format!("a=T,f=100,i={},q=2,", std::process::id());
+    while !rest.is_empty() {
+        let (piece, more) = rest.split_at(rest.len().min(PIECE));
+        let has_more = u8::from(!more.is_empty());
+        text.push_str(&format!("\x1b_G{control}m={has_more};{piece}\x1b\\"));
+        (rest, control) = (more, String::new());
+    }
+    text.push('\n');
+    Ok(text)
+}
+
+/// Bytes as letters, digits, `+` and `/`, six bits each, with `=` in place of those that lack.
+///
+/// Source: RFC 4648, section 4.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |index: usize| three.get(index).copied().map_or(0, u32::from);
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for (place, shift) in [18, 12, 6, 0].into_iter().enumerate() {
+            let letter = LETTERS[(bits >> shift & 63) as usize];
+            text.push(if place <= three.len() {
+                letter.into()
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use base64::Engine;
+    use base64::engine::general_purpose::STANDARD;
+
+    use super::*;
+    use crate::base::size::Size;
+
+    #[test]
+    fn bytes_are_base64() {
+        let bytes: Vec<u8> = (0..=255).collect();
+        for length in [0, 1, 2, 3, 4, 255, 256] {
+            assert_eq!(base64(&bytes[..length]), STANDARD.encode(&bytes[..length]));
+        }
+    }
+
+    #[test]
+    fn pieces_are_the_picture() {
+        // Noise, so that there are several pieces.
+        let numbers = 0..60 * 60_u32;
+        let codes = numbers.map(|n| [13, 17, 29].map(|f| ((n * n * f + n * 101 * f) >> 5) as u8));
+        let picture = Picture {
+            size: Size {
+                width: 60,
+                height: 60,
+            },
+            codes: codes.collect(),
+        };
+        let text = text(&picture).unwrap();
+        let commands = text.strip_suffix("\x1b\\\n").unwrap();
+        let commands: Vec<&str> = commands.split("\x1b\\").collect();
+        assert!(commands.len() > 1);
+        let mut data = String::new();
+        for (index, command) in commands.iter().enumerate() {
+            let command = command.strip_prefix("\x1b_G").unwrap();
+            let (control, piece) = command.split_once(';').unwrap();
+            let is_last = index + 1 == commands.len();
+            let expected = match (index, is_last) {
+                (0, _) => format!("a=T,f=100,i={},q=2,m=1", std::process::id()),
+                (_, false) => "m=1".to_owned(),
+                (_, true) => "m=0".to_owned(),
+            };
+            assert_eq!(control, expected);
+            assert!(piece.len() == 4096 || is_last && (1..4096).contains(&piece.len()));
+            data.push_str(piece);
+        }
+        let png = STANDARD.decode(data).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png))
+            .read_info()
+            .unwrap();
+        let mut codes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut codes).unwrap();
+        assert_eq!(codes, picture.codes.as_flattened());
+    }
+}

@@ -1,0 +1,46 @@
+//! `marbles preview`: a frame in the terminal.
+
+mod blocks;
+mod kitty;
+mod picture;
+mod screen;
+mod watch;
+
+use self::picture::render;
+use self::screen::Screen;
+use super::args::PreviewArguments;
+use super::scene;
+use crate::base::failure::Failure;
+use crate::base::size::Size;
+use crate::base::{status, threads};
+use crate::terminal::console::Console;
+use crate::terminal::interrupt;
+use crate::terminal::progress::Progress;
+
+/// Lines that stay free for the shell's prompt.
+const PROMPT_LINES: u32 = 2;
+
+pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8, Failure> {
+    let screen = Screen::of(console)?;
+    let threads = threads::start(None)?;
+    if arguments.watch {
+        return threads.install(|| watch::run(arguments, &screen, console));
+    }
+    let scene = threads.install(|| scene::load(&arguments.scene, console, false))?;
+    let view = scene::view(&scene, arguments.frame)?;
+    let view = screen.area(PROMPT_LINES).fit(view);
+    interrupt::listen(console);
+    let progress = Progress::new(console, None, false, 1);
+    progress.begin(0, Size::of(&view).pixels());
+    let render = || render(&scene, &view, arguments.tolerance, Some(&progress));
+    let picture = threads.install(render);
+    progress.finish();
+    let Ok(picture) = picture else {
+        return Ok(status::INTERRUPTED);
+    };
+    console.print(&screen.show(&picture)?);
+    Ok(status::SUCCESS)
+}
+
+#[cfg(test)]
+mod tests;

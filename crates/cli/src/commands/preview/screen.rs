@@ -1,0 +1,180 @@
+//! The terminal that shows pictures: what it can show, and how large.
+
+use std::env;
+use std::io;
+
+use console::Term;
+use marbles_core::View;
+
+use super::picture::Picture;
+use super::{blocks, kitty};
+use crate::base::failure::Failure;
+use crate::base::size::Size;
+use crate::terminal::console::Console;
+
+/// Columns and rows of text that is for no terminal.
+const PLAIN: (u32, u32) = (80, 24);
+/// Nobody has more columns or rows, and pictures of more take long.
+const MOST_CELLS: u32 = 1000;
+/// The same limit in pixels.
+const MOST_PIXELS: u32 = 8192;
+
+const HOME: &str = "\x1b[H";
+const CLEAR: &str = "\x1b[H\x1b[2J";
+const CLEAR_BELOW: &str = "\x1b[J";
+
+/// The screen on which pictures are shown.
+pub(super) struct Screen {
+    pub(super) is_terminal: bool,
+    has_graphics: bool,
+}
+
+/// Room for a picture, in pixels.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) struct Area {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    /// True where smaller pictures are enlarged until they fill it.
+    pub(super) enlarges: bool,
+}
+
+impl Screen {
+    /// The screen of stdout.
+    ///
+    /// # Errors
+    /// Refuses terminals that can do nothing but print letters.
+    pub(super) fn of(console: &Console) -> Result<Self, Failure> {
+        let is_terminal = console.shows_results();
+        let terminal = |name| env::var(name).unwrap_or_default();
+        let (term, program) = (terminal("TERM"), terminal("TERM_PROGRAM"));
+        if is_terminal && term == "dumb" {
+            return Err(Failure::Work(
+                "this terminal cannot show pictures: TERM is `dumb`".to_owned(),
+            ));
+        }
+        Ok(Self {
+            is_terminal,
+            has_graphics: is_terminal && speaks_kitty(&term, &program) && cell_pixels().is_some(),
+        })
+    }
+
+    /// Columns and rows.
+    pub(super) fn cells(&self) -> (u32, u32) {
+        let size = Term::stdout().size_checked().filter(|_| self.is_terminal);
+        let (columns, rows) = size.map_or(PLAIN, |(rows, cols)| (cols.into(), rows.into()));
+        (columns.clamp(1, MOST_CELLS), rows.clamp(1, MOST_CELLS))
+    }
+
+    /// Room for a picture when so many lines of a terminal stay free.
+    pub(super) fn area(&self, free_lines: u32) -> Area {
+        let (columns, rows) = self.cells();
+        let free_lines = if self.is_terminal { free_lines } else { 0 };
+        let rows = rows.saturating_sub(free_lines).max(1);
+        if self.has_graphics
+            && let Some((width, height)) = cell_pixels()
+        {
+            return Area {
+                width: (columns * width).min(MOST_PIXELS),
+                height: (rows * height).min(MOST_PIXELS),
+                enlarges: false,
+            };
+        }
+        Area {
+            width: columns,
+            height: 2 * rows,
+            enlarges: true,
+        }
+    }
+
+    /// The text that shows the picture where the cursor is, which moves below it.
+    pub(super) fn show(&self, picture: &Picture) -> Result<String, Failure> {
+        if self.has_graphics {
+            kitty::text(picture)
+        } else {
+            Ok(blocks::text(picture, "\n"))
+        }
+    }
+
+    /// The text that shows the picture alone, in place of all that is there.
+    pub(super) fn replace(&self, picture: &Picture) -> Result<String, Failure> {
+        if self.has_graphics {
+            let picture = kitty::text(picture)?;
+            Ok(format!("{CLEAR}{picture}"))
+        } else {
+            // Over what is there, so that nothing flickers.
+            let picture = blocks::text(picture, "\x1b[K\n");
+            Ok(format!("{HOME}{picture}{CLEAR_BELOW}"))
+        }
+    }
+
+    /// The text that takes everything away.
+    pub(super) fn clear(&self) -> String {
+        let delete = self.has_graphics.then(kitty::delete);
+        format!("{}{CLEAR}", delete.unwrap_or_default())
+    }
+}
+
+impl Area {
+    /// The view with as many pixels as fill the area one way, and keep the picture's form.
+    pub(super) fn fit(&self, view: View) -> View {
+        let (width, height) = (f64::from(view.width), f64::from(view.height));
+        let scale = (f64::from(self.width) / width).min(f64::from(self.height) / height);
+        let scale = if self.enlarges { scale } else { scale.min(1.0) };
+        let side = |length: f64, most: u32| ((length * scale).round() as u32).clamp(1, most);
+        let size = Size {
+            width: side(width, self.width),
+            height: side(height, self.height),
+        };
+        size.resize(view)
+    }
+}
+
+/// Returns whether a terminal speaks kitty's graphics protocol, by what it says in `TERM` and
+/// `TERM_PROGRAM`. Programs that stand between, like tmux, have names of their own there.
+fn speaks_kitty(term: &str, program: &str) -> bool {
+    let between = ["screen", "tmux"].iter().any(|name| term.starts_with(name));
+    let terms = ["xterm-kitty", "xterm-ghostty"];
+    let programs = ["WezTerm", "ghostty"];
+    !between && term != "xterm" && (terms.contains(&term) || programs.contains(&program))
+}
+
+/// Pixels of a cell, across and down, where the terminal tells.
+#[cfg(unix)]
+fn cell_pixels() -> Option<(u32, u32)> {
+    let size = rustix::termios::tcgetwinsize(io::stdout()).ok()?;
+    let side = |pixels: u16, cells: u16| {
+        let pixels = u32::from(pixels).checked_div(cells.into())?;
+        (pixels > 0).then_some(pixels)
+    };
+    Some((
+        side(size.ws_xpixel, size.ws_col)?,
+        side(size.ws_ypixel, size.ws_row)?,
+    ))
+}
+
+/// Elsewhere terminals do not tell.
+#[cfg(not(unix))]
+fn cell_pixels() -> Option<(u32, u32)> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn terminals_are_known_by_their_names() {
+        for (term, program, expected) in [
+            ("xterm-kitty", "", true),
+            ("xterm-256color", "WezTerm", true),
+            ("xterm-ghostty", "ghostty", true),
+            ("xterm-256color", "Apple_Terminal", false),
+            ("xterm", "WezTerm", false),
+            ("tmux-256color", "tmux", false),
+            ("screen.xterm-256color", "WezTerm", false),
+            ("", "", false),
+        ] {
+            assert_eq!(speaks_kitty(term, program), expected, "{term} {program}");
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! `--watch`: the picture again whenever its files are saved.
+//!
+//! Files are looked at several times a second. That sees every way to save, by writing or by
+//! renaming, on disks of other machines too, where systems do not tell of changes.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, SystemTime};
+
+use marbles_core::Cancelled;
+use marbles_scene::{Scene, SceneError};
+
+use super::picture::{Picture, render};
+use super::screen::{Area, Screen};
+use crate::base::failure::Failure;
+use crate::base::status;
+use crate::commands::args::PreviewArguments;
+use crate::commands::scene;
+use crate::terminal::alternate_screen::AlternateScreen;
+use crate::terminal::console::Console;
+use crate::terminal::interrupt;
+
+/// The time between two looks at the files. What changes from one look to the next is still being saved.
+const INTERVAL: Duration = Duration::from_millis(100);
+/// The line below the picture.
+const STATUS_LINES: u32 = 1;
+
+/// Shows the picture until the user ends it, on the threads of the current pool.
+pub(super) fn run(
+    arguments: &PreviewArguments,
+    screen: &Screen,
+    console: &Console,
+) -> Result<u8, Failure> {
+    if !screen.is_terminal {
+        return Err(Failure::Usage(
+            "--watch needs a terminal, and the output is none".to_owned(),
+        ));
+    }
+    interrupt::listen(console);
+    let _screen = AlternateScreen::enter(console);
+    let mut files = Files::of(&arguments.scene);
+    while !interrupt::requested() {
+        let area = screen.area(STATUS_LINES);
+        let shown = match look(arguments, &area, &mut files, console) {
+            Ok(Ok(picture)) => screen.replace(&picture)?,
+            Ok(Err(Cancelled)) => break,
+            Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
+        };
+        let scene = arguments.scene.display();
+        let status = format!("{scene}: shown again when it is saved; Ctrl-C ends");
+        console.print(&(shown + &status_line(&status, screen.cells())));
+        wait(&mut files, || screen.area(STATUS_LINES) != area);
+    }
+    Ok(status::INTERRUPTED)
+}
+
+/// The picture as the files have it now.
+fn look(
+    arguments: &PreviewArguments,
+    area: &Area,
+    files: &mut Files,
+    console: &Console,
+) -> Result<Result<Picture, Cancelled>, Failure> {
+    let started = SystemTime::now();
+    let scene = scene::load(&arguments.scene, console, true);
+    match &scene {
+        Ok(scene) => files.name(tables(scene, &arguments.scene), started),
+        Err(Failure::Scene(error)) => files.add(SceneError::path(error).to_owned(), started),
+        Err(_) => {}
+    }
+    let scene = scene?;
+    let view = area.fit(scene::view(&scene, arguments.frame)?);
+    Ok(render(&scene, &view, arguments.tolerance, None))
+}
+
+/// The tables that a scene names.
+fn tables(scene: &Scene, path: &Path) -> Vec<PathBuf> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let clouds = scene.clouds().iter();
+    clouds.map(|cloud| folder.join(&cloud.file)).collect()
+}
+
+/// Waits until the files have changed and the change is complete, the screen is another, or the user
+/// ends it.
+fn wait(files: &mut Files, is_other: impl Fn() -> bool) {
+    let mut before = files.stamps.clone();
+    while !interrupt::requested() {
+        thread::sleep(INTERVAL);
+        let now = files.look();
+        if now == before && (now != files.stamps || is_other()) {
+            files.stamps = now;
+            return;
+        }
+        before = now;
+    }
+}
+
+/// The files that a picture depends on, and their states when they were read.
+struct Files {
+    scene: PathBuf,
+    stamps: Stamps,
+}
+
+/// The states of files; `None` stands for a file that is not there.
+type Stamps = BTreeMap<PathBuf, Option<Stamp>>;
+
+/// The state of a file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+struct Stamp {
+    modified: SystemTime,
+    length: u64,
+}
+
+impl Files {
+    /// A scene whose tables are not known.
+    fn of(scene: &Path) -> Self {
+        Self {
+            scene: scene.to_owned(),
+            stamps: Stamps::from([(scene.to_owned(), stamp(scene))]),
+        }
+    }
+
+    /// The states of the files now.
+    fn look(&self) -> Stamps {
+        let paths = self.stamps.keys();
+        paths.map(|path| (path.clone(), stamp(path))).collect()
+    }
+
+    /// Has these tables in place of the others, read since `started`.
+    fn name(&mut self, tables: Vec<PathBuf>, started: SystemTime) {
+        let scene = &self.scene;
+        self.stamps
+            .retain(|path, _| path == scene || tables.contains(path));
+        for table in tables {
+            self.add(table, started);
+        }
+    }
+
+    /// Has another file, read since `started`, if it is another.
+    fn add(&mut self, path: PathBuf, started: SystemTime) {
+        // What was written since then may have been read before.
+        let stamp = stamp(&path).filter(|stamp| stamp.modified < started);
+        self.stamps.entry(path).or_insert(stamp);
+    }
+}
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let metadata = fs::metadata(path).ok()?;
+    Some(Stamp {
+        modified: metadata.modified().ok()?,
+        length: metadata.len(),
+    })
+}
+
+/// The lines of a message that there is room for, the longer ones wrapped by the terminal.
+fn message(text: &str, (columns, rows): (u32, u32)) -> String {
+    let mut room = rows.saturating_sub(STATUS_LINES) as usize;
+    let mut shown = String::new();
+    for line in text.lines() {
+        let width = console::measure_text_width(line);
+        let lines = width.div_ceil(columns as usize).max(1);
+        if lines > room {
+            break;
+        }
+        room -= lines;
+        shown.push_str(line);
+        shown.push('\n');
+    }
+    shown
+}
+
+/// A text in the last line, cut where that ends.
+fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
+    let text = console::truncate_str(text, columns as usize, "…");
+    format!("\x1b[{rows};1H{text}\x1b[K")
+}
+
+#[cfg(test)]
+mod tests;

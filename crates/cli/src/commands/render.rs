@@ -1,0 +1,161 @@
+//! `marbles render`: the frames of a scene, one file each.
+
+use std::path::Path;
+
+use marbles_core::{Method, Settings};
+use rayon::ThreadPool;
+
+use super::args::RenderArguments;
+use super::scene;
+use crate::base::failure::Failure;
+use crate::base::{status, threads};
+use crate::files::destination::prepare;
+use crate::formats::encoding::{Encoding, ExrOptions, Format, PngOptions};
+use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
+use crate::sequence::messages;
+use crate::sequence::outcome::Outcome;
+use crate::sequence::pattern::Pattern;
+use crate::sequence::render::render;
+use crate::sequence::request::Request;
+use crate::terminal::console::Console;
+use crate::terminal::interrupt;
+use crate::terminal::progress::Progress;
+
+pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, Failure> {
+    if let Some(form) = arguments.progress {
+        console.speak_to(form.reader());
+    }
+    let threads = threads::start(arguments.threads)?;
+    let request = request(arguments, &threads, console)?;
+
+    interrupt::listen(console);
+    prepare(&request.pattern.path(request.frames.first()))?;
+
+    let (form, quiet) = (arguments.progress, arguments.quiet);
+    let progress = Progress::new(console, form, quiet, request.frames.count());
+    let outcome = render(&request, &threads, &progress);
+    progress.finish();
+    let outcome = outcome?;
+    if outcome.frames > 1
+        && request.pattern.is_numbered()
+        && !quiet
+        && let Some(total) = &outcome.total
+    {
+        console.result(&messages::total(outcome.written, total, outcome.time));
+    }
+    Ok(conclusion(&outcome, console))
+}
+
+/// Reads the scene and checks what can be before anything is rendered.
+pub(super) fn request(
+    arguments: &RenderArguments,
+    threads: &ThreadPool,
+    console: &Console,
+) -> Result<Request, Failure> {
+    let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
+    let pattern = pattern.map_err(Failure::Usage)?;
+    let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
+    let encoding = encoding(arguments, format)?;
+
+    let silent = arguments.quiet || arguments.progress.is_some();
+    let scene = threads.install(|| scene::load(&arguments.scene, console, silent))?;
+    let frames = arguments.frames.clone();
+    let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
+    let pattern = pattern.unwrap_or_else(|| {
+        let numbered = arguments.frames.is_some() || scene.frames().is_some();
+        Pattern::named_after(&arguments.scene, numbered)
+    });
+    check_names(&pattern, &frames, arguments.output.as_deref())?;
+    Ok(Request {
+        size: arguments.size,
+        window: arguments.region,
+        settings: Settings {
+            method: match arguments.samples {
+                Some(samples) => Method::Samples(samples),
+                None => Method::Tolerance(arguments.tolerance),
+            },
+            alpha: arguments.alpha,
+        },
+        frames_per_second: arguments.fps.or(scene.frames_per_second()),
+        scene,
+        frames,
+        pattern,
+        encoding,
+        skip_existing: arguments.skip_existing,
+        fail_fast: arguments.fail_fast,
+    })
+}
+
+/// Refuses names that are too many or too few for the frames.
+fn check_names(
+    pattern: &Pattern,
+    frames: &FrameList,
+    output: Option<&Path>,
+) -> Result<(), Failure> {
+    let is_animation = pattern.format() == Format::Apng;
+    if is_animation && pattern.is_numbered() {
+        return Err(Failure::unusable(
+            output.unwrap_or(Path::new("")),
+            "all frames are one file, whose name has no place for their number",
+        ));
+    }
+    let count = frames.count();
+    if count > 1 && !pattern.is_numbered() && !is_animation {
+        return Err(Failure::unusable(
+            &pattern.path(FRAME_OF_A_STILL),
+            &format!(
+                "{count} frames need a place for their number in the name: ####, %04d or {{frame:04}}"
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// The options of the format; those of the other one are refused.
+fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
+    let refused = |option: &str, works: &str, is: &str| {
+        Err(Failure::Usage(format!(
+            "{option} is for {works} files, and the output is {is}"
+        )))
+    };
+    let png = PngOptions {
+        deep: arguments.bits == Some(16),
+        rgb: arguments.rgb,
+    };
+    match format {
+        Format::Png | Format::Apng if arguments.float => refused("--float", "EXR", "PNG"),
+        Format::Png | Format::Apng if arguments.error_channel => {
+            refused("--error-channel", "EXR", "PNG")
+        }
+        Format::Apng if arguments.skip_existing => Err(Failure::Usage(
+            "--skip-existing is for files of one frame each, and the output has all of them"
+                .to_owned(),
+        )),
+        Format::Exr if arguments.rgb => refused("--rgb", "PNG", "EXR"),
+        Format::Exr if arguments.bits.is_some() => refused("--bits", "PNG", "EXR"),
+        Format::Png => Ok(Encoding::Png(png)),
+        Format::Apng => Ok(Encoding::Apng(png)),
+        Format::Exr => Ok(Encoding::Exr(ExrOptions {
+            float: arguments.float,
+            error: arguments.error_channel,
+        })),
+    }
+}
+
+/// Tells how a run has ended, and returns its exit code.
+fn conclusion(outcome: &Outcome, console: &Console) -> u8 {
+    if outcome.interrupted {
+        console.warn(&format!("interrupted: {}", messages::counts(outcome)));
+        status::INTERRUPTED
+    } else if !outcome.failed.is_empty() {
+        if outcome.frames > 1 {
+            console.warn(&messages::counts(outcome));
+        }
+        status::FAILURE
+    } else if outcome.is_over_tolerance() {
+        console.reason("some pixels are over the tolerance");
+        status::FAILURE
+    } else {
+        status::SUCCESS
+    }
+}

@@ -1,0 +1,129 @@
+//! The errors of a picture against a reference, and those that it claims.
+
+use marbles_core::Image;
+
+use crate::base::size::Size;
+use crate::formats::form::color_count;
+
+/// A reference that claims more than this leaves a pixel unknown: a tenth of the smallest
+/// tolerance that is measured.
+pub(super) const LARGEST_UNKNOWN: f64 = 1e-7;
+/// A claim means something only where the reference's own is so many times smaller.
+const MARGIN: f64 = 10.0;
+
+/// The errors of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Accuracy {
+    /// The root of the mean square, over all channels of all known pixels.
+    pub(super) rmse: f64,
+    /// The largest one of any channel of any known pixel.
+    pub(super) largest: f64,
+    /// The largest one that any known pixel claims.
+    pub(super) largest_claimed: f64,
+    /// The median of true over claimed error, of the pixels where that means something.
+    pub(super) median_of_claimed: Option<f64>,
+    /// Known pixels whose error is over the tolerance whatever the reference is off by.
+    pub(super) over: u64,
+    /// Pixels that are over, or say so themselves.
+    pub(super) missed: u64,
+}
+
+/// Returns whether a pixel of the reference is as good as exact.
+pub(super) fn is_known(reference: &Image, (col, row): (u32, u32)) -> bool {
+    reference.error(col, row) <= LARGEST_UNKNOWN
+}
+
+impl Accuracy {
+    /// Holds a picture against a reference of the same size; without a tolerance no pixel is over.
+    pub(super) fn of(image: &Image, reference: &Image, tolerance: Option<f64>) -> Self {
+        let channels = color_count(image.channels());
+        let mut accuracy = Self {
+            rmse: 0.0,
+            largest: 0.0,
+            largest_claimed: 0.0,
+            median_of_claimed: None,
+            over: 0,
+            missed: 0,
+        };
+        let (mut squares, mut count) = (0.0, 0_u64);
+        let mut ratios = Vec::new();
+        for (col, row) in places(image) {
+            let says_so = image.status(col, row).is_over_tolerance();
+            if !is_known(reference, (col, row)) {
+                accuracy.missed += u64::from(says_so);
+                continue;
+            }
+            let (values, exact) = (image.rgba(col, row), reference.rgba(col, row));
+            let differences = (0..channels).map(|index| (values[index] - exact[index]).abs());
+            squares += differences.clone().map(|size| size * size).sum::<f64>();
+            count += channels as u64;
+            let largest = differences.fold(0.0, f64::max);
+            let (claimed, unknown) = (image.error(col, row), reference.error(col, row));
+            accuracy.largest = accuracy.largest.max(largest);
+            accuracy.largest_claimed = accuracy.largest_claimed.max(claimed);
+            if claimed.is_finite() && claimed > 0.0 && claimed >= MARGIN * unknown {
+                ratios.push(largest / claimed);
+            }
+            let is_over = tolerance.is_some_and(|most| largest > most + unknown);
+            accuracy.over += u64::from(is_over);
+            accuracy.missed += u64::from(is_over || says_so);
+        }
+        accuracy.rmse = (squares / count.max(1) as f64).sqrt();
+        accuracy.median_of_claimed = median(&mut ratios);
+        accuracy
+    }
+
+    /// The largest true error over the largest claimed one.
+    pub(super) fn largest_of_claimed(&self) -> Option<f64> {
+        let says_something = self.largest_claimed > 0.0 && self.largest_claimed.is_finite();
+        says_something.then(|| self.largest / self.largest_claimed)
+    }
+}
+
+/// The places of all pixels, row by row.
+pub(super) fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+    let (width, height) = (image.width(), image.height());
+    Size { width, height }.places()
+}
+
+/// The number in the middle, or the mean of both there.
+pub(super) fn median(numbers: &mut [f64]) -> Option<f64> {
+    numbers.sort_unstable_by(f64::total_cmp);
+    let middle = numbers.len() / 2;
+    let upper = *numbers.get(middle)?;
+    if numbers.len() % 2 == 1 {
+        return Some(upper);
+    }
+    Some((numbers[middle - 1] + upper) / 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::tests::{Scene, render};
+
+    #[test]
+    fn medians_are_in_the_middle() {
+        assert_eq!(median(&mut []), None);
+        assert_eq!(median(&mut [7.0]), Some(7.0));
+        assert_eq!(median(&mut [9.0, 1.0, 4.0]), Some(4.0));
+        assert_eq!(median(&mut [9.0, 1.0, 4.0, 2.0]), Some(3.0));
+        assert_eq!(median(&mut [f64::INFINITY, 1.0, 0.0]), Some(1.0));
+    }
+
+    #[test]
+    fn a_picture_has_no_error_against_itself() {
+        let picture = render(Scene::Color, false);
+        let accuracy = Accuracy::of(&picture, &picture, Some(1e-3));
+        assert_eq!(
+            (accuracy.rmse, accuracy.largest, accuracy.over),
+            (0.0, 0.0, 0)
+        );
+        // Supersampled edges claim too much for a reference; what is left claims nothing.
+        assert_eq!(accuracy.median_of_claimed, None);
+        assert!(accuracy.largest_claimed <= LARGEST_UNKNOWN);
+        let known = places(&picture).filter(|&pixel| is_known(&picture, pixel));
+        let known = known.count();
+        assert!(known > 0 && known < places(&picture).count());
+    }
+}

@@ -1,0 +1,161 @@
+//! The time that supersampling takes to an error, between and beyond the runs that measured it.
+
+/// A measured setting.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Point {
+    pub(super) rmse: f64,
+    pub(super) seconds: f64,
+}
+
+/// A time to an error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Time {
+    pub(super) seconds: f64,
+    /// True where the error is smaller than any that was measured.
+    pub(super) extrapolated: bool,
+}
+
+/// Time against RMSE, straight between the points where both axes are logarithmic.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Curve {
+    /// The points from the cheapest on, each more accurate than the one before.
+    points: Vec<Point>,
+    /// The exponent of time as a power of RMSE where the curve ends, below 0.
+    slope: Option<f64>,
+}
+
+impl Curve {
+    /// The curve through the points that no cheaper one outdoes.
+    pub(super) fn through(points: impl IntoIterator<Item = Point>) -> Self {
+        let measured = |point: &Point| point.rmse > 0.0 && point.seconds > 0.0;
+        let mut sorted: Vec<Point> = points.into_iter().filter(measured).collect();
+        sorted.sort_by(|one, other| one.seconds.total_cmp(&other.seconds));
+        let mut points: Vec<Point> = Vec::new();
+        for point in sorted {
+            if points.last().is_none_or(|last| point.rmse < last.rmse) {
+                points.push(point);
+            }
+        }
+        let slope = slope(&points);
+        Self { points, slope }
+    }
+
+    /// The time to an error; to one that the cheapest point undercuts, the time of that point,
+    /// since less than one sample cannot be had.
+    pub(super) fn time(&self, rmse: f64) -> Option<Time> {
+        let (first, last) = (self.points.first()?, self.points.last()?);
+        if rmse.is_nan() || rmse <= 0.0 {
+            return None;
+        }
+        let measured = |seconds| {
+            Some(Time {
+                seconds,
+                extrapolated: false,
+            })
+        };
+        if rmse >= first.rmse {
+            return measured(first.seconds);
+        }
+        if let Some(pair) = self.points.windows(2).find(|pair| rmse >= pair[1].rmse) {
+            let slope = exponent(&pair[0], &pair[1]);
+            return measured(along(&pair[0], slope, rmse));
+        }
+        Some(Time {
+            seconds: along(last, self.slope?, rmse),
+            extrapolated: true,
+        })
+    }
+
+    /// The exponent of time as a power of RMSE where the curve ends, if it falls there.
+    pub(super) fn slope(&self) -> Option<f64> {
+        self.slope
+    }
+
+    /// The most accurate point.
+    pub(super) fn end(&self) -> Option<Point> {
+        self.points.last().copied()
+    }
+}
+
+/// The time at an error on the line through a point.
+fn along(point: &Point, slope: f64, rmse: f64) -> f64 {
+    point.seconds * libm::pow(rmse / point.rmse, slope)
+}
+
+/// The exponent of time as a power of RMSE from one point to another.
+fn exponent(one: &Point, other: &Point) -> f64 {
+    libm::log(other.seconds / one.seconds) / libm::log(other.rmse / one.rmse)
+}
+
+/// The exponent by least squares over the last points, where time does rise as the error falls.
+fn slope(points: &[Point]) -> Option<f64> {
+    /// Enough to even out the luck of single sample counts; the cheapest settings, most of whose
+    /// time is not spent on samples, are left out where there are more.
+    const POINTS: usize = 6;
+    let points = &points[points.len().saturating_sub(POINTS)..];
+    let count = points.len() as f64;
+    let (x, y): (Vec<f64>, Vec<f64>) = points
+        .iter()
+        .map(|point| (libm::log(point.rmse), libm::log(point.seconds)))
+        .unzip();
+    let mean = |numbers: &[f64]| numbers.iter().sum::<f64>() / count;
+    let (x_mean, y_mean) = (mean(&x), mean(&y));
+    let products = x.iter().zip(&y).map(|(x, y)| (x - x_mean) * (y - y_mean));
+    let squares = x.iter().map(|x| (x - x_mean) * (x - x_mean));
+    let slope = products.sum::<f64>() / squares.sum::<f64>();
+    (slope < 0.0).then_some(slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn point(rmse: f64, seconds: f64) -> Point {
+        Point { rmse, seconds }
+    }
+
+    fn assert_near(found: Option<Time>, seconds: f64, extrapolated: bool) {
+        let found = found.unwrap();
+        assert!((found.seconds / seconds - 1.0).abs() < 1e-12, "{found:?}");
+        assert_eq!(found.extrapolated, extrapolated);
+    }
+
+    #[test]
+    fn a_power_law_is_kept_everywhere() {
+        let law = |rmse: f64| 2e-3 * libm::pow(rmse, -4.0 / 3.0);
+        let errors = [1e-1, 3e-2, 1e-2, 2e-3, 1e-3, 5e-4];
+        let curve = Curve::through(errors.map(|rmse| point(rmse, law(rmse))));
+        assert!((curve.slope().unwrap() + 4.0 / 3.0).abs() < 1e-12);
+        for rmse in [1e-1, 5e-2, 1e-2, 7e-3, 5e-4] {
+            assert_near(curve.time(rmse), law(rmse), false);
+        }
+        for rmse in [4e-4, 1e-6] {
+            assert_near(curve.time(rmse), law(rmse), true);
+        }
+    }
+
+    #[test]
+    fn less_than_the_cheapest_cannot_be_had() {
+        let curve = Curve::through([point(1e-2, 4.0), point(1e-1, 1.0)]);
+        assert_near(curve.time(0.5), 1.0, false);
+    }
+
+    #[test]
+    fn points_that_others_outdo_do_not_count() {
+        let good = [point(1e-1, 1.0), point(1e-2, 4.0), point(1e-3, 16.0)];
+        let curve = Curve::through(good);
+        let bad = [point(2e-1, 1.5), point(5e-2, 9.0), point(0.0, 2.0)];
+        assert_eq!(Curve::through(good.into_iter().chain(bad)), curve);
+    }
+
+    #[test]
+    fn without_a_slope_nothing_is_extrapolated() {
+        assert_eq!(Curve::through([]).time(1e-3), None);
+        let curve = Curve::through([point(1e-2, 1.0)]);
+        assert_eq!(curve.slope(), None);
+        assert_eq!(curve.time(1e-3), None);
+        assert_near(curve.time(1e-2), 1.0, false);
+        assert_eq!(curve.time(0.0), None);
+        assert_eq!(curve.time(f64::NAN), None);
+    }
+}

@@ -1,0 +1,144 @@
+//! `marbles report`: speed against error, of tolerances and of supersampling.
+//!
+//! All settings are held against a reference, and supersampling is the yardstick: how much longer
+//! would it take to the same error? The exit code is that of `render`: 1 where some pixel does not
+//! meet its tolerance, by its own word or by measurement.
+
+mod accuracy;
+mod csv;
+mod curve;
+mod measure;
+mod plot;
+mod progress;
+mod results;
+mod row;
+mod table;
+
+use std::path::Path;
+
+use marbles_core::{Channels, Renderer};
+
+use self::measure::Plan;
+use self::progress::Progress;
+use self::results::{Report, title};
+use self::row::Row;
+use super::args::ReportArguments;
+use super::scene;
+use crate::base::failure::Failure;
+use crate::base::size::Size;
+use crate::base::{memory, status, threads};
+use crate::files::destination::{is_same, prepare};
+use crate::files::save::write_bytes;
+use crate::formats::form::color_count;
+use crate::terminal::console::Console;
+use crate::terminal::interrupt;
+
+pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
+    arguments.plot.as_deref().map_or(Ok(()), check_plot)?;
+    let scene = scene::load(&arguments.scene, console, arguments.quiet)?;
+    let view = scene::view(&scene, arguments.frame)?;
+    let view = arguments.size.map_or(view, |size| size.resize(view));
+    // What cannot be written is refused before the long work.
+    check_files(arguments)?;
+    let pool = threads::start(arguments.threads)?;
+    interrupt::listen(console);
+    for path in arguments.csv.iter().chain(&arguments.plot) {
+        prepare(path)?;
+    }
+    check_memory(Size::of(&view), Channels::of(scene.world(), false))?;
+
+    let progress = Progress::new(console, arguments.quiet);
+    let renderer = Renderer::new(scene.world());
+    let plan = Plan {
+        renderer: &renderer,
+        exposure: &scene.exposure(&view),
+        runs: arguments.runs,
+        seconds: arguments.seconds,
+        progress: &progress,
+    };
+    let measured = pool.install(|| plan.measure());
+    progress.finish();
+    let Ok(measurement) = measured else {
+        console.warn("interrupted: nothing was written");
+        return Ok(status::INTERRUPTED);
+    };
+
+    let report = Report {
+        title: title(&arguments.scene, &view, &scene, pool.current_num_threads()),
+        scene: arguments.scene.display().to_string(),
+        threads: pool.current_num_threads(),
+        view,
+        rows: Row::all(&measurement.settings),
+        measurement,
+    };
+    if let Some(path) = &arguments.csv {
+        write_bytes(&csv::bytes(&report), path)?;
+    }
+    if let Some(path) = &arguments.plot {
+        write_bytes(plot::draw(&report).as_bytes(), path)?;
+    }
+    if !arguments.quiet {
+        for line in table::lines(&report) {
+            console.result(&line);
+        }
+    }
+    Ok(conclusion(&report))
+}
+
+/// Refuses a name of the plot's file that does not end in `.svg`.
+fn check_plot(path: &Path) -> Result<(), Failure> {
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
+        return Ok(());
+    }
+    Err(Failure::Usage(format!(
+        "--plot: expected a file name that ends in .svg, the one format of plots, found `{}`",
+        path.display()
+    )))
+}
+
+/// Refuses files that would take the place of the scene or of each other.
+fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
+    let ReportArguments {
+        scene, csv, plot, ..
+    } = arguments;
+    for (option, path) in [("--csv", csv), ("--plot", plot)] {
+        if let Some(path) = path
+            && is_same(path, scene)
+        {
+            let why = format!("{option} would overwrite the scene");
+            return Err(Failure::unusable(path, &why));
+        }
+    }
+    if let (Some(csv), Some(plot)) = (csv, plot)
+        && is_same(csv, plot)
+    {
+        let why = "--csv and --plot name the same file";
+        return Err(Failure::unusable(csv, why));
+    }
+    Ok(())
+}
+
+/// Refuses pictures that do not fit into the memory together.
+fn check_memory(size: Size, channels: Channels) -> Result<(), Failure> {
+    /// The reference, another one in its place, and what is measured.
+    const PICTURES: u64 = 3;
+    // The channels and the error in double precision, what stands behind it, and the status.
+    let pixel_bytes = 8 * (color_count(channels) as u64 + 1) + 2;
+    let Size { width, height } = size;
+    let pictures = format!("{PICTURES} pictures of {width} x {height} pixels need");
+    memory::require(PICTURES * size.pixels() * pixel_bytes, &pictures)
+}
+
+/// The exit code of a report.
+fn conclusion(report: &Report) -> u8 {
+    let settings = &report.measurement.settings;
+    if settings.iter().any(|setting| setting.accuracy.missed > 0) {
+        status::FAILURE
+    } else {
+        status::SUCCESS
+    }
+}
+
+#[cfg(test)]
+mod tests;

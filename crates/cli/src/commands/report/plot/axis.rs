@@ -1,0 +1,136 @@
+//! Logarithmic axes.
+
+/// An axis over whole powers of ten, from `start` to `end`, which is the smaller one where the axis
+/// goes down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Axis {
+    /// Powers of ten, and where they lie on the drawing.
+    start: (i32, f64),
+    end: (i32, f64),
+}
+
+/// A mark beside an axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Tick {
+    pub(super) at: f64,
+    /// The power of ten, at every one or, on long axes, at every other, and so on.
+    pub(super) label: Option<i32>,
+    /// True at a power of ten.
+    pub(super) is_decade: bool,
+}
+
+impl Axis {
+    /// The shortest axis that contains all values above 0, going up from `start` to `end` on the
+    /// drawing; with `falls`, from the largest to the smallest.
+    pub(super) fn around(
+        values: impl IntoIterator<Item = f64>,
+        (start, end): (f64, f64),
+        falls: bool,
+    ) -> Self {
+        let mut decades: Option<(i32, i32)> = None;
+        for value in values {
+            if value > 0.0 && value.is_finite() {
+                let power = libm::log10(value);
+                let (low, high) = (power.floor() as i32, power.ceil() as i32);
+                decades = Some(decades.map_or((low, high), |(least, most)| {
+                    (least.min(low), most.max(high))
+                }));
+            }
+        }
+        let (low, high) = decades.unwrap_or((0, 1));
+        let high = high.max(low + 1);
+        let (first, last) = if falls { (high, low) } else { (low, high) };
+        Self {
+            start: (first, start),
+            end: (last, end),
+        }
+    }
+
+    /// The place of a value.
+    pub(super) fn place(&self, value: f64) -> f64 {
+        let ((first, start), (last, end)) = (self.start, self.end);
+        let along = (libm::log10(value) - f64::from(first)) / f64::from(last - first);
+        start + along * (end - start)
+    }
+
+    /// The least and the largest value on the axis.
+    pub(super) fn range(&self) -> (f64, f64) {
+        let (low, high) = self.decades();
+        (power_of_ten(low), power_of_ten(high))
+    }
+
+    /// The marks, with labels at no more than `most` of them.
+    pub(super) fn ticks(&self, most: u32) -> Vec<Tick> {
+        let (low, high) = self.decades();
+        let step = (high.abs_diff(low) + 1).div_ceil(most) as i32;
+        let mut ticks = Vec::new();
+        for decade in low..=high {
+            ticks.push(Tick {
+                at: self.place(power_of_ten(decade)),
+                label: (decade.rem_euclid(step) == 0).then_some(decade),
+                is_decade: true,
+            });
+            if decade < high && step == 1 {
+                ticks.extend((2..10).map(|multiple| Tick {
+                    at: self.place(f64::from(multiple) * power_of_ten(decade)),
+                    label: None,
+                    is_decade: false,
+                }));
+            }
+        }
+        ticks
+    }
+
+    fn decades(&self) -> (i32, i32) {
+        let (first, last) = (self.start.0, self.end.0);
+        (first.min(last), first.max(last))
+    }
+}
+
+fn power_of_ten(exponent: i32) -> f64 {
+    libm::pow(10.0, f64::from(exponent))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn labels(axis: &Axis, most: u32) -> Vec<i32> {
+        axis.ticks(most)
+            .iter()
+            .filter_map(|tick| tick.label)
+            .collect()
+    }
+
+    #[test]
+    fn axes_end_at_powers_of_ten() {
+        let axis = Axis::around([2e-3, 0.5, 0.0], (100.0, 400.0), false);
+        assert_eq!(axis.range(), (1e-3, 1.0));
+        assert_eq!(labels(&axis, 10), [-3, -2, -1, 0]);
+        assert!((axis.place(1e-2) - 200.0).abs() < 1e-9);
+        assert_eq!(axis.ticks(10).len(), 4 + 3 * 8);
+    }
+
+    #[test]
+    fn axes_may_fall() {
+        let axis = Axis::around([1e-6, 1e-1], (0.0, 500.0), true);
+        assert_eq!((axis.place(1e-1), axis.place(1e-6)), (0.0, 500.0));
+        assert!((axis.place(1e-4) - 300.0).abs() < 1e-9);
+        assert_eq!(labels(&axis, 10), [-6, -5, -4, -3, -2, -1]);
+    }
+
+    #[test]
+    fn a_single_value_has_a_decade() {
+        assert_eq!(Axis::around([1.0], (0.0, 1.0), false).range(), (1.0, 10.0));
+        assert_eq!(Axis::around([], (0.0, 1.0), false).range(), (1.0, 10.0));
+    }
+
+    #[test]
+    fn long_axes_have_fewer_labels() {
+        let axis = Axis::around([1e-12, 1e8], (0.0, 1.0), false);
+        for most in [1, 2, 5, 8, 20, 21] {
+            assert!(labels(&axis, most).len() <= most as usize, "{most}");
+        }
+        assert_eq!(labels(&axis, 11), [-12, -10, -8, -6, -4, -2, 0, 2, 4, 6, 8]);
+    }
+}

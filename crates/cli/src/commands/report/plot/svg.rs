@@ -1,0 +1,161 @@
+//! SVG: plain shapes and text, without scripts, styles or links, which a page may show as it is.
+
+use std::fmt::Write;
+
+/// Fonts that readers have: an SVG carries none.
+const FONTS: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
+
+/// A place on the drawing in pixels; x goes right, y goes down from the top left corner.
+pub(super) type Place = (f64, f64);
+
+/// A drawing on white, to which shapes are added in the order of painting.
+pub(super) struct Svg(String);
+
+/// The look of a text, and the part of it that is at its place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Style {
+    pub(super) anchor: Anchor,
+    pub(super) size: f64,
+    pub(super) is_bold: bool,
+    pub(super) color: &'static str,
+}
+
+/// The part of a text that is at its place.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Svg {
+    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+        let (width, height) = (number(width), number(height));
+        let title = escaped(title);
+        Self(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+             viewBox=\"0 0 {width} {height}\" font-family=\"{FONTS}\" role=\"img\">\n\
+             <title>{title}</title>\n\
+             <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>\n"
+        ))
+    }
+
+    /// The text of the file.
+    pub(super) fn finish(self) -> String {
+        self.0 + "</svg>\n"
+    }
+
+    /// Adds a line through these places.
+    pub(super) fn line(&mut self, places: &[Place], width: f64, color: &str) {
+        self.polyline(places, width, color, "stroke-linecap=\"round\"");
+    }
+
+    /// Adds a dashed line through these places.
+    pub(super) fn dashes(&mut self, places: &[Place], width: f64, color: &str) {
+        self.polyline(places, width, color, "stroke-dasharray=\"7 6\"");
+    }
+
+    fn polyline(&mut self, places: &[Place], width: f64, color: &str, look: &str) {
+        let place = |(x, y): &Place| format!("{},{}", number(*x), number(*y));
+        let points: Vec<String> = places.iter().map(place).collect();
+        self.element(format_args!(
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{}\" \
+             stroke-linejoin=\"round\" {look}/>",
+            points.join(" "),
+            number(width)
+        ));
+    }
+
+    pub(super) fn disk(&mut self, (x, y): Place, radius: f64, color: &str) {
+        let [x, y, radius] = [x, y, radius].map(number);
+        self.element(format_args!(
+            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{color}\"/>"
+        ));
+    }
+
+    /// Adds a square that stands on its side.
+    pub(super) fn square(&mut self, (x, y): Place, side: f64, color: &str) {
+        let [x, y, side] = [x - side / 2.0, y - side / 2.0, side].map(number);
+        self.element(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{side}\" height=\"{side}\" fill=\"{color}\"/>"
+        ));
+    }
+
+    /// Adds a text with its base line at a place.
+    pub(super) fn text(&mut self, place: Place, style: Style, text: &str) {
+        self.text_element(place, style, &escaped(text));
+    }
+
+    /// Adds a power of ten.
+    pub(super) fn power(&mut self, place: Place, style: Style, exponent: i32) {
+        // Hyphens are too short for a minus.
+        let exponent = exponent.to_string().replace('-', "\u{2212}");
+        let (up, size) = (number(-0.4 * style.size), number(0.72 * style.size));
+        let content = format!("10<tspan dy=\"{up}\" font-size=\"{size}\">{exponent}</tspan>");
+        self.text_element(place, style, &content);
+    }
+
+    fn text_element(&mut self, (x, y): Place, style: Style, content: &str) {
+        let Style {
+            anchor,
+            size,
+            is_bold,
+            color,
+        } = style;
+        let [x, y, size] = [x, y, size].map(number);
+        let weight = if is_bold { " font-weight=\"bold\"" } else { "" };
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        self.element(format_args!(
+            "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{weight} text-anchor=\"{anchor}\" \
+             fill=\"{color}\">{content}</text>"
+        ));
+    }
+
+    fn element(&mut self, element: std::fmt::Arguments<'_>) {
+        // Writing into a string cannot fail.
+        let _ = writeln!(self.0, "{element}");
+    }
+}
+
+/// Two decimals are finer than any screen.
+fn number(value: f64) -> String {
+    let text = format!("{value:.2}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0" } else { text }.to_owned()
+}
+
+/// A text between tags or quotes; what XML cannot hold becomes a replacement character.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&apos;"),
+            '\t' | '\n' | '\r' => escaped.push(' '),
+            '\0'..' ' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            _ => escaped.push(letter),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let texts = [0.0, -0.001, 1.0, 12.345, -3.5, 100.0].map(number);
+        assert_eq!(
+            texts,
+            ["0", "0", "1", "12.35", "-3.5", "100"].map(str::to_owned)
+        );
+    }
+}

@@ -1,0 +1,213 @@
+//! The results that `marbles report` prints: facts, a table in Markdown that reads well as it is, notes.
+
+use super::measure::name;
+use super::results::Report;
+use super::row::{Row, supersampling};
+use crate::base::numbers::{bound, duration, factor, fraction};
+use crate::sequence::messages;
+
+/// Width of the column with the names of facts.
+const NAMES: usize = 12;
+const TITLES: [&str; 10] = [
+    "setting",
+    "time",
+    "speed-up",
+    "RMSE",
+    "largest",
+    "over",
+    "true/claimed",
+    "largest/claimed",
+    "samples",
+    "lines",
+];
+
+/// The mark behind a number that is extrapolated.
+const EXTRAPOLATED: &str = " *";
+/// The mark behind an RMSE that the reference cannot tell.
+const BELOW_REFERENCE: &str = " ?";
+
+pub(super) fn lines(report: &Report) -> Vec<String> {
+    let mut lines = facts(report);
+    lines.push(String::new());
+    let rows = report.rows.iter().map(|row| cells(row, report));
+    lines.extend(markdown(
+        &TITLES.map(str::to_owned),
+        &rows.collect::<Vec<_>>(),
+    ));
+    let notes = notes(report);
+    if !notes.is_empty() {
+        lines.push(String::new());
+    }
+    lines.extend(notes);
+    lines
+}
+
+fn facts(report: &Report) -> Vec<String> {
+    let reference = report.reference();
+    let summary = reference.image.summary();
+    let mut facts = vec![
+        ("scene", report.title.clone()),
+        (
+            "reference",
+            format!(
+                "tolerance {:e}: {}, RMS {}, in {}",
+                reference.tolerance,
+                messages::claim(&summary),
+                bound(reference.claimed_rms()),
+                duration(reference.time.as_secs_f64())
+            ),
+        ),
+    ];
+    if !reference.is_complete() {
+        let unknown = summary.pixels - reference.known;
+        let text = format!(
+            "{unknown} of {} pixels left out, the reference is not good enough there",
+            summary.pixels
+        );
+        facts.push(("", text));
+    }
+    let measurement = &report.measurement;
+    let (runs, planned) = (measurement.runs(), measurement.runs_planned);
+    let plural = if runs == 1 { "" } else { "s" };
+    let mut text = format!("median of {runs} run{plural}");
+    if runs < planned {
+        text.push_str(&format!("; the time did not suffice for {planned}"));
+    }
+    facts.push(("times", text));
+    let lines = facts.into_iter();
+    lines
+        .map(|(name, text)| format!("{name:NAMES$}{text}"))
+        .collect()
+}
+
+fn cells(row: &Row, report: &Report) -> [String; 10] {
+    let setting = &row.setting;
+    let (accuracy, work) = (&setting.accuracy, &setting.work);
+    let nothing = || "-".to_owned();
+    let pixels = setting.summary.pixels as f64;
+    let a_pixel = |count: u64| match count {
+        0 => nothing(),
+        _ => factor(count as f64 / pixels),
+    };
+    let mut rmse = bound(accuracy.rmse);
+    if is_below_reference(row, report) {
+        rmse.push_str(BELOW_REFERENCE);
+    }
+    [
+        name(setting.method),
+        duration(row.seconds),
+        row.speed_up().map_or_else(nothing, |(ratio, beyond)| {
+            format!(
+                "{}{}",
+                factor(ratio),
+                if beyond { EXTRAPOLATED } else { "" }
+            )
+        }),
+        rmse,
+        bound(accuracy.largest),
+        match setting.tolerance() {
+            Some(_) => accuracy.over.to_string(),
+            None => nothing(),
+        },
+        accuracy.median_of_claimed.map_or_else(nothing, fraction),
+        accuracy.largest_of_claimed().map_or_else(nothing, fraction),
+        a_pixel(work.samples),
+        a_pixel(work.lines),
+    ]
+}
+
+/// Returns whether an RMSE is no larger than what the reference may be off by.
+fn is_below_reference(row: &Row, report: &Report) -> bool {
+    row.setting.accuracy.rmse <= report.reference().claimed_rms()
+}
+
+fn notes(report: &Report) -> Vec<String> {
+    let mut notes = Vec::new();
+    let rows = &report.rows;
+    let speed_ups = rows.iter().filter_map(Row::speed_up);
+    if speed_ups.into_iter().any(|(_, beyond)| beyond)
+        && let Some(slope) = supersampling(&report.measurement.settings).slope()
+    {
+        notes.push(format!(
+            "* extrapolated: the time of supersampling as RMSE^{slope:.2}, its slope at the end"
+        ));
+    }
+    if rows.iter().any(|row| is_below_reference(row, report)) {
+        notes.push("? no larger than what the reference may be off by".to_owned());
+    }
+    for row in rows {
+        let not_met = row.setting.summary.over_tolerance;
+        if not_met > 0 {
+            let name = name(row.setting.method);
+            let pixels = if not_met == 1 { "pixel" } else { "pixels" };
+            notes.push(format!(
+                "{name}: {not_met} {pixels} did not meet it, and say so"
+            ));
+        }
+    }
+    notes
+}
+
+/// The lines of a table in Markdown, the first column to the left and the others to the right, in
+/// columns that are as wide as their widest cell.
+fn markdown<const N: usize>(titles: &[String; N], rows: &[[String; N]]) -> Vec<String> {
+    let mut widths = [0; N];
+    for row in [titles].into_iter().chain(rows) {
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = (*width).max(cell.chars().count());
+        }
+    }
+    let line = |row: &[String; N]| {
+        let mut line = String::from("|");
+        for (index, (cell, width)) in row.iter().zip(widths).enumerate() {
+            line.push_str(&if index == 0 {
+                format!(" {cell:<width$} |")
+            } else {
+                format!(" {cell:>width$} |")
+            });
+        }
+        line
+    };
+    let rule = |(index, width): (usize, usize)| match index {
+        0 => format!("{}|", "-".repeat(width + 2)),
+        _ => format!("{}:|", "-".repeat(width + 1)),
+    };
+    let rules: String = widths.into_iter().enumerate().map(rule).collect();
+    let mut lines = vec![line(titles), format!("|{rules}")];
+    lines.extend(rows.iter().map(line));
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::commands::report::tests::report;
+
+    #[test]
+    fn tables_are_aligned() {
+        let row = |cells: [&str; 3]| cells.map(str::to_owned);
+        let lines = markdown(
+            &row(["setting", "t", "x"]),
+            &[row(["a", "1.0 µs", "10"]), row(["longer name", "2", ""])],
+        );
+        let expected = [
+            "| setting     |      t |  x |",
+            "|-------------|-------:|---:|",
+            "| a           | 1.0 µs | 10 |",
+            "| longer name |      2 |    |",
+        ];
+        assert_eq!(lines, expected);
+    }
+
+    #[test]
+    fn marks_are_explained_and_nothing_else() {
+        let text = lines(&report()).join("\n");
+        assert!(text.contains(" 5000 * |"), "{text}");
+        assert!(text.contains("\n* extrapolated: the time of supersampling as RMSE^-1.00,"));
+        assert!(text.contains("times       median of 1 run; the time did not suffice for 5\n"));
+        assert!(!text.contains('?'), "{text}");
+        let table = text.lines().filter(|line| line.starts_with('|'));
+        let columns: Vec<usize> = table.map(|line| line.matches('|').count()).collect();
+        assert_eq!(columns, [TITLES.len() + 1; 6]);
+    }
+}

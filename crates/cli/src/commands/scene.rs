@@ -1,0 +1,94 @@
+//! Scenes from their files, and on a terminal how far the reading is.
+
+use std::fs;
+use std::path::Path;
+
+use marbles_core::View;
+use marbles_scene::{Progress, Scene};
+
+use crate::base::failure::Failure;
+use crate::base::numbers;
+use crate::sequence::frames::frames_of;
+use crate::terminal::bar::{bar, show_line};
+use crate::terminal::console::Console;
+
+/// Smaller files are read before anybody has read a line about them, in bytes.
+const LARGE: u64 = 1 << 20;
+
+/// Loads the scene file at `path`, and the tables that it names, on the threads of the current
+/// rayon pool.
+pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene, Failure> {
+    let bar = if quiet { None } else { bar(console) };
+    let show = |line: String| {
+        if let Some(bar) = &bar {
+            show_line(bar, line);
+        }
+    };
+    let size = fs::metadata(path).map_or(0, |metadata| metadata.len());
+    if size >= LARGE {
+        show(format!(
+            "reading {}: {}",
+            numbers::bytes(size),
+            path.display()
+        ));
+    }
+    let scene = Scene::load_watched(path, &|progress| {
+        if progress.read.max(progress.size) >= LARGE {
+            show(line(&progress));
+        }
+    });
+    if let Some(bar) = &bar {
+        bar.finish_and_clear();
+    }
+    scene.map_err(|error| Failure::Scene(Box::new(error)))
+}
+
+/// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where
+/// it names none.
+pub(super) fn view(scene: &Scene, frame: Option<i32>) -> Result<View, Failure> {
+    let frames = frames_of(scene);
+    let frame = frame.unwrap_or(*frames.start());
+    if !frames.contains(&frame) {
+        let expected = match frames.into_inner() {
+            (first, last) if first == last => format!("{first}, the only frame of the scene"),
+            (first, last) => format!("a frame of the scene, from {first} to {last}"),
+        };
+        return Err(Failure::Usage(format!(
+            "--frame: expected {expected}, found {frame}"
+        )));
+    }
+    let view = scene.view(frame);
+    view.map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The progress of reading a table, in a line.
+fn line(progress: &Progress<'_>) -> String {
+    let Progress { table, read, size } = progress;
+    let table = table.display();
+    if read > size {
+        // What is no ordinary file says that it is empty.
+        return format!("reading, {} so far: {table}", numbers::bytes(*read));
+    }
+    let percent = 100.0 * *read as f64 / *size as f64;
+    let size = numbers::bytes(*size);
+    format!("reading {percent:>3.0}% of {size}: {table}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_say_how_much_of_what_was_read() {
+        let line = |read, size| {
+            let table = Path::new("salt.npy");
+            line(&Progress { table, read, size })
+        };
+        assert_eq!(line(2 << 20, 0), "reading, 2.1 MB so far: salt.npy");
+        assert_eq!(
+            line(9_600_000, 320_000_000),
+            "reading   3% of 320 MB: salt.npy"
+        );
+        assert_eq!(line(5 << 20, 5 << 20), "reading 100% of 5.2 MB: salt.npy");
+    }
+}

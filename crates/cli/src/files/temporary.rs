@@ -1,0 +1,219 @@
+//! Files that exist under a temporary name until they are complete.
+//!
+//! `a.png` is written as `a.png.tmp`, and by a second process at the same time as `a.png.1.tmp`.
+//! The process that writes a file holds a lock on it, which ends with the process however that ends: a
+//! file that is not locked was left by one that was killed, and may be removed. Only the process that
+//! has the lock removes or moves a file, so that its name cannot come to mean another one meanwhile.
+
+use std::collections::HashMap;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use same_file::Handle;
+
+/// The longest names, in bytes, that common file systems take.
+const LONGEST_NAME: usize = 255;
+/// Bytes that stay free for endings.
+const LONGEST_ENDING: usize = 16;
+const ENDING: &str = ".tmp";
+/// The number of others that may be writing the same file.
+const MOST_OTHERS: u32 = 1000;
+
+/// The temporary files of this process; a thread that holds the lock knows that none appears or moves.
+static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// A file beside the place where it belongs, removed when it is dropped before its time.
+#[derive(Debug)]
+pub(crate) struct TemporaryFile {
+    /// Locked, where the file system knows locks.
+    file: File,
+    path: PathBuf,
+    destination: PathBuf,
+}
+
+impl TemporaryFile {
+    /// Creates the file, named after its destination, with a shorter stem where there is no room.
+    pub(crate) fn beside(destination: &Path) -> io::Result<Self> {
+        for number in 0..MOST_OTHERS {
+            if let Some(file) = Self::numbered(destination, number)? {
+                return Ok(file);
+            }
+        }
+        let message = "too many temporary files are in the way";
+        Err(io::Error::new(ErrorKind::AlreadyExists, message))
+    }
+
+    /// Creates the file unless another process is writing what belongs there.
+    pub(crate) fn claim(destination: &Path) -> io::Result<Option<Self>> {
+        Self::numbered(destination, 0)
+    }
+
+    fn numbered(destination: &Path, number: u32) -> io::Result<Option<Self>> {
+        let mut name = stem(destination);
+        if number > 0 {
+            name.push(format!(".{number}"));
+        }
+        name.push(ENDING);
+        let path = destination.with_file_name(name);
+        let mut open = lock();
+        let Some(file) = create(&path)? else {
+            return Ok(None);
+        };
+        open.push(path.clone());
+        Ok(Some(Self {
+            file,
+            path,
+            destination: destination.to_owned(),
+        }))
+    }
+
+    /// Another file for the same place.
+    pub(crate) fn another(&self) -> io::Result<Self> {
+        Self::beside(&self.destination)
+    }
+
+    /// The file, to be read from and written to.
+    pub(crate) fn file(&mut self) -> &mut File {
+        &mut self.file
+    }
+
+    /// Moves the complete file to its destination, in place of what was there.
+    pub(crate) fn persist(self) -> io::Result<()> {
+        // Without this a crash of the machine could leave the name without the bytes.
+        self.file.sync_all()?;
+        let mut open = lock();
+        fs::rename(&self.path, &self.destination)?;
+        open.retain(|path| *path != self.path);
+        Ok(())
+    }
+}
+
+impl Drop for TemporaryFile {
+    fn drop(&mut self) {
+        let mut open = lock();
+        if let Some(index) = open.iter().position(|path| *path == self.path) {
+            open.swap_remove(index);
+            // No caller waits for the answer.
+            let _ = fs::remove_file(&self.path);
+        }
+    }
+}
+
+/// Creates a file and locks it; `None` where there is one that is not left over.
+fn create(path: &Path) -> io::Result<Option<File>> {
+    /// Each time that another process comes in between, that one gets on.
+    const ATTEMPTS: u32 = 10;
+    for _ in 0..ATTEMPTS {
+        let mut options = File::options();
+        match options.read(true).write(true).create_new(true).open(path) {
+            Ok(file) => match file.try_lock() {
+                // Another process took it for left over.
+                Err(TryLockError::WouldBlock) => {}
+                Ok(()) if !is_at(&file, path) => {}
+                // Without locks no process will take it for left over.
+                Ok(()) | Err(TryLockError::Error(_)) => return Ok(Some(file)),
+            },
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => {
+                if !remove_left_over(path) {
+                    return Ok(None);
+                }
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(None)
+}
+
+/// Removes a file that no process writes any more; returns whether it is gone.
+fn remove_left_over(path: &Path) -> bool {
+    match File::options().read(true).write(true).open(path) {
+        Ok(file) => match file.try_lock() {
+            Ok(()) => !is_at(&file, path) || fs::remove_file(path).is_ok(),
+            Err(_) => false,
+        },
+        Err(error) => error.kind() == ErrorKind::NotFound,
+    }
+}
+
+/// Returns whether this is the file that has that name now.
+fn is_at(file: &File, path: &Path) -> bool {
+    let ours = file.try_clone().and_then(Handle::from_file);
+    matches!((ours, Handle::from_path(path)), (Ok(ours), Ok(found)) if ours == found)
+}
+
+/// The name of a file, cut at the end of a character where endings would make it too long.
+fn stem(path: &Path) -> OsString {
+    let name = path.file_name().unwrap_or_default();
+    let room = LONGEST_NAME - LONGEST_ENDING;
+    if name.len() <= room {
+        return name.to_owned();
+    }
+    let name = name.to_string_lossy();
+    let characters = name.char_indices();
+    let ends = characters.map(|(start, character)| start + character.len_utf8());
+    let end = ends.take_while(|&end| end <= room).last().unwrap_or(0);
+    OsString::from(&name[..end])
+}
+
+/// The start of a temporary file's name: the name of its destination, or the start of that.
+fn stem_of_temporary(name: &OsStr) -> Option<&str> {
+    let name = name.to_str()?.strip_suffix(ENDING)?;
+    Some(match name.rsplit_once('.') {
+        Some((stem, number)) if number.parse::<u32>().is_ok() => stem,
+        _ => name,
+    })
+}
+
+/// Temporary files that were there at the start, folder by folder.
+#[derive(Debug, Default)]
+pub(crate) struct LeftOver {
+    folders: HashMap<PathBuf, HashMap<OsString, Vec<PathBuf>>>,
+}
+
+impl LeftOver {
+    /// Removes those for one place that no process writes any more.
+    pub(crate) fn remove(&mut self, destination: &Path) {
+        let folder = super::destination::folder(destination);
+        if !self.folders.contains_key(folder) {
+            self.folders.insert(folder.to_owned(), temporaries(folder));
+        }
+        let found = self.folders.get_mut(folder);
+        let found = found.and_then(|found| found.remove(&stem(destination)));
+        for path in found.into_iter().flatten() {
+            remove_left_over(&path);
+        }
+    }
+}
+
+/// The temporary files in a folder, by what their names begin with.
+fn temporaries(folder: &Path) -> HashMap<OsString, Vec<PathBuf>> {
+    let mut found: HashMap<OsString, Vec<PathBuf>> = HashMap::new();
+    // What cannot be looked at cannot be written to either, which others will say.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        if let Some(stem) = stem_of_temporary(&entry.file_name()) {
+            found.entry(stem.into()).or_default().push(entry.path());
+        }
+    }
+    found
+}
+
+/// Removes all temporary files; as long as the answer lives, no file appears or moves.
+pub(crate) fn abandon_all() -> impl Sized {
+    let mut open = lock();
+    for path in open.drain(..) {
+        // What cannot be removed stays; there is nobody left to tell.
+        let _ = fs::remove_file(path);
+    }
+    open
+}
+
+fn lock() -> MutexGuard<'static, Vec<PathBuf>> {
+    // The list is valid after every step, so that a panic elsewhere does not spoil it.
+    OPEN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests;

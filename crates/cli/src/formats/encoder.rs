@@ -1,0 +1,196 @@
+//! The encoder of a sequence's pictures: strips become pieces of files, and pieces become files.
+
+use std::ops::Range;
+use std::path::Path;
+
+use ::exr::block::chunk::Chunk;
+use marbles_core::{BAND_ROWS, Image};
+
+use super::encoding::Encoding;
+use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
+use super::exr::write::write_blocks;
+use super::facts::Facts;
+use super::form::Form;
+use super::png::animation::{Animation, delay};
+use super::png::shape::Shape;
+use super::png::write::{texts, write};
+use crate::files::save::{Fault, Unwritten, finish, save};
+use crate::files::temporary::TemporaryFile;
+
+/// The encoder of the pictures of a sequence, which are all of one form.
+#[derive(Debug)]
+pub(crate) struct Encoder {
+    pub(crate) form: Form,
+    pub(super) layout: Layout,
+}
+
+/// The layout of samples in a file.
+#[derive(Debug)]
+pub(super) enum Layout {
+    Png(Shape),
+    Exr(Box<Blocks>),
+}
+
+/// A part of a file, made of a strip.
+#[derive(Debug)]
+pub(crate) enum Piece {
+    /// To be compressed after what comes before.
+    Samples(Vec<u8>),
+    /// Ready to be written, or why it is not.
+    Block(Result<Chunk, String>),
+}
+
+impl Encoder {
+    pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
+        let layout = match encoding {
+            Encoding::Png(options) | Encoding::Apng(options) => {
+                Layout::Png(Shape::of(&form, options))
+            }
+            Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
+        };
+        Self { form, layout }
+    }
+
+    /// Bands of a strip.
+    pub(crate) fn bands(&self) -> u32 {
+        match self.layout {
+            Layout::Png(_) if self.form.region.window.row.is_multiple_of(BAND_ROWS) => 1,
+            // What begins within a band renders all of it, so that few should.
+            Layout::Png(_) => 4,
+            Layout::Exr(_) => ROWS_OF_A_BLOCK / BAND_ROWS,
+        }
+    }
+
+    /// Rows of a strip.
+    pub(crate) fn rows(&self) -> u32 {
+        self.bands() * BAND_ROWS
+    }
+
+    /// Pieces of a picture, one for each strip.
+    pub(crate) fn pieces(&self) -> u32 {
+        self.form.region.window.height.div_ceil(self.rows())
+    }
+
+    /// Bytes that a strip takes at most on its way to the file.
+    pub(crate) fn strip_bytes(&self) -> u64 {
+        /// The samples; while a block is compressed, three copies more.
+        const COPIES_OF_A_BLOCK: u64 = 4;
+        let samples = self.sample_bytes(0) as u64;
+        match self.layout {
+            Layout::Png(_) => samples,
+            Layout::Exr(_) => COPIES_OF_A_BLOCK * samples,
+        }
+    }
+
+    /// Bytes of the samples of the strip with this index.
+    pub(crate) fn sample_bytes(&self, index: u32) -> usize {
+        let rows = (self.form.region.window.height - index * self.rows()).min(self.rows());
+        let row_bytes = match &self.layout {
+            Layout::Png(shape) => shape.row_bytes(),
+            Layout::Exr(blocks) => blocks.row_bytes(),
+        };
+        rows as usize * row_bytes
+    }
+
+    /// Puts some rows of an image where they belong in a strip of as many rows, from the column `col`
+    /// on; returns how many finite numbers were too large for the format's.
+    pub(crate) fn encode(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        image: &Image,
+        rows: Range<u32>,
+    ) -> u64 {
+        match &self.layout {
+            Layout::Png(shape) => {
+                shape.encode(samples, col, image, rows);
+                0
+            }
+            Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
+        }
+    }
+
+    /// The piece that the samples of the strip with this index become.
+    pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
+        match &self.layout {
+            Layout::Png(_) => Piece::Samples(samples),
+            Layout::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
+        }
+    }
+
+    /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
+    ///
+    /// `next` gives the pieces from the top downward, and `None` for one that will not come.
+    pub(crate) fn write(
+        &self,
+        facts: &Facts,
+        path: &Path,
+        mut file: TemporaryFile,
+        mut next: impl FnMut() -> Option<Piece>,
+    ) -> Result<(), Unwritten> {
+        let written = match &self.layout {
+            Layout::Png(shape) => {
+                let texts = texts(&facts.digest, &self.form.region);
+                write(file, *shape, &texts, |stream| {
+                    for _ in 0..self.pieces() {
+                        stream.write_all(&samples(next())?)?;
+                    }
+                    Ok(())
+                })
+            }
+            Layout::Exr(blocks) => {
+                write_blocks(file.file(), blocks, facts, || block(next())).map(|()| file)
+            }
+        };
+        finish(path, written)
+    }
+
+    /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each
+    /// of them, and ends it all with `None`.
+    ///
+    /// An animated PNG, which repeats for ever, of so many frames per second, where that is known.
+    pub(crate) fn write_animation(
+        &self,
+        path: &Path,
+        frames: u32,
+        frames_per_second: Option<f64>,
+        mut next: impl FnMut() -> Option<Piece>,
+        mut written: impl FnMut() -> Option<()>,
+    ) -> Result<(), Unwritten> {
+        let Layout::Png(shape) = &self.layout else {
+            // Other formats have no animations.
+            return Err(Unwritten::Stopped);
+        };
+        save(path, |mut file| {
+            let delay = delay(frames_per_second);
+            let mut animation = Animation::begin(file.file(), *shape, frames, delay)?;
+            for _ in 0..frames {
+                for _ in 0..self.pieces() {
+                    animation.add_samples(&samples(next())?);
+                }
+                animation.end_frame()?;
+                written().ok_or(Fault::Stopped)?;
+            }
+            animation.finish()?;
+            Ok(file)
+        })
+    }
+}
+
+/// The samples of a piece of a PNG.
+pub(super) fn samples(piece: Option<Piece>) -> Result<Vec<u8>, Fault> {
+    match piece {
+        Some(Piece::Samples(samples)) => Ok(samples),
+        // Blocks are never made for a PNG.
+        Some(Piece::Block(_)) | None => Err(Fault::Stopped),
+    }
+}
+
+/// The block of a piece of an EXR.
+pub(super) fn block(piece: Option<Piece>) -> Result<Chunk, Fault> {
+    match piece {
+        Some(Piece::Block(block)) => block.map_err(Fault::Encoding),
+        // Samples are never left for an EXR.
+        Some(Piece::Samples(_)) | None => Err(Fault::Stopped),
+    }
+}

@@ -1,0 +1,54 @@
+//! The formats of pictures, and the ways to write each.
+
+use std::path::Path;
+
+/// A file format, known by the ending of the name.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Format {
+    Png,
+    /// All frames in one file, an animated PNG.
+    Apng,
+    Exr,
+}
+
+impl Format {
+    /// The format that the ending of a name asks for.
+    pub(crate) fn of(name: &str) -> Option<Self> {
+        let (_, ending) = name.rsplit_once('.')?;
+        [("png", Self::Png), ("apng", Self::Apng), ("exr", Self::Exr)]
+            .into_iter()
+            .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
+    }
+
+    /// The format that the ending of a file's name asks for.
+    pub(crate) fn of_file(path: &Path) -> Option<Self> {
+        Self::of(path.file_name()?.to_str()?)
+    }
+}
+
+/// The way in which pictures are turned into bytes.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Encoding {
+    Png(PngOptions),
+    /// The pictures of a sequence in one file.
+    Apng(PngOptions),
+    Exr(ExrOptions),
+}
+
+/// The way in which a PNG file is written.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct PngOptions {
+    /// 16 bit instead of 8.
+    pub(crate) deep: bool,
+    /// Three channels for pictures without color as well.
+    pub(crate) rgb: bool,
+}
+
+/// The way in which an EXR file is written.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct ExrOptions {
+    /// Single precision instead of half.
+    pub(crate) float: bool,
+    /// A channel with the error of each pixel.
+    pub(crate) error: bool,
+}

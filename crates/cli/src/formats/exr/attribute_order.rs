@@ -1,0 +1,79 @@
+//! The order of the attributes in the header of an EXR file.
+//!
+//! Layout: magic number, version, then attributes, each a name and a type that end in a zero
+//! byte, a size and as many bytes; an empty name ends them.
+//!
+//! Source: "OpenEXR File Layout", openexr.com.
+
+use std::ops::Range;
+
+/// Bytes before the first attribute: the magic number and the version.
+const PREAMBLE: usize = 8;
+
+/// Puts the attributes of a file with one part into the order of their names.
+///
+/// The encoder keeps some in a hash map, so that their order would differ from run to run.
+/// `None`, and nothing changed, where the bytes do not have the form above.
+pub(crate) fn sort_attributes(file: &mut [u8]) -> Option<()> {
+    let mut records: Vec<Range<usize>> = Vec::new();
+    let mut start = PREAMBLE;
+    while *file.get(start)? != 0 {
+        let end = attribute_end(file, start)?;
+        records.push(start..end);
+        start = end;
+    }
+    // A name is smaller than the longer ones it begins: its zero byte comes before all letters.
+    records.sort_by_key(|record| &file[record.clone()]);
+    let sorted: Vec<u8> = records
+        .into_iter()
+        .flat_map(|record| file[record].iter().copied())
+        .collect();
+    file[PREAMBLE..start].copy_from_slice(&sorted);
+    Some(())
+}
+
+/// The end of the attribute that begins at `start`.
+fn attribute_end(file: &[u8], start: usize) -> Option<usize> {
+    let mut rest = file.get(start..)?;
+    for _name_and_type in 0..2 {
+        let zero = rest.iter().position(|&byte| byte == 0)?;
+        rest = &rest[zero + 1..];
+    }
+    let (size, value) = rest.split_first_chunk::<4>()?;
+    let size = usize::try_from(u32::from_le_bytes(*size)).ok()?;
+    let rest = value.get(size..)?;
+    Some(file.len() - rest.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &[u8] = b"12345678\
+        b\0int\0\x01\0\0\0B\
+        ab\0int\0\x02\0\0\0\0\0\
+        a\0int\0\0\0\0\0\
+        \0rest";
+
+    #[test]
+    fn attributes_come_in_the_order_of_their_names() {
+        let mut file = FILE.to_vec();
+        assert_eq!(sort_attributes(&mut file), Some(()));
+        let sorted = b"12345678\
+            a\0int\0\0\0\0\0\
+            ab\0int\0\x02\0\0\0\0\0\
+            b\0int\0\x01\0\0\0B\
+            \0rest";
+        assert_eq!(file, sorted);
+    }
+
+    #[test]
+    fn truncated_headers_are_left_alone() {
+        let end = FILE.len() - b"\0rest".len();
+        for length in 0..=end {
+            let mut file = FILE[..length].to_vec();
+            assert_eq!(sort_attributes(&mut file), None);
+            assert_eq!(file, FILE[..length]);
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The blocks of an EXR file: linear light, in half or single precision.
+
+use std::ops::Range;
+
+use exr::block::chunk::Chunk;
+use exr::block::{BlockIndex, UncompressedBlock};
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
+use exr::prelude::{IntegerBounds, Vec2};
+use marbles_core::{Channels, Image};
+
+use super::header::header_of;
+use crate::base::region::Region;
+use crate::formats::encoding::ExrOptions;
+use crate::formats::form::Form;
+use crate::formats::half;
+
+/// The channel with the error of each pixel: how far any of its other channels may be from the
+/// exact average, before they are rounded to the format. Infinite where nothing is known.
+const ERROR_CHANNEL: &str = "error";
+
+/// Rows that are compressed together.
+pub(crate) const ROWS_OF_A_BLOCK: u32 = 16;
+
+/// The layout of blocks, which hold the light and the errors of a picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Blocks {
+    options: ExrOptions,
+    channels: Vec<Channel>,
+    /// The header without the facts about the picture, which do not matter to the blocks.
+    pub(super) header: Header,
+}
+
+/// A channel of a file.
+#[derive(Clone, Copy, Debug)]
+struct Channel {
+    name: &'static str,
+    /// The number of red, green, blue or alpha; `None` for the error.
+    light: Option<usize>,
+    /// Bytes of a sample.
+    bytes: usize,
+}
+
+impl Blocks {
+    /// The blocks of a picture of this form.
+    pub(crate) fn new(form: &Form, options: ExrOptions) -> Self {
+        let light = |(number, name)| Channel {
+            name,
+            light: Some(number),
+            bytes: if options.float { 4 } else { 2 },
+        };
+        // In the order of their names.
+        let names = [(3, "A"), (2, "B"), (1, "G"), (0, "R")].into_iter();
+        let names = names.skip(usize::from(!form.alpha));
+        let mut channels: Vec<Channel> = names.map(light).collect();
+        if options.error {
+            channels.push(Channel {
+                name: ERROR_CHANNEL,
+                light: None,
+                // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
+                bytes: 4,
+            });
+        }
+        let kind = |channel: &Channel| match channel.bytes {
+            2 => SampleType::F16,
+            _ => SampleType::F32,
+        };
+        let names = channels.iter().map(|channel| (channel.name, kind(channel)));
+        let Region { window, whole } = form.region;
+        let mut header = header_of(form.region.size(), names.collect());
+        let position = Vec2(window.col as i32, window.row as i32);
+        header.own_attributes.layer_position = position;
+        let display = (whole.width as usize, whole.height as usize);
+        header.shared_attributes.display_window = IntegerBounds::from_dimensions(display);
+        Self {
+            options,
+            channels,
+            header,
+        }
+    }
+
+    /// Bytes of a row's samples.
+    pub(crate) fn row_bytes(&self) -> usize {
+        let pixel: usize = self.channels.iter().map(|channel| channel.bytes).sum();
+        self.header.layer_size.x() * pixel
+    }
+
+    /// Puts the numbers of some rows of an image where they belong in `samples`, which are as many
+    /// rows, from the column `col` on; returns how many were too large.
+    pub(crate) fn encode(
+        &self,
+        samples: &mut [u8],
+        col: u32,
+        image: &Image,
+        rows: Range<u32>,
+    ) -> u64 {
+        let mut clipped = 0;
+        let columns = self.header.layer_size.x();
+        let is_grey = image.channels() == Channels::Grey;
+        for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+            let mut end = 0;
+            // Where the first color of a grey picture is, and how many numbers of it were too large.
+            let mut grey = None;
+            for channel in &self.channels {
+                let start = end + col as usize * channel.bytes;
+                let own = start..start + image.width() as usize * channel.bytes;
+                end += columns * channel.bytes;
+                clipped += match channel.light {
+                    None => {
+                        let (floats, _) = samples[own].as_chunks_mut();
+                        for (float, col) in floats.iter_mut().zip(0..) {
+                            *float = float_above(image.error(col, row)).to_ne_bytes();
+                        }
+                        0
+                    }
+                    Some(light) => match &grey {
+                        Some((first, clipped)) if light < 3 => {
+                            samples.copy_within(Range::clone(first), start);
+                            *clipped
+                        }
+                        _ => {
+                            let values = (0..image.width()).map(|col| image.rgba(col, row)[light]);
+                            let samples = &mut samples[own.clone()];
+                            let clipped = encode_light(samples, self.options.float, values);
+                            if is_grey && light < 3 {
+                                grey = Some((own, clipped));
+                            }
+                            clipped
+                        }
+                    },
+                };
+            }
+        }
+        clipped
+    }
+
+    /// The block with this index, counted from the top, compressed.
+    pub(crate) fn compress(&self, index: u32, samples: Vec<u8>) -> Result<Chunk, String> {
+        compress(&self.header, index as usize, samples)
+    }
+}
+
+/// Puts numbers into the samples of a channel of light, floats or halves; returns how many were too
+/// large.
+fn encode_light(samples: &mut [u8], is_float: bool, light: impl Iterator<Item = f64>) -> u64 {
+    let mut clipped = 0;
+    if is_float {
+        let (floats, _) = samples.as_chunks_mut();
+        for (sample, value) in floats.iter_mut().zip(light) {
+            let value = clip(value, f32::MAX.into(), &mut clipped);
+            *sample = float(value).to_ne_bytes();
+        }
+    } else {
+        let (halves, _) = samples.as_chunks_mut();
+        for (sample, value) in halves.iter_mut().zip(light) {
+            let value = clip(value, half::LARGEST, &mut clipped);
+            *sample = half::nearest(value).to_ne_bytes();
+        }
+    }
+    clipped
+}
+/// The block with this index, whose samples are row by row, in each channel by channel.
+pub(super) fn compress(header: &Header, index: usize, samples: Vec<u8>) -> Result<Chunk, String> {
+    let size = header.layer_size;
+    let row = index * ROWS_OF_A_BLOCK as usize;
+    let rows = (size.y() - row).min(ROWS_OF_A_BLOCK as usize);
+    let block = UncompressedBlock {
+        index: BlockIndex {
+            layer: 0,
+            pixel_position: Vec2(0, row),
+            pixel_size: Vec2(size.x(), rows),
+            level: Vec2(0, 0),
+        },
+        data: samples,
+    };
+    block
+        .compress_to_chunk(std::slice::from_ref(header))
+        .map_err(|error| error.to_string())
+}
+
+/// The nearest float.
+fn float(value: f64) -> f32 {
+    value as f32
+}
+
+/// The least float that is no smaller: a bound stays one.
+fn float_above(value: f64) -> f32 {
+    let nearest = float(value);
+    if f64::from(nearest) < value {
+        nearest.next_up()
+    } else {
+        nearest
+    }
+}
+
+/// Keeps finite values below infinity, and counts where that was needed.
+fn clip(value: f64, largest: f64, clipped: &mut u64) -> f64 {
+    if value.is_finite() && value.abs() > largest {
+        *clipped += 1;
+        largest.copysign(value)
+    } else {
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests;

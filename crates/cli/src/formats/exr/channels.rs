@@ -1,0 +1,58 @@
+//! The choice of the channels of a file that are its picture.
+
+use std::collections::BTreeSet;
+
+use exr::prelude::{AnyChannels, FlatSamples, Layer};
+
+/// A part of a file, with all its channels.
+pub(super) type Part = Layer<AnyChannels<FlatSamples>>;
+
+/// The place where the light of a picture is found.
+pub(crate) struct Chosen {
+    pub(crate) part: usize,
+    /// The start of the names of its channels: nothing, or `layer.`.
+    pub(crate) prefix: String,
+    /// The names after the prefix.
+    pub(crate) colors: &'static [&'static str],
+}
+
+/// The first part with channels `R`, `G`, `B` or `Y`; failing that, the first with a layer that
+/// has such, in the order of the layers' names.
+pub(crate) fn choose(parts: &[Part]) -> Result<Chosen, String> {
+    const COLORS: [&[&str]; 2] = [&["R", "G", "B"], &["Y"]];
+    let names: Vec<BTreeSet<String>> = parts
+        .iter()
+        .map(|part| {
+            let channels = part.channel_data.list.iter();
+            channels.map(|channel| channel.name.to_string()).collect()
+        })
+        .collect();
+    let prefixes = |names: &BTreeSet<String>| -> BTreeSet<String> {
+        let prefix = |name: &String| name.rfind('.').map(|dot| name[..=dot].to_owned());
+        names.iter().filter_map(prefix).collect()
+    };
+    let plain = (0..parts.len()).map(|part| (part, String::new()));
+    let layers = names.iter().enumerate().flat_map(|(part, names)| {
+        prefixes(names)
+            .into_iter()
+            .map(move |prefix| (part, prefix))
+    });
+    for (part, prefix) in plain.chain(layers) {
+        let has = |name: &&str| names[part].contains(&format!("{prefix}{name}"));
+        if has(&"RY") || has(&"BY") {
+            return Err("its colors are luminance and chroma, expected R, G, B or Y".to_owned());
+        }
+        if let Some(colors) = COLORS.into_iter().find(|colors| colors.iter().all(has)) {
+            return Ok(Chosen {
+                part,
+                prefix,
+                colors,
+            });
+        }
+    }
+    let found: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+    Err(format!(
+        "expected channels R, G, B or Y, found {}",
+        found.join(", ")
+    ))
+}

@@ -1,0 +1,82 @@
+//! The header of an EXR file: its channels, its colors, and what is known of the camera that saw them.
+
+use exr::meta::BlockDescription;
+use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, SampleType};
+use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
+use exr::prelude::{AttributeValue, Compression, SmallVec, Text, Vec2};
+use glam::DVec3;
+use marbles_core::{Camera, Method};
+
+use crate::base::size::Size;
+use crate::formats::facts::{Facts, SOFTWARE};
+use crate::formats::frame_rate;
+
+/// The attribute in which an EXR keeps the digest.
+pub(super) const DIGEST_ATTRIBUTE: &str = "digest";
+
+/// CIE xy of the primaries and the white of Rec. 709.
+pub(super) const REC_709: Chromaticities = Chromaticities {
+    red: Vec2(0.64, 0.33),
+    green: Vec2(0.3, 0.6),
+    blue: Vec2(0.15, 0.06),
+    white: Vec2(0.3127, 0.329),
+};
+
+/// The header of a file with these channels, in the order of their names.
+pub(super) fn header_of(size: Size, channels: Vec<(&str, SampleType)>) -> Header {
+    let channel = |(name, kind)| ChannelDescription::named(name, kind);
+    let size = Vec2(size.width as usize, size.height as usize);
+    let shared = ImageAttributes {
+        chromaticities: Some(REC_709),
+        ..ImageAttributes::with_size(size)
+    };
+    let channels: SmallVec<[ChannelDescription; 5]> = channels.into_iter().map(channel).collect();
+    Header::new(Text::default(), size, channels)
+        .with_encoding(
+            Compression::ZIP16,
+            BlockDescription::ScanLines,
+            LineOrder::Increasing,
+        )
+        .with_shared_attributes(shared)
+        .with_attributes(LayerAttributes::default())
+}
+
+/// The attributes that tell the facts about a picture.
+pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
+    let mut attributes = LayerAttributes {
+        frames_per_second: facts.frames_per_second.and_then(frame_rate::nearest),
+        world_to_camera: Some(world_to_camera(&facts.camera)),
+        software_name: Some(Text::from(SOFTWARE)),
+        ..LayerAttributes::default()
+    };
+    let mut custom = |name: &str, value| attributes.other.insert(Text::from(name), value);
+    custom("frame", AttributeValue::I32(facts.frame));
+    let digest = Text::from(&*facts.digest.to_hex());
+    custom(DIGEST_ATTRIBUTE, AttributeValue::Text(digest));
+    match facts.method {
+        // The command line keeps the number far below this limit.
+        Method::Tolerance(tolerance) => custom("tolerance", AttributeValue::F32(tolerance as f32)),
+        Method::Samples(samples) => custom(
+            "samples",
+            AttributeValue::I32(i32::try_from(samples.get()).unwrap_or(i32::MAX)),
+        ),
+    };
+    attributes
+}
+
+/// The matrix M of p_camera = p_world · M, row by row: points are rows, as everywhere in OpenEXR.
+///
+/// Its camera looks along +z with x to the right and y up, as ours does.
+fn world_to_camera(camera: &Camera) -> [f32; 16] {
+    let world_from_camera = camera.world_from_camera;
+    // The rows of M are the images of the world's axes: those of a rotation's transpose, which
+    // are the rows of the rotation.
+    let [x, y, z] = [0, 1, 2].map(|row| world_from_camera.row(row));
+    let translation = -(world_from_camera.transpose() * camera.position);
+    let row = |v: DVec3, w: f32| [v.x as f32, v.y as f32, v.z as f32, w];
+    let rows = [row(x, 0.0), row(y, 0.0), row(z, 0.0), row(translation, 1.0)];
+    let mut matrix = [0.0; 16];
+    matrix.copy_from_slice(rows.as_flattened());
+    // A negative zero says nothing, and two ways to write 0 would be one too many.
+    matrix.map(|number| number + 0.0)
+}

@@ -1,0 +1,10 @@
+//! OpenEXR.
+
+mod attribute_order;
+pub(crate) mod blocks;
+mod channels;
+mod header;
+pub(crate) mod read;
+pub(crate) mod rows;
+pub(crate) mod stored;
+pub(crate) mod write;

@@ -1,0 +1,66 @@
+//! The digest and the region that an EXR tells, read without its pixels.
+
+use std::io::{BufReader, Read, Seek, SeekFrom};
+
+use blake3::Hash;
+use exr::meta::MetaData;
+use exr::meta::header::Header;
+use exr::prelude::AttributeValue;
+use marbles_core::Window;
+
+use super::header::DIGEST_ATTRIBUTE;
+use crate::base::region::Region;
+use crate::base::size::Size;
+
+/// The digest and the region of the picture in a file of one part; `None` where it does not tell
+/// them, or does not end with its last block.
+pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
+    let end = file.seek(SeekFrom::End(0)).ok()?;
+    file.rewind().ok()?;
+    let mut file = BufReader::new(file);
+    let meta = MetaData::read_from_buffered(&mut file, false).ok()?;
+    let [header] = &meta.headers[..] else {
+        return None;
+    };
+    let digest = header.own_attributes.other.get(DIGEST_ATTRIBUTE.as_bytes());
+    let AttributeValue::Text(digest) = digest? else {
+        return None;
+    };
+    let digest = Hash::from_hex(digest.as_slice()).ok()?;
+    (end_of_last_block(&mut file, header.chunk_count)? == end).then_some(())?;
+    Some((digest, region(header)?))
+}
+
+/// The end of the last block, from its place in the table that comes next in the file.
+fn end_of_last_block(file: &mut (impl Read + Seek), blocks: usize) -> Option<u64> {
+    let last = i64::try_from(blocks.checked_sub(1)?.checked_mul(8)?).ok()?;
+    file.seek(SeekFrom::Current(last)).ok()?;
+    let mut place = [0; 8];
+    file.read_exact(&mut place).ok()?;
+    let place = u64::from_le_bytes(place);
+    // A block begins with the number of its first row and that of its other bytes.
+    let mut start = [0; 8];
+    file.seek(SeekFrom::Start(place)).ok()?;
+    file.read_exact(&mut start).ok()?;
+    let [_, _, _, _, bytes @ ..] = start;
+    place.checked_add(start.len() as u64 + u64::from(u32::from_le_bytes(bytes)))
+}
+
+/// The place of the data window in the display window.
+fn region(header: &Header) -> Option<Region> {
+    let display = header.shared_attributes.display_window;
+    let position = header.own_attributes.layer_position;
+    let number = |number: usize| u32::try_from(number).ok();
+    let offset = |data: i32, display: i32| u32::try_from(data.checked_sub(display)?).ok();
+    let window = Window {
+        col: offset(position.x(), display.position.x())?,
+        row: offset(position.y(), display.position.y())?,
+        width: number(header.layer_size.width())?,
+        height: number(header.layer_size.height())?,
+    };
+    let whole = Size {
+        width: number(display.size.width())?,
+        height: number(display.size.height())?,
+    };
+    Region::new(window, whole)
+}

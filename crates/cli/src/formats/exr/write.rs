@@ -1,0 +1,143 @@
+//! EXR files, from blocks.
+
+use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
+use std::ops::Range;
+use std::path::Path;
+
+use exr::block::chunk::Chunk;
+use exr::block::writer::ChunksWriter;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::{Header, LayerAttributes};
+use exr::prelude::{Error, Text, Vec2};
+
+use super::attribute_order::sort_attributes;
+use super::blocks::{Blocks, ROWS_OF_A_BLOCK, compress};
+use super::header::{attributes, header_of};
+use crate::base::failure::Failure;
+use crate::base::size::Size;
+use crate::files::save::{Fault, save};
+use crate::formats::facts::{Facts, SOFTWARE};
+
+/// Bytes that a file has at most before its blocks and their places, generously.
+const HEADER_BYTES: u64 = 1 << 16;
+/// Bytes that are written at a time.
+const BUFFER_BYTES: usize = 1 << 18;
+
+/// Writes an EXR of channels with these names in single precision, whole or not at all.
+pub(crate) fn write_floats(
+    size: Size,
+    mut channels: Vec<(&str, Vec<f32>)>,
+    path: &Path,
+) -> Result<(), Failure> {
+    channels.sort_unstable_by_key(|(name, _)| *name);
+    let names = channels.iter().map(|(name, _)| (*name, SampleType::F32));
+    let attributes = LayerAttributes {
+        software_name: Some(Text::from(SOFTWARE)),
+        ..LayerAttributes::default()
+    };
+    let header = header_of(size, names.collect()).with_attributes(attributes);
+    let width = size.width as usize;
+    Ok(save(path, |mut file| {
+        write_rows(file.file(), header, |rows| {
+            let mut samples = Vec::new();
+            for row in rows {
+                for (_, values) in &channels {
+                    let row = &values[row as usize * width..][..width];
+                    samples.extend(row.iter().flat_map(|value| value.to_ne_bytes()));
+                }
+            }
+            Ok(samples)
+        })?;
+        Ok(file)
+    })?)
+}
+
+/// The header of a picture of this size with the channels and attributes of another one, which may
+/// be a part of it.
+pub(crate) fn header_like(like: &Header, size: Size) -> Header {
+    Header {
+        channels: like.channels.clone(),
+        own_attributes: LayerAttributes {
+            layer_position: Vec2(0, 0),
+            ..like.own_attributes.clone()
+        },
+        shared_attributes: like.shared_attributes.clone(),
+        ..header_of(size, Vec::new())
+    }
+}
+
+/// Writes a file with this header; `samples` gives those of some rows, row by row, in each channel by
+/// channel.
+pub(crate) fn write_rows(
+    file: &mut (impl Read + Write + Seek),
+    header: Header,
+    mut samples: impl FnMut(Range<u32>) -> Result<Vec<u8>, Fault>,
+) -> Result<(), Fault> {
+    let height = header.layer_size.height() as u32;
+    let mut blocks = (0..height).step_by(ROWS_OF_A_BLOCK as usize).enumerate();
+    let of_blocks = header.clone();
+    write(file, header, || {
+        let (index, first) = blocks.next().ok_or(Fault::Stopped)?;
+        let samples = samples(first..height.min(first + ROWS_OF_A_BLOCK))?;
+        compress(&of_blocks, index, samples).map_err(Fault::Encoding)
+    })
+}
+
+/// Writes a file whose blocks `next` gives, the same for the same picture and facts.
+pub(crate) fn write_blocks(
+    file: &mut (impl Read + Write + Seek),
+    blocks: &Blocks,
+    facts: &Facts,
+    next: impl FnMut() -> Result<Chunk, Fault>,
+) -> Result<(), Fault> {
+    let header = blocks.header.clone();
+    let attributes = LayerAttributes {
+        layer_position: header.own_attributes.layer_position,
+        ..attributes(facts)
+    };
+    write(file, header.with_attributes(attributes), next)
+}
+
+/// Writes a file with this header, whose blocks `next` gives from the top downward.
+fn write(
+    file: &mut (impl Read + Write + Seek),
+    header: Header,
+    mut next: impl FnMut() -> Result<Chunk, Fault>,
+) -> Result<(), Fault> {
+    let mut fault = None;
+    let buffered = BufWriter::with_capacity(BUFFER_BYTES, &mut *file);
+    let written = exr::block::write(
+        buffered,
+        [header].into_iter().collect(),
+        true,
+        |_, chunks| {
+            for index in 0..chunks.total_chunks_count() {
+                match next() {
+                    Ok(chunk) => chunks.write_chunk(index, chunk)?,
+                    Err(other) => {
+                        fault = Some(other);
+                        return Err(Error::Aborted);
+                    }
+                }
+            }
+            Ok(())
+        },
+    );
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
+    written.map_err(|error| match error {
+        Error::Io(error) => Fault::Io(error),
+        other => Fault::Encoding(other.to_string()),
+    })?;
+    let mut start = Vec::new();
+    file.seek(SeekFrom::Start(0))?;
+    Read::by_ref(file)
+        .take(HEADER_BYTES)
+        .read_to_end(&mut start)?;
+    let unknown = || Fault::Encoding("the header has an unknown form".to_owned());
+    sort_attributes(&mut start).ok_or_else(unknown)?;
+    file.seek(SeekFrom::Start(0))?;
+    file.write_all(&start)?;
+    Ok(())
+}

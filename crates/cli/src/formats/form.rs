@@ -1,0 +1,33 @@
+//! The form of pictures.
+
+use marbles_core::{Channels, World};
+
+use crate::base::region::Region;
+
+/// The form that all pictures of a sequence share.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    /// The part of the picture that is rendered.
+    pub(crate) region: Region,
+    pub(crate) channels: Channels,
+    pub(crate) alpha: bool,
+}
+
+impl Form {
+    /// The form of a part of a world's pictures.
+    pub(crate) fn new(region: Region, world: &World, alpha: bool) -> Self {
+        Self {
+            region,
+            channels: Channels::of(world, alpha),
+            alpha,
+        }
+    }
+}
+
+/// The number of color channels.
+pub(crate) fn color_count(channels: Channels) -> usize {
+    match channels {
+        Channels::Grey => 1,
+        Channels::Rgb => 3,
+    }
+}

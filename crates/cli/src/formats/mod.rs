@@ -1,0 +1,16 @@
+//! Picture formats: PNG, alone and animated, and EXR, each with the writing and the reading of it.
+
+pub(crate) mod encoder;
+pub(crate) mod encoding;
+pub(crate) mod exr;
+pub(crate) mod facts;
+pub(crate) mod form;
+pub(crate) mod frame_rate;
+mod half;
+pub(crate) mod load;
+pub(crate) mod picture;
+pub(crate) mod png;
+pub(crate) mod rows;
+pub(crate) mod srgb;
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,10 @@
+//! PNG.
+
+pub(crate) mod animation;
+mod curve;
+mod decoder;
+pub(crate) mod read;
+pub(crate) mod rows;
+pub(crate) mod shape;
+pub(crate) mod stored;
+pub(crate) mod write;

@@ -1,0 +1,156 @@
+//! PNG of any kind, as linear light.
+
+use std::io::Cursor;
+
+use png::{BitDepth, ColorType, Transformations};
+
+use super::curve::Curve;
+use super::decoder::decoder;
+use crate::formats::picture::{Picture, Samples, check_memory};
+
+/// The codes of a file, and their light.
+#[derive(Debug)]
+struct Codes {
+    width: usize,
+    /// Row by row, of 8 bit or of 16 with the big end first.
+    codes: Vec<u8>,
+    color_type: ColorType,
+    deep: bool,
+    /// Half the way between codes that the file can hold; more than ½ where it has less than 8 bit.
+    half_step: f64,
+    /// The light of every code.
+    light: Vec<f64>,
+    /// The light half a step above every code; that is farther than the one half a step below.
+    light_above: Vec<f64>,
+}
+
+/// The picture in the bytes of a PNG file.
+pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    let mut decoder = decoder(Cursor::new(bytes));
+    decoder.set_transformations(Transformations::EXPAND);
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let (color_type, depth) = reader.output_color_type();
+    let deep = depth == BitDepth::Sixteen;
+    let depth_bytes = if deep { 2 } else { 1 };
+    let info = reader.info();
+    let (width, height) = (info.width as usize, info.height as usize);
+    let picture_size = check_memory(width, height, color_type.samples() * depth_bytes)?;
+    let (curve, warning) = Curve::of(info)?;
+    // The entries of a palette have 8 bit, however short their numbers are.
+    let bits = match info.color_type {
+        ColorType::Indexed => 8,
+        _ => info.bit_depth as u8,
+    };
+
+    let size = reader.output_buffer_size().ok_or("too large")?;
+    let mut codes = vec![0; size];
+    reader
+        .next_frame(&mut codes)
+        .map_err(|error| error.to_string())?;
+
+    let grey = color_type.samples() < 3;
+    let alpha = matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba);
+    let description = format!("PNG, {bits} bit {}, {}", curve.name(), names(grey, alpha));
+    let most = most(deep);
+    let half_step = 0.5 * most / f64::from((1_u32 << bits) - 1);
+    let light = |offset: f64| {
+        let codes = 0..=most as u32;
+        codes.map(move |code| curve.light((f64::from(code) + offset) / most))
+    };
+    Ok(Picture {
+        size: picture_size,
+        grey,
+        alpha,
+        description,
+        warning,
+        samples: Box::new(Codes {
+            width,
+            codes,
+            color_type,
+            deep,
+            half_step,
+            light: light(0.0).collect(),
+            light_above: light(half_step).collect(),
+        }),
+    })
+}
+
+impl Samples for Codes {
+    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
+        let [red, green, blue, alpha] = self.codes(col, row);
+        let alpha = alpha as f64 / most(self.deep);
+        let [red, green, blue] = [red, green, blue].map(|code| self.light[code] * alpha);
+        [red, green, blue, alpha]
+    }
+
+    /// Color and alpha are rounded on their own, and the farthest is where both were rounded down.
+    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+        let most = most(self.deep);
+        let [red, green, blue, alpha] = self.codes(col, row);
+        let alpha_step = if self.has_alpha() {
+            self.half_step / most
+        } else {
+            0.0
+        };
+        let alpha = alpha as f64 / most;
+        let alpha_above = (alpha + alpha_step).min(1.0);
+        let color = |code: usize| self.light_above[code] * alpha_above - self.light[code] * alpha;
+        let [red, green, blue] = [red, green, blue].map(color);
+        [red, green, blue, alpha_step]
+    }
+
+    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+        let full = most(self.deep) as usize;
+        self.codes(col, row).map(|code| code == full)
+    }
+}
+
+impl Codes {
+    fn has_alpha(&self) -> bool {
+        matches!(self.color_type, ColorType::GrayscaleAlpha | ColorType::Rgba)
+    }
+
+    /// The codes of a pixel: grey in all three colors, alpha full where there is none.
+    fn codes(&self, col: u32, row: u32) -> [usize; 4] {
+        let full = most(self.deep) as usize;
+        let count = self.color_type.samples();
+        let start = (row as usize * self.width + col as usize) * count;
+        let code = |channel: usize| {
+            let index = start + channel;
+            if self.deep {
+                let (high, low) = (self.codes[2 * index], self.codes[2 * index + 1]);
+                usize::from(u16::from_be_bytes([high, low]))
+            } else {
+                usize::from(self.codes[index])
+            }
+        };
+        match count {
+            1 => [code(0), code(0), code(0), full],
+            2 => [code(0), code(0), code(0), code(1)],
+            3 => [code(0), code(1), code(2), full],
+            _ => [code(0), code(1), code(2), code(3)],
+        }
+    }
+}
+
+/// The largest code.
+fn most(deep: bool) -> f64 {
+    if deep {
+        f64::from(u16::MAX)
+    } else {
+        f64::from(u8::MAX)
+    }
+}
+
+/// The names of the channels.
+fn names(grey: bool, alpha: bool) -> &'static str {
+    match (grey, alpha) {
+        (true, false) => "grey",
+        (true, true) => "grey + alpha",
+        (false, false) => "RGB",
+        (false, true) => "RGBA",
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,158 @@
+//! The samples of a PNG: sRGB codes of 8 or 16 bit, grey where the picture is.
+
+use std::ops::Range;
+
+use marbles_core::{Channels, Image};
+use png::{BitDepth, ColorType, Info};
+
+use crate::base::size::Size;
+use crate::formats::encoding::PngOptions;
+use crate::formats::form::{Form, color_count};
+use crate::formats::srgb;
+
+/// The size of a file's picture, and the kind of its samples.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct Shape {
+    pub(super) size: Size,
+    pub(super) color_type: ColorType,
+    pub(super) depth: BitDepth,
+}
+
+impl Shape {
+    /// The shape of a file that holds a picture of this form.
+    pub(crate) fn of(form: &Form, options: PngOptions) -> Self {
+        let grey = form.channels == Channels::Grey && !options.rgb;
+        Self {
+            size: form.region.size(),
+            color_type: match (grey, form.alpha) {
+                (true, false) => ColorType::Grayscale,
+                (true, true) => ColorType::GrayscaleAlpha,
+                (false, false) => ColorType::Rgb,
+                (false, true) => ColorType::Rgba,
+            },
+            depth: if options.deep {
+                BitDepth::Sixteen
+            } else {
+                BitDepth::Eight
+            },
+        }
+    }
+
+    /// The shape of a picture in 8 bit.
+    pub(super) fn of_codes(size: Size, color_type: ColorType) -> Self {
+        Self {
+            size,
+            color_type,
+            depth: BitDepth::Eight,
+        }
+    }
+
+    /// The shape of a file that is read.
+    pub(super) fn of_file(info: &Info<'_>) -> Self {
+        Self {
+            size: size_of(info),
+            color_type: info.color_type,
+            depth: info.bit_depth,
+        }
+    }
+
+    /// The same kind of samples in a picture of another size.
+    pub(crate) fn resized(self, size: Size) -> Self {
+        Self { size, ..self }
+    }
+
+    /// Bytes of a sample.
+    fn sample_bytes(self) -> usize {
+        if self.depth == BitDepth::Sixteen {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// Bytes of a pixel's samples.
+    pub(crate) fn pixel_bytes(self) -> usize {
+        self.color_type.samples() * self.sample_bytes()
+    }
+
+    /// Bytes of a row's samples.
+    pub(crate) fn row_bytes(self) -> usize {
+        self.size.width as usize * self.pixel_bytes()
+    }
+
+    /// Bytes that a file has at most.
+    pub(super) fn file_bytes(self) -> u64 {
+        /// The parts before and behind the samples take less.
+        const OTHER_PARTS: u64 = 1 << 12;
+        // A byte before each row, and five before each block, which has thousands.
+        let rows = (self.row_bytes() as u64 + 1) * u64::from(self.size.height);
+        rows + rows / 1000 + OTHER_PARTS
+    }
+
+    /// Puts the codes of some rows of an image, big end first, where they belong in `samples`, which
+    /// are as many rows, from the column `col` on.
+    pub(crate) fn encode(self, samples: &mut [u8], col: u32, image: &Image, rows: Range<u32>) {
+        let colors = match self.color_type {
+            ColorType::Grayscale | ColorType::GrayscaleAlpha => 1,
+            _ => 3,
+        };
+        let stored = color_count(image.channels());
+        let is_plain = self.sample_bytes() == 1 && !image.has_alpha() && colors == stored;
+        let pixel_bytes = self.pixel_bytes();
+        let first = col as usize * pixel_bytes;
+        let length = image.width() as usize * pixel_bytes;
+        for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
+            let samples = &mut samples[first..first + length];
+            if is_plain {
+                srgb::encode_all_8(image.row(row), samples);
+                continue;
+            }
+            for (samples, col) in samples.chunks_exact_mut(pixel_bytes).zip(0..) {
+                let rgba = image.rgba(col, row);
+                let alpha = rgba[3];
+                let mut samples = samples.chunks_exact_mut(self.sample_bytes());
+                for (&value, sample) in rgba[..colors].iter().zip(&mut samples) {
+                    let value = straight(value, alpha);
+                    put(sample, srgb::encode_8, srgb::encode_16, value);
+                }
+                // The alpha channel, where there is one.
+                if let Some(sample) = samples.next() {
+                    put(sample, linear_8, linear_16, alpha);
+                }
+            }
+        }
+    }
+}
+
+/// Puts the code of a value where a sample of one byte or two is.
+fn put(sample: &mut [u8], code_8: fn(f64) -> u8, code_16: fn(f64) -> u16, value: f64) {
+    match sample {
+        [byte] => *byte = code_8(value),
+        pair => pair.copy_from_slice(&code_16(value).to_be_bytes()),
+    }
+}
+
+/// The size of a picture.
+pub(super) fn size_of(info: &Info<'_>) -> Size {
+    let Info { width, height, .. } = *info;
+    Size { width, height }
+}
+
+/// The light of the covered part of a pixel alone.
+fn straight(premultiplied: f64, alpha: f64) -> f64 {
+    if alpha > 0.0 {
+        premultiplied / alpha
+    } else {
+        0.0
+    }
+}
+
+/// The nearest code of a number from 0 to 1; the cast saturates.
+fn linear_8(value: f64) -> u8 {
+    (value * f64::from(u8::MAX) + 0.5) as u8
+}
+
+/// As [`linear_8`], in 16 bit.
+fn linear_16(value: f64) -> u16 {
+    (value * f64::from(u16::MAX) + 0.5) as u16
+}

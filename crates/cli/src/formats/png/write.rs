@@ -1,0 +1,159 @@
+//! PNG files, from samples.
+
+use std::io::{BufReader, BufWriter, Cursor, Read, Seek, SeekFrom, Write};
+use std::path::Path;
+
+use blake3::Hash;
+use png::{ColorType, Compression, DecodingError, Encoder, EncodingError, SrgbRenderingIntent};
+
+use super::decoder::decoder;
+use super::shape::Shape;
+use crate::base::failure::Failure;
+use crate::base::region::Region;
+use crate::base::size::Size;
+use crate::files::save::{Fault, save};
+use crate::files::temporary::TemporaryFile;
+use crate::formats::facts::SOFTWARE;
+
+/// The keyword under which a PNG keeps the digest of its picture.
+pub(super) const DIGEST_KEYWORD: &str = "Digest";
+/// The keyword under which one that holds a part of a picture keeps which.
+pub(super) const REGION_KEYWORD: &str = "Region";
+
+/// Bytes of the samples' parts in a file.
+pub(super) const CHUNK_BYTES: usize = 1 << 18;
+
+/// A keyword, and the text under it that a file tells beside its samples.
+pub(crate) type Text = (&'static str, String);
+
+/// The texts of a file that holds a part of a picture with this digest, or all of it.
+pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
+    let mut texts = vec![(DIGEST_KEYWORD, digest.to_string())];
+    if !region.is_all() {
+        texts.push((REGION_KEYWORD, region.to_string()));
+    }
+    texts
+}
+
+/// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
+pub(crate) fn write_grey(size: Size, codes: &[u8], path: &Path) -> Result<(), Failure> {
+    let shape = Shape::of_codes(size, ColorType::Grayscale);
+    let codes = |stream: &mut dyn Write| Ok(stream.write_all(codes)?);
+    Ok(save(path, |file| write(file, shape, &[], codes))?)
+}
+
+/// The bytes of a PNG of 8 bit codes of red, green and blue, row by row.
+pub(crate) fn rgb_bytes(size: Size, codes: &[u8]) -> Result<Vec<u8>, Failure> {
+    let mut file = Cursor::new(Vec::new());
+    let shape = Shape::of_codes(size, ColorType::Rgb);
+    match compress(&mut file, shape, &[], |stream| Ok(stream.write_all(codes)?)) {
+        Ok(_has_grown) => Ok(file.into_inner()),
+        Err(_) => Err(Failure::Work("cannot encode the picture".to_owned())),
+    }
+}
+
+/// Writes a file whose samples `samples` writes.
+pub(crate) fn write(
+    mut file: TemporaryFile,
+    shape: Shape,
+    texts: &[Text],
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<TemporaryFile, Fault> {
+    let has_grown = compress(file.file(), shape, texts, samples)?;
+    if !has_grown {
+        return Ok(file);
+    }
+    let mut stored = file.another()?;
+    store(file.file(), stored.file(), shape, texts)?;
+    Ok(stored)
+}
+
+/// Writes a file whose samples `samples` writes; returns whether it has become larger than they are,
+/// so that they are to be stored.
+///
+/// Noise grows when it is compressed in a hurry.
+pub(crate) fn compress(
+    file: &mut (impl Write + Seek),
+    shape: Shape,
+    texts: &[Text],
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<bool, Fault> {
+    let length = write_with(file, shape, texts, Compression::Fast, samples)?;
+    Ok(length > shape.file_bytes())
+}
+
+/// Writes a file with the samples of another one as they are.
+fn store(
+    from: &mut (impl Read + Seek),
+    to: &mut (impl Write + Seek),
+    shape: Shape,
+    texts: &[Text],
+) -> Result<(), Fault> {
+    from.seek(SeekFrom::Start(0))?;
+    let mut reader = decoder(BufReader::with_capacity(CHUNK_BYTES, from)).read_info()?;
+    write_with(to, shape, texts, Compression::NoCompression, |stream| {
+        while let Some(row) = reader.next_row()? {
+            stream.write_all(row.data())?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// Writes a file and returns how long it is.
+fn write_with(
+    file: &mut (impl Write + Seek),
+    shape: Shape,
+    texts: &[Text],
+    compression: Compression,
+    samples: impl FnOnce(&mut dyn Write) -> Result<(), Fault>,
+) -> Result<u64, Fault> {
+    let mut file = BufWriter::with_capacity(CHUNK_BYTES, file);
+    let mut encoder = encoder(&mut file, shape, compression)?;
+    for (keyword, text) in texts {
+        encoder.add_text_chunk((*keyword).to_owned(), text.clone())?;
+    }
+    let mut writer = encoder.write_header()?;
+    let mut stream = writer.stream_writer_with_size(CHUNK_BYTES)?;
+    samples(&mut stream)?;
+    stream.finish()?;
+    writer.finish()?;
+    file.flush()?;
+    Ok(file.stream_position()?)
+}
+
+/// The start that all files have in common.
+pub(super) fn encoder<W: Write>(
+    file: W,
+    shape: Shape,
+    compression: Compression,
+) -> Result<Encoder<'static, W>, Fault> {
+    let mut encoder = Encoder::new(file, shape.size.width, shape.size.height);
+    encoder.set_color(shape.color_type);
+    encoder.set_depth(shape.depth);
+    encoder.set_compression(compression);
+    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    Ok(encoder)
+}
+
+impl From<EncodingError> for Fault {
+    fn from(error: EncodingError) -> Self {
+        match error {
+            EncodingError::IoError(error) => Self::Io(error),
+            other => Self::Encoding(other.to_string()),
+        }
+    }
+}
+
+impl From<DecodingError> for Fault {
+    fn from(error: DecodingError) -> Self {
+        match error {
+            DecodingError::IoError(error) => Self::Io(error),
+            other => Self::Encoding(other.to_string()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,120 @@
+//! Files whose rows are read one after the other, and files of the same kind that are written of rows.
+
+use std::fs::File;
+use std::ops::Range;
+use std::path::Path;
+
+use ::exr::meta::header::Header;
+use blake3::Hash;
+
+use super::encoding::Format;
+use super::exr::write::{header_like, write_rows};
+use super::png::shape::Shape;
+use super::png::write::{texts, write};
+use super::{exr, png};
+use crate::base::failure::{Failure, lower};
+use crate::base::region::Region;
+use crate::base::size::Size;
+use crate::files::save::{Fault, save};
+
+/// The kind of a file: its format, and the kind of its samples.
+#[derive(Clone)]
+pub(crate) enum Kind {
+    Png(Shape),
+    Exr(Box<Header>),
+}
+
+/// A file that is being read.
+pub(crate) enum RowReader {
+    Png(Box<png::rows::Rows>),
+    Exr(Box<exr::rows::Rows>),
+}
+
+impl Kind {
+    pub(crate) fn format(&self) -> Format {
+        match self {
+            Self::Png(_) => Format::Png,
+            Self::Exr(_) => Format::Exr,
+        }
+    }
+
+    /// Bytes of a sample: of a whole pixel in a PNG, and channel by channel in an EXR, whose rows
+    /// hold one after the other.
+    pub(crate) fn sample_bytes(&self) -> Vec<usize> {
+        match self {
+            Self::Png(shape) => vec![shape.pixel_bytes()],
+            Self::Exr(header) => {
+                let channels = header.channels.list.iter();
+                channels
+                    .map(|channel| channel.sample_type.bytes_per_sample())
+                    .collect()
+            }
+        }
+    }
+
+    /// Writes a picture with this digest, whole or not at all; `samples` gives those of some rows.
+    pub(crate) fn write(
+        &self,
+        path: &Path,
+        size: Size,
+        digest: &Hash,
+        mut samples: impl FnMut(Range<u32>) -> Result<Vec<u8>, Failure>,
+    ) -> Result<(), Failure> {
+        /// Rows that are asked for together.
+        const ROWS: u32 = 16;
+        let mut samples = |rows| samples(rows).map_err(Fault::Failed);
+        let saved = match self {
+            Self::Png(shape) => save(path, |file| {
+                let texts = texts(digest, &Region::all(size));
+                write(file, shape.resized(size), &texts, |stream| {
+                    for first in (0..size.height).step_by(ROWS as usize) {
+                        stream.write_all(&samples(first..size.height.min(first + ROWS))?)?;
+                    }
+                    Ok(())
+                })
+            }),
+            Self::Exr(header) => save(path, |mut file| {
+                write_rows(file.file(), header_like(header, size), samples)?;
+                Ok(file)
+            }),
+        };
+        Ok(saved?)
+    }
+}
+
+impl RowReader {
+    /// Begins to read the file at `path`.
+    pub(crate) fn open(path: &Path) -> Result<Self, String> {
+        let file = || File::open(path).map_err(|error| lower(&error.to_string()));
+        let opened = match Format::of_file(path) {
+            Some(Format::Png) => {
+                let rows = png::rows::Rows::begin(file()?).map(Box::new);
+                rows.map(Self::Png).map_err(|error| error.to_string())
+            }
+            Some(Format::Exr) => {
+                let rows = exr::rows::Rows::begin(file()?).map(Box::new);
+                rows.map(Self::Exr).map_err(|error| error.to_string())
+            }
+            Some(Format::Apng) | None => {
+                return Err("expected a file name that ends in .png or .exr".to_owned());
+            }
+        };
+        opened.map_err(|error| lower(&error))
+    }
+
+    pub(crate) fn kind(&self) -> Kind {
+        match self {
+            Self::Png(rows) => Kind::Png(rows.shape()),
+            Self::Exr(rows) => Kind::Exr(Box::new(rows.header().clone())),
+        }
+    }
+
+    /// The samples of the next row.
+    pub(crate) fn next_row(&mut self) -> Result<&[u8], String> {
+        let row = match self {
+            Self::Png(rows) => rows.next().map_err(|error| error.to_string()),
+            Self::Exr(rows) => rows.next().map_err(|error| error.to_string()),
+        };
+        Ok(row?.ok_or("it ends early")?)
+    }
+}

@@ -1,0 +1,135 @@
+//! Small pictures, and the files that they become.
+
+use std::io::Cursor;
+use std::num::NonZeroU32;
+use std::ops::ControlFlow;
+
+use blake3::Hash;
+use glam::{DVec2, DVec3};
+use marbles_core::{
+    Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View, World,
+};
+
+use super::encoder::{Encoder, Layout, block, samples};
+use super::encoding::{Encoding, ExrOptions, PngOptions};
+use super::exr::write::write_blocks;
+use super::facts::Facts;
+use super::form::Form;
+use super::png::write::{compress, texts};
+use crate::base::region::Region;
+use crate::base::size::Size;
+
+/// The digest that the pictures tell.
+pub(super) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
+
+/// The bytes of a PNG file.
+pub(super) fn png_bytes(image: &Image, options: PngOptions) -> Vec<u8> {
+    encode(image, Encoding::Png(options), &facts()).0
+}
+
+/// The bytes of an EXR file.
+pub(super) fn exr_bytes(image: &Image, options: ExrOptions) -> Vec<u8> {
+    encode(image, Encoding::Exr(options), &facts()).0
+}
+
+fn facts() -> Facts {
+    Facts {
+        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        frame: 1,
+        frames_per_second: None,
+        method: Method::Samples(NonZeroU32::MIN),
+        digest: DIGEST,
+    }
+}
+
+/// The size of a picture.
+pub(super) fn size(image: &Image) -> Size {
+    let (width, height) = (image.width(), image.height());
+    Size { width, height }
+}
+
+/// The bytes of a file, and how many numbers were too large.
+pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u8>, u64) {
+    let form = Form {
+        region: Region::all(size(image)),
+        channels: image.channels(),
+        alpha: image.has_alpha(),
+    };
+    let encoder = Encoder::new(encoding, form);
+    let mut clipped = 0;
+    let mut pieces = (0..encoder.pieces()).map(|index| {
+        let first = index * encoder.rows();
+        let rows = first..image.height().min(first + encoder.rows());
+        let mut samples = vec![0; encoder.sample_bytes(index)];
+        clipped += encoder.encode(&mut samples, 0, image, rows);
+        encoder.piece(index, samples)
+    });
+    let mut file = Cursor::new(Vec::new());
+    match &encoder.layout {
+        Layout::Png(shape) => {
+            let texts = texts(&facts.digest, &form.region);
+            let has_grown = compress(&mut file, *shape, &texts, |stream| {
+                for piece in pieces {
+                    stream.write_all(&samples(Some(piece))?)?;
+                }
+                Ok(())
+            });
+            assert!(!has_grown.unwrap());
+        }
+        Layout::Exr(blocks) => {
+            write_blocks(&mut file, blocks, facts, || block(pieces.next())).unwrap();
+        }
+    }
+    (file.into_inner(), clipped)
+}
+
+/// Light on a ball.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Scene {
+    Grey,
+    Color,
+    /// More light than a half can hold.
+    Bright,
+}
+
+/// The view of the small pictures.
+pub(crate) fn view() -> View {
+    View {
+        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        lens: Lens {
+            width: 0.6,
+            distance: 1.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 23,
+        height: 19,
+        frame: 1,
+    }
+}
+
+/// A small picture of a ball before a background.
+pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
+    let (albedo, background, intensity) = match scene {
+        Scene::Grey => (DVec3::ONE, DVec3::splat(0.25), 1.0),
+        Scene::Color => (DVec3::new(1.0, 0.5, 0.001), DVec3::new(0.0, 0.2, 0.4), 1.5),
+        Scene::Bright => (DVec3::ONE, DVec3::ZERO, 1e5),
+    };
+    let mut world = World::new();
+    let material = world.add_material(Material {
+        albedo,
+        ..Material::MATTE_WHITE
+    });
+    world.add_sphere(Sphere::new(4.0 * DVec3::Z, 1.0).unwrap(), material);
+    world.background = background;
+    let toward = DVec3::new(-1.0, 1.0, -1.0);
+    let light = DirectionalLight::new(toward, DVec3::splat(intensity)).unwrap();
+    world.lights.push(light);
+    let settings = Settings {
+        method: Method::Samples(NonZeroU32::new(3).unwrap()),
+        alpha,
+    };
+    marbles_core::Renderer::new(&world)
+        .render(&view(), &settings, &|_| ControlFlow::Continue(()))
+        .unwrap()
+}

@@ -1,0 +1,251 @@
+//! The digest of all that a picture is made from: two files with the same digest show the same.
+//!
+//! It covers what the renderer is given, so what a scene and its tables mean and not how they are
+//! written or where they lie. Neither threads nor the clock have a part in it.
+
+use blake3::{Hash, Hasher};
+use glam::{DMat3, DVec2, DVec3};
+use marbles_core::{
+    Camera, DirectionalLight, Exposure, Grain, Highlight, Lens, Material, Method, Pose, Roughness,
+    Settings, Sphere, View, World,
+};
+use rayon::prelude::*;
+
+use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
+
+/// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
+/// the same scene do.
+const PURPOSE: &str = "marbles 2026-11 digest of a picture";
+
+/// Spheres that are hashed at a time; the digest depends on it.
+const SPHERES: usize = 1 << 14;
+
+/// The digests of a sequence's pictures.
+#[derive(Clone, Debug)]
+pub(super) struct Digests {
+    /// The digest of what all of them share.
+    shared: Feed,
+}
+
+/// The part of a picture's origin that a sequence does not share, beside the world, the settings and
+/// the format.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shot<'a> {
+    /// Its view, and what the camera does while the shutter is open.
+    pub(super) exposure: &'a Exposure<'a>,
+    /// The number that the user knows, which may be beyond a turn of the view's.
+    pub(super) frame: i32,
+    pub(super) frames_per_second: Option<f64>,
+}
+
+impl Digests {
+    /// The digests of pictures of a world, hashed on the threads of the current rayon pool.
+    pub(super) fn new(world: &World, settings: &Settings, encoding: Encoding) -> Self {
+        let mut shared = Feed(Hasher::new_derive_key(PURPOSE));
+        shared.world(world);
+        shared.settings(settings);
+        shared.encoding(encoding);
+        Self { shared }
+    }
+
+    /// The digest of one of them.
+    pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
+        let Shot {
+            exposure,
+            frame,
+            frames_per_second,
+        } = *shot;
+        let mut feed = self.shared.clone();
+        feed.view(exposure.view());
+        feed.integer(i64::from(frame));
+        feed.maybe(frames_per_second, Feed::number);
+        // None where the shutter is open for a moment only.
+        for Pose { camera, zoom } in exposure.poses() {
+            feed.camera(&camera);
+            feed.number(zoom);
+        }
+        feed.0.finalize()
+    }
+}
+
+/// A hasher that takes numbers.
+///
+/// Structures are taken apart field by field, so that nobody can add one and forget it here.
+#[derive(Clone, Debug)]
+struct Feed(Hasher);
+
+impl Feed {
+    fn number(&mut self, number: f64) {
+        self.0.update(&number.to_le_bytes());
+    }
+
+    fn integer(&mut self, number: impl Into<i64>) {
+        self.0.update(&number.into().to_le_bytes());
+    }
+
+    fn count(&mut self, count: usize) {
+        self.0.update(&(count as u64).to_le_bytes());
+    }
+
+    fn vector(&mut self, vector: DVec3) {
+        for number in vector.to_array() {
+            self.number(number);
+        }
+    }
+
+    /// A value that may be missing.
+    fn maybe<T>(&mut self, value: Option<T>, feed: impl FnOnce(&mut Self, T)) {
+        self.integer(value.is_some());
+        if let Some(value) = value {
+            feed(self, value);
+        }
+    }
+
+    fn world(&mut self, world: &World) {
+        self.vector(world.ambient);
+        self.vector(world.background);
+        self.integer(world.shadows);
+        self.count(world.lights.len());
+        world.lights.iter().for_each(|light| self.light(light));
+        self.count(world.materials().len());
+        let materials = world.materials().iter();
+        materials.for_each(|material| self.material(material));
+        self.count(world.spheres().len());
+        for hash in hashes_of_spheres(world) {
+            self.0.update(hash.as_bytes());
+        }
+    }
+
+    fn light(&mut self, light: &DirectionalLight) {
+        self.vector(light.toward());
+        self.vector(light.intensity());
+    }
+
+    fn material(&mut self, material: &Material) {
+        let Material {
+            albedo,
+            exponent,
+            highlight,
+            roughness,
+        } = *material;
+        self.vector(albedo);
+        self.number(exponent);
+        self.maybe(highlight, |feed, highlight| {
+            let Highlight {
+                strength,
+                shininess,
+            } = highlight;
+            feed.number(strength);
+            feed.number(shininess);
+        });
+        self.maybe(roughness, |feed, roughness| {
+            let Roughness {
+                amplitude,
+                grain,
+                seed,
+            } = roughness;
+            feed.number(amplitude);
+            let size = match grain {
+                Grain::Surface(size) => Some(size),
+                Grain::Pixel => None,
+            };
+            feed.maybe(size, Self::number);
+            feed.0.update(&seed.to_le_bytes());
+        });
+    }
+
+    fn settings(&mut self, settings: &Settings) {
+        let Settings { method, alpha } = *settings;
+        self.integer(alpha);
+        match method {
+            Method::Samples(samples) => {
+                self.integer(0);
+                self.integer(samples.get());
+            }
+            Method::Tolerance(tolerance) => {
+                self.integer(1);
+                self.number(tolerance);
+            }
+        }
+    }
+
+    fn encoding(&mut self, encoding: Encoding) {
+        match encoding {
+            // An animated one keeps no digest.
+            Encoding::Png(PngOptions { deep, rgb }) | Encoding::Apng(PngOptions { deep, rgb }) => {
+                self.integer(0);
+                self.integer(deep);
+                self.integer(rgb);
+            }
+            Encoding::Exr(ExrOptions { float, error }) => {
+                self.integer(1);
+                self.integer(float);
+                self.integer(error);
+            }
+        }
+    }
+
+    fn camera(&mut self, camera: &Camera) {
+        let Camera {
+            position,
+            world_from_camera:
+                DMat3 {
+                    x_axis,
+                    y_axis,
+                    z_axis,
+                },
+        } = *camera;
+        for vector in [position, x_axis, y_axis, z_axis] {
+            self.vector(vector);
+        }
+    }
+
+    fn view(&mut self, view: &View) {
+        let View {
+            camera,
+            lens:
+                Lens {
+                    width: retina_width,
+                    distance,
+                    shift: DVec2 { x, y },
+                },
+            zoom,
+            width,
+            height,
+            frame,
+        } = *view;
+        self.camera(&camera);
+        for number in [retina_width, distance, x, y, zoom] {
+            self.number(number);
+        }
+        self.integer(width);
+        self.integer(height);
+        self.integer(frame);
+    }
+}
+
+/// The hashes of some spheres at a time, each with its material and its color.
+fn hashes_of_spheres(world: &World) -> Vec<Hash> {
+    let parts = world.spheres().par_chunks(SPHERES).enumerate();
+    let hash = |(part, spheres): (usize, &[Sphere])| {
+        let mut bytes = Vec::with_capacity(SPHERES * 36);
+        let first = part * SPHERES;
+        for (index, sphere) in (first..).zip(spheres) {
+            let DVec3 { x, y, z } = sphere.center();
+            for number in [x, y, z, sphere.radius()] {
+                bytes.extend_from_slice(&number.to_le_bytes());
+            }
+            bytes.extend_from_slice(&world.material_index(index).to_le_bytes());
+            if world.has_own_albedos() {
+                for number in world.albedo(index).to_array() {
+                    bytes.extend_from_slice(&number.to_le_bytes());
+                }
+            }
+        }
+        blake3::hash(&bytes)
+    };
+    parts.map(hash).collect()
+}
+
+#[cfg(test)]
+mod tests;

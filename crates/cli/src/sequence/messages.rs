@@ -1,0 +1,107 @@
+//! Messages about files that were written.
+
+use std::path::Path;
+use std::time::Duration;
+
+use marbles_core::{Evidence, Summary};
+
+use super::frames;
+use super::outcome::Outcome;
+use super::results::WorstPixel;
+use crate::base::numbers::{bound, counted};
+use crate::formats::encoding::Encoding;
+
+/// The line of results; `time` is the rendering's alone.
+pub(super) fn result(path: &str, summary: &Summary, time: Duration) -> String {
+    format!(
+        "{path}: {} pixels, {}, {} over the tolerance, {:.3} s",
+        summary.pixels,
+        claim(summary),
+        summary.over_tolerance,
+        time.as_secs_f64()
+    )
+}
+
+/// The line of results of several files together, in the form of a file's own.
+pub(crate) fn total(files: u64, summary: &Summary, time: Duration) -> String {
+    result(&counted(files, "frame"), summary, time)
+}
+
+/// The line of results of a file that was there.
+pub(super) fn skipped(path: &Path) -> String {
+    format!("{}: skipped, complete and of this scene", path.display())
+}
+
+/// The number of frames that were written, and those that failed, in the form that `--frames` reads.
+pub(crate) fn counts(outcome: &Outcome) -> String {
+    let Outcome {
+        frames,
+        written,
+        skipped,
+        failed,
+        ..
+    } = outcome;
+    let mut counts = format!("{written} of {frames} frames written");
+    if *skipped > 0 {
+        counts.push_str(&format!(", {skipped} skipped"));
+    }
+    if !failed.is_empty() {
+        counts.push_str(&format!(", failed: {}", frames::listed(failed)));
+    }
+    counts
+}
+
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound)`.
+pub(crate) fn claim(summary: &Summary) -> String {
+    let evidence = match summary.evidence {
+        Evidence::Bound => "bound",
+        Evidence::Estimate => "estimate",
+    };
+    format!("error <= {} ({evidence})", bound(summary.largest_error))
+}
+
+/// The warning that numbers were too large for the file's floats.
+pub(super) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
+    let numbers = counted(count, "number");
+    match encoding {
+        Encoding::Exr(options) if !options.float => format!(
+            "{path}: {numbers} above 65504, the largest half, stored as that; \
+             --float has room for more"
+        ),
+        _ => format!("{path}: {numbers} too large for the file, stored as the largest"),
+    }
+}
+
+/// The warning that pixels did not meet the tolerance, with the worst of them.
+pub(super) fn over_tolerance(path: &str, count: u64, worst: Option<WorstPixel>) -> String {
+    let worst = worst.map_or(String::new(), |WorstPixel { col, row, error }| {
+        let error = bound(error);
+        format!(", the worst in column {col}, row {row} with an error <= {error}")
+    });
+    let pixels = counted(count, "pixel");
+    format!("{path}: {pixels} over the tolerance{worst}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_say_what_stands_behind_the_error() {
+        let summary = |evidence| Summary {
+            pixels: 600,
+            largest_error: 8.21e-4,
+            evidence,
+            over_tolerance: 2,
+        };
+        let time = Duration::from_millis(12);
+        assert_eq!(
+            result("a.png", &summary(Evidence::Bound), time),
+            "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, 0.012 s"
+        );
+        assert_eq!(
+            total(7, &summary(Evidence::Estimate), time),
+            "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, 0.012 s"
+        );
+    }
+}

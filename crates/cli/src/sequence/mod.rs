@@ -1,0 +1,18 @@
+//! Frames one after the other: while one is rendered, the one before is encoded and written, and the
+//! next one begins as soon as threads have nothing else to do.
+
+mod clock;
+mod digest;
+pub(crate) mod frames;
+pub(crate) mod messages;
+pub(crate) mod outcome;
+pub(crate) mod pattern;
+mod pipeline;
+pub(crate) mod render;
+mod reorder_buffer;
+pub(crate) mod request;
+mod results;
+mod source;
+mod strip_encoder;
+mod workers;
+mod writer;

@@ -1,0 +1,132 @@
+//! The outcome of a sequence: frames that were written, skipped and failed.
+
+use std::collections::HashSet;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
+
+use marbles_core::Summary;
+
+use crate::base::failure::Failure;
+use crate::terminal::progress::Progress;
+
+/// The outcome of a sequence.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outcome {
+    /// Frames that were asked for.
+    pub(crate) frames: u64,
+    /// Frames whose files were written.
+    pub(crate) written: u64,
+    /// Frames whose files were there.
+    pub(crate) skipped: u64,
+    /// Frames that could not be rendered or written.
+    pub(crate) failed: Vec<i32>,
+    /// The results of the written frames together.
+    pub(crate) total: Option<Summary>,
+    /// The time that rendering the written frames took.
+    pub(crate) time: Duration,
+    /// True where the user ended the work.
+    pub(crate) interrupted: bool,
+}
+
+impl Outcome {
+    /// Counts a frame that was written.
+    pub(crate) fn add(&mut self, summary: Summary, time: Duration) {
+        self.written += 1;
+        self.time += time;
+        self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
+    }
+
+    /// Returns whether some pixel of a written frame did not meet the tolerance.
+    pub(crate) fn is_over_tolerance(&self) -> bool {
+        self.total.is_some_and(|total| total.over_tolerance > 0)
+    }
+}
+
+/// Frames that failed, as several threads find out.
+pub(super) struct Failures {
+    /// True where the first failure ends the work.
+    is_fatal: bool,
+    stop: AtomicBool,
+    state: Mutex<State>,
+}
+
+#[derive(Default)]
+struct State {
+    frames: Vec<i32>,
+    /// Reasons that were told already.
+    reasons: HashSet<String>,
+}
+
+impl Failures {
+    /// No failures yet.
+    pub(super) fn new(is_fatal: bool) -> Self {
+        Self {
+            is_fatal,
+            stop: AtomicBool::new(false),
+            state: Mutex::default(),
+        }
+    }
+
+    /// Counts a frame whose file would be at `path`, and tells the reason unless it was told of another
+    /// frame: on a full disk a thousand fail alike.
+    pub(super) fn add(&self, frame: i32, path: &Path, failure: &Failure, progress: &Progress) {
+        let message = failure.to_string();
+        let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
+        state.frames.push(frame);
+        // What comes before the reason is another file or frame each time.
+        let places = [path.display().to_string(), format!("frame {frame}")];
+        let reason = places.iter().find_map(|place| message.strip_prefix(place));
+        let reason = reason.unwrap_or(&message).to_owned();
+        if state.reasons.insert(reason) {
+            progress.failure(&Failure::Work(message));
+        }
+        if self.is_fatal {
+            self.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Returns whether no more frames are wanted.
+    pub(super) fn stop(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    /// The frames that failed.
+    pub(super) fn into_frames(self) -> Vec<i32> {
+        let state = self.state.into_inner();
+        state.unwrap_or_else(PoisonError::into_inner).frames
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use marbles_core::Evidence;
+
+    use super::*;
+
+    #[test]
+    fn a_sequence_is_as_good_as_its_worst_frame() {
+        let summary = |largest_error, evidence, over_tolerance| Summary {
+            pixels: 100,
+            largest_error,
+            evidence,
+            over_tolerance,
+        };
+        let mut outcome = Outcome::default();
+        assert!(!outcome.is_over_tolerance());
+        let time = Duration::from_millis(5);
+        outcome.add(summary(1e-4, Evidence::Bound, 0), time);
+        assert_eq!(outcome.total, Some(summary(1e-4, Evidence::Bound, 0)));
+        assert!(!outcome.is_over_tolerance());
+        outcome.add(summary(3e-4, Evidence::Estimate, 2), time);
+        outcome.add(summary(2e-4, Evidence::Bound, 1), time);
+        let total = Summary {
+            pixels: 300,
+            ..summary(3e-4, Evidence::Estimate, 3)
+        };
+        assert_eq!(outcome.total, Some(total));
+        assert_eq!((outcome.written, outcome.time), (3, 3 * time));
+        assert!(outcome.is_over_tolerance());
+    }
+}

@@ -1,0 +1,157 @@
+//! File names with a place for the frame number: `####`, `%04d` or `{frame:04}`.
+
+use std::ffi::{OsStr, OsString};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use crate::formats::encoding::Format;
+
+/// More digits than this are a slip of the keyboard, and no file system takes them.
+const MOST_DIGITS: usize = 100;
+/// Digits of the frame number in names that the user left out.
+const DEFAULT_DIGITS: usize = 4;
+
+/// The names of the files of a picture or a sequence.
+///
+/// The place for the frame number is looked for in the file name only; folders are taken as they
+/// are written.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) struct Pattern {
+    folder: PathBuf,
+    before: OsString,
+    /// The width to which a frame number is padded with zeros; `None` where there is no place for it.
+    digits: Option<usize>,
+    after: OsString,
+    format: Format,
+}
+
+impl Pattern {
+    /// Reads a pattern as users write it, or says what is wrong with it.
+    pub(crate) fn parse(path: &Path) -> Result<Self, String> {
+        let wrong_ending = || {
+            let path = path.display();
+            format!("expected a file name that ends in .png, .apng or .exr, found `{path}`")
+        };
+        // A trailing slash means a folder, which `file_name` would overlook.
+        let bytes = path.as_os_str().as_encoded_bytes();
+        let name = path.file_name();
+        let name = name.filter(|name| bytes.ends_with(name.as_encoded_bytes()));
+        let name = name.ok_or_else(wrong_ending)?.to_str().ok_or_else(|| {
+            let path = path.display();
+            format!("expected a file name in UTF-8, found `{path}`")
+        })?;
+        let format = Format::of(name).ok_or_else(wrong_ending)?;
+
+        let mut found: Option<(Range<usize>, usize)> = None;
+        let mut start = 0;
+        while start < name.len() {
+            let Some((length, digits)) = place(&name[start..])? else {
+                start += name[start..].chars().next().map_or(1, char::len_utf8);
+                continue;
+            };
+            let here = start..start + length;
+            if let Some((first, _)) = found {
+                let (first, second) = (&name[first], &name[here]);
+                return Err(format!(
+                    "expected one place for the frame number, found `{first}` and `{second}`"
+                ));
+            }
+            start = here.end;
+            found = Some((here, digits));
+        }
+        let (place, digits) = found.unzip();
+        let place = place.unwrap_or(name.len()..name.len());
+        Ok(Self {
+            folder: path.parent().map(Path::to_owned).unwrap_or_default(),
+            before: name[..place.start].into(),
+            digits,
+            after: name[place.end..].into(),
+            format,
+        })
+    }
+
+    /// The names of a user who gave none: those of the scene, in the current folder.
+    pub(crate) fn named_after(scene: &Path, numbered: bool) -> Self {
+        let mut before = scene
+            .file_stem()
+            .unwrap_or(OsStr::new("marbles"))
+            .to_owned();
+        if numbered {
+            before.push(".");
+        }
+        Self {
+            folder: PathBuf::new(),
+            before,
+            digits: numbered.then_some(DEFAULT_DIGITS),
+            after: ".png".into(),
+            format: Format::Png,
+        }
+    }
+
+    /// The name of a frame's file.
+    pub(crate) fn path(&self, frame: i32) -> PathBuf {
+        let mut name = self.before.clone();
+        if let Some(digits) = self.digits {
+            name.push(format!("{frame:0digits$}"));
+        }
+        name.push(&self.after);
+        self.folder.join(name)
+    }
+
+    /// The format that the ending asks for.
+    pub(crate) fn format(&self) -> Format {
+        self.format
+    }
+
+    /// Returns whether different frames have different names.
+    pub(crate) fn is_numbered(&self) -> bool {
+        self.digits.is_some()
+    }
+}
+
+/// The place for the frame number at the start of `text`, if there is one: its length, and the width
+/// of the number.
+fn place(text: &str) -> Result<Option<(usize, usize)>, String> {
+    let refused = |length: usize| {
+        let found = &text[..length];
+        format!("expected a frame number such as ####, %04d or {{frame:04}}, found `{found}`")
+    };
+    let spelled = |length: usize, digits: &str| {
+        // Without the leading 0 printf would pad with spaces.
+        let width = match digits.strip_prefix('0') {
+            None => digits.is_empty().then_some(0),
+            Some("") => Some(0),
+            Some(digits) => digits.parse().ok(),
+        };
+        match width {
+            Some(width) if width <= MOST_DIGITS => Ok(Some((length, width))),
+            _ => Err(refused(length)),
+        }
+    };
+    if text.starts_with('#') {
+        let length = text.len() - text.trim_start_matches('#').len();
+        return spelled(length, &format!("0{length}"));
+    }
+    if let Some(rest) = text.strip_prefix('%') {
+        let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        if rest[digits..].starts_with('d') {
+            return spelled(digits + 2, &rest[..digits]);
+        }
+    }
+    if let Some(rest) = text.strip_prefix("{frame") {
+        let length = text.find('}').map_or(text.len(), |at| at + 1);
+        if rest.starts_with('}') {
+            return spelled(length, "");
+        }
+        let digits = rest
+            .strip_prefix(':')
+            .and_then(|rest| rest.split_once('}'))
+            .map(|(digits, _)| digits)
+            .ok_or_else(|| refused(length))?;
+        return spelled(length, digits);
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,85 @@
+use super::*;
+
+fn name(pattern: &str, frame: i32) -> String {
+    let pattern = Pattern::parse(Path::new(pattern)).unwrap();
+    pattern.path(frame).into_os_string().into_string().unwrap()
+}
+
+fn refusal(pattern: &str) -> String {
+    Pattern::parse(Path::new(pattern)).unwrap_err()
+}
+
+#[test]
+fn every_spelling_takes_the_frame() {
+    assert_eq!(name("a.####.png", 7), "a.0007.png");
+    assert_eq!(name("a#.png", 12), "a12.png");
+    assert_eq!(name("out/%04d.exr", 7), "out/0007.exr");
+    assert_eq!(name("%d.png", 7), "7.png");
+    assert_eq!(name("{frame:04}_a.png", 7), "0007_a.png");
+    assert_eq!(name("a{frame}.png", 7), "a7.png");
+    assert_eq!(name("%012d.png", 7), "000000000007.png");
+    assert_eq!(name("####.png", 123_456), "123456.png");
+}
+
+#[test]
+fn negative_frames_are_padded_as_printf_does() {
+    for pattern in ["####.png", "%04d.png", "{frame:04}.png"] {
+        assert_eq!(name(pattern, -5), "-005.png");
+    }
+}
+
+#[test]
+fn names_without_a_number_stay() {
+    let pattern = Pattern::parse(Path::new("50% {off}.png")).unwrap();
+    assert!(!pattern.is_numbered());
+    assert_eq!(pattern.path(3), Path::new("50% {off}.png"));
+}
+
+#[test]
+fn folders_are_taken_as_written() {
+    assert_eq!(name("shot#1/%d/{frame}.png", 2), "shot#1/%d/2.png");
+    assert_eq!(name("/a.png/../ä#é.png", 2), "/a.png/../ä2é.png");
+}
+
+#[test]
+fn endings_choose_the_format() {
+    let format = |name: &str| Pattern::parse(Path::new(name)).unwrap().format();
+    assert_eq!(format("a.PNG"), Format::Png);
+    assert_eq!(format("a.b.Exr"), Format::Exr);
+    assert_eq!(format("a.png.apng"), Format::Apng);
+    for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
+        assert!(
+            refusal(wrong).contains("ends in .png, .apng or .exr"),
+            "{wrong}"
+        );
+    }
+}
+
+#[test]
+fn refuses_numbers_that_cannot_be() {
+    for wrong in [
+        "%4d.png",
+        "{frame:4}.png",
+        "{frame:x}.png",
+        "{frame.png",
+        "%0999d.png",
+    ] {
+        assert!(
+            refusal(wrong).contains("####, %04d or {frame:04}"),
+            "{wrong}"
+        );
+    }
+    assert_eq!(
+        refusal("#a_%04d.png"),
+        "expected one place for the frame number, found `#` and `%04d`"
+    );
+}
+
+#[test]
+fn names_come_from_the_scene() {
+    let scene = Path::new("scenes/two#balls.ron");
+    let still = Pattern::named_after(scene, false);
+    assert_eq!(still.path(1), Path::new("two#balls.png"));
+    let sequence = Pattern::named_after(scene, true);
+    assert_eq!(sequence.path(-3), Path::new("two#balls.-003.png"));
+}

@@ -1,0 +1,156 @@
+//! The state that the threads which render and the one which writes have in common.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicU64;
+use std::sync::mpsc::Receiver;
+
+use marbles_core::Channels;
+
+use super::clock::Clock;
+use super::outcome::Failures;
+use super::reorder_buffer::ReorderBuffer;
+use super::request::Request;
+use super::strip_encoder::Finished;
+use crate::base::failure::Failure;
+use crate::base::memory;
+use crate::base::region::Region;
+use crate::base::size::Size;
+use crate::files::temporary::TemporaryFile;
+use crate::formats::encoder::Encoder;
+use crate::formats::facts::Facts;
+use crate::formats::form::Form;
+use crate::terminal::interrupt;
+use crate::terminal::progress::Progress;
+
+/// Memory that strips between rendering and file may take together, where two of them do not take
+/// more: enough to keep many threads busy with wide pictures, and for whole pictures of common sizes.
+const STRIPS_BYTES: u64 = 1 << 27;
+
+/// The state that the threads which render and the one which writes have in common.
+pub(super) struct Pipeline<'a> {
+    pub(super) request: &'a Request,
+    pub(super) progress: &'a Progress<'a>,
+    pub(super) encoder: Encoder,
+    pub(super) buffer: ReorderBuffer,
+    pub(super) clock: Clock,
+    pub(super) failures: Failures,
+    /// Frames whose files were there.
+    pub(super) skipped: AtomicU64,
+}
+
+/// A picture that is on its way to its file.
+pub(super) struct Order {
+    pub(super) facts: Facts,
+    pub(super) path: PathBuf,
+    /// The file to write; `None` where all frames are one file.
+    pub(super) file: Option<TemporaryFile>,
+    /// The number of the first piece in the buffer that belongs to the next picture.
+    pub(super) end: u64,
+    /// The results; nothing comes where the picture was not finished.
+    pub(super) finished: Receiver<Finished>,
+}
+
+impl<'a> Pipeline<'a> {
+    /// The state before the first frame, if there is memory for the strips.
+    pub(super) fn new(
+        request: &'a Request,
+        threads: usize,
+        progress: &'a Progress<'a>,
+    ) -> Result<Self, Failure> {
+        let form = request.form()?.unwrap_or(Form {
+            region: Region::all(Size {
+                width: 1,
+                height: 1,
+            }),
+            channels: Channels::Grey,
+            alpha: false,
+        });
+        let encoder = Encoder::new(request.encoding, form);
+        let capacity = capacity(&encoder)?;
+        // Without all of its frames there is no animation.
+        let is_fatal = request.fail_fast || request.is_animation();
+        Ok(Self {
+            request,
+            progress,
+            encoder,
+            buffer: ReorderBuffer::new(capacity),
+            clock: Clock::new(threads),
+            failures: Failures::new(is_fatal),
+            skipped: AtomicU64::new(0),
+        })
+    }
+
+    /// Returns whether nothing more is wanted.
+    pub(super) fn stop(&self) -> bool {
+        interrupt::requested() || self.failures.stop()
+    }
+
+    /// Counts a frame that could not be rendered or written, and says so.
+    pub(super) fn fail(&self, frame: i32, path: &Path, failure: &Failure) {
+        self.failures.add(frame, path, failure, self.progress);
+    }
+}
+
+/// The number of strips that may be between rendering and file, at least 2; refuses pictures that are
+/// too wide even for these.
+fn capacity(encoder: &Encoder) -> Result<u64, Failure> {
+    const LEAST: u64 = 2;
+    let strip = encoder.strip_bytes();
+    let Size { width, height } = encoder.form.region.size();
+    let work = format!("rendering and writing a picture of {width} x {height} pixels needs");
+    memory::require(strip.saturating_mul(LEAST), &work)?;
+    Ok((STRIPS_BYTES / strip.max(1)).max(LEAST))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
+
+    fn encoder(encoding: Encoding, width: u32, height: u32) -> Encoder {
+        let form = Form {
+            region: Region::all(Size { width, height }),
+            channels: Channels::Rgb,
+            alpha: true,
+        };
+        Encoder::new(encoding, form)
+    }
+
+    const PNG: Encoding = Encoding::Png(PngOptions {
+        deep: true,
+        rgb: true,
+    });
+    const EXR: Encoding = Encoding::Exr(ExrOptions {
+        float: true,
+        error: true,
+    });
+
+    #[test]
+    fn the_height_of_a_picture_costs_no_strips() {
+        for encoding in [PNG, EXR] {
+            let [low, high] =
+                [9, 1 << 20].map(|height| capacity(&encoder(encoding, 600, height)).unwrap());
+            // The lower one has no whole strip of an EXR file.
+            assert!(high > 2 && low >= high);
+        }
+    }
+
+    #[test]
+    fn large_pictures_have_room_in_a_gigabyte() {
+        for encoding in [PNG, EXR] {
+            let encoder = encoder(encoding, 1 << 15, 1 << 15);
+            let bytes = capacity(&encoder).unwrap() * encoder.strip_bytes();
+            assert!(bytes < 1 << 29, "{bytes}");
+        }
+    }
+
+    #[test]
+    fn the_widest_pictures_do_not_fit() {
+        // Wider than scenes allow.
+        let failure = capacity(&encoder(EXR, u32::MAX, 1 << 31)).unwrap_err();
+        let Failure::Work(message) = failure else {
+            panic!("{failure:?}");
+        };
+        assert!(message.ends_with("GB of memory, more than there is"));
+    }
+}

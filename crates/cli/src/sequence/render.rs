@@ -1,0 +1,59 @@
+//! The rendering of a sequence: threads that render, and one that writes.
+
+use std::panic;
+use std::sync::OnceLock;
+use std::sync::mpsc::sync_channel;
+use std::thread;
+
+use rayon::ThreadPool;
+
+use super::outcome::Outcome;
+use super::pipeline::Pipeline;
+use super::request::Request;
+use super::source::Source;
+use super::{workers, writer};
+use crate::base::failure::Failure;
+use crate::terminal::interrupt;
+use crate::terminal::progress::Progress;
+
+/// Pictures that wait to be written while another one is. If more waited, it would not help: in the
+/// long run the slower of rendering and writing sets the pace.
+const WAITING_PICTURES: usize = 1;
+
+/// Renders and writes all frames in order, but for those that another process is rendering: they
+/// come last, if they are not there then.
+///
+/// A frame that cannot be rendered or written is reported and left out.
+pub(crate) fn render(
+    request: &Request,
+    threads: &ThreadPool,
+    progress: &Progress<'_>,
+) -> Result<Outcome, Failure> {
+    let pipeline = Pipeline::new(request, threads.current_num_threads(), progress)?;
+    let (sender, receiver) = sync_channel(WAITING_PICTURES);
+    let written = thread::scope(|scope| {
+        let writer = scope.spawn(|| {
+            if request.is_animation() {
+                writer::write_animation(receiver, &pipeline)
+            } else {
+                writer::write_files(receiver, &pipeline)
+            }
+        });
+        threads.install(|| {
+            let _closing = pipeline.buffer.closing();
+            let renderer = OnceLock::new();
+            let mut source = Source::new(&pipeline, &renderer, sender);
+            workers::run(|| source.next());
+        });
+        let written = writer.join();
+        written.unwrap_or_else(|panic| panic::resume_unwind(panic))
+    });
+    let (frames, skipped) = (request.frames.count(), pipeline.skipped.into_inner());
+    Ok(Outcome {
+        frames,
+        skipped,
+        failed: pipeline.failures.into_frames(),
+        interrupted: interrupt::requested() && written.written + skipped < frames,
+        ..written
+    })
+}

@@ -1,0 +1,143 @@
+//! The reorder buffer between the threads that render and the one that writes: pieces of pictures come
+//! as they are made, and go in order.
+
+use std::collections::BTreeMap;
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+use crate::formats::encoder::Piece;
+
+/// A buffer of pieces, which are put into it as they are made and taken in the order of their numbers;
+/// these go on from picture to picture.
+pub(super) struct ReorderBuffer {
+    state: Mutex<State>,
+    /// The next piece is there, or the buffer is closed.
+    arrived: Condvar,
+    /// A piece was taken, or the buffer is closed.
+    moved: Condvar,
+    /// The number of pieces that there may be at a time.
+    capacity: u64,
+}
+
+#[derive(Default)]
+struct State {
+    /// The number of the next piece: how many were taken.
+    taken: u64,
+    waiting: BTreeMap<u64, Piece>,
+    is_closed: bool,
+}
+
+/// Closes the buffer when it goes out of scope, so that no thread waits for one that has ended.
+pub(super) struct Closing<'buffer>(&'buffer ReorderBuffer);
+
+/// The slot of a piece; closes the buffer when nothing is put into it though the piece is wanted.
+pub(super) struct Slot<'buffer> {
+    buffer: &'buffer ReorderBuffer,
+    number: u64,
+}
+
+impl ReorderBuffer {
+    /// An empty buffer for `capacity` pieces at a time, at least 1.
+    pub(super) fn new(capacity: u64) -> Self {
+        Self {
+            state: Mutex::default(),
+            arrived: Condvar::new(),
+            moved: Condvar::new(),
+            capacity: capacity.max(1),
+        }
+    }
+
+    /// Waits until the piece with this number may be made, and returns its slot. `None` when the buffer
+    /// is closed, or the piece is not wanted.
+    pub(super) fn admit(&self, number: u64) -> Option<Slot<'_>> {
+        let mut state = self.lock();
+        while number >= state.taken + self.capacity && !state.is_closed {
+            state = wait(&self.moved, state);
+        }
+        let buffer = self;
+        (!state.is_closed && number >= state.taken).then(|| Slot { buffer, number })
+    }
+
+    /// Waits for the next piece and takes it; `None` when it will not come.
+    pub(super) fn take(&self) -> Option<Piece> {
+        let mut state = self.lock();
+        loop {
+            let number = state.taken;
+            if let Some(piece) = state.waiting.remove(&number) {
+                state.taken += 1;
+                self.moved.notify_all();
+                return Some(piece);
+            }
+            if state.is_closed {
+                return None;
+            }
+            state = wait(&self.arrived, state);
+        }
+    }
+
+    /// Leaves out the pieces with smaller numbers, those that are still to come among them.
+    pub(super) fn skip_to(&self, number: u64) {
+        let mut state = self.lock();
+        state.waiting = state.waiting.split_off(&number);
+        state.taken = state.taken.max(number);
+        self.moved.notify_all();
+    }
+
+    /// Ends the waiting of all, now and later; pieces that are there can still be taken.
+    fn close(&self) {
+        self.lock().is_closed = true;
+        self.arrived.notify_all();
+        self.moved.notify_all();
+    }
+
+    /// Returns whether nothing more will come.
+    pub(super) fn is_closed(&self) -> bool {
+        self.lock().is_closed
+    }
+
+    /// Closes the buffer later.
+    pub(super) fn closing(&self) -> Closing<'_> {
+        Closing(self)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        // The state is valid after every step, so that a panic elsewhere does not spoil it.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Closing<'_> {
+    fn drop(&mut self) {
+        self.0.close();
+    }
+}
+
+impl Slot<'_> {
+    /// Puts the piece there, if it is wanted.
+    pub(super) fn put(self, piece: Piece) {
+        let mut state = self.buffer.lock();
+        if self.number >= state.taken {
+            state.waiting.insert(self.number, piece);
+            if self.number == state.taken {
+                self.buffer.arrived.notify_one();
+            }
+        }
+        drop(state);
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for Slot<'_> {
+    fn drop(&mut self) {
+        let is_wanted = self.number >= self.buffer.lock().taken;
+        if is_wanted {
+            self.buffer.close();
+        }
+    }
+}
+
+fn wait<'state>(change: &Condvar, state: MutexGuard<'state, State>) -> MutexGuard<'state, State> {
+    change.wait(state).unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests;

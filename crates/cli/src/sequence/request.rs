@@ -1,0 +1,75 @@
+//! The request for a sequence of pictures.
+
+use marbles_core::{Settings, View, Window};
+use marbles_scene::Scene;
+
+use super::frames::FrameList;
+use super::pattern::Pattern;
+use crate::base::failure::Failure;
+use crate::base::region::{Region, shown};
+use crate::base::size::Size;
+use crate::formats::encoding::Encoding;
+use crate::formats::form::Form;
+
+/// The pictures that are rendered, and the files that they become.
+pub(crate) struct Request {
+    pub(crate) scene: Scene,
+    pub(crate) frames: FrameList,
+    /// A size in place of the scene's.
+    pub(crate) size: Option<Size>,
+    /// The part of the picture that is wanted, if not all of it.
+    pub(crate) window: Option<Window>,
+    pub(crate) frames_per_second: Option<f64>,
+    pub(crate) settings: Settings,
+    pub(crate) pattern: Pattern,
+    pub(crate) encoding: Encoding,
+    /// True where frames are left out whose files are there.
+    pub(crate) skip_existing: bool,
+    /// True where the first failure ends the work.
+    pub(crate) fail_fast: bool,
+}
+
+impl Request {
+    /// Refuses a frame that has no view, or whose picture does not contain what is wanted of it.
+    pub(crate) fn check(&self, frame: i32) -> Result<(), Failure> {
+        let view = self.scene.view(frame);
+        let view = view.map_err(|error| Failure::Usage(error.to_string()))?;
+        self.region(Size::of(&self.resized(view))).map(drop)
+    }
+
+    /// Returns whether all frames are one file.
+    pub(crate) fn is_animation(&self) -> bool {
+        matches!(self.encoding, Encoding::Apng(_))
+    }
+
+    pub(super) fn resized(&self, view: View) -> View {
+        self.size.map_or(view, |size| size.resize(view))
+    }
+
+    /// The form of all pictures; `None` where no frame has a view.
+    pub(super) fn form(&self) -> Result<Option<Form>, Failure> {
+        let views = self.frames.iter();
+        let mut views = views.filter_map(|frame| self.scene.view(frame).ok());
+        // All frames have the same size.
+        let Some(view) = views.next() else {
+            return Ok(None);
+        };
+        let region = self.region(Size::of(&self.resized(view)))?;
+        let form = Form::new(region, self.scene.world(), self.settings.alpha);
+        Ok(Some(form))
+    }
+
+    /// The part of a picture of this size that is rendered.
+    fn region(&self, whole: Size) -> Result<Region, Failure> {
+        let Some(window) = self.window else {
+            return Ok(Region::all(whole));
+        };
+        Region::new(window, whole).ok_or_else(|| {
+            let Size { width, height } = whole;
+            let window = shown(&window);
+            let message =
+                format!("expected a region inside {width} x {height} pixels, found {window}");
+            Failure::Usage(message)
+        })
+    }
+}

@@ -1,0 +1,103 @@
+//! The results of a picture: how large its errors are, and what its file could not hold.
+
+use marbles_core::{Image, Summary};
+
+use crate::base::size::Size;
+
+/// The results of a picture, or of a part of one.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Results {
+    /// `None` where there is no pixel yet.
+    pub(super) summary: Option<Summary>,
+    /// The worst of the pixels that did not meet the tolerance.
+    pub(super) worst: Option<WorstPixel>,
+    /// The number of finite numbers that were too large for the file's.
+    pub(super) clipped: u64,
+}
+
+/// The pixel with the largest error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WorstPixel {
+    pub(super) col: u32,
+    pub(super) row: u32,
+    pub(super) error: f64,
+}
+
+impl Results {
+    /// The results of the part of a picture whose first pixel is (`col`, `row`).
+    pub(super) fn of(part: &Image, (col, row): (u32, u32), clipped: u64) -> Self {
+        let summary = part.summary();
+        let mut worst = None;
+        if summary.over_tolerance > 0 {
+            let (width, height) = (part.width(), part.height());
+            let pixels = Size { width, height }.places();
+            let missed = pixels.filter(|&(c, r)| part.status(c, r).is_over_tolerance());
+            worst = missed.fold(None, |worst, (c, r)| {
+                let error = part.error(c, r);
+                let (col, row) = (col + c, row + r);
+                WorstPixel::of(worst, Some(WorstPixel { col, row, error }))
+            });
+        }
+        Self {
+            summary: Some(summary),
+            worst,
+            clipped,
+        }
+    }
+
+    pub(super) fn add(&mut self, other: &Self) {
+        self.summary = match (self.summary, &other.summary) {
+            (Some(one), Some(other)) => Some(one.and(other)),
+            (one, other) => one.or(*other),
+        };
+        self.worst = WorstPixel::of(self.worst, other.worst);
+        self.clipped += other.clipped;
+    }
+}
+
+impl WorstPixel {
+    /// The worse of two; of equals the one that is further down, or else to the right.
+    fn of(one: Option<Self>, other: Option<Self>) -> Option<Self> {
+        let (Some(first), Some(second)) = (one, other) else {
+            return one.or(other);
+        };
+        let place = |pixel: &Self| (pixel.row, pixel.col);
+        let order = first.error.total_cmp(&second.error);
+        let order = order.then_with(|| place(&first).cmp(&place(&second)));
+        if order.is_gt() { one } else { other }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worst_pixel_does_not_depend_on_the_order_of_strips() {
+        let pixel = |col, row, error| Results {
+            worst: Some(WorstPixel { col, row, error }),
+            clipped: 1,
+            ..Results::default()
+        };
+        let parts = [
+            pixel(9, 0, 2e-3),
+            pixel(3, 4, 5e-3),
+            pixel(1, 5, 5e-3),
+            Results::default(),
+            pixel(0, 5, 5e-3),
+        ];
+        for first in 0..parts.len() {
+            let mut sum = Results::default();
+            for step in 0..parts.len() {
+                sum.add(&parts[(first + 2 * step) % parts.len()]);
+            }
+            assert_eq!(
+                sum,
+                Results {
+                    clipped: 4,
+                    ..parts[2]
+                }
+            );
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The thread that writes: pictures become files in the order of their rendering.
+
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::Receiver;
+use std::time::Duration;
+
+use marbles_core::Summary;
+
+use super::messages;
+use super::outcome::Outcome;
+use super::pipeline::{Order, Pipeline};
+use super::strip_encoder::Finished;
+use crate::files::save::Unwritten;
+
+/// Writes pictures as they come, each to its file.
+pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
+    let _closing = pipeline.buffer.closing();
+    let mut outcome = Outcome::default();
+    for order in orders {
+        let (frame, path, end) = (order.facts.frame, order.path.clone(), order.end);
+        match write_file(order, pipeline) {
+            Ok((summary, time)) => {
+                outcome.add(summary, time);
+                let skipped = pipeline.skipped.load(Ordering::Relaxed);
+                pipeline.progress.written(frame, outcome.written, skipped);
+            }
+            Err(Unwritten::Stopped) => break,
+            Err(Unwritten::Failed(failure)) => {
+                pipeline.fail(frame, &path, &failure);
+                if pipeline.failures.stop() {
+                    // Neither are those wanted that were rendered meanwhile.
+                    break;
+                }
+                pipeline.buffer.skip_to(end);
+            }
+        }
+    }
+    outcome
+}
+
+/// Writes a picture and says so; returns its results, and the time that it took.
+fn write_file(order: Order, pipeline: &Pipeline<'_>) -> Result<(Summary, Duration), Unwritten> {
+    let Order {
+        facts,
+        path,
+        file,
+        finished,
+        ..
+    } = order;
+    let Pipeline {
+        request,
+        progress,
+        encoder,
+        buffer,
+        ..
+    } = pipeline;
+    let file = file.ok_or(Unwritten::Stopped)?;
+    encoder.write(&facts, &path, file, || buffer.take())?;
+    let Finished { results, time } = finished.recv().map_err(|_| Unwritten::Stopped)?;
+    let summary = results.summary.ok_or(Unwritten::Stopped)?;
+    let shown = path.display().to_string();
+    progress.result(&messages::result(&shown, &summary, time));
+    if results.clipped > 0 {
+        progress.warn(&messages::clipped(
+            &shown,
+            results.clipped,
+            request.encoding,
+        ));
+    }
+    if summary.over_tolerance > 0 {
+        let count = summary.over_tolerance;
+        progress.warn(&messages::over_tolerance(&shown, count, results.worst));
+    }
+    Ok((summary, time))
+}
+
+/// Writes pictures as they come, all to one file. Without all of them there is no file, and none counts
+/// as written.
+pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
+    let Pipeline {
+        request,
+        progress,
+        encoder,
+        buffer,
+        ..
+    } = pipeline;
+    let _closing = buffer.closing();
+    let mut outcome = Outcome::default();
+    let path = request.pattern.path(request.frames.first());
+    let shown = path.display().to_string();
+    // There are fewer, or the list of frames would have been refused.
+    let frames = u32::try_from(request.frames.count()).unwrap_or(u32::MAX);
+    let mut warnings = Vec::new();
+    let take = || buffer.take();
+    let rate = request.frames_per_second;
+    let written = encoder.write_animation(&path, frames, rate, take, || {
+        let order = orders.recv().ok()?;
+        let frame = order.facts.frame;
+        let Finished { results, time } = order.finished.recv().ok()?;
+        let summary = results.summary?;
+        outcome.add(summary, time);
+        progress.written(frame, outcome.written, 0);
+        if summary.over_tolerance > 0 {
+            let shown = format!("{shown}: frame {frame}");
+            let count = summary.over_tolerance;
+            warnings.push(messages::over_tolerance(&shown, count, results.worst));
+        }
+        Some(())
+    });
+    match (written, &outcome.total) {
+        (Ok(()), Some(total)) => {
+            progress.result(&messages::result(&shown, total, outcome.time));
+            for warning in warnings {
+                progress.warn(&warning);
+            }
+            return outcome;
+        }
+        (Err(Unwritten::Failed(failure)), _) => {
+            // The one that was being written, if it was not the end of the file.
+            let failed = request.frames.iter().nth(outcome.written as usize);
+            let failed = failed.or_else(|| request.frames.iter().last());
+            let failed = failed.unwrap_or(request.frames.first());
+            pipeline.fail(failed, &path, &failure);
+        }
+        (Err(Unwritten::Stopped), _) | (Ok(()), None) => {}
+    }
+    Outcome::default()
+}

@@ -1,0 +1,265 @@
+//! The console: results on stdout, all else on stderr.
+
+use std::env;
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::sync::{Mutex, OnceLock, PoisonError};
+
+use clap::builder::StyledStr;
+
+use super::json;
+use crate::base::failure::{Failure, reason};
+
+const BOLD_RED: &str = "\x1b[1;31m";
+const BOLD_YELLOW: &str = "\x1b[1;33m";
+const RESET: &str = "\x1b[0m";
+
+/// The two streams, shared by threads.
+///
+/// Printing does not fail: the work goes on. Whether results were lost is told at the end.
+pub(crate) struct Console {
+    out: Stream,
+    err: Stream,
+    /// The reader of messages, where it is known not to be people.
+    reader: OnceLock<Reader>,
+}
+
+/// A reader of messages, in a form of its own.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Reader {
+    People,
+    /// A program that reads objects of JSON, one a line, on stderr.
+    Json,
+    /// A runner of jobs of Open Job Description, which reads what went wrong on stdout.
+    OpenJd,
+}
+
+struct Stream {
+    write: Mutex<Box<dyn Write + Send>>,
+    /// The reason why something could not be printed, the first time.
+    error: OnceLock<io::Error>,
+    terminal: bool,
+    styled: bool,
+}
+
+impl Console {
+    /// The streams of the process.
+    pub(crate) fn of_process() -> Self {
+        let colors = env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+            && env::var_os("TERM").is_none_or(|value| value != "dumb");
+        let (out, err) = (io::stdout(), io::stderr());
+        let (out_terminal, err_terminal) = (out.is_terminal(), err.is_terminal());
+        Self {
+            out: Stream::new(out, out_terminal, colors),
+            err: Stream::new(err, err_terminal, colors),
+            reader: OnceLock::new(),
+        }
+    }
+
+    /// A console that is no terminal.
+    #[cfg(test)]
+    pub(crate) fn to(out: impl Write + Send + 'static, err: impl Write + Send + 'static) -> Self {
+        Self {
+            out: Stream::new(out, false, false),
+            err: Stream::new(err, false, false),
+            reader: OnceLock::new(),
+        }
+    }
+
+    /// Speaks to this reader from now on.
+    pub(crate) fn speak_to(&self, reader: Reader) {
+        self.reader.get_or_init(|| reader);
+    }
+
+    /// The reader of messages.
+    pub(crate) fn reader(&self) -> Reader {
+        self.reader.get().copied().unwrap_or(Reader::People)
+    }
+
+    /// Returns whether messages go to a terminal.
+    pub(crate) fn is_interactive(&self) -> bool {
+        self.err.terminal
+    }
+
+    /// Returns whether results go to a terminal.
+    pub(crate) fn shows_results(&self) -> bool {
+        self.out.terminal
+    }
+
+    /// A line of results.
+    pub(crate) fn result(&self, line: &str) {
+        self.print(&format!("{line}\n"));
+    }
+
+    /// Results that are no line: as they are.
+    pub(crate) fn print(&self, text: &str) {
+        self.out.print(text);
+    }
+
+    /// The failure to print results, where a reader still waits for them.
+    pub(crate) fn lost_results(&self) -> Option<Failure> {
+        let error = self.out.error.get()?;
+        let message = format!("cannot write the results: {}", reason(error));
+        Some(Failure::Work(message))
+    }
+
+    /// A line about how things go.
+    pub(crate) fn note(&self, line: &str) {
+        self.err.print(&format!("{line}\n"));
+    }
+
+    /// Something that the user should know, though the work goes on.
+    pub(crate) fn warn(&self, message: &str) {
+        if self.reader() == Reader::Json {
+            return self.message_event("warning", message);
+        }
+        let name = self.err.paint("marbles:", BOLD_YELLOW);
+        self.note(&format!("{name} {message}"));
+    }
+
+    /// The reason why something was not done.
+    pub(crate) fn failure(&self, failure: &Failure) {
+        let text = failure.to_string();
+        let message = text.trim_end();
+        match self.reader() {
+            Reader::Json => return self.message_event("error", message),
+            Reader::OpenJd => self.reason(message),
+            Reader::People => {}
+        }
+        self.note(&self.message(failure));
+    }
+
+    /// A line of JSON with a message.
+    fn message_event(&self, event: &str, message: &str) {
+        let message = json::string(message);
+        self.note(&format!(r#"{{"event":"{event}","message":{message}}}"#));
+    }
+
+    /// The text that [`Self::failure`] prints, without the end of the last line.
+    pub(crate) fn message(&self, failure: &Failure) -> String {
+        let text = match failure {
+            Failure::Usage(message) | Failure::Work(message) => {
+                format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
+            }
+            Failure::Scene(error) if self.err.styled => error.styled(),
+            Failure::Scene(error) => error.to_string(),
+        };
+        text.trim_end().to_owned()
+    }
+
+    /// The last line on stderr of a process that has to end at once.
+    pub(crate) fn farewell(&self) -> &'static str {
+        match self.reader() {
+            Reader::Json => r#"{"event":"warning","message":"interrupted"}"#,
+            // Below the bar that may be there.
+            Reader::OpenJd | Reader::People => "\nmarbles: interrupted",
+        }
+    }
+
+    /// The reason why the exit code will not be 0, for runners of jobs, which show only this of a log.
+    pub(crate) fn reason(&self, message: &str) {
+        if self.reader() == Reader::OpenJd {
+            let first = message.lines().next().unwrap_or_default();
+            self.result(&format!("openjd_fail: {first}"));
+        }
+    }
+
+    /// The text of clap, about a wrong command line or as help.
+    pub(crate) fn clap(&self, message: &StyledStr, is_error: bool) {
+        let stream = if is_error { &self.err } else { &self.out };
+        if stream.styled {
+            stream.print(&message.ansi().to_string());
+        } else {
+            stream.print(&message.to_string());
+        }
+    }
+}
+
+impl Stream {
+    fn new(write: impl Write + Send + 'static, terminal: bool, colors: bool) -> Self {
+        Self {
+            write: Mutex::new(Box::new(write)),
+            error: OnceLock::new(),
+            terminal,
+            styled: colors && terminal,
+        }
+    }
+
+    fn print(&self, text: &str) {
+        let mut write = self.write.lock().unwrap_or_else(PoisonError::into_inner);
+        let written = write
+            .write_all(text.as_bytes())
+            .and_then(|()| write.flush());
+        match written {
+            // A reader that has gone has read enough.
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                self.error.get_or_init(|| error);
+            }
+            _ => {}
+        }
+    }
+
+    fn paint(&self, text: &str, style: &str) -> String {
+        if self.styled {
+            format!("{style}{text}{RESET}")
+        } else {
+            text.to_owned()
+        }
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use std::sync::Arc;
+
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    /// The text that was printed.
+    #[derive(Clone, Default)]
+    pub(crate) struct Text(Arc<Mutex<Vec<u8>>>);
+
+    impl Write for Text {
+        fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+            self.0.lock().unwrap().write(bytes)
+        }
+
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
+    }
+
+    impl Text {
+        pub(crate) fn read(&self) -> String {
+            String::from_utf8(self.0.lock().unwrap().clone()).unwrap()
+        }
+    }
+
+    /// The texts on stdout and on stderr about a warning and a failure.
+    fn say(reader: Option<Reader>) -> (String, String) {
+        let (out, err) = (Text::default(), Text::default());
+        let console = Console::to(out.clone(), err.clone());
+        if let Some(reader) = reader {
+            console.speak_to(reader);
+        }
+        console.warn("two \"words\"");
+        console.failure(&Failure::Work("one line\nand another\n".to_owned()));
+        (out.read(), err.read())
+    }
+
+    #[test]
+    fn programs_get_messages_in_their_form() {
+        let plain = "marbles: two \"words\"\nmarbles: one line\nand another\n";
+        assert_eq!(say(None), (String::new(), plain.to_owned()));
+        let fail = "openjd_fail: one line\n".to_owned();
+        assert_eq!(say(Some(Reader::OpenJd)), (fail, plain.to_owned()));
+        let (out, err) = say(Some(Reader::Json));
+        assert_eq!(out, "");
+        let lines = err.lines().map(|line| serde_json::from_str(line).unwrap());
+        let expected = [
+            json!({ "event": "warning", "message": "two \"words\"" }),
+            json!({ "event": "error", "message": "one line\nand another" }),
+        ];
+        assert_eq!(lines.collect::<Vec<Value>>(), expected);
+    }
+}

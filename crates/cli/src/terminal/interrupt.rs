@@ -1,0 +1,62 @@
+//! Ctrl-C, and the signals by which systems end programs.
+//!
+//! The first one asks: rendering stops at the next tile, and pictures that are ready are still
+//! written. If that takes too long, or at the second one, the process ends at once and takes its
+//! temporary files along.
+
+use std::io::Write;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use super::alternate_screen;
+use super::console::Console;
+use crate::base::status::INTERRUPTED;
+use crate::files::temporary;
+
+/// The time in which pictures that are ready may be written: users are promised a second.
+const GRACE: Duration = Duration::from_millis(700);
+/// The time that the farewell may take on a terminal that does not answer.
+const FAREWELL: Duration = Duration::from_millis(50);
+
+static REQUESTED: AtomicBool = AtomicBool::new(false);
+
+/// Returns whether the user wants the work to end.
+pub(crate) fn requested() -> bool {
+    REQUESTED.load(Ordering::Relaxed)
+}
+
+/// Listens from now on, for as long as the process lives.
+pub(crate) fn listen(console: &Console) {
+    static LISTENING: OnceLock<()> = OnceLock::new();
+    let farewell = console.farewell();
+    LISTENING.get_or_init(|| {
+        // Where no handler can be installed, the signals end the process as they always do.
+        let _ = ctrlc::set_handler(move || {
+            if REQUESTED.swap(true, Ordering::Relaxed) {
+                end(farewell);
+            }
+            let deadline = thread::Builder::new().spawn(move || {
+                thread::sleep(GRACE);
+                end(farewell);
+            });
+            if deadline.is_err() {
+                end(farewell);
+            }
+        });
+    });
+}
+
+fn end(farewell: &'static str) -> ! {
+    let _no_more_files = temporary::abandon_all();
+    // Another thread may hold the lock of stdout or stderr for as long as nobody reads from it.
+    let said = thread::Builder::new().spawn(move || {
+        alternate_screen::restore();
+        let _ = writeln!(std::io::stderr(), "{farewell}");
+    });
+    if said.is_ok() {
+        thread::sleep(FAREWELL);
+    }
+    std::process::exit(i32::from(INTERRUPTED));
+}

@@ -1,0 +1,149 @@
+//! Progress as lines, for logs and for programs.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use super::console::{Console, Reader};
+use crate::base::numbers;
+
+/// The time that a log stays silent while a frame takes long.
+const SILENCE: Duration = Duration::from_secs(30);
+
+/// Counts what is done, and says so.
+pub(super) struct Lines<'a> {
+    console: &'a Console,
+    frames: u64,
+    started: Instant,
+    /// Pixels of a frame, as soon as one begins; frames are supposed to be as large.
+    pixels: AtomicU64,
+    rendered: AtomicU64,
+    left_out: AtomicU64,
+    told: Mutex<Told>,
+}
+
+/// The last line.
+struct Told {
+    percent: u64,
+    at: Instant,
+}
+
+impl<'a> Lines<'a> {
+    /// Begins with none of `frames` frames done.
+    pub(super) fn new(console: &'a Console, frames: u64) -> Self {
+        let started = Instant::now();
+        Self {
+            console,
+            frames,
+            started,
+            pixels: AtomicU64::new(0),
+            rendered: AtomicU64::new(0),
+            left_out: AtomicU64::new(0),
+            told: Mutex::new(Told {
+                percent: 0,
+                at: started,
+            }),
+        }
+    }
+
+    /// A frame of so many pixels begins.
+    pub(super) fn begin(&self, pixels: u64) {
+        self.pixels.store(pixels, Ordering::Relaxed);
+    }
+
+    /// A frame will not be rendered.
+    pub(super) fn leave_out(&self) {
+        self.left_out.fetch_add(1, Ordering::Relaxed);
+        self.advance(0);
+    }
+
+    /// Some pixels are done.
+    pub(super) fn advance(&self, pixels: u64) {
+        let before = self.rendered.fetch_add(pixels, Ordering::Relaxed);
+        let rendered = before + pixels;
+        let percent = self.percent(rendered);
+        let silence = match self.console.reader() {
+            Reader::People => SILENCE,
+            Reader::Json | Reader::OpenJd => Duration::ZERO,
+        };
+        // Lines come in order because no thread prints without this lock.
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        if percent > told.percent && told.at.elapsed() >= silence {
+            told.percent = percent;
+            self.tell_percent(percent, self.left(rendered));
+            told.at = Instant::now();
+        }
+    }
+
+    /// A frame's file is complete, and so many were written and skipped until now.
+    pub(super) fn written(&self, frame: i32, written: u64, skipped: u64) {
+        let frames = self.frames;
+        let done = written + skipped;
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        match self.console.reader() {
+            // The line of results says it all.
+            Reader::People if frames == 1 => {}
+            Reader::People => self.console.note(&self.story(frame, written, done)),
+            Reader::OpenJd => {
+                let story = self.story(frame, written, done);
+                self.console.result(&format!("openjd_status: {story}"));
+            }
+            Reader::Json => self.console.note(&format!(
+                r#"{{"event":"frame","frame":{frame},"done":{done},"frames":{frames}}}"#
+            )),
+        }
+        told.at = Instant::now();
+    }
+
+    fn story(&self, frame: i32, written: u64, done: u64) -> String {
+        let frames = self.frames;
+        let mut line = format!("frame {frame}: {done} of {frames} done");
+        if done < frames {
+            let per_frame = self.started.elapsed().as_secs_f64() / written as f64;
+            let seconds = per_frame * (frames - done) as f64;
+            let left = Duration::try_from_secs_f64(seconds).unwrap_or_default();
+            line.push_str(&format!(", {} left", numbers::wait(left)));
+        }
+        line
+    }
+
+    fn tell_percent(&self, percent: u64, left: Option<Duration>) {
+        match self.console.reader() {
+            Reader::People => {
+                let left = left.map_or(String::new(), |left| {
+                    format!(", {} left", numbers::wait(left))
+                });
+                self.console.note(&format!("{percent}% done{left}"));
+            }
+            Reader::OpenJd => self.console.result(&format!("openjd_progress: {percent}")),
+            Reader::Json => {
+                let left = left.map_or(String::new(), |left| {
+                    // In any case with a point.
+                    format!(r#","seconds_left":{:?}"#, left.as_millis() as f64 / 1e3)
+                });
+                let event = format!(r#"{{"event":"progress","percent":{percent}{left}}}"#);
+                self.console.note(&event);
+            }
+        }
+    }
+
+    /// Whole percents of all frames, those that are left out counted as done.
+    fn percent(&self, rendered: u64) -> u64 {
+        let pixels = u128::from(self.pixels.load(Ordering::Relaxed).max(1));
+        let done = u128::from(self.left_out.load(Ordering::Relaxed)) * pixels;
+        let percent = 100 * (done + u128::from(rendered)) / (u128::from(self.frames) * pixels);
+        percent.min(100) as u64
+    }
+
+    /// The time that the other frames will take, as far as that is known.
+    fn left(&self, rendered: u64) -> Option<Duration> {
+        let pixels = self.pixels.load(Ordering::Relaxed);
+        let frames = self.frames - self.left_out.load(Ordering::Relaxed).min(self.frames);
+        let missing = frames.saturating_mul(pixels).saturating_sub(rendered);
+        let seconds = self.started.elapsed().as_secs_f64() * missing as f64 / rendered as f64;
+        Duration::try_from_secs_f64(seconds).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests;

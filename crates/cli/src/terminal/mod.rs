@@ -1,0 +1,9 @@
+//! The user's terminal, or the program in its place: results, messages, progress, signals.
+
+pub(crate) mod alternate_screen;
+pub(crate) mod bar;
+pub(crate) mod console;
+pub(crate) mod interrupt;
+pub(crate) mod json;
+mod lines;
+pub(crate) mod progress;

@@ -1,0 +1,72 @@
+//! Command lines as a whole, without a process.
+
+use std::path::PathBuf;
+
+use super::*;
+use crate::terminal::console::tests::Text;
+
+pub(crate) const SCENE: &str = "(
+    image: (width: 600, height: 600),
+    lens: Retina(width: 600, distance: 100),
+    camera: Free(),
+    lights: [Directional(toward: (-1, 1, -1))],
+    spheres: [(center: (0, 0, 400), radius: 300)],
+)
+";
+
+/// A path that no other test uses.
+pub(crate) fn temporary(name: &str) -> PathBuf {
+    let process = std::process::id();
+    std::env::temp_dir().join(format!("marbles-{process}-{name}"))
+}
+
+/// The exit code, and what is on stdout and stderr.
+pub(crate) fn run_here(args: &[&str]) -> (u8, String, String) {
+    let (out, err) = (Text::default(), Text::default());
+    let console = Console::to(out.clone(), err.clone());
+    let args = ["marbles"].iter().chain(args).map(OsString::from);
+    let code = run_on(args, &console);
+    (code, out.read(), err.read())
+}
+
+#[test]
+fn help_goes_to_stdout_and_errors_to_stderr() {
+    let (code, out, err) = run_here(&["render", "--help"]);
+    assert_eq!((code, &*err), (0, ""));
+    assert!(out.contains("Examples:") && !out.contains('\x1b'));
+    let (code, out, err) = run_here(&["render", "a.ron", "--frames", "5-1"]);
+    assert_eq!((code, &*out), (2, ""));
+    assert!(err.contains("expected the smaller frame first"), "{err}");
+}
+
+#[test]
+fn check_tells_what_the_scene_contains() {
+    let path = temporary("check.ron");
+    std::fs::write(&path, SCENE).unwrap();
+    let (code, out, err) = run_here(&["check", path.to_str().unwrap()]);
+    std::fs::remove_file(&path).unwrap();
+    assert_eq!((code, &*err), (0, ""));
+    let (first, rest) = out.split_once('\n').unwrap();
+    assert_eq!(first, format!("scene       {}", path.display()));
+    assert_eq!(
+        rest,
+        "\
+image       600 x 600 pixels
+lens        Retina(width: 600, distance: 100): retina 600 wide at distance 100, 143.13° across
+spheres     1, radius 300
+  from      (-300, -300, 100)
+  to        (300, 300, 700)
+materials   0
+lights      1
+            toward (-0.57735, 0.57735, -0.57735), intensity 1
+shadows     on
+ambient     0
+background  0
+color       none: one channel is rendered
+frames      a still
+camera      Free: x 0, y 0, z 0
+  pan       0°
+  tilt      0°
+"
+    );
+}
