@@ -1,6 +1,6 @@
 //! Half floats, rounded once.
 
-use ::half::f16;
+use exr::prelude::f16;
 
 /// The largest finite half.
 pub(super) const LARGEST: f64 = 65504.0;

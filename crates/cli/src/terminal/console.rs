@@ -5,8 +5,8 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::builder::StyledStr;
+use serde_json::Value;
 
-use super::json;
 use crate::base::failure::{Failure, reason};
 
 const BOLD_RED: &str = "\x1b[1;31m";
@@ -130,7 +130,7 @@ impl Console {
 
     /// A line of JSON with a message.
     fn message_event(&self, event: &str, message: &str) {
-        let message = json::string(message);
+        let message = Value::from(message).to_string();
         self.note(&format!(r#"{{"event":"{event}","message":{message}}}"#));
     }
 

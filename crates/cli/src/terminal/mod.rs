@@ -4,6 +4,5 @@ pub(crate) mod alternate_screen;
 pub(crate) mod bar;
 pub(crate) mod console;
 pub(crate) mod interrupt;
-pub(crate) mod json;
 mod lines;
 pub(crate) mod progress;

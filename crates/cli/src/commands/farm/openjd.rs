@@ -4,8 +4,9 @@
 
 use super::chunks::expression;
 use super::job::Job;
+use serde_json::Value;
+
 use crate::base::failure::Failure;
-use crate::terminal::json::string;
 
 /// The time that a renderer which is asked to end may take: it promises a second.
 const NOTICE_SECONDS: u32 = 5;
@@ -57,8 +58,8 @@ pub(super) fn template(job: &Job) -> Result<String, Failure> {
   ]
 }}
 "#,
-        name = string(&job.name),
-        range = string(&expression(&frames)),
+        name = Value::from(&*job.name),
+        range = Value::from(expression(&frames)),
         chunk = job.chunk,
         args = arguments(job)?.join(",\n              "),
     ))
@@ -78,7 +79,10 @@ fn arguments(job: &Job) -> Result<Vec<String>, Failure> {
         words.push(literal(word)?);
     }
     words.extend(["--", literal(&job.scene)?]);
-    Ok(words.into_iter().map(string).collect())
+    Ok(words
+        .into_iter()
+        .map(|word| Value::from(word).to_string())
+        .collect())
 }
 
 /// A word that runners hand over as it is: they know no way to escape `{{`, and refuse control

@@ -2,6 +2,9 @@
 //!
 //! Source: "Terminal graphics protocol", sw.kovidgoyal.net/kitty/graphics-protocol.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
 use super::picture::Picture;
 use crate::base::failure::Failure;
 use crate::formats::png::write::rgb_bytes;
@@ -19,7 +22,7 @@ pub(super) fn delete() -> String {
 ///
 /// It takes the place of the one that this process has shown before.
 pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
-    let data = base64(&rgb_bytes(picture.size, picture.codes.as_flattened())?);
+    let data = STANDARD.encode(rgb_bytes(picture.size, picture.codes.as_flattened())?);
     let mut text = String::new();
     let mut rest = &*data;
     // Transmit and show (a), as a PNG (f), under a name that others do not use (i), and answer
@@ -35,42 +38,10 @@ pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Bytes as letters, digits, `+` and `/`, six bits each, with `=` in place of those that lack.
-///
-/// Source: RFC 4648, section 4.
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let byte = |index: usize| three.get(index).copied().map_or(0, u32::from);
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for (place, shift) in [18, 12, 6, 0].into_iter().enumerate() {
-            let letter = LETTERS[(bits >> shift & 63) as usize];
-            text.push(if place <= three.len() {
-                letter.into()
-            } else {
-                '='
-            });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
-    use base64::Engine;
-    use base64::engine::general_purpose::STANDARD;
-
     use super::*;
     use crate::base::size::Size;
-
-    #[test]
-    fn bytes_are_base64() {
-        let bytes: Vec<u8> = (0..=255).collect();
-        for length in [0, 1, 2, 3, 4, 255, 256] {
-            assert_eq!(base64(&bytes[..length]), STANDARD.encode(&bytes[..length]));
-        }
-    }
 
     #[test]
     fn pieces_are_the_picture() {

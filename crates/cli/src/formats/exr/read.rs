@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::io::Cursor;
 
 use exr::meta::MetaData;
+use exr::prelude::f16;
 use exr::prelude::{FlatSamples, Image, ReadChannels, ReadLayers};
-use half::f16;
 
 use super::channels::choose;
 use crate::base::size::Size;

@@ -98,7 +98,7 @@ impl EdgedPixel<'_, '_> {
                 return Ok(part);
             }
             match best {
-                GiveUp::Claims(known) if known.error <= part.error => {}
+                GiveUp::Claims(known) if !(part.error < known.error) => {}
                 _ => best = GiveUp::Claims(part),
             }
         }
