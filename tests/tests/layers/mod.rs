@@ -47,7 +47,7 @@ use order::Layers;
 use tree::Tree;
 
 /// The crates whose imports run one way.
-const CRATES: &[&str] = &["scene"];
+const CRATES: &[&str] = &["core", "scene", "cli"];
 
 /// The Rust files below `folder` by their paths, which start with `prefix`.
 fn sources(folder: &Path, prefix: &str, files: &mut BTreeMap<String, String>) {
