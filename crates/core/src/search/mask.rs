@@ -56,7 +56,9 @@ impl InnerSilhouette {
 
     /// No ray that meets the sphere goes on farther than this: the length of a tangent.
     pub(super) fn farthest(&self) -> f64 {
-        self.outside.sqrt() * (1.0 + 1e-9)
+        /// Far above what rounding costs where K has kept its digits.
+        const FARTHER: f64 = 1.0 + 1e-9;
+        self.outside.sqrt() * FARTHER
     }
 
     /// Between which places lines across the retina at the heights `v` are covered, where any part
@@ -133,6 +135,8 @@ impl CoverageMask {
     fn add_lanes<S: Simd>(&mut self, simd: S, grid: &Grid, silhouette: &InnerSilhouette) {
         /// In cells: above what their places are off by.
         const MARGIN: f64 = 1e-6;
+        /// More than rounding moves places by, relatively.
+        const ROUNDING: f64 = 1e-9;
         const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         let zero = f64x8::splat(simd, 0.0);
         let cells = f64x8::splat(simd, f64::from(grid.cells));
@@ -146,7 +150,7 @@ impl CoverageMask {
             let (low, high, is_met) = silhouette.along(simd, height);
             let low = (low - grid.corner.x) * grid.in_cells;
             let high = (high - grid.corner.x) * grid.in_cells;
-            let size = (low.abs() + high.abs()) * 1e-9 + (margin - middle);
+            let size = (low.abs() + high.abs()) * ROUNDING + (margin - middle);
             let is_met = is_met & size.simd_lt(f64::INFINITY);
             let first = is_met.select((low + size).ceil().max(zero).min(cells), cells);
             let end = is_met.select((high - size).floor().max(zero).min(cells), zero);
