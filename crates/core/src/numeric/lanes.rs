@@ -26,6 +26,9 @@ const EXPONENT_BIAS: f64 = 1023.0;
 /// Numbers side by side.
 pub(crate) const LANES: usize = 8;
 
+/// The number of each lane.
+pub(crate) const LANE_NUMBERS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+
 /// A double, or eight.
 pub(crate) trait Lanes:
     Copy
