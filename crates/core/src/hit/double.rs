@@ -42,6 +42,7 @@ pub(super) fn outside<const FUSED: bool>(sphere: &Sphere, origin: DVec3) -> f64 
 
 #[inline(always)]
 fn decide<const FUSED: bool>(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> {
+    // A, B and K.
     let to_center = to_center::<FUSED>(sphere, ray.origin);
     let directions = ray.direction.to_array().map(DoubleDouble::<FUSED>::from);
     let direction_sq = dot(directions, directions);
@@ -89,6 +90,7 @@ fn decide<const FUSED: bool>(sphere: &Sphere, ray: &Ray) -> Option<Option<Hit>> 
         return None;
     }
 
+    // The distance, from the product of both roots where they would cancel.
     let t = if !by_product {
         far / direction_sq
     } else if inner_side {

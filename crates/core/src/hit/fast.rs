@@ -251,6 +251,7 @@ fn refine<const FUSED: bool, S: Simd>(
         outside,
         discriminant,
     } = certain;
+    // The plain distance.
     let inner_side = outside < 0.0;
     // f·f + r², up to roundings that the bounds leave room for.
     let scale = outside + 2.0 * sphere.radius * sphere.radius;
@@ -259,7 +260,7 @@ fn refine<const FUSED: bool, S: Simd>(
     let half_chord = if inner_side { root } else { -root };
     let plain_t = (along + half_chord) * (1.0 / direction_sq);
 
-    // Side by side x, y, z and, for its square, the radius.
+    // The residual. Side by side x, y, z and, for its square, the radius.
     let lanes =
         |vector: DVec3, fourth| f64x4::simd_from(simd, [vector.x, vector.y, vector.z, fourth]);
     let direction = lanes(ray.direction, 0.0);
@@ -279,6 +280,7 @@ fn refine<const FUSED: bool, S: Simd>(
     let rest = (rests[0] + rests[1]) + (rests[2] - rests[3]);
     let residual = difference + ((first + second) + rest);
 
+    // The step, and whether its last places are proved.
     let step = residual * (-0.5 / half_chord);
     let distance = plain_t * direction_sq;
     let smallest = TOLERANCE * if distance < root { distance } else { root };
@@ -293,7 +295,7 @@ fn refine<const FUSED: bool, S: Simd>(
     if !proved {
         return None;
     }
-    // The rest stays apart, so that each component is rounded once.
+    // The normal. The rest stays apart, so that each component is rounded once.
     let point_rest = point_rest + direction * step;
     let inverse_radius = f64x4::splat(simd, 1.0 / sphere.radius);
     let (normal, normal_rest) = two_product::<FUSED, _>(point, inverse_radius);

@@ -26,6 +26,12 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
+    /// The vectors with these components.
+    #[inline(always)]
+    pub(crate) fn from_array([x, y, z]: [f64x8<S>; 3]) -> Self {
+        Self { x, y, z }
+    }
+
     /// The vector in one lane.
     #[inline(always)]
     pub(crate) fn lane(&self, lane: usize) -> DVec3 {

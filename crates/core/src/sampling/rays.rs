@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::model::ray::Ray;
 use crate::model::view::View;
+use crate::numeric::lanes::LANE_NUMBERS;
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
@@ -78,8 +79,7 @@ impl Rays {
     /// `width` repeat the last of them.
     #[inline(always)]
     pub(super) fn across<S: Simd>(&self, simd: S, place: Place, width: u32) -> f64x8<S> {
-        let steps: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
-        let steps = f64x8::simd_from(simd, steps);
+        let steps = f64x8::simd_from(simd, LANE_NUMBERS);
         let last = f64x8::splat(simd, f64::from(width - 1));
         let steps = steps.simd_lt(last).select(steps, last);
         let first = self.twice(place.col, place.cell_col, self.view.width);

@@ -114,6 +114,7 @@ impl<'scene> Shadows<'scene> {
     /// largest component, and by what [`Ray::point_error`] says of the rounding.
     #[inline(always)]
     fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> LitPoints<S> {
+        /// As in [`Ray::point_error`].
         const ROUNDING: f64 = 7.0 * UNIT_ROUNDOFF;
         let from_eye = sight.point.times(f64x8::splat(simd, self.length));
         let points = Vectors::splat(simd, self.viewpoint).plus(&from_eye);

@@ -222,7 +222,7 @@ impl<S: Simd> BallGroup<S> {
         let half = radius * (y * y + product).sqrt() * scale;
         let margin = (middle.abs() + half + rows.size) * MARGIN;
         let half = half + margin;
-        // Row k is asked where its samples, from k + first to k + last, reach the outline. Cutting
+        // Row k is asked where its samples, from k + first to k + last, reach the silhouette. Cutting
         // off rounds the first row up: where it already is whole, the margin alone reaches it.
         let first = rows.origin - middle - half - rows.last + 1.0;
         let end_row = rows.origin - middle + half - rows.first + 1.0;

@@ -43,7 +43,7 @@ pub(super) struct BlockSearch<'a> {
     hierarchy: &'a Hierarchy,
     /// Lengths of the world times 2 to the power of minus this are those of the balls.
     exponent: i32,
-    /// That power.
+    /// Two to the power of minus that.
     scale: f64,
     projection: Projection,
 }
@@ -240,7 +240,7 @@ impl<'a> BlockSearch<'a> {
         if in_camera.is_behind() {
             return None;
         }
-        let range = match in_camera.outline() {
+        let range = match in_camera.silhouette_box() {
             Some((low, high)) => grid.range(low, high)?,
             None => grid.all(),
         };

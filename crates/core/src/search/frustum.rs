@@ -35,9 +35,9 @@ impl CameraSphere {
         }
     }
 
-    /// Around what the retina at distance 1 shows of the sphere: its lowest and highest corner; none
-    /// where it comes too near to the eye's plane.
-    pub(super) fn outline(&self) -> Option<(DVec2, DVec2)> {
+    /// The box around the silhouette on the retina at distance 1: its lowest and highest corner; none
+    /// where the sphere comes too near to the eye's plane.
+    pub(super) fn silhouette_box(&self) -> Option<(DVec2, DVec2)> {
         let DVec3 { x, y, z } = self.center;
         let product = (z - self.radius) * (z + self.radius);
         let ends = |along: f64| {

@@ -55,8 +55,11 @@ impl CellRange {
     }
 }
 
+/// The ends of eight things on the retina, low and high, along both axes.
+pub(super) type Ends<S> = [(f64x8<S>, f64x8<S>); 2];
+
 /// The first and the last cells of eight things along an axis.
-type Spans = ([u32; LANES], [u32; LANES]);
+pub(super) type Spans = ([u32; LANES], [u32; LANES]);
 
 /// The grid of cells of a block, on the retina at distance 1. Where rays go through few points, a
 /// cell stands for the point in its middle.
@@ -141,36 +144,26 @@ impl Grid {
         })
     }
 
-    /// The columns that reach in between places on the retina, or have their points there, and few
-    /// others; where the places are not known, all. Which of the spans are any.
+    /// The columns and the rows that reach in between the ends of eight things on the retina, or have their
+    /// points there, and few others; where the ends are not known, all. Which of the spans are any.
     #[inline(always)]
-    pub(super) fn columns<S: Simd>(
+    pub(super) fn spans<S: Simd>(
         &self,
         simd: S,
-        low: f64x8<S>,
-        high: f64x8<S>,
+        [across, upward]: Ends<S>,
         is_known: mask64x8<S>,
-    ) -> (Spans, mask64x8<S>) {
-        let ends = (low - self.corner.x, high - self.corner.x);
-        self.spans(simd, ends, self.margin.x, is_known)
-    }
-
-    /// The rows in the same way.
-    #[inline(always)]
-    pub(super) fn rows<S: Simd>(
-        &self,
-        simd: S,
-        low: f64x8<S>,
-        high: f64x8<S>,
-        is_known: mask64x8<S>,
-    ) -> (Spans, mask64x8<S>) {
+    ) -> (Spans, Spans, mask64x8<S>) {
+        let across = (across.0 - self.corner.x, across.1 - self.corner.x);
         let top = f64x8::splat(simd, self.corner.y);
-        self.spans(simd, (top - high, top - low), self.margin.y, is_known)
+        let down = (top - upward.1, top - upward.0);
+        let (columns, are_columns) = self.spans_along(simd, across, self.margin.x, is_known);
+        let (rows, are_rows) = self.spans_along(simd, down, self.margin.y, is_known);
+        (columns, rows, are_columns & are_rows)
     }
 
     /// As in [`Grid::range`].
     #[inline(always)]
-    fn spans<S: Simd>(
+    fn spans_along<S: Simd>(
         &self,
         simd: S,
         (low, high): (f64x8<S>, f64x8<S>),

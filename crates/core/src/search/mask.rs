@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::frustum::CLEAR;
 use super::grid::{BLOCK, CellRange, Grid, MOST_CELLS};
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANE_NUMBERS, LANES};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// Words of a row of cells.
@@ -56,7 +56,9 @@ impl InnerSilhouette {
 
     /// No ray that meets the sphere goes on farther than this: the length of a tangent.
     pub(super) fn farthest(&self) -> f64 {
-        self.outside.sqrt() * (1.0 + 1e-9)
+        /// Far above what rounding costs where K has kept its digits.
+        const FARTHER: f64 = 1.0 + 1e-9;
+        self.outside.sqrt() * FARTHER
     }
 
     /// Between which places lines across the retina at the heights `v` are covered, where any part
@@ -65,7 +67,7 @@ impl InnerSilhouette {
     /// With d = (u, v, 1): (d·c)² ≥ K d·d, of which the terms in u² are negative for a sphere in
     /// front of the eye. A quarter of the discriminant is K (r² (v² + 1) − (c_y − v c_z)²), computed
     /// from terms below 2 c⁴ (v² + 1) with a dozen roundings; v is off by a few units in its last
-    /// place, which makes 2 K r c_z √(v² + 1) as much. It is lowered by more: near its top an outline
+    /// place, which makes 2 K r c_z √(v² + 1) as much. It is lowered by more: near its top a silhouette
     /// is as wide as the root of what it is too high by.
     #[inline(always)]
     fn along<S: Simd>(&self, simd: S, v: f64x8<S>) -> (f64x8<S>, f64x8<S>, mask64x8<S>) {
@@ -133,7 +135,8 @@ impl CoverageMask {
     fn add_lanes<S: Simd>(&mut self, simd: S, grid: &Grid, silhouette: &InnerSilhouette) {
         /// In cells: above what their places are off by.
         const MARGIN: f64 = 1e-6;
-        const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        /// More than rounding moves places by, relatively.
+        const ROUNDING: f64 = 1e-9;
         let zero = f64x8::splat(simd, 0.0);
         let cells = f64x8::splat(simd, f64::from(grid.cells));
         let (margin, middle) = (grid.margin.x + MARGIN, grid.middle);
@@ -141,17 +144,17 @@ impl CoverageMask {
         let edges = if middle > 0.0 { 0 } else { 1 };
         let (mut row, last) = silhouette.range.rows;
         while row <= last {
-            let lines = f64x8::simd_from(simd, STEPS) + (f64::from(row) + middle);
+            let lines = f64x8::simd_from(simd, LANE_NUMBERS) + (f64::from(row) + middle);
             let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell;
             let (low, high, is_met) = silhouette.along(simd, height);
             let low = (low - grid.corner.x) * grid.in_cells;
             let high = (high - grid.corner.x) * grid.in_cells;
-            let size = (low.abs() + high.abs()) * 1e-9 + (margin - middle);
+            let size = (low.abs() + high.abs()) * ROUNDING + (margin - middle);
             let is_met = is_met & size.simd_lt(f64::INFINITY);
             let first = is_met.select((low + size).ceil().max(zero).min(cells), cells);
             let end = is_met.select((high - size).floor().max(zero).min(cells), zero);
             let (first, end): ([f64; LANES], [f64; LANES]) = (first.into(), end.into());
-            // The outline is convex: what is inside at both ends of an upright line is inside.
+            // The silhouette is convex: what is inside at both ends of an upright line is inside.
             for line in 0..LANES - edges {
                 if row > last {
                     break;

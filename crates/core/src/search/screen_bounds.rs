@@ -5,11 +5,12 @@ use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DMat3, DVec3};
 
 use super::frustum::CLEAR;
-use super::grid::{CellRange, Grid};
+use super::grid::{CellRange, Ends, Grid, Spans};
 use super::hierarchy::boxes::{Boxes, Group, doubles};
 use super::hierarchy::order::WIDTH;
 use crate::model::view::View;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
+use crate::numeric::vectors::Vectors;
 
 /// The projection of a view, from places in the world to cells.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +32,8 @@ pub(super) struct ScreenBounds {
     pub(super) begin: [f64; WIDTH],
     /// Their centers, in the camera's frame.
     center: [[f64; WIDTH]; 3],
-    columns: ([u32; WIDTH], [u32; WIDTH]),
-    rows: ([u32; WIDTH], [u32; WIDTH]),
+    columns: Spans,
+    rows: Spans,
 }
 
 impl ScreenBounds {
@@ -98,10 +99,10 @@ impl Projection {
             middle[axis] = ((low + high) * 0.5 - self.position[axis]) * self.scale;
             half[axis] = (high - low) * (0.5 * self.scale);
         }
-        let center = self.turn(&middle, false);
-        let mut half = self.turn(&half, true);
-        let size =
-            center[0].abs() + center[1].abs() + center[2].abs() + half[0] + half[1] + half[2];
+        let center = self.turn(&Vectors::from_array(middle), false);
+        let half = self.turn(&Vectors::from_array(half), true);
+        let size = center.x.abs() + center.y.abs() + center.z.abs() + half.x + half.y + half.z;
+        let (center, mut half) = ([center.x, center.y, center.z], [half.x, half.y, half.z]);
         let mut beyond_sq = zero;
         for axis in 0..3 {
             half[axis] += size * MARGIN;
@@ -124,6 +125,7 @@ impl Projection {
         // Whatever single precision cannot hold may be anywhere.
         let begin = is_finite.select(begin, zero);
         let may = filled & !is_behind;
+        let center = Vectors::from_array(center);
         self.bounds(simd, grid, (center, begin), may, (is_known, ends))
     }
 
@@ -132,15 +134,16 @@ impl Projection {
     #[inline(always)]
     fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> ScreenBounds {
         let [x, y, z] = &group.center;
-        let offset = [
-            (doubles(simd, x) - self.position.x) * self.scale,
-            (doubles(simd, y) - self.position.y) * self.scale,
-            (doubles(simd, z) - self.position.z) * self.scale,
-        ];
+        let offset = Vectors {
+            x: (doubles(simd, x) - self.position.x) * self.scale,
+            y: (doubles(simd, y) - self.position.y) * self.scale,
+            z: (doubles(simd, z) - self.position.z) * self.scale,
+        };
         let radius = doubles(simd, &group.radius) * self.scale;
-        let size = offset[0].abs() + offset[1].abs() + offset[2].abs() + radius;
+        let size = offset.x.abs() + offset.y.abs() + offset.z.abs() + radius;
         let radius = radius + (size * (128.0 * UNIT_ROUNDOFF) + f64::MIN_POSITIVE);
-        let [x, y, z] = self.turn(&offset, false);
+        let center = self.turn(&offset, false);
+        let Vectors { x, y, z } = center;
         let product = (z - radius) * (z + radius);
         let inverse = 1.0 / product;
         let mut ends = [(x, x); 2];
@@ -151,23 +154,22 @@ impl Projection {
         }
         let is_behind = z.simd_lt(-radius);
         let is_known = z.simd_gt(radius * CLEAR);
-        let distance_sq = offset[0] * offset[0] + offset[1] * offset[1] + offset[2] * offset[2];
-        let begin = distance_sq.sqrt() - radius;
-        self.bounds(simd, grid, ([x, y, z], begin), !is_behind, (is_known, ends))
+        let begin = offset.length_squared().sqrt() - radius;
+        self.bounds(simd, grid, (center, begin), !is_behind, (is_known, ends))
     }
 
     /// Vectors of the world in the camera's directions, or boxes of these half sizes.
     #[inline(always)]
-    fn turn<S: Simd>(&self, vectors: &[f64x8<S>; 3], are_sizes: bool) -> [f64x8<S>; 3] {
-        let row = |axis| {
-            let row = self.camera_from_world.row(axis);
-            if are_sizes { row.abs() } else { row }
-        };
-        [
-            along(vectors, row(0)),
-            along(vectors, row(1)),
-            along(vectors, row(2)),
-        ]
+    fn turn<S: Simd>(&self, vectors: &Vectors<S>, are_sizes: bool) -> Vectors<S> {
+        let mut axes = self.camera_from_world;
+        if are_sizes {
+            axes = axes.abs();
+        }
+        Vectors {
+            x: vectors.dot_one(axes.row(0)),
+            y: vectors.dot_one(axes.row(1)),
+            z: vectors.dot_one(axes.row(2)),
+        }
     }
 
     /// The bounds of what is seen between these ends, low and high, on the retina at distance 1, or,
@@ -177,26 +179,17 @@ impl Projection {
         &self,
         simd: S,
         grid: &Grid,
-        (center, begin): ([f64x8<S>; 3], f64x8<S>),
+        (center, begin): (Vectors<S>, f64x8<S>),
         may: mask64x8<S>,
         (is_known, ends): (mask64x8<S>, Ends<S>),
     ) -> ScreenBounds {
-        let (columns, across) = grid.columns(simd, ends[0].0, ends[0].1, is_known);
-        let (rows, down) = grid.rows(simd, ends[1].0, ends[1].1, is_known);
+        let (columns, rows, are_any) = grid.spans(simd, ends, is_known);
         ScreenBounds {
-            may: (may & across & down).to_bitmask() as u8,
+            may: (may & are_any).to_bitmask() as u8,
             begin: begin.into(),
-            center: [center[0].into(), center[1].into(), center[2].into()],
+            center: [center.x.into(), center.y.into(), center.z.into()],
             columns,
             rows,
         }
     }
-}
-
-/// The ends of eight things on the retina, along both axes: where they begin and where they end.
-type Ends<S> = [(f64x8<S>, f64x8<S>); 2];
-
-#[inline(always)]
-fn along<S: Simd>([x, y, z]: &[f64x8<S>; 3], row: DVec3) -> f64x8<S> {
-    *x * row.x + *y * row.y + *z * row.z
 }

@@ -120,7 +120,10 @@ fn size_class(range: &TileRange) -> usize {
 /// The class of the largest ranges that are listed in every tile: memory is to stay within a
 /// small multiple of what the ranges themselves take.
 fn widest_listed(ranges: impl Iterator<Item = TileRange>) -> usize {
+    /// Entries that are always listed: 16 MiB. Not tuned: wide ranges cost each tile of their rows a
+    /// look.
     const ALWAYS: u64 = 1 << 22;
+    /// Entries for each range: as much memory as it takes itself.
     const PER_RANGE: u64 = 4;
     let mut entries = [0_u64; u64::BITS as usize];
     let mut most = ALWAYS;

@@ -39,6 +39,7 @@ pub(crate) struct Node {
 impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
+        /// Enough for a thread to begin with: some 10 µs. Not tuned.
         const NODES_A_TASK: usize = 256;
         let entries = order::order(spheres);
         let mut levels = Vec::new();

@@ -1,0 +1,73 @@
+//! Cameras look where they are told to.
+
+use super::*;
+
+fn turned(pan: f64, tilt: f64, roll: f64) -> Camera {
+    let angle = Angle::from_degrees;
+    Camera::free(DVec3::ZERO, angle(pan), angle(tilt), angle(roll))
+}
+
+#[test]
+fn quarter_turns_go_where_the_conventions_say() {
+    assert_eq!(turned(90.0, 0.0, 0.0).forward(), DVec3::X);
+    assert_eq!(turned(0.0, 90.0, 0.0).forward(), DVec3::Y);
+    // Clockwise from behind: the camera's up goes to the right.
+    assert_eq!(
+        turned(0.0, 0.0, 90.0).world_from_camera * DVec3::Y,
+        DVec3::X
+    );
+}
+
+#[test]
+fn pan_then_tilt_reaches_the_spherical_direction() {
+    let forward = turned(30.0, 60.0, 77.0).forward();
+    let expected = DVec3::new(0.25, 0.75_f64.sqrt(), 0.5 * 0.75_f64.sqrt());
+    assert!((forward - expected).length() < 1e-15);
+}
+
+#[test]
+fn orientations_are_rotations() {
+    for step in 0..100 {
+        let angle = 37.3 * f64::from(step);
+        let matrix = turned(angle, 1.7 * angle, -0.6 * angle).world_from_camera;
+        assert!((matrix.determinant() - 1.0).abs() < 1e-14);
+        assert!((matrix * matrix.transpose()).abs_diff_eq(DMat3::IDENTITY, 1e-15));
+    }
+}
+
+#[test]
+fn looks_straight_up_with_pan_zero() {
+    let up = Camera::look_at(DVec3::ZERO, DVec3::new(0.0, 1e-300, 0.0), Angle::ZERO);
+    assert_eq!(up, Some(turned(0.0, 90.0, 0.0)));
+    let down = Camera::look_at(DVec3::ONE, DVec3::new(1.0, -7.0, 1.0), Angle::ZERO).unwrap();
+    assert_eq!(
+        down.world_from_camera,
+        turned(0.0, -90.0, 0.0).world_from_camera
+    );
+}
+
+#[test]
+fn looking_nowhere_is_no_camera() {
+    assert_eq!(Camera::look_at(DVec3::ONE, DVec3::ONE, Angle::ZERO), None);
+}
+
+#[test]
+fn orbit_stands_behind_and_above_its_target() {
+    let target = DVec3::new(1.0, 2.0, 3.0);
+    let angle = Angle::from_degrees;
+    let camera = Camera::orbit(target, 10.0, angle(90.0), angle(30.0), Angle::ZERO);
+    let expected = target + DVec3::new(-10.0 * 0.75_f64.sqrt(), 5.0, 0.0);
+    assert!((camera.position - expected).length() < 1e-14);
+    let looking = Camera::look_at(camera.position, target, Angle::ZERO).unwrap();
+    assert!(
+        looking
+            .world_from_camera
+            .abs_diff_eq(camera.world_from_camera, 1e-15)
+    );
+}
+
+#[test]
+fn field_of_view_is_the_angle_across_the_retina() {
+    let lens = Lens::from_field_of_view(std::f64::consts::FRAC_PI_2);
+    assert!((lens.width - 2.0).abs() < 1e-15);
+}

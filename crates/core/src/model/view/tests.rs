@@ -1,0 +1,64 @@
+//! Rays, and the places of points in a picture.
+
+use super::*;
+use crate::numeric::angle::Angle;
+
+fn view() -> View {
+    View {
+        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        lens: Lens {
+            width: 8.0,
+            distance: 10.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 4,
+        height: 3,
+        frame: 1,
+    }
+}
+
+#[test]
+fn pixel_centers_lie_on_the_retina_from_the_top_left() {
+    assert_eq!(view().cell_center(0, 0, 1), DVec2::new(-3.0, 2.0));
+    assert_eq!(view().cell_center(3, 2, 1), DVec2::new(3.0, -2.0));
+    assert_eq!(view().cell_center(0, 0, 2), DVec2::new(-3.5, 2.5));
+}
+
+#[test]
+fn shift_moves_the_retina_and_zoom_its_distance() {
+    let mut view = view();
+    view.lens.shift = DVec2::new(5.0, -1.0);
+    view.zoom = 3.0;
+    let ray = view.ray(view.cell_center(0, 0, 1));
+    assert_eq!(ray.direction, DVec3::new(2.0, 1.0, 30.0));
+}
+
+#[test]
+fn projection_inverts_the_rays() {
+    let angle = Angle::from_degrees;
+    let mut view = view();
+    view.camera = Camera::free(
+        DVec3::new(3.0, 1.0, 4.0),
+        angle(20.0),
+        angle(-50.0),
+        angle(70.0),
+    );
+    view.lens.shift = DVec2::new(0.3, 0.7);
+    let pixel = view
+        .project(view.ray(view.cell_center(1, 2, 1)).at(7.0))
+        .unwrap();
+    assert!((pixel - DVec2::new(1.5, 2.5)).length() < 1e-14);
+    assert_eq!(view.project(view.ray(DVec2::ZERO).at(-1.0)), None);
+}
+
+#[test]
+fn mirrored_cells_mirror_to_the_bit() {
+    let mut view = view();
+    view.lens.width = 0.7;
+    view.width = 601;
+    for col in 0..3 * 601 {
+        let left = view.cell_center(col, 0, 3).x;
+        assert_eq!(left, -view.cell_center(3 * 601 - 1 - col, 0, 3).x);
+    }
+}
