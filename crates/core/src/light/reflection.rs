@@ -2,7 +2,10 @@
 //!
 //! A point with the normal n, seen in the direction −v, sends
 //!
-//!     albedo · (ambient + Σ intensity · max(0, n·l)^exponent) + Σ intensity · strength · max(0, n·h)^shininess
+//! ```text
+//! albedo · (ambient + Σ intensity · max(0, n·l)^exponent)
+//!     + Σ intensity · strength · max(0, n·h)^shininess
+//! ```
 //!
 //! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
 //! half-way between l and v. Sampling and the exact integrator both compute it here.

@@ -40,6 +40,7 @@ struct Ends<S: Simd> {
 
 impl<S: Simd> Reached<S> {
     /// No light, and nothing that changes.
+    #[inline(always)]
     pub(super) fn nothing(simd: S) -> Self {
         Self {
             lit: [0; MOST_LIGHTS],
