@@ -10,6 +10,8 @@
 //! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
 //! half-way between l and v. Sampling and the exact integrator both compute it here.
 
+use std::ops::Mul;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
@@ -93,18 +95,22 @@ impl Reflectance {
         [diffuse, strength * intensity.max_element()]
     }
 
-    /// Adds the light that points with these albedos, n · l and n · h reflect of a light where `lit` holds,
-    /// in as many channels as `sum` has. Without `lit` diffuse light goes on, as smooth as it is, where the
-    /// surface turns from the light. Returns the power of n · h where there is a highlight.
+    /// Adds the light that points with these n · l and n · h reflect of a light where `lit` holds, in as
+    /// many channels as `sum` has. `color` is albedo · intensity, the same for all points or that of each.
+    /// Without `lit` diffuse light goes on, as smooth as it is, where the surface turns from the light.
+    /// Returns the power of n · h where there is a highlight.
     #[inline(always)]
-    pub(crate) fn add_light<S: Simd>(
+    pub(crate) fn add_light<S: Simd, F: Copy>(
         &self,
-        albedo: &[f64x8<S>],
+        color: &[F],
         intensity: Color,
         [cosine, half_cosine]: [f64x8<S>; 2],
         lit: Option<mask64x8<S>>,
         sum: &mut [f64x8<S>],
-    ) -> Option<f64x8<S>> {
+    ) -> Option<f64x8<S>>
+    where
+        f64x8<S>: Mul<F, Output = f64x8<S>>,
+    {
         let zero = f64x8::splat(cosine.simd, 0.0);
         let diffuse = match lit {
             Some(lit) => lit.select(self.diffuse.of(cosine), zero),
@@ -112,7 +118,7 @@ impl Reflectance {
             None => self.diffuse.of(cosine),
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
-            *sum += diffuse * (albedo[channel] * intensity[channel]);
+            *sum += diffuse * color[channel];
         }
         let (strength, falloff) = self.highlight.as_ref()?;
         let power = falloff.of(half_cosine);

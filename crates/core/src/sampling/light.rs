@@ -94,10 +94,14 @@ impl<'scene> Shading<'scene> {
             }
             let cosines = [cosine, points.half_cosine(light.toward(), cosine)];
             let intensity = light.intensity();
+            let mut color = albedo;
+            for channel in 0..CHANNELS {
+                color[channel] *= intensity[channel];
+            }
             for look in &looks.list[..looks.count] {
                 let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
                 look.reflectance
-                    .add_light(&albedo, intensity, cosines, lit, &mut sum);
+                    .add_light(&color, intensity, cosines, lit, &mut sum);
             }
         }
         sum
