@@ -109,7 +109,7 @@ impl Reflectance {
         sum: &mut [f64x8<S>],
     ) -> Option<f64x8<S>>
     where
-        f64x8<S>: Mul<F, Output = f64x8<S>>,
+        f64x8<S>: Mul<F, Output = f64x8<S>> + Mul<f64, Output = f64x8<S>>,
     {
         let zero = f64x8::splat(cosine.simd, 0.0);
         let diffuse = match lit {

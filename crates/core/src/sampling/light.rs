@@ -95,8 +95,8 @@ impl<'scene> Shading<'scene> {
             let cosines = [cosine, points.half_cosine(light.toward(), cosine)];
             let intensity = light.intensity();
             let mut color = albedo;
-            for channel in 0..CHANNELS {
-                color[channel] *= intensity[channel];
+            for (channel, color) in color.iter_mut().enumerate() {
+                *color *= intensity[channel];
             }
             for look in &looks.list[..looks.count] {
                 let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
