@@ -12,6 +12,9 @@ use crate::numeric::vectors::Vectors;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::picture::tile::Tile;
 
+/// The share of the tolerance below which light does not count. Not tuned.
+pub(crate) const NEGLIGIBLE: f64 = 0.01;
+
 /// A view of a scene, and how exactly its pixels are asked for.
 #[derive(Clone, Debug)]
 pub(crate) struct Context<'scene> {

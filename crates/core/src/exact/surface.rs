@@ -7,7 +7,6 @@ use super::points::Points;
 use super::scene::{InCamera, MOST_LIGHTS};
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
-use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
@@ -126,14 +125,17 @@ impl Finish {
         points: &Points<S>,
         lights: u64,
     ) -> [f64x8<S>; 3] {
-        let albedo = splat(simd, self.reflectance.albedo);
+        let reflectance = &self.reflectance;
         let mut sum = [f64x8::splat(simd, 0.0); 3];
         let viewed = self.viewed(points, &points.normal);
         for (index, light) in scene.lights.iter().enumerate() {
             if lights >> index & 1 == 1 {
-                let (cosines, sum) = (viewed.cosines(light.toward), &mut sum[..scene.channels]);
-                self.reflectance
-                    .add_light(&albedo, light.intensity, cosines, None, sum);
+                let sum = &mut sum[..scene.channels];
+                let (toward, intensity) = (light.toward, light.intensity);
+                let cosine = viewed.cosine(toward);
+                let half_cosine = viewed.half_cosine(toward, cosine);
+                reflectance.add_diffuse(reflectance.albedo * intensity, cosine, None, sum);
+                reflectance.add_highlight(intensity, half_cosine, None, sum);
             }
         }
         sum
@@ -152,21 +154,27 @@ impl Finish {
         lit: &[u64; MOST_LIGHTS],
         mut halves: Option<&mut HalfCosines<S>>,
     ) -> [f64x8<S>; 3] {
-        let mut sum = splat(simd, self.reflectance.albedo * scene.ambient);
-        let albedo = splat(simd, self.reflectance.albedo);
+        let reflectance = &self.reflectance;
+        let constant = reflectance.albedo * scene.ambient;
+        let mut sum = [
+            f64x8::splat(simd, constant.x),
+            f64x8::splat(simd, constant.y),
+            f64x8::splat(simd, constant.z),
+        ];
         let viewed = self.viewed(points, normal);
         for (index, light) in scene.lights.iter().enumerate() {
             if lit[index] == 0 {
                 continue;
             }
-            let cosines = viewed.cosines(light.toward);
-            let lit = cosines[0].simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]);
-            let (intensity, sum) = (light.intensity, &mut sum[..scene.channels]);
-            let power = self
-                .reflectance
-                .add_light(&albedo, intensity, cosines, Some(lit), sum);
+            let (toward, intensity) = (light.toward, light.intensity);
+            let cosine = viewed.cosine(toward);
+            let half_cosine = viewed.half_cosine(toward, cosine);
+            let lit = Some(cosine.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]));
+            let sum = &mut sum[..scene.channels];
+            reflectance.add_diffuse(reflectance.albedo * intensity, cosine, lit, sum);
+            let power = reflectance.add_highlight(intensity, half_cosine, lit, sum);
             if let (Some(halves), Some(power)) = (&mut halves, power) {
-                halves.add(index, power, cosines[1]);
+                halves.add(index, power, half_cosine);
             }
         }
         sum
@@ -182,14 +190,4 @@ impl Finish {
         let has_highlight = self.reflectance.highlight.is_some();
         ViewedPoints::new(normal, &points.ray, points.ray_sq, has_highlight)
     }
-}
-
-/// A color in all lanes.
-#[inline(always)]
-fn splat<S: Simd>(simd: S, color: Color) -> [f64x8<S>; 3] {
-    [
-        f64x8::splat(simd, color.x),
-        f64x8::splat(simd, color.y),
-        f64x8::splat(simd, color.z),
-    ]
 }

@@ -2,7 +2,10 @@
 //!
 //! A point with the normal n, seen in the direction −v, sends
 //!
-//!     albedo · (ambient + Σ intensity · max(0, n·l)^exponent) + Σ intensity · strength · max(0, n·h)^shininess
+//! ```text
+//! albedo · (ambient + Σ intensity · max(0, n·l)^exponent)
+//!     + Σ intensity · strength · max(0, n·h)^shininess
+//! ```
 //!
 //! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
 //! half-way between l and v. Sampling and the exact integrator both compute it here.
@@ -90,31 +93,41 @@ impl Reflectance {
         [diffuse, strength * intensity.max_element()]
     }
 
-    /// Adds the light that points with these albedos, n · l and n · h reflect of a light where `lit` holds,
-    /// in as many channels as `sum` has. Without `lit` diffuse light goes on, as smooth as it is, where the
-    /// surface turns from the light. Returns the power of n · h where there is a highlight.
+    /// Adds the diffuse light that points with this n · l reflect of a light where `lit` holds, in as many
+    /// channels as `sum` has; `color` is albedo · intensity, or the intensity where the albedo comes later.
+    /// Without `lit` it goes on, as smooth as it is, where the surface turns from the light.
     #[inline(always)]
-    pub(crate) fn add_light<S: Simd>(
+    pub(crate) fn add_diffuse<S: Simd>(
         &self,
-        albedo: &[f64x8<S>],
-        intensity: Color,
-        [cosine, half_cosine]: [f64x8<S>; 2],
+        color: Color,
+        cosine: f64x8<S>,
         lit: Option<mask64x8<S>>,
         sum: &mut [f64x8<S>],
-    ) -> Option<f64x8<S>> {
-        let zero = f64x8::splat(cosine.simd, 0.0);
+    ) {
         let diffuse = match lit {
-            Some(lit) => lit.select(self.diffuse.of(cosine), zero),
+            Some(lit) => lit.select(self.diffuse.of(cosine), f64x8::splat(cosine.simd, 0.0)),
             None if self.diffuse.exponent == 1.0 => cosine,
             None => self.diffuse.of(cosine),
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
-            *sum += diffuse * (albedo[channel] * intensity[channel]);
+            *sum += diffuse * color[channel];
         }
+    }
+
+    /// Adds the highlight, if there is one, of a light where `lit` holds, or everywhere without it. Returns
+    /// the power of n · h.
+    #[inline(always)]
+    pub(crate) fn add_highlight<S: Simd>(
+        &self,
+        intensity: Color,
+        half_cosine: f64x8<S>,
+        lit: Option<mask64x8<S>>,
+        sum: &mut [f64x8<S>],
+    ) -> Option<f64x8<S>> {
         let (strength, falloff) = self.highlight.as_ref()?;
         let power = falloff.of(half_cosine);
         let highlight = match lit {
-            Some(lit) => lit.select(power, zero),
+            Some(lit) => lit.select(power, f64x8::splat(power.simd, 0.0)),
             None => power,
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
@@ -169,12 +182,5 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
         let length_sq = (along * 2.0 + 2.0).max(least);
         (cosine + self.view_cosine) / length_sq.sqrt()
-    }
-
-    /// n · l and n · h.
-    #[inline(always)]
-    pub(crate) fn cosines(&self, toward: DVec3) -> [f64x8<S>; 2] {
-        let cosine = self.cosine(toward);
-        [cosine, self.half_cosine(toward, cosine)]
     }
 }

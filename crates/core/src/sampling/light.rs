@@ -75,10 +75,8 @@ impl<'scene> Shading<'scene> {
         }
         let has_highlight = looks.has_highlight;
         let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
-        let mut sum: Light<S, CHANNELS> = splat(simd, world.ambient);
-        for (sum, albedo) in sum.iter_mut().zip(albedo) {
-            *sum *= albedo;
-        }
+        let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
+        let mut mirrored: Light<S, CHANNELS> = splat(simd, Color::ZERO);
         for (index, light) in world.lights.iter().enumerate() {
             let cosine = points.cosine(light.toward());
             let mut lit = cosine.simd_gt(0.0) & outer;
@@ -92,15 +90,19 @@ impl<'scene> Shading<'scene> {
                     continue;
                 }
             }
-            let cosines = [cosine, points.half_cosine(light.toward(), cosine)];
             let intensity = light.intensity();
+            let half_cosine = points.half_cosine(light.toward(), cosine);
             for look in &looks.list[..looks.count] {
                 let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
-                look.reflectance
-                    .add_light(&albedo, intensity, cosines, lit, &mut sum);
+                let reflectance = look.reflectance;
+                reflectance.add_diffuse(intensity, cosine, lit, &mut diffuse);
+                reflectance.add_highlight(intensity, half_cosine, lit, &mut mirrored);
             }
         }
-        sum
+        for channel in 0..CHANNELS {
+            diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
+        }
+        diffuse
     }
 
     /// Takes the albedos from the spheres that have their own.

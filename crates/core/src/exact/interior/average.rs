@@ -39,6 +39,22 @@ struct Sampled<S: Simd> {
 const GRID_REST: usize = GAUSS_SAMPLES - STAR_SAMPLES;
 const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
 
+impl<S: Simd> Sampled<S> {
+    #[inline(always)]
+    fn new(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        Self {
+            lights: [[zero; 3]; GAUSS_SAMPLES],
+            cosines: LightCosines::new(simd),
+            star: Estimate::unknown(simd),
+            grid: Estimate::unknown(simd),
+            excess: [[zero; 3]; 2],
+            is_out_of_reach: mask64x8::splat(simd, false),
+            samples: 0,
+        }
+    }
+}
+
 impl<S: Simd> Filled<'_, S> {
     /// The averages: where light is smooth by a rule with five points, elsewhere by Gauss's with three
     /// points a side.
@@ -51,7 +67,9 @@ impl<S: Simd> Filled<'_, S> {
     /// that face it, or face it between those that do not.
     #[inline(always)]
     pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
-        let sampled = self.sampled(simd, noise);
+        // In place: it takes several kilobytes.
+        let mut sampled = Sampled::new(simd);
+        self.sample(simd, &mut sampled, noise);
         let mut averages = Averages {
             values: [Color::ZERO; 8],
             errors: [0.0; 8],
@@ -70,54 +88,46 @@ impl<S: Simd> Filled<'_, S> {
 
     /// Takes samples, until a rule is good enough or all are taken.
     #[inline(always)]
-    fn sampled(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Sampled<S> {
-        let zero = f64x8::splat(simd, 0.0);
-        let mut cosines = LightCosines::new(simd);
-        let mut lights = [[zero; 3]; GAUSS_SAMPLES];
-        let mut excess = [[zero; 3]; 2];
-        let mut grid = Estimate::unknown(simd);
-        let mut is_out_of_reach = mask64x8::splat(simd, false);
+    fn sample(&self, simd: S, into: &mut Sampled<S>, noise: &mut Option<Box<NoiseCells>>) {
+        let Sampled {
+            lights, cosines, ..
+        } = into;
 
         // Five samples.
-        let of_star = self.light::<STAR_SAMPLES>(simd, 0, &mut cosines, noise);
+        let of_star = self.light::<STAR_SAMPLES>(simd, 0, cosines, noise);
         lights[..STAR_SAMPLES].copy_from_slice(&of_star);
-        let star = self.estimate(simd, Rule::Star, &lights, &cosines);
+        into.star = self.estimate(simd, Rule::Star, lights, cosines);
+        into.samples = STAR_SAMPLES;
         if self.finish.is_rough() {
-            let missed = self.missed(simd, &cosines, FROM_GRID);
-            is_out_of_reach = !star.is_met & missed.simd_gt(self.tolerance);
+            let missed = self.missed(simd, cosines, FROM_GRID);
+            into.is_out_of_reach = !into.star.is_met & missed.simd_gt(self.tolerance);
         }
-        let mut samples = STAR_SAMPLES;
-        let is_done = star.is_met | is_out_of_reach;
-        if self.which & !is_done.to_bitmask() != 0 {
-            // Nine.
-            let rest = self.light::<GRID_REST>(simd, samples, &mut cosines, noise);
-            lights[STAR_SAMPLES..].copy_from_slice(&rest);
-            grid = self.estimate(simd, Rule::Grid, &lights, &cosines);
-            samples = GAUSS_SAMPLES;
-            let is_done = is_done | grid.is_met;
-            if self.which & !is_done.to_bitmask() != 0 {
-                // Seventeen.
-                let channels = self.scene.channels;
-                for (light, sample) in lights.iter().zip(&POINTS) {
-                    add_excess(&mut excess, light, sample, channels);
-                }
-                while samples < SAMPLES {
-                    let more = self.light::<ON_DIAGONAL>(simd, samples, &mut cosines, noise);
-                    for (light, sample) in more.iter().zip(&POINTS[samples..]) {
-                        add_excess(&mut excess, light, sample, channels);
-                    }
-                    samples += ON_DIAGONAL;
-                }
+        let is_done = into.star.is_met | into.is_out_of_reach;
+        if self.which & !is_done.to_bitmask() == 0 {
+            return;
+        }
+
+        // Nine.
+        let rest = self.light::<GRID_REST>(simd, into.samples, cosines, noise);
+        lights[STAR_SAMPLES..].copy_from_slice(&rest);
+        into.grid = self.estimate(simd, Rule::Grid, lights, cosines);
+        into.samples = GAUSS_SAMPLES;
+        let is_done = is_done | into.grid.is_met;
+        if self.which & !is_done.to_bitmask() == 0 {
+            return;
+        }
+
+        // Seventeen.
+        let channels = self.scene.channels;
+        for (light, sample) in lights.iter().zip(&POINTS) {
+            add_excess(&mut into.excess, light, sample, channels);
+        }
+        while into.samples < SAMPLES {
+            let more = self.light::<ON_DIAGONAL>(simd, into.samples, cosines, noise);
+            for (light, sample) in more.iter().zip(&POINTS[into.samples..]) {
+                add_excess(&mut into.excess, light, sample, channels);
             }
-        }
-        Sampled {
-            lights,
-            cosines,
-            star,
-            grid,
-            excess,
-            is_out_of_reach,
-            samples,
+            into.samples += ON_DIAGONAL;
         }
     }
 

@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use super::filled::FilledRow;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::occluders::Occluder;
-use crate::exact::context::Context;
+use crate::exact::context::{Context, NEGLIGIBLE};
 use crate::exact::points::Points;
 use crate::exact::scene::{Light, MOST_LIGHTS};
 use crate::exact::surface::Finish;
@@ -40,6 +40,7 @@ struct Ends<S: Simd> {
 
 impl<S: Simd> Reached<S> {
     /// No light, and nothing that changes.
+    #[inline(always)]
     pub(super) fn nothing(simd: S) -> Self {
         Self {
             lit: [0; MOST_LIGHTS],
@@ -115,7 +116,7 @@ impl<S: Simd> Reached<S> {
             }
             // Highlights.
             if reached != 0 {
-                let negligible = 0.01 * context.tolerance;
+                let negligible = NEGLIGIBLE * context.tolerance;
                 let turn = turn + size;
                 let sharp = finish.too_sharp(simd, &points, light, turn, SHARPEST, negligible);
                 hard |= sharp & reached;

@@ -5,6 +5,7 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::filled::{Filled, SIZE_OF_PARTS};
 use super::light_cosines::{CosineRange, LightCosines};
+use crate::exact::context::NEGLIGIBLE;
 
 /// The half diagonal over a cell of the noise below which five samples of a pixel are enough to know bumps
 /// by. By more samples, or in parts, larger pixels are known. It trades samples for false claims; not
@@ -40,7 +41,7 @@ impl<S: Simd> Filled<'_, S> {
         let zero = f64x8::splat(simd, 0.0);
         let scene = self.scene;
         let mut missed = zero;
-        let negligible = 0.01 * self.tolerance;
+        let negligible = NEGLIGIBLE * self.tolerance;
         let jumps = self
             .finish
             .jumps(simd, scene, &self.middle, self.size, negligible);
