@@ -1,6 +1,7 @@
 //! Values, errors and alpha on pixels known in closed form.
 
 mod exactness;
+mod shading;
 
 use glam::{DVec2, DVec3};
 

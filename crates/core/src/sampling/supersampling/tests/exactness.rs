@@ -4,7 +4,8 @@ use fearless_simd::Level;
 use glam::{DVec2, DVec3};
 
 use super::super::*;
-use crate::light::shading::shade;
+use super::shading::shade;
+use crate::hit::outcome::Hit;
 use crate::model::camera::{Camera, Lens};
 use crate::model::light::DirectionalLight;
 use crate::model::material::Material;

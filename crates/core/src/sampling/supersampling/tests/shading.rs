@@ -11,7 +11,7 @@ use crate::numeric::power::Power;
 use crate::search::visibility::Visibility;
 
 /// Radiance of a sphere toward the origin of the ray that hit it.
-pub(crate) fn shade(
+pub(super) fn shade(
     world: &World,
     visibility: &Visibility<'_>,
     ray: &Ray,
