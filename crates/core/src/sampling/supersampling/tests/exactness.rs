@@ -5,7 +5,6 @@ use glam::{DVec2, DVec3};
 
 use super::super::*;
 use super::shading::shade;
-use crate::hit::outcome::Hit;
 use crate::model::camera::{Camera, Lens};
 use crate::model::light::DirectionalLight;
 use crate::model::material::Material;
