@@ -57,7 +57,6 @@ mod tests {
         let cell = Cell {
             middle: DVec3::Z,
             size: [1.0; 2],
-            is_transposed: false,
         };
         let circle = terminator(&cell, &ball, DVec3::NEG_Z);
         let [rising, falling] = super::super::tests::crossings(&circle, [0.0; 8]);

@@ -1,6 +1,5 @@
 //! Cells, balls and rays for the tests of edges, each computed the plain way.
 
-use fearless_simd::{Level, SimdFrom, dispatch, f64x8};
 use glam::DVec3;
 
 use super::cell::{Ball, Cell};
@@ -44,38 +43,34 @@ pub(crate) fn ball_in_front(random: &mut Random) -> Ball {
     )
 }
 
-/// A cell of either orientation that sees a ball nearly in its middle, `widths` of its radius wide.
+/// A cell that sees a ball nearly in its middle, `widths` of its radius wide.
 pub(crate) fn cell_at(random: &mut Random, ball: &Ball, widths: f64) -> Cell {
     let angle = ball.radius / ball.center.z;
     let mut middle = ball.center / ball.center.z;
     middle.x += 0.3 * angle * coordinate(random);
     middle.y += 0.3 * angle * coordinate(random);
     let size = [0, 1].map(|_| widths * angle * (0.7 + 0.6 * random.number()));
-    Cell {
-        middle,
-        size,
-        is_transposed: random.number() < 0.5,
-    }
+    Cell { middle, size }
 }
 
-/// A cell anywhere, of any size and orientation.
+/// A cell anywhere, of any size.
 pub(crate) fn any_cell(random: &mut Random) -> Cell {
     let away = magnitude(random, 0.01, 10.0);
     Cell {
         middle: (random.point() * away).with_z(1.0),
         size: [0, 1].map(|_| magnitude(random, 1e-5, 2.0)),
-        is_transposed: random.number() < 0.5,
     }
 }
 
 /// The ray through (x, y): its third component is 1.
 pub(crate) fn ray(cell: &Cell, x: f64, y: f64) -> DVec3 {
-    let (along, across) = (x * cell.size[0], y * cell.size[1]);
-    if cell.is_transposed {
-        cell.middle + DVec3::new(across, along, 0.0)
-    } else {
-        cell.middle + DVec3::new(along, across, 0.0)
-    }
+    cell.middle + DVec3::new(x * cell.size[0], y * cell.size[1], 0.0)
+}
+
+/// The coordinates at which a point of the camera's frame is seen.
+pub(crate) fn place(cell: &Cell, point: DVec3) -> (f64, f64) {
+    let at = |axis: usize| (point[axis] / point.z - cell.middle[axis]) / cell.size[axis];
+    (at(0), at(1))
 }
 
 /// Where a ray first meets a ball that the eye is outside of.
@@ -114,10 +109,7 @@ pub(crate) fn slope(q: &Quadratic, x: f64, y: f64) -> f64 {
 
 /// Places x of the crossings with eight lines: rising, falling.
 pub(crate) fn crossings(q: &Quadratic, y: [f64; 8]) -> [[f64; 8]; 2] {
-    dispatch!(Level::new(), simd => {
-        let crossings = q.crossings(f64x8::simd_from(simd, y));
-        [crossings.rising.into(), crossings.falling.into()]
-    })
+    [0, 1].map(|which| y.map(|y| q.crossings(y)[which]))
 }
 
 /// The zeros of a polynomial in a cell, on eight lines of it.

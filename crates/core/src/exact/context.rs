@@ -44,7 +44,6 @@ impl Context<'_> {
                 pixel * f64::from(tile.width),
                 pixel * f64::from(tile.height),
             ],
-            is_transposed: false,
         }
     }
 

@@ -126,26 +126,6 @@ impl Finish {
         jumps
     }
 
-    /// The light that may be missed where lines that come near a terminator of bumps do not show it: as
-    /// much as a rule is off by where their cosines of the light, which differ by `range`, change sign.
-    #[inline(always)]
-    pub(crate) fn cost_of_any_turn<S: Simd>(
-        &self,
-        simd: S,
-        light: &Light,
-        range: f64,
-        jumps: bool,
-    ) -> f64 {
-        /// Of a piece, what is beyond its outermost lines.
-        const BEYOND: f64 = 0.04;
-        let range = f64x8::splat(simd, range.min(1.0));
-        let falloff = &self.reflectance.diffuse;
-        let [diffuse, specular] = self.reflectance.brightest(light.intensity);
-        let specular = if jumps { specular } else { 0.0 };
-        (falloff.of_clamped(range) * (diffuse * cost_of_kink(falloff.exponent)))[0]
-            + specular * BEYOND
-    }
-
     /// A bound of what is missed where in a pixel a highlight ends, when n·h changes by `range` there.
     #[inline(always)]
     pub(crate) fn cost_of_highlight_end<S: Simd>(

@@ -8,9 +8,8 @@
 //! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
 //! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
 //! | one sphere: [`interior`] | rules with 5, 9 or 17 samples, on bumps in eight parts | estimate | edges, and light that bends too much |
-//! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, bumps, claims above the tolerance |
-//! | parts of the pixel: [`edged`] | quarters, and theirs | estimate | pixels that cost too much |
-//! | looser tolerances: [`edged`] | the same, known to be over | estimate | pixels of which less than that is known |
+//! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
+//! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
 //! | 8 × 8 samples: [`integrator`] | the mean, known to be over | guess | nothing |
 
 mod classify;
@@ -30,8 +29,7 @@ use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::row::{Coverage, Sight, classify_row, sight};
 use self::context::Context;
-use self::edged::cell::Workspace;
-use self::edged::pixel::EdgedPixel;
+use self::edged::cell::{EdgedPixel, Workspace};
 use self::interior::fill::fill;
 use self::interior::filled::FilledRow;
 use self::part::GiveUp;
@@ -207,11 +205,11 @@ fn edged_pixel<S: Simd>(
         spheres,
     };
     // Along the edges of the whole pixel.
-    let whole = edged.along_edges(simd, cache, workspace);
-    // Highlights are narrow, surfaces have bumps, or the claim is too large: parts of the pixel.
+    let whole = workspace.along_edges(simd, &edged, cache);
+    // Highlights are narrow, or the claim is too large: parts of the pixel.
     let part = match whole {
         Ok(part) => part,
-        Err(why) => edged.by_parts(simd, why, cache, workspace)?,
+        Err(why) => workspace.by_parts(simd, &edged, why, cache)?,
     };
     Ok(context.pixel_of(&part))
 }

@@ -8,8 +8,6 @@ pub(crate) struct Part {
     pub(crate) value: Color,
     pub(crate) covered: f64,
     pub(crate) error: f64,
-    /// The share of the error that comes from along the lines.
-    pub(crate) along: f64,
     /// The share of the error that comes from rounding.
     pub(crate) rounding: f64,
 }
@@ -19,7 +17,6 @@ impl Part {
         value: Color::ZERO,
         covered: 0.0,
         error: 0.0,
-        along: 0.0,
         rounding: 0.0,
     };
 
@@ -27,20 +24,17 @@ impl Part {
         self.value += other.value * share;
         self.covered += other.covered * share;
         self.error += other.error * share;
-        self.along += other.along * share;
         self.rounding += other.rounding * share;
     }
 }
 
-/// The reason for which a rung leaves a pixel to the next one.
+/// The reason for which a rung leaves a pixel, or a part of one, to the next rung.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum GiveUp {
-    /// So few edges are integrated sooner by lines.
-    FewEdges,
     /// A highlight is so narrow that a rule along a chord may step over it.
     Narrow,
-    /// A surface is rough, or an outline is no ellipse.
-    NoPrimitive,
+    /// Something is not a finite number.
+    NotFinite,
     /// More may be wrong than the tolerance allows; this is known.
     Claims(Part),
     /// Less is known than samples see.

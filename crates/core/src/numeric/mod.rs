@@ -8,6 +8,5 @@ pub(crate) mod kronrod;
 pub(crate) mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod power;
-pub(crate) mod quartic;
 pub(crate) mod rounding;
 pub(crate) mod vectors;

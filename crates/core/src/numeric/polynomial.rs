@@ -2,10 +2,6 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use fearless_simd::prelude::*;
-
-use fearless_simd::f64x8;
-
 /// `one + x·x + y·y`, the coefficients named after what they multiply.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Linear {
@@ -23,14 +19,6 @@ pub(crate) struct Quadratic {
     pub(crate) xx: f64,
     pub(crate) xy: f64,
     pub(crate) yy: f64,
-}
-
-/// Where a conic crosses eight lines: once with its polynomial rising in the direction of x, once
-/// with it falling; NaN, infinite or far off where it does not.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Crossings<S: Simd> {
-    pub(crate) rising: f64x8<S>,
-    pub(crate) falling: f64x8<S>,
 }
 
 impl Quadratic {
@@ -59,12 +47,12 @@ impl Quadratic {
         }
     }
 
-    /// Where the zeros cross the lines with these y.
+    /// Where the zeros cross a line y = const: once with the polynomial rising in the direction of x, once
+    /// with it falling; NaN, infinite or far off where they do not.
     ///
     /// The root that adds numbers of one sign is computed as it stands, the other from the product
     /// of both: a x² + 2 b x + c.
-    #[inline(always)]
-    pub(crate) fn crossings<S: Simd>(&self, y: f64x8<S>) -> Crossings<S> {
+    pub(crate) fn crossings(&self, y: f64) -> [f64; 2] {
         let b = (y * self.xy + self.x) * 0.5;
         let c = (y * self.yy + self.y) * y + self.one;
         // Where rounding decides whether there are two roots or none, there is a double one: a plane
@@ -75,17 +63,12 @@ impl Quadratic {
         let discriminant = square - product;
         let summands = (0.5 * self.x.abs() + 0.25 * self.xy.abs()).powi(2)
             + self.xx.abs() * (self.one.abs() + 0.5 * self.y.abs() + 0.25 * self.yy.abs());
-        let is_double = discriminant
-            .abs()
-            .simd_lt((square + product.abs()) * DOUBLE + summands * ROUNDINGS);
-        let root = is_double.select(square * 0.0, discriminant).sqrt();
+        let is_double =
+            discriminant.abs() < (square + product.abs()) * DOUBLE + summands * ROUNDINGS;
+        let root = if is_double { 0.0 } else { discriminant }.sqrt();
         let sum = b.abs() + root;
         let (near, far) = (c / sum, sum / self.xx);
-        let positive = b.simd_gt(0.0);
-        Crossings {
-            rising: positive.select(-near, far),
-            falling: positive.select(-far, near),
-        }
+        if b > 0.0 { [-near, -far] } else { [far, near] }
     }
 
     /// The lines y = const that the zeros touch, as (x, y) of the points where they do; NaN where

@@ -65,17 +65,6 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
-    /// The same, but for one component that has something added.
-    #[inline(always)]
-    pub(crate) fn moved(mut self, axis: usize, by: f64x8<S>) -> Self {
-        match axis {
-            0 => self.x += by,
-            1 => self.y += by,
-            _ => self.z += by,
-        }
-        self
-    }
-
     #[inline(always)]
     pub(crate) fn plus(&self, other: &Self) -> Self {
         Self {

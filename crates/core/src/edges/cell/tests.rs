@@ -1,7 +1,7 @@
 //! Cells against rays that are computed one by one.
 
 use super::*;
-use crate::edges::tests::{any_cell, at, ball, coordinate, direction, magnitude, ray, value};
+use crate::edges::tests::{any_cell, at, ball, coordinate, magnitude, ray, value};
 use crate::search::tests::Random;
 
 #[test]
@@ -21,18 +21,6 @@ fn products_are_those_of_the_ray() {
         }
         let (square, terms) = value(&cell.ray_sq(), x, y);
         assert!((square - d.length_squared()).abs() < 1e-14 * terms);
-    }
-}
-
-#[test]
-fn transposed_cells_see_the_same_rays_with_their_coordinates_exchanged() {
-    let mut random = Random(2);
-    for _ in 0..500 {
-        let cell = any_cell(&mut random);
-        let (x, y) = (coordinate(&mut random), coordinate(&mut random));
-        assert_eq!(ray(&cell.transposed(), y, x), ray(&cell, x, y));
-        assert_eq!(cell.transposed().transposed(), cell);
-        assert_eq!(cell.transposed().ray_sq(), cell.ray_sq().transposed());
     }
 }
 
@@ -57,52 +45,6 @@ fn parts_see_the_rays_of_the_whole() {
             );
         }
     }
-}
-
-#[test]
-fn points_on_a_ray_are_placed_where_it_passes() {
-    let mut random = Random(4);
-    for _ in 0..2000 {
-        let cell = any_cell(&mut random);
-        let (x, y) = (coordinate(&mut random), coordinate(&mut random));
-        let d = ray(&cell, x, y);
-        let (found_x, found_y) = cell.place(d * magnitude(&mut random, 1e-3, 1e6));
-        let close = 1e-15 * (1.0 + d.length());
-        assert!((found_x - x).abs() * cell.size[0] < close);
-        assert!((found_y - y).abs() * cell.size[1] < close);
-    }
-}
-
-/// Of a thousand points of the sphere's lit side none is nearer to the caster's axis.
-#[test]
-fn under_a_caster_is_the_point_nearest_its_axis() {
-    let mut random = Random(5);
-    let mut crossed = 0;
-    for _ in 0..100 {
-        let sphere = ball(random.point() * 10.0, magnitude(&mut random, 0.1, 10.0));
-        let toward = direction(&mut random);
-        let (right, up) = toward.any_orthonormal_pair();
-        let aside = right * random.point().x * 2.0 + up * random.point().y * 2.0;
-        let caster = Caster {
-            center: sphere.center + (toward * 3.0 + aside) * sphere.radius,
-            radius: sphere.radius * random.number(),
-            right,
-            up,
-        };
-        let found = sphere.under(&caster, toward);
-        let normal = (found - sphere.center) / sphere.radius;
-        assert!((normal.length() - 1.0).abs() < 1e-12);
-        assert!(normal.dot(toward) > -1e-7, "lit by the light");
-        let nearest = caster.project(found).length();
-        crossed += u32::from(nearest < 1e-9 * sphere.radius);
-        for _ in 0..1000 {
-            let mut normal = direction(&mut random);
-            normal *= normal.dot(toward).signum();
-            let other = sphere.center + normal * sphere.radius;
-            assert!(caster.project(other).length() >= nearest - 1e-9 * sphere.radius);
-        }
-    }
-    assert!((5..95).contains(&crossed), "{crossed} axes meet the sphere");
 }
 
 #[test]

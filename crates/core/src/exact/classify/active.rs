@@ -1,6 +1,11 @@
 //! A sphere that may be seen in a cell.
 
+use glam::DVec3;
+
 use crate::edges::cell::Ball;
+use crate::exact::scene::InCamera;
+use crate::model::material::Grain;
+use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// A sphere that may be seen in a cell.
@@ -12,6 +17,43 @@ pub(crate) struct Active {
     pub(crate) discriminant: Quadratic,
     /// d · c.
     pub(crate) along: Linear,
-    /// Whether the terminators belong to a surface without bumps.
-    pub(crate) is_smooth: bool,
+    pub(crate) terminators: Terminators,
+}
+
+/// The place where the surface of a sphere turns from a light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Terminators {
+    /// On the great circle across the light.
+    Plain,
+    /// On another great circle: these factors of normals, in the world's frame, tilt it.
+    Tilted(DVec3),
+    /// Inside bumps.
+    Anywhere,
+}
+
+impl Terminators {
+    pub(crate) fn of(scene: &InCamera<'_>, sphere: usize, pixel: PixelKey) -> Self {
+        let Some(roughness) = &scene.world.material(sphere).roughness else {
+            return Self::Plain;
+        };
+        match roughness.grain {
+            Grain::Pixel => Self::Tilted(roughness.pixel_factors(sphere, pixel)),
+            Grain::Surface(_) => Self::Anywhere,
+        }
+    }
+
+    /// The unit vector across which the terminator of a light lies, on the side that faces it: with
+    /// factors w, (n ∘ w) · l = n · (w ∘ l).
+    pub(crate) fn axis(&self, scene: &InCamera<'_>, light: usize) -> Option<DVec3> {
+        let toward = scene.lights[light].toward;
+        match self {
+            Self::Plain => Some(toward),
+            Self::Tilted(factors) => {
+                let to_world = scene.world_from_camera;
+                let tilted = *factors * (to_world * toward);
+                Some((to_world.transpose() * tilted).normalize())
+            }
+            Self::Anywhere => None,
+        }
+    }
 }

@@ -6,7 +6,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use super::active::Active;
+use super::active::{Active, Terminators};
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
@@ -95,12 +95,23 @@ impl Contents {
             if is_outside && (discriminant.one + spread + slack < 0.0 || along.one + half <= 0.0) {
                 continue;
             }
+            // Of spheres that coincide the first is seen.
+            let is_same = |other: &&mut Active| {
+                other.ball.center == ball.center && other.ball.radius == ball.radius
+            };
+            if let Some(other) = self.active.iter_mut().find(is_same) {
+                if sphere < other.sphere {
+                    other.sphere = sphere;
+                    other.terminators = Terminators::of(scene, sphere, self.pixel);
+                }
+                continue;
+            }
             self.active.push(Active {
                 sphere,
                 ball,
                 discriminant,
                 along,
-                is_smooth: scene.world.material(sphere).roughness.is_none(),
+                terminators: Terminators::of(scene, sphere, self.pixel),
             });
         }
         self.hidden.remove(cache.level, &mut self.active);
@@ -118,9 +129,9 @@ impl Contents {
                 } else {
                     Reach::Nowhere
                 };
-                if active.is_smooth && matches!(reach, Reach::Past(_)) {
-                    let toward = scene.lights[light].toward;
-                    let terminator = terminator(cell, &active.ball, toward);
+                let axis = active.terminators.axis(scene, light);
+                if let (Some(axis), Reach::Past(_)) = (axis, &reach) {
+                    let terminator = terminator(cell, &active.ball, axis);
                     if terminator.may_vanish() {
                         self.conics
                             .push((Kind::Terminator(position, light), terminator));
@@ -194,6 +205,13 @@ impl Contents {
             let size = cell.size[0].min(cell.size[1]) * distance;
             for &sphere in found {
                 let (center, radius) = scene.center(sphere as usize);
+                let mut known = self.occluders[first..].iter();
+                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
+                    continue;
+                }
+                if hides_all(&active.ball, center, radius, in_camera.toward) {
+                    return Reach::Nowhere;
+                }
                 let largest = own.max(extent(center, radius));
                 self.rounding = self.rounding.max(ROUNDINGS * largest / size);
                 self.occluders.push(in_camera.caster(center, radius));
@@ -202,13 +220,17 @@ impl Contents {
         Reach::Past(first..self.occluders.len())
     }
 
-    /// The work on a line: in each gap between edges every sphere may be seen.
-    pub(crate) fn extent(&self) -> u64 {
-        let edges = self.conics.len() + 4 * self.occluders.len();
-        (8 + edges + self.active.len() * (1 + self.conics.len() / 4)) as u64
+    /// Returns whether some sphere has a larger exponent than this.
+    pub(crate) fn is_narrow(&self, scene: &InCamera<'_>, broad: f64) -> bool {
+        self.active.iter().any(|active| {
+            let material = scene.world.material(active.sphere);
+            let highlight = material.highlight;
+            let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
+            material.exponent.max(shininess) > broad
+        })
     }
 
-    /// Whether highlights are too sharp for rules along lines of the cell.
+    /// Returns whether highlights are too sharp for rules along chords of the cell.
     #[inline(always)]
     pub(crate) fn is_sharp<S: Simd>(
         &self,
@@ -243,62 +265,17 @@ impl Contents {
         }
         false
     }
+}
 
-    /// Whether edges would rather be crossed by lines in the other direction.
-    pub(crate) fn prefers_transposed(&self, scene: &InCamera<'_>, cell: &Cell) -> bool {
-        /// Lines along an edge are no worse than this.
-        const STEEPEST: f64 = 10.0;
-        let mut sum = 0.0;
-        let mut note = |x: f64, y: f64| {
-            let (x, y) = (x.abs(), y.abs());
-            if x + y > 0.0 {
-                sum += (y / x).min(STEEPEST) - (x / y).min(STEEPEST);
-            }
-        };
-        for (_, conic) in &self.conics {
-            note(conic.x, conic.y);
-        }
-        let lights = scene.lights.len();
-        let [along, across] = cell.axes();
-        for (position, active) in self.active.iter().enumerate() {
-            let ball = &active.ball;
-            let root = active.discriminant.one.sqrt();
-            if root.is_nan() {
-                continue;
-            }
-            let ray = cell.middle;
-            let t = ball.outside / (active.along.one + root);
-            let point = ray * t;
-            let normal = point - ball.center;
-            for light in 0..lights {
-                let Reach::Past(occluders) = &self.reach[position * lights + light] else {
-                    continue;
-                };
-                for occluder in &self.occluders[occluders.clone()] {
-                    let aside = occluder.project(point);
-                    let gradient = occluder.right * aside.x + occluder.up * aside.y;
-                    // How the point moves in the tangent plane.
-                    let slope = |axis: usize| {
-                        let step = DVec3::AXES[axis];
-                        gradient.dot(step - ray * (normal.dot(step) / normal.dot(ray)))
-                    };
-                    note(slope(along) * cell.size[0], slope(across) * cell.size[1]);
-                }
-            }
-        }
-        sum > 0.0
-    }
-
-    /// The same for the transposed cell.
-    pub(crate) fn transpose(&mut self) {
-        for (_, conic) in &mut self.conics {
-            *conic = conic.transposed();
-        }
-        for active in &mut self.active {
-            active.discriminant = active.discriminant.transposed();
-            std::mem::swap(&mut active.along.x, &mut active.along.y);
-        }
-    }
+/// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow
+/// ends where the ball's own dark side begins, which edges must not be left to tell.
+fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
+    /// Of the radius, more than rounding.
+    const ALIKE: f64 = 1e-12;
+    let offset = center - ball.center;
+    let ahead = offset.dot(toward);
+    let aside = (offset - toward * ahead).length();
+    ahead > 0.0 && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
 }
 
 #[cfg(test)]

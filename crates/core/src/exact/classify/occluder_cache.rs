@@ -231,7 +231,6 @@ impl OccluderCache {
         let tile = Cell {
             middle: glam::DVec3::Z,
             size: [1.0; 2],
-            is_transposed: false,
         };
         let mut cache = Self::new(tile, 1.0);
         for (index, caster) in (0..).zip(casters) {

@@ -1,461 +1,263 @@
-//! The integral over a cell, along lines between known events.
+//! The integral over a pixel with edges: along all of them, or by its quarters where that is hard, and by
+//! theirs.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 use fearless_simd::prelude::*;
 
-use super::boundary::Boundary;
-use super::breaks::Break;
-use super::cut::{Crowded, Cuts, Signature};
-use super::piece::{Piece, Surroundings, Unlike};
-use super::rule::Roots;
+use super::boundary::{Boundary, Goal};
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
-use crate::exact::part::Part;
-use crate::exact::scene::InCamera;
-use crate::model::color::Color;
+use crate::exact::context::Context;
+use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::noise::NoiseCells;
 use crate::picture::pixel::Work;
 
-/// What the integral over cells works with, kept from cell to cell.
+/// Memory that the integral over pixels works with, kept from pixel to pixel.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) contents: Contents,
-    cuts: Cuts,
-    pub(crate) boundary: Boundary,
-    pub(crate) scratch: Vec<f64>,
+    boundary: Boundary,
     pub(crate) noise: Option<Box<NoiseCells>>,
-    pub(crate) breaks: Vec<Break>,
-    samples: Vec<Sample>,
-    tasks: Vec<Task>,
     pub(crate) work: Work,
-    /// What the pixel has cost, and may cost, in spheres and edges looked at along lines, and
-    /// samples.
-    effort: u64,
-    sample_budget: u64,
 }
 
-/// A line whose signature is known.
+/// A pixel with edges.
 #[derive(Clone, Copy, Debug)]
-struct Sample {
-    y: f64,
-    signature: Signature,
+pub(crate) struct EdgedPixel<'a, 'scene> {
+    pub(crate) context: &'a Context<'scene>,
+    pub(crate) cell: Cell,
+    /// The spheres that may be seen.
+    pub(crate) spheres: &'a [(usize, Ball)],
 }
 
-/// Lines to be integrated.
-#[derive(Clone, Copy, Debug)]
-struct Task {
-    start: f64,
-    end: f64,
-    roots: Roots,
-    signature: Signature,
-    /// How far from the start and from the end lines need not have the signature.
-    loose: [f64; 2],
-    division: u32,
-    depth: u32,
-}
+/// What rounding, or parts of a pixel that were given up, may cost before samples know more.
+const LOST: f64 = 0.01;
 
-/// The integral was not found; the parts of the cell may be easier.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Hard;
+/// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
+/// pixel and in parts of it: into more where something does not fit.
+const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 
-impl From<Crowded> for Hard {
-    fn from(_: Crowded) -> Self {
-        Self
-    }
-}
-
-/// Batches of eight lines that a cell may cost before its parts are tried.
-const MOST_BATCHES: u32 = 60;
+/// How deep pixels are quartered: what is left of an edge in cells of the last depth is less than
+/// 2⁻¹² of the contrast.
+const DEEPEST: i32 = 12;
 
 /// Samples that a pixel may cost: only bumps much smaller than a pixel, or exponents that make steep
 /// terminators of them, ask for so many.
 const MOST_SAMPLES: u64 = 400_000;
 
-/// Spheres and edges that a pixel may cost, each counted for every eight lines: crowds of hundreds
-/// in one pixel ask for so many.
-const MOST_EFFORT: u64 = 400_000;
+/// The work that a pixel may cost, in pairs of curves that are held against each other: crowds of
+/// hundreds of spheres in one pixel ask for so many.
+const MOST_PAIRS: u64 = 1_600_000;
 
-/// How often something unexpected may happen between lines of a cell that were held to be alike.
-const MOST_SURPRISES: u32 = 6;
+/// Powers that no rule along a chord overlooks.
+const BROAD: f64 = 60.0;
 
-/// How often lines are looked at between those that are alike.
-const MOST_SUSPICIONS: u32 = 2;
+/// How far pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
+/// in the middle of a picture, must not coincide with sides of cells. It is far more than rounding, and
+/// costs an edge no more than the sum of both.
+const ASIDE: [f64; 2] = [1.3e-10, -0.9e-10];
 
-/// How near to a break lines are looked at.
-const INSET: f64 = 1e-7;
+impl EdgedPixel<'_, '_> {
+    /// The pixel, moved aside.
+    fn whole(&self) -> Cell {
+        let mut cell = self.cell;
+        cell.middle.x += ASIDE[0] * cell.size[0];
+        cell.middle.y += ASIDE[1] * cell.size[1];
+        cell
+    }
 
-/// How exactly events are told apart.
-#[derive(Clone, Copy, Debug)]
-struct Precision {
-    /// Between lines.
-    width: f64,
-    /// Along lines: what is narrower is left out.
-    gap: f64,
-}
-
-/// How lines are looked at.
-#[derive(Clone, Copy, Debug)]
-struct Care {
-    /// Lines between two breaks, at first.
-    lines: usize,
-    /// What is narrower than this share of the tolerance is left out.
-    gap: f64,
-}
-
-impl Care {
-    const EXACT: Self = Self { lines: 2, gap: 0.0 };
-    const ROBUST: Self = Self {
-        lines: 8,
-        gap: 0.005,
-    };
-}
-
-/// How much is asked of a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Goal {
-    pub(crate) tolerance: f64,
-    pub(crate) background: Color,
-    /// About the largest difference of light that an edge may make.
-    pub(crate) contrast: f64,
+    /// The error that moving the pixel aside adds.
+    fn moved(&self) -> f64 {
+        self.context.contrast * (ASIDE[0].abs() + ASIDE[1].abs())
+    }
 }
 
 impl Workspace {
-    /// The integral over the cell that `contents` belongs to.
-    #[inline(always)]
-    pub(crate) fn integrate<S: Simd>(
+    /// The average along the edges of the whole pixel.
+    pub(crate) fn along_edges<S: Simd>(
         &mut self,
         simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        goal: &Goal,
-    ) -> Result<Part, Hard> {
-        self.find_breaks(simd, scene, cell);
-        // First everything, however narrow; then, where rounding makes it hopeless, without what does
-        // not count.
-        let fine = self.integrate_within(simd, scene, cell, goal, Care::EXACT);
-        match fine {
-            Err(Hard) if !self.is_over_budget() => {
-                self.integrate_within(simd, scene, cell, goal, Care::ROBUST)
-            }
-            fine => fine,
-        }
-    }
-
-    /// Takes in what a cell may see of some spheres.
-    pub(crate) fn see(
-        &mut self,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        spheres: &[(usize, Ball)],
+        pixel: &EdgedPixel<'_, '_>,
         cache: &mut OccluderCache,
-    ) {
-        self.work.candidate_tests += spheres.len() as u64;
-        self.contents.see(scene, cell, spheres, cache);
+    ) -> Result<Part, GiveUp> {
+        let mut part = self.part(simd, pixel, (&pixel.whole(), 0), cache)?;
+        part.error += pixel.moved();
+        if part.error <= pixel.context.tolerance {
+            Ok(part)
+        } else {
+            Err(GiveUp::Claims(part))
+        }
     }
 
-    /// Begins the work on a pixel.
-    pub(crate) fn begin_pixel(&mut self) {
-        self.effort = 0;
-        self.sample_budget = self.work.samples + MOST_SAMPLES;
-    }
-
-    /// Counts what it costs to see a cell: about as much as a few lines.
-    pub(crate) fn spend_on_cell(&mut self) {
-        self.effort += 4 * self.contents.extent();
-    }
-
-    /// Whether the pixel has cost as much as a pixel may.
-    pub(crate) fn is_over_budget(&self) -> bool {
-        self.effort > MOST_EFFORT || self.work.samples > self.sample_budget
-    }
-
-    /// The integral between the breaks.
-    #[inline(always)]
-    fn integrate_within<S: Simd>(
+    /// The average by parts, each the quarter of another that claims too much, those first that cost most,
+    /// until the pixel has cost enough. `why` tells what is known of the whole.
+    pub(crate) fn by_parts<S: Simd>(
         &mut self,
         simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        goal: &Goal,
-        care: Care,
-    ) -> Result<Part, Hard> {
-        let mut batches = 0;
-        // An event that is located to within a width w costs w^1.5 where a pair of edges begins, less
-        // elsewhere.
-        let root = libm::cbrt(0.02 * goal.tolerance);
-        let precision = Precision {
-            width: (root * root).clamp(1e-9, 1e-2),
-            gap: (care.gap * goal.tolerance / goal.contrast).max(1e-12),
+        pixel: &EdgedPixel<'_, '_>,
+        why: GiveUp,
+        cache: &mut OccluderCache,
+    ) -> Result<Part, GiveUp> {
+        let context = pixel.context;
+        let unknown = Part {
+            error: context.contrast,
+            ..Part::NOTHING
         };
-        self.cuts.has_dropped();
-        self.sample_lines(simd, scene, cell, care.lines, &precision, &mut batches)?;
-        self.tasks.clear();
-        let mut sum = Part::NOTHING;
-        self.resolve(simd, scene, cell, &precision, &mut batches)?;
-        sum.error += goal.contrast * self.make_tasks(&Task::WHOLE);
-        while let Some(task) = self.tasks.pop() {
-            batches += 1;
-            self.effort += self.contents.extent();
-            if batches > MOST_BATCHES || self.is_over_budget() {
-                return Err(Hard);
+        let whole = match why {
+            GiveUp::Claims(part) => part,
+            _ => unknown,
+        };
+        let samples = self.work.samples;
+        let mut pairs = 0;
+        let mut error = whole.error + pixel.moved();
+        let mut best = Part {
+            error: pixel.moved(),
+            ..Part::NOTHING
+        };
+        let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
+        while let Some(worst) = left.pop() {
+            let is_over = pairs > MOST_PAIRS || self.work.samples > samples + MOST_SAMPLES;
+            if error <= context.tolerance || is_over || worst.depth == DEEPEST {
+                best.add(&worst.part, worst.share());
+                continue;
             }
-            self.work.lines += 8;
-            let share = task.end - task.start;
-            let piece = Piece {
-                start: task.start,
-                end: task.end,
-                roots: task.roots,
-                signature: &task.signature,
-                division: task.division,
-                loose: task.loose,
-                gap: precision.gap,
-                is_suspicious: task.depth <= MOST_SUSPICIONS,
-            };
-            let surroundings = Surroundings {
-                scene,
-                cell,
-                contents: &self.contents,
-                background: goal.background,
-                tolerance: goal.tolerance,
-            };
-            let part = surroundings.integrate(
-                simd,
-                &piece,
-                &mut self.cuts,
-                &mut self.scratch,
-                &mut self.noise,
-                &mut self.work.samples,
+            error -= worst.cost;
+            let depth = worst.depth + 1;
+            for [x, y] in QUARTERS {
+                let cell = worst.cell.part(x, y);
+                let part = self.part(simd, pixel, (&cell, depth), cache);
+                let quarter = Quarter::new(cell, depth, part.unwrap_or(unknown));
+                let curves = 4 + self.contents.conics.len() + self.contents.occluders.len();
+                pairs += (curves * curves) as u64;
+                error += quarter.cost;
+                left.push(quarter);
+            }
+        }
+        if whole.error < best.error {
+            best = whole;
+        }
+        // Samples at least see exactly.
+        let most = context.tolerance.max(LOST);
+        let is_known = best.value.is_finite() && best.error <= most && best.rounding <= most;
+        if is_known {
+            Ok(best)
+        } else {
+            Err(GiveUp::Unknown)
+        }
+    }
+
+    /// The average over a part of a pixel, at a depth.
+    fn part<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: &EdgedPixel<'_, '_>,
+        (cell, depth): (&Cell, i32),
+        cache: &mut OccluderCache,
+    ) -> Result<Part, GiveUp> {
+        let Context {
+            scene,
+            tolerance,
+            background,
+            contrast,
+            ..
+        } = pixel.context;
+        self.work.candidate_tests += pixel.spheres.len() as u64;
+        self.contents.see(scene, cell, pixel.spheres, cache);
+        let contents = &self.contents;
+        let negligible = 0.01 * tolerance;
+        let is_sharp = depth < DEEPEST
+            && contents.is_narrow(scene, BROAD)
+            && simd.vectorize(
+                #[inline(always)]
+                || contents.is_sharp(simd, scene, cell, negligible),
             );
-            let part = match part {
-                Ok(part) => part,
-                Err(Unlike { at }) if task.depth < MOST_SURPRISES => {
-                    // Something happens that the lines at the ends knew nothing of.
-                    self.sample_between(simd, scene, cell, &task, at, &precision, &mut batches)?;
-                    self.resolve(simd, scene, cell, &precision, &mut batches)?;
-                    sum.error += goal.contrast * self.make_tasks(&task);
-                    continue;
-                }
-                Err(Unlike { .. }) => return Err(Hard),
+        if is_sharp {
+            return Err(GiveUp::Narrow);
+        }
+        let mut best: Result<Part, GiveUp> = Err(GiveUp::NotFinite);
+        for &parts in FINER[usize::from(depth > 0)] {
+            let goal = Goal {
+                tolerance: *tolerance,
+                background: *background,
+                contrast: *contrast,
+                parts,
             };
-            let is_good =
-                part.error <= 0.5 * goal.tolerance || part.error * share <= 0.02 * goal.tolerance;
-            if is_good {
-                sum.add(&part, share);
-                continue;
+            let found = simd.vectorize(
+                #[inline(always)]
+                || {
+                    self.boundary
+                        .integrate(simd, scene, cell, &self.contents, &goal)
+                },
+            );
+            self.work.samples += std::mem::take(&mut self.boundary.samples);
+            match (found, best) {
+                (Ok(part), Ok(known)) if !(part.error < known.error) => {}
+                (Ok(part), _) => best = Ok(part),
+                (Err(_), _) => {}
             }
-            const FINEST: u32 = 16;
-            if part.along > 0.5 * part.error && task.division < FINEST {
-                self.tasks.push(Task {
-                    division: 2 * task.division,
-                    ..task
-                });
-                continue;
-            }
-            self.tasks.extend(task.halves());
-        }
-        if self.cuts.has_dropped() {
-            sum.error += goal.contrast * precision.gap;
-        }
-        sum.rounding = goal.contrast * self.contents.rounding;
-        sum.error += sum.rounding;
-        Ok(sum)
-    }
-
-    /// Finds the signatures on both sides of the breaks.
-    #[inline(always)]
-    fn sample_lines<S: Simd>(
-        &mut self,
-        simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        count: usize,
-        precision: &Precision,
-        batches: &mut u32,
-    ) -> Result<(), Hard> {
-        /// Intervals that are not worth it.
-        const LEAST: f64 = 1e-11;
-        let mut lines: Vec<f64> = Vec::with_capacity(count * (self.breaks.len() + 1));
-        let mut start = -0.5;
-        for end in self.breaks.iter().map(|at| at.y).chain([0.5]) {
-            let length = end - start;
-            if length > LEAST {
-                let inset = INSET.min(0.01 * length);
-                let step = (length - 2.0 * inset) / (count - 1) as f64;
-                lines.extend((0..count).map(|index| start + inset + index as f64 * step));
-                start = end;
+            if best.is_ok_and(|part| part.error <= *tolerance) {
+                break;
             }
         }
-        self.samples.clear();
-        for chunk in lines.chunks(8) {
-            let mut y = [chunk[chunk.len() - 1]; 8];
-            y[..chunk.len()].copy_from_slice(chunk);
-            self.look(simd, scene, cell, &y, precision, batches)?;
-            for (&y, &signature) in chunk.iter().zip(self.cuts.signatures()) {
-                self.samples.push(Sample { y, signature });
-            }
-        }
-        Ok(())
-    }
-
-    /// Looks at lines inside a task, one of them at `at`.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "all of it is at hand where it is called"
-    )]
-    #[inline(always)]
-    fn sample_between<S: Simd>(
-        &mut self,
-        simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        task: &Task,
-        at: Option<f64>,
-        precision: &Precision,
-        batches: &mut u32,
-    ) -> Result<(), Hard> {
-        let start = task.start + task.loose[0];
-        let step = (task.end - task.loose[1] - start) / 7.0;
-        let mut y = [start; 8];
-        for (index, y) in y.iter_mut().enumerate() {
-            *y += index as f64 * step;
-        }
-        if let Some(at) = at {
-            // In the place of its neighbor before it, but for the first.
-            let before = y.iter().filter(|&&y| y < at).count();
-            y[before.clamp(2, 7) - 1] = at;
-        }
-        self.look(simd, scene, cell, &y, precision, batches)?;
-        self.samples.clear();
-        for (&y, &signature) in y.iter().zip(self.cuts.signatures()) {
-            self.samples.push(Sample { y, signature });
-        }
-        Ok(())
-    }
-
-    /// Looks between lines that are not alike, until they are near enough to each other.
-    #[inline(always)]
-    fn resolve<S: Simd>(
-        &mut self,
-        simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        precision: &Precision,
-        batches: &mut u32,
-    ) -> Result<(), Hard> {
-        let mut index = 0;
-        while index + 1 < self.samples.len() {
-            let (low, high) = (self.samples[index], self.samples[index + 1]);
-            let straddles = self.breaks.iter().any(|at| low.y < at.y && at.y < high.y);
-            if low.signature == high.signature || straddles || high.y - low.y <= precision.width {
-                index += 1;
-                continue;
-            }
-            let step = (high.y - low.y) / 9.0;
-            let mut y = [low.y; 8];
-            for (index, y) in y.iter_mut().enumerate() {
-                *y += (index + 1) as f64 * step;
-            }
-            self.look(simd, scene, cell, &y, precision, batches)?;
-            let new = y.iter().zip(self.cuts.signatures());
-            let new = new.map(|(&y, &signature)| Sample { y, signature });
-            self.samples.splice(index + 1..index + 1, new);
-        }
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn look<S: Simd>(
-        &mut self,
-        simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        y: &[f64; 8],
-        precision: &Precision,
-        batches: &mut u32,
-    ) -> Result<(), Hard> {
-        *batches += 1;
-        self.work.lines += 8;
-        self.effort += self.contents.extent();
-        if *batches > MOST_BATCHES || self.is_over_budget() {
-            return Err(Hard);
-        }
-        Ok(self
-            .cuts
-            .look(simd, scene, cell, &self.contents, y, precision.gap)?)
-    }
-
-    /// Makes tasks of the lines of a task between changes; what those changes may cost whose place
-    /// is not quite known.
-    fn make_tasks(&mut self, whole: &Task) -> f64 {
-        let mut cost = 0.0;
-        let mut start = whole.start;
-        let mut at_start = whole.roots.at_start;
-        let mut loose_start = whole.loose[0];
-        for index in 0..self.samples.len() {
-            let here = self.samples[index];
-            let mut loose_end = INSET;
-            let (end, at_end) = match self.samples.get(index + 1) {
-                None => {
-                    loose_end = whole.loose[1];
-                    (whole.end, whole.roots.at_end)
-                }
-                Some(next) if next.signature == here.signature => continue,
-                Some(next) => {
-                    let known = self
-                        .breaks
-                        .iter()
-                        .filter(|at| here.y < at.y && at.y < next.y);
-                    match known.reduce(|one, other| if one.is_extreme { one } else { other }) {
-                        Some(at) => (at.y, at.is_extreme),
-                        None => {
-                            loose_end = next.y - here.y;
-                            cost += loose_end * loose_end.sqrt();
-                            let changes = [here, *next].map(|sample| sample.signature.changes);
-                            (0.5 * (here.y + next.y), changes[0].abs_diff(changes[1]) > 1)
-                        }
-                    }
-                }
-            };
-            self.tasks.push(Task {
-                start,
-                end,
-                roots: Roots { at_start, at_end },
-                signature: here.signature,
-                loose: [loose_start, loose_end],
-                division: whole.division,
-                depth: whole.depth + 1,
-            });
-            (start, at_start, loose_start) = (end, at_end, loose_end);
-        }
-        cost
+        best
     }
 }
 
-impl Task {
-    /// All lines of a cell, of which nothing is known.
-    const WHOLE: Self = Self {
-        start: -0.5,
-        end: 0.5,
-        roots: Roots {
-            at_start: false,
-            at_end: false,
-        },
-        signature: Signature::EMPTY,
-        loose: [INSET; 2],
-        division: 1,
-        depth: 0,
-    };
+/// Between which x and y the quarters of a cell lie.
+const QUARTERS: [[[f64; 2]; 2]; 4] = [
+    [[-0.5, 0.0], [-0.5, 0.0]],
+    [[0.0, 0.5], [-0.5, 0.0]],
+    [[-0.5, 0.0], [0.0, 0.5]],
+    [[0.0, 0.5], [0.0, 0.5]],
+];
 
-    /// The lines of either half.
-    fn halves(&self) -> [Self; 2] {
-        let middle = 0.5 * (self.start + self.end);
-        let mut halves = [*self; 2];
-        halves[0].end = middle;
-        halves[0].roots.at_end = false;
-        halves[0].loose[1] = 0.0;
-        halves[1].start = middle;
-        halves[1].roots.at_start = false;
-        halves[1].loose[0] = 0.0;
-        halves
+/// A part of a pixel that has been integrated, in the order of what it costs.
+#[derive(Clone, Copy, Debug)]
+struct Quarter {
+    cell: Cell,
+    depth: i32,
+    part: Part,
+    /// What it adds to the pixel's error.
+    cost: f64,
+}
+
+impl Quarter {
+    fn new(cell: Cell, depth: i32, part: Part) -> Self {
+        let mut quarter = Self {
+            cell,
+            depth,
+            part,
+            cost: 0.0,
+        };
+        quarter.cost = part.error * quarter.share();
+        quarter
+    }
+
+    /// Its share of the pixel.
+    fn share(&self) -> f64 {
+        0.25_f64.powi(self.depth)
+    }
+}
+
+impl PartialEq for Quarter {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Quarter {}
+
+impl PartialOrd for Quarter {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Quarter {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.cost.total_cmp(&other.cost)
     }
 }

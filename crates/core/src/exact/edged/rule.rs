@@ -1,13 +1,12 @@
 //! Rules of integration on 0 to 1.
 
-use crate::numeric::kronrod;
-use crate::numeric::kronrod::{ABSCISSAS, WEIGHTS};
+use crate::numeric::kronrod::{self, ABSCISSAS, WEIGHTS};
 
-/// Nodes of the rules.
+/// Nodes of the rule.
 pub(crate) const NODES: usize = kronrod::POINTS;
 
 /// Nodes on 0 to 1 with the weights of Kronrod's rule and of Gauss's with three points, which is
-/// held against it, after a change of variable.
+/// held against it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rule {
     /// In the order of the nodes, the last one twice: eight can be computed at a time.
@@ -18,50 +17,24 @@ pub(crate) struct Rule {
     pub(crate) coarse: [f64; 8],
 }
 
-/// Where the integrand is a function of the root of the distance to an end of the interval.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub(crate) struct Roots {
-    pub(crate) at_start: bool,
-    pub(crate) at_end: bool,
-}
-
-impl Rule {
-    /// The rule for an interval with such ends: by x = s², x = 1 − (1 − s)² or x = s² (3 − 2 s) the
-    /// integrand becomes smooth.
-    pub(crate) fn of(roots: Roots) -> &'static Self {
-        &RULES[usize::from(roots.at_start) + 2 * usize::from(roots.at_end)]
-    }
-}
-
-const RULES: [Rule; 4] = {
+/// The rule.
+pub(crate) static RULE: Rule = {
     const GAUSS: [f64; 7] = [0.0, 5.0 / 9.0, 0.0, 8.0 / 9.0, 0.0, 5.0 / 9.0, 0.0];
-    let mut rules = [Rule {
+    let mut rule = Rule {
         nodes: [0.0; 8],
         fine: [0.0; 8],
         coarse: [0.0; 8],
-    }; 4];
-    let mut kind = 0;
-    while kind < 4 {
-        let mut index = 0;
-        while index < 7 {
-            let s = 0.5 + 0.5 * ABSCISSAS[index];
-            let (node, slope) = match kind {
-                0 => (s, 1.0),
-                1 => (s * s, 2.0 * s),
-                2 => (1.0 - (1.0 - s) * (1.0 - s), 2.0 * (1.0 - s)),
-                _ => (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s)),
-            };
-            rules[kind].nodes[index] = node;
-            rules[kind].fine[index] = 0.5 * WEIGHTS[index] * slope;
-            rules[kind].coarse[index] = 0.5 * GAUSS[index] * slope;
-            index += 1;
-        }
-        rules[kind].nodes[7] = rules[kind].nodes[6];
-        kind += 1;
+    };
+    let mut index = 0;
+    while index < NODES {
+        rule.nodes[index] = 0.5 + 0.5 * ABSCISSAS[index];
+        rule.fine[index] = 0.5 * WEIGHTS[index];
+        rule.coarse[index] = 0.5 * GAUSS[index];
+        index += 1;
     }
-    rules
+    rule.nodes[7] = rule.nodes[6];
+    rule
 };
-
 /// How much larger than its power the difference of the rules is taken to be.
 pub(crate) const CAUTION: f64 = 2.0;
 
@@ -92,46 +65,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rules_integrate_what_their_changes_of_variable_are_for() {
-        for (at_start, at_end) in [(false, false), (true, false), (false, true), (true, true)] {
-            let rule = Rule::of(Roots { at_start, at_end });
-            let of = |weights: &[f64; 8], f: &dyn Fn(f64) -> f64| -> f64 {
-                (0..8)
-                    .map(|index| weights[index] * f(rule.nodes[index]))
-                    .sum()
-            };
-            // The area of half a disc, or of a quarter of one with its steep end at either side.
-            let (f, expected): (&dyn Fn(f64) -> f64, f64) = match (at_start, at_end) {
-                (false, false) => (&|x| (3.0 * x).exp(), ((3.0_f64).exp() - 1.0) / 3.0),
-                (true, false) => (
-                    &|x: f64| (x * (2.0 - x)).sqrt(),
-                    0.25 * std::f64::consts::PI,
-                ),
-                (false, true) => (&|x: f64| (1.0 - x * x).sqrt(), 0.25 * std::f64::consts::PI),
-                (true, true) => (&|x: f64| (x * (1.0 - x)).sqrt(), std::f64::consts::PI / 8.0),
-            };
-            assert!((of(&rule.fine, f) - expected).abs() < 2e-6 * expected);
-            assert!((of(&rule.coarse, f) - expected).abs() < 2e-2 * expected);
-            assert!((of(&rule.fine, &|_| 1.0) - 1.0).abs() < 1e-15);
-        }
-    }
-
-    #[test]
     fn nodes_lie_in_order_between_the_ends_and_weights_are_positive() {
-        for rule in &RULES {
-            let inside = &rule.nodes[..NODES];
-            assert!(inside.iter().all(|node| (0.0..1.0).contains(node)));
-            assert!(inside.is_sorted() && rule.nodes[7] == rule.nodes[6]);
-            assert!(rule.fine[..NODES].iter().all(|&weight| weight > 0.0));
-            assert!(rule.fine[7] == 0.0 && rule.coarse[7] == 0.0);
-            assert!(rule.coarse.iter().filter(|&&weight| weight > 0.0).count() == 3);
-        }
+        let rule = &RULE;
+        let inside = &rule.nodes[..NODES];
+        assert!(inside.iter().all(|node| (0.0..1.0).contains(node)));
+        assert!(inside.is_sorted() && rule.nodes[7] == rule.nodes[6]);
+        assert!(rule.fine[..NODES].iter().all(|&weight| weight > 0.0));
+        assert!(rule.fine[7] == 0.0 && rule.coarse[7] == 0.0);
+        assert!(rule.coarse.iter().filter(|&&weight| weight > 0.0).count() == 3);
     }
 
     /// Kronrod's rule with 7 points is exact to degree 11, Gauss's with 3 to degree 5.
     #[test]
-    fn plain_rules_are_exact_for_polynomials() {
-        let rule = Rule::of(Roots::default());
+    fn rules_are_exact_for_polynomials() {
+        let rule = &RULE;
         for degree in 0..=12 {
             let exact = 1.0 / f64::from(degree + 1);
             let off = |weights: &[f64; 8]| {

@@ -196,7 +196,6 @@ fn occluders_are_all_spheres_that_matter() {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
                 size: [magnitude(&mut random, 1e-3, 0.3); 2],
-                is_transposed: false,
             };
             let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
             for sphere in 0..world.spheres().len() {
@@ -295,7 +294,7 @@ fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
                     ball,
                     discriminant: silhouette(&cell, &ball),
                     along: cell.dot(center),
-                    is_smooth: true,
+                    terminators: Terminators::Plain,
                 }
             })
             .collect();

@@ -55,19 +55,25 @@ fn front<S: Simd>(simd: S, contents: &Contents, own: [usize; 2], places: &Trace<
                     continue;
                 }
                 let discriminant = polynomial(&active.discriminant, x, y);
-                let covers = discriminant.simd_ge(0.0);
-                let lanes = covers.to_bitmask();
-                if lanes == 0 {
+                let mut covers = discriminant.simd_ge(0.0);
+                if covers.to_bitmask() == 0 {
                     continue;
                 }
                 let along = x * active.along.x + y * active.along.y + active.along.one;
                 let root = discriminant.max(zero).sqrt();
-                let t = f64x8::splat(simd, active.ball.outside) / (along + root);
+                let t = if active.ball.outside > 0.0 {
+                    covers &= along.simd_gt(0.0);
+                    f64x8::splat(simd, active.ball.outside) / (along + root)
+                } else {
+                    (along + root) / places.point.length_squared() * places.point.z * places.point.z
+                };
+                let lanes = covers.to_bitmask();
                 let is_nearer = covers & t.simd_lt(front.nearest);
                 front.nearest = is_nearer.select(t, front.nearest);
                 front.first =
                     is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
-                if lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff {
+                let is_hidden = lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff;
+                if is_hidden && own[0] != NONE {
                     front.is_hidden = true;
                     return front;
                 }
@@ -99,69 +105,168 @@ impl Boundary {
         if !self.find_own_breaks(simd, setting, &stretch, &places) {
             return;
         }
-        let contents = setting.contents;
-        let front = front(simd, contents, curve.own, &places);
-        let is_side = matches!(curve.edge, Edge::Left | Edge::Right);
-        if front.is_hidden && !is_side {
+        if matches!(curve.edge, Edge::Shadow(..)) {
+            // What is in the cell may be a small part of the piece.
+            self.order_breaks(0.0, 1.0);
+            let known = self.breaks.len();
+            let mut first = 0;
+            while first + 1 < known {
+                let count = (known - 1 - first).min(8);
+                let middles = self.middles(first, count);
+                let middles = stretch.trace(simd, setting, middles.simd_into(simd));
+                let hidden = own_hidden(simd, setting, curve, &middles);
+                for lane in 0..count {
+                    if hidden >> lane & 1 == 0 {
+                        let part = Stretch {
+                            start: self.breaks[first + lane],
+                            end: self.breaks[first + lane + 1],
+                            ..stretch
+                        };
+                        let places = part.places(simd, setting);
+                        self.find_breaks(simd, setting, &part, &places);
+                    }
+                }
+                first += count;
+            }
+            self.breaks.sort_unstable_by(f64::total_cmp);
+        } else {
+            self.find_breaks(simd, setting, &stretch, &places);
+            self.add_crossings(curve.edge, &stretch);
+            self.order_breaks(0.0, 1.0);
+        }
+        self.see_arcs(simd, setting, &stretch);
+        self.note_crossings(simd, setting, &stretch);
+    }
+
+    /// Notes where what is seen of a piece ends on an upright side of the cell.
+    #[inline(always)]
+    fn note_crossings<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+    ) {
+        /// Places that count as on a side.
+        const NEAR: f64 = 1e-6;
+        if matches!(stretch.curve.edge, Edge::Left | Edge::Right) {
             return;
         }
-        let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
-        let firsts: [f64; 8] = front.first.into();
-        let mut alike = 0;
-        for lane in 0..7 {
-            alike |= u64::from(firsts[lane] == firsts[lane + 1]) << lane;
-        }
-        // Nothing comes in sight where one sphere hides both ends.
-        let open = if is_side {
-            INTERVALS
-        } else {
-            INTERVALS & !(between(hidden) & alike)
-        };
-        for (position, active) in contents.active.iter().enumerate() {
-            if curve.own.contains(&position) {
-                continue;
+        for chunk in self.arcs.chunks(4) {
+            let mut ends = [0.0; 8];
+            for (ends, arc) in ends.chunks_mut(2).zip(chunk) {
+                ends.copy_from_slice(&[arc.start, arc.end]);
             }
-            let mut intervals = open;
-            if self.parts == 1 {
-                // Where the same is first at both ends, others begin behind it.
-                intervals &= beside(front.is(position)) | !alike;
-            }
-            if intervals == 0 {
-                continue;
-            }
-            let values = polynomial(&active.discriminant, places.x, places.y);
-            let function = Function::Outline(position);
-            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
-        }
-        for (index, (kind, conic)) in contents.conics.iter().enumerate() {
-            let Kind::Seam(one, other) = *kind else {
-                continue;
-            };
-            let (function, intervals) = match (curve.own.contains(&one), curve.own.contains(&other))
-            {
-                (true, true) => continue,
-                (false, false) => {
-                    let mut intervals = open;
-                    if self.parts == 1 {
-                        intervals &= !alike;
-                    }
-                    let values = polynomial(conic, places.x, places.y);
-                    let function = Function::Conic(index);
-                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
-                    continue;
+            let places = stretch.trace(simd, setting, ends.simd_into(simd));
+            for lane in 0..2 * chunk.len() {
+                let side = usize::from(places.x[lane] > 0.0);
+                if (places.x[lane].abs() - 0.5).abs() < NEAR {
+                    self.crossings[side].push(places.y[lane]);
                 }
-                (true, false) => (Function::Inside(other), beside(front.is(other))),
-                (false, true) => (Function::Inside(one), beside(front.is(one))),
-            };
-            let intervals = intervals & open;
-            if intervals == 0 {
-                continue;
             }
-            let values = value(simd, setting, function, &places);
-            stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
         }
-        self.order_breaks(0.0, 1.0);
-        self.see_arcs(simd, setting, &stretch);
+    }
+
+    /// Adds to the breaks of a piece of a side, or of a part of it, where curves are known to cross it.
+    pub(super) fn add_crossings(&mut self, edge: Edge, stretch: &Stretch<'_>) {
+        let side = match edge {
+            Edge::Left => 0,
+            Edge::Right => 1,
+            _ => return,
+        };
+        let [low, high] = stretch.piece.ends.map(|end| end.y);
+        for y in &self.crossings[side] {
+            let at = (y - low) / (high - low);
+            if at > stretch.start && at < stretch.end {
+                self.breaks.push(at);
+            }
+        }
+    }
+
+    /// Finds where other spheres begin or end in front of a stretch.
+    #[inline(never)]
+    fn find_breaks<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        places: &Trace<S>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let contents = setting.contents;
+                let front = front(simd, contents, stretch.curve.own, places);
+                let is_side = matches!(stretch.curve.edge, Edge::Left | Edge::Right);
+                if front.is_hidden && !is_side {
+                    return;
+                }
+                let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
+                let firsts: [f64; 8] = front.first.into();
+                let (mut alike, mut covered) = (0, 0);
+                for lane in 0..7 {
+                    alike |= u64::from(firsts[lane] == firsts[lane + 1]) << lane;
+                    covered |= u64::from(firsts[lane] != 0.0) << lane;
+                }
+                // Nothing comes in sight where one sphere hides both ends.
+                let open = if is_side {
+                    INTERVALS
+                } else {
+                    INTERVALS & !(between(hidden) & alike)
+                };
+                for (position, active) in contents.active.iter().enumerate() {
+                    if stretch.curve.own.contains(&position) {
+                        continue;
+                    }
+                    let mut intervals = open;
+                    if setting.goal.parts == 1 {
+                        // Where the same is first at both ends, others begin behind it.
+                        intervals &= beside(front.is(position)) | !(alike & covered);
+                    }
+                    if intervals == 0 {
+                        continue;
+                    }
+                    let values = polynomial(&active.discriminant, places.x, places.y);
+                    let function = Function::Outline(position);
+                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+                }
+                for (index, (kind, conic)) in contents.conics.iter().enumerate() {
+                    let Kind::Seam(one, other) = *kind else {
+                        continue;
+                    };
+                    let (function, intervals) = match (
+                        stretch.curve.own.contains(&one),
+                        stretch.curve.own.contains(&other),
+                    ) {
+                        (true, true) => continue,
+                        (false, false) => {
+                            let mut intervals = open;
+                            if setting.goal.parts == 1 {
+                                intervals &= !alike;
+                            }
+                            let values = polynomial(conic, places.x, places.y);
+                            let function = Function::Conic(index);
+                            stretch.roots(
+                                simd,
+                                setting,
+                                function,
+                                values,
+                                intervals,
+                                &mut self.breaks,
+                            );
+                            continue;
+                        }
+                        (true, false) => (Function::Inside(other), beside(front.is(other))),
+                        (false, true) => (Function::Inside(one), beside(front.is(one))),
+                    };
+                    let intervals = intervals & open;
+                    if intervals == 0 {
+                        continue;
+                    }
+                    let values = value(simd, setting, function, places);
+                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
+                }
+            },
+        )
     }
 
     /// Finds where a piece leaves the outer sides of its own spheres, the cell or the lower side of a
@@ -178,7 +283,7 @@ impl Boundary {
         if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
             return true;
         }
-        let mut functions = [(Function::Across(false, 0.0), 0.0); 7];
+        let mut functions = [(Function::Across(0, 0.0), 0.0); 7];
         let mut count = 0;
         for own in curve.own {
             if own != NONE {
@@ -188,10 +293,10 @@ impl Boundary {
         }
         if let Edge::Shadow(light, caster) = curve.edge {
             functions[count] = (Function::Above(light, caster), -1.0);
-            functions[count + 1] = (Function::Across(false, -0.5), 1.0);
-            functions[count + 2] = (Function::Across(false, 0.5), -1.0);
-            functions[count + 3] = (Function::Across(true, -0.5), 1.0);
-            functions[count + 4] = (Function::Across(true, 0.5), -1.0);
+            functions[count + 1] = (Function::Across(0, -0.5), 1.0);
+            functions[count + 2] = (Function::Across(0, 0.5), -1.0);
+            functions[count + 3] = (Function::Across(1, -0.5), 1.0);
+            functions[count + 4] = (Function::Across(1, 0.5), -1.0);
             count += 5;
         }
         let mut outside = [0; 7];
@@ -268,20 +373,7 @@ impl Boundary {
             } else if front.is_hidden {
                 hidden = 0xff;
             }
-            if !matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
-                for own in curve.own {
-                    if own != NONE {
-                        let facing = value(simd, setting, Function::Facing(own), &places);
-                        hidden |= facing.simd_le(0.0).to_bitmask();
-                    }
-                }
-            }
-            if let Edge::Shadow(light, caster) = curve.edge {
-                let above = value(simd, setting, Function::Above(light, caster), &places);
-                hidden |= above.simd_ge(0.0).to_bitmask();
-                let far = places.x.abs().max(places.y.abs());
-                hidden |= far.simd_gt(0.5).to_bitmask();
-            }
+            hidden |= own_hidden(simd, setting, curve, &places);
             let firsts: [f64; 8] = front.first.into();
             for (lane, first_here) in firsts.into_iter().enumerate().take(count) {
                 if hidden >> lane & 1 == 1 {
@@ -306,6 +398,38 @@ impl Boundary {
             first += count;
         }
     }
+}
+
+/// Where a curve lies on the far side of its own spheres, out of the cell, or above its caster.
+#[inline(never)]
+fn own_hidden<S: Simd>(
+    simd: S,
+    setting: &Setting<'_, '_>,
+    curve: &Curve,
+    places: &Trace<S>,
+) -> u64 {
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let mut hidden = 0;
+            if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+                return hidden;
+            }
+            for own in curve.own {
+                if own != NONE {
+                    let facing = value(simd, setting, Function::Facing(own), places);
+                    hidden |= facing.simd_le(0.0).to_bitmask();
+                }
+            }
+            if let Edge::Shadow(light, caster) = curve.edge {
+                let above = value(simd, setting, Function::Above(light, caster), places);
+                hidden |= above.simd_ge(0.0).to_bitmask();
+                let far = places.x.abs().max(places.y.abs());
+                hidden |= far.simd_gt(0.5).to_bitmask() | places.point.z.simd_le(0.0).to_bitmask();
+            }
+            hidden
+        },
+    )
 }
 
 /// Adds an arc, to the last one where that goes on.

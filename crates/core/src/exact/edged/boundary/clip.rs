@@ -7,15 +7,19 @@ use crate::edges::cell::Cell;
 
 /// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.
 pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
+    /// Axes of the sides.
+    const SIDES: [(usize, f64); 4] = [(0, -0.5), (0, 0.5), (1, -0.5), (1, 0.5)];
+    // What lies beyond a side is positive; behind the eye everything lies beyond one of them.
+    let beyond = |(axis, side): (usize, f64), vector: DVec3| {
+        let edge = cell.middle[axis] + side * cell.size[axis];
+        side.signum() * (vector[axis] - edge * vector.z)
+    };
     let mut roots = [DVec2::ZERO; 8];
     let mut count = 0;
-    for axis in 0..2 {
-        for side in [-0.5, 0.5] {
-            let edge = cell.middle[axis] + side * cell.size[axis];
-            // What lies beyond the side is positive.
-            let beyond = |vector: DVec3| side.signum() * (vector[axis] - edge * vector.z);
-            let (a, b) = (beyond(circle.right), beyond(circle.up));
-            let c = beyond(circle.middle);
+    for side in SIDES {
+        {
+            let (a, b) = (beyond(side, circle.right), beyond(side, circle.up));
+            let c = beyond(side, circle.middle);
             let [one, other] = zeros(a, b, c);
             if let (Some(one), Some(other)) = (one, other) {
                 roots[count] = one;
@@ -29,8 +33,7 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
     }
     between(&mut roots[..count], pieces, |e| {
         let point = circle.at(e);
-        let (x, y) = cell.place(point);
-        x.abs() < 0.5 && y.abs() < 0.5
+        SIDES.iter().all(|&side| beyond(side, point) < 0.0)
     });
 }
 

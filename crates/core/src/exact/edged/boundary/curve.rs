@@ -69,11 +69,13 @@ pub(super) enum Shape {
         center: DVec3,
         radius_sq: f64,
         toward: DVec3,
+        /// 1 on the side of the ball toward the light, -1 on the other one.
+        side: f64,
     },
 }
 
 impl Shape {
-    pub(super) fn shadow(ball: &Ball, caster: &Caster, toward: DVec3) -> Self {
+    pub(super) fn shadow(ball: &Ball, caster: &Caster, toward: DVec3, side: f64) -> Self {
         let offset = caster.center - ball.center;
         Self::Shadow {
             circle: Circle {
@@ -84,6 +86,7 @@ impl Shape {
             center: ball.center,
             radius_sq: ball.radius * ball.radius,
             toward,
+            side,
         }
     }
 }
@@ -152,6 +155,7 @@ pub(super) fn trace<S: Simd>(
                     center,
                     radius_sq,
                     toward,
+                    side,
                 } => {
                     let (s, slope) = warped(piece.roots, s);
                     let (e, turn) = turned(start, end, s);
@@ -160,11 +164,11 @@ pub(super) fn trace<S: Simd>(
                     let step = along_circle(simd, circle, e).times(turn);
                     let rest = (one * *radius_sq - aside.length_squared()).max(zero);
                     let height = rest.sqrt();
-                    let inverse = one / height.max(one * 1e-150);
+                    let inverse = one * *side / height.max(one * 1e-150);
                     let toward = Vectors::splat(simd, *toward);
                     let point = aside
                         .plus(&Vectors::splat(simd, *center))
-                        .plus(&toward.times(height));
+                        .plus(&toward.times(height * *side));
                     let rise = -(aside.dot(&step)) * inverse;
                     let step = step.plus(&toward.times(rise));
                     placed(cell, point, step)

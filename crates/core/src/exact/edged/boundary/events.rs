@@ -4,8 +4,8 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::curve::{Piece, Trace, trace};
+use super::primitive::ray;
 use super::{Curve, Setting};
-use crate::exact::edged::cut::ray;
 use crate::exact::points::Points;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;
@@ -37,8 +37,8 @@ pub(super) enum Function {
     Above(usize, usize),
     /// Whether points lie inside an active sphere.
     Inside(usize),
-    /// How far from a side of the cell, an upright one or one across, points lie.
-    Across(bool, f64),
+    /// How far from the plane through the eye and a side of the cell, across an axis, points lie.
+    Across(usize, f64),
     /// How far what is seen of an active sphere faces a light.
     Lit(usize, usize),
     /// How far that lies in the disc of a caster.
@@ -69,8 +69,13 @@ pub(super) fn value<S: Simd>(
                 }
                 Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
                 Function::Facing(sphere) => {
-                    let center = contents.active[sphere].ball.center;
-                    places.point.dot_one(center) - places.point.length_squared()
+                    let ball = &contents.active[sphere].ball;
+                    if ball.outside > 0.0 {
+                        places.point.dot_one(ball.center) - places.point.length_squared()
+                    } else {
+                        // From inside, all of it is seen.
+                        f64x8::splat(simd, 1.0)
+                    }
                 }
                 Function::Above(light, caster) => {
                     let toward = setting.scene.lights[light].toward;
@@ -81,15 +86,19 @@ pub(super) fn value<S: Simd>(
                     let from = places.point.minus(&Vectors::splat(simd, ball.center));
                     from.length_squared() - ball.radius * ball.radius
                 }
-                Function::Across(is_upward, side) => {
-                    let place = if is_upward { places.y } else { places.x };
-                    place - side
+                Function::Across(axis, side) => {
+                    let edge = setting.cell.middle[axis] + side * setting.cell.size[axis];
+                    places.point.along(axis) - places.point.z * edge
                 }
                 Function::Lit(sphere, light) => {
                     let ball = &contents.active[sphere].ball;
                     let points =
                         Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-                    points.normal.dot_one(setting.scene.lights[light].toward)
+                    let active = &contents.active[sphere];
+                    match active.terminators.axis(setting.scene, light) {
+                        Some(axis) => points.normal.dot_one(axis),
+                        None => f64x8::splat(simd, 1.0),
+                    }
                 }
                 Function::Shaded(sphere, caster) => {
                     let ball = &contents.active[sphere].ball;
@@ -159,22 +168,58 @@ impl Stretch<'_> {
                 while touches != 0 {
                     let lane = touches.trailing_zeros() as usize;
                     touches &= touches - 1;
-                    let [before, here, after] = [values[lane - 1], values[lane], values[lane + 1]];
-                    let way = -0.5 * (after - before) / (before - 2.0 * here + after);
-                    let step = if way < 0.0 { lane - 1 } else { lane };
-                    let at = self.at(STEPS[lane] + way * STEPS[1]);
-                    let places = self.trace(simd, setting, f64x8::splat(simd, at));
-                    let there = value(simd, setting, function, &places)[0];
-                    if (there < 0.0) == (here < 0.0) {
-                        continue;
+                    let bracket = [self.at(STEPS[lane - 1]), self.at(STEPS[lane + 1])];
+                    let ends = [values[lane - 1], values[lane + 1]];
+                    self.dip(simd, setting, function, (bracket, ends), CLOSER, breaks);
+                }
+            },
+        )
+    }
+
+    /// Appends where a function vanishes in a bracket at whose ends its values have one sign, and between
+    /// which it comes near zero, looking closer some times.
+    #[inline(never)]
+    fn dip<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        function: Function,
+        (bracket, ends): ([f64; 2], [f64; 2]),
+        closer: u32,
+        breaks: &mut Vec<f64>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let step = (bracket[1] - bracket[0]) / 9.0;
+                let mut places = [bracket[0]; 10];
+                for (index, place) in places.iter_mut().enumerate() {
+                    *place += index as f64 * step;
+                }
+                let mut inner = [0.0; 8];
+                inner.copy_from_slice(&places[1..9]);
+                let points = self.trace(simd, setting, inner.simd_into(simd));
+                let found: [f64; 8] = value(simd, setting, function, &points).into();
+                let mut values = [ends[1]; 10];
+                values[0] = ends[0];
+                values[1..9].copy_from_slice(&found);
+                let mut lowest = 1;
+                let known = breaks.len();
+                for index in 0..9 {
+                    let (one, other) = (values[index], values[index + 1]);
+                    if (one < 0.0) != (other < 0.0) {
+                        let bracket = [places[index], places[index + 1]];
+                        breaks.push(self.root(simd, setting, function, bracket, [one, other]));
                     }
-                    let (low, high) = (self.at(STEPS[step]), self.at(STEPS[step + 1]));
-                    for (bracket, ends) in [
-                        ([low, at], [values[step], there]),
-                        ([at, high], [there, values[step + 1]]),
-                    ] {
-                        breaks.push(self.root(simd, setting, function, bracket, ends));
+                    if index > 0 && one.abs() < values[lowest].abs() {
+                        lowest = index;
                     }
+                }
+                let three = [values[lowest - 1], values[lowest], values[lowest + 1]];
+                if breaks.len() == known && closer > 0 && comes_near(three) {
+                    let bracket = [places[lowest - 1], places[lowest + 1]];
+                    let ends = [three[0], three[2]];
+                    self.dip(simd, setting, function, (bracket, ends), closer - 1, breaks);
                 }
             },
         )
@@ -258,12 +303,27 @@ fn share_of_root(values: &[f64; 2]) -> f64 {
     if share.is_finite() { share } else { 0.5 }
 }
 
+/// How often a dip is looked at closer.
+const CLOSER: u32 = 2;
+
+/// How much farther than a parabola values may go, in what it falls by and in what it bends by: found by
+/// limbs of balls that dip below a horizon.
+const FARTHER: f64 = 1.5;
+const BENT: f64 = 0.1;
+
+/// Whether the parabola through three values of one sign comes near zero between them.
+fn comes_near([before, here, after]: [f64; 3]) -> bool {
+    let (bend, rise) = (before - 2.0 * here + after, after - before);
+    let is_bent = before * here > 0.0
+        && after * here > 0.0
+        && bend * here > 0.0
+        && rise.abs() < 2.0 * bend.abs();
+    is_bent && (here * bend).abs() < (rise * rise * FARTHER + bend * bend * BENT) * 0.125
+}
+
 /// The lanes beside which parabolas through neighboring values, all of one sign, come near zero.
 #[inline(always)]
 fn touches<S: Simd>(simd: S, values: f64x8<S>) -> u64 {
-    /// How much farther than a parabola the values may go.
-    const FARTHER: f64 = 1.1;
-    const BENT: f64 = 0.01;
     const INNER: u64 = 0x7e;
     let v: [f64; 8] = values.into();
     let before = [v[0], v[0], v[1], v[2], v[3], v[4], v[5], v[6]];

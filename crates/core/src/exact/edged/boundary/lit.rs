@@ -5,9 +5,9 @@ use fearless_simd::prelude::*;
 use super::arcs::{add, between};
 use super::curve::{Piece, Trace};
 use super::events::{Function, INTERVALS, Stretch, in_disc};
+use super::primitive::ray;
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Reach;
-use crate::exact::edged::cut::ray;
 use crate::exact::points::Points;
 
 impl Boundary {
@@ -44,6 +44,7 @@ impl Boundary {
                 }
                 continue;
             }
+            self.add_crossings(curve.edge, &stretch);
             self.order_breaks(arc.start, arc.end);
             let steps = self.breaks.len() - 1;
             let mut first = 0;
@@ -101,8 +102,12 @@ impl Boundary {
                 }
                 let curve = stretch.curve;
                 let places = stretch.places(simd, setting);
-                let ball = &setting.contents.active[sphere].ball;
-                let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                let active = &setting.contents.active[sphere];
+                let points = Points::new(
+                    simd,
+                    &active.ball,
+                    ray(simd, setting.cell, places.x, places.y),
+                );
                 let place = points.place();
                 for (light, reach) in reach.iter().enumerate() {
                     let Reach::Past(casters) = reach else {
@@ -110,9 +115,13 @@ impl Boundary {
                     };
                     let toward = setting.scene.lights[light].toward;
                     let is_own = curve.own[0] == sphere;
-                    let facing = points.normal.dot_one(toward);
+                    let mut axis = active.terminators.axis(setting.scene, light);
+                    if is_own && curve.edge == Edge::Terminator(light) {
+                        axis = None;
+                    }
+                    let facing = points.normal.dot_one(axis.unwrap_or(toward));
                     let mut closed = 0;
-                    if !(is_own && curve.edge == Edge::Terminator(light)) {
+                    if axis.is_some() {
                         closed = between(facing.simd_lt(0.0).to_bitmask());
                     }
                     let height = place.dot_one(toward);
@@ -128,7 +137,7 @@ impl Boundary {
                     if open == 0 {
                         continue;
                     }
-                    if !(is_own && curve.edge == Edge::Terminator(light)) {
+                    if axis.is_some() {
                         let function = Function::Lit(sphere, light);
                         stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
                     }
@@ -166,8 +175,12 @@ impl Boundary {
                 if is_dark(setting, sphere) {
                     return masks;
                 }
-                let ball = &contents.active[sphere].ball;
-                let points = Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
+                let active = &contents.active[sphere];
+                let points = Points::new(
+                    simd,
+                    &active.ball,
+                    ray(simd, setting.cell, places.x, places.y),
+                );
                 let place = points.place();
                 let is_own = curve.own[0] == sphere;
                 for (light, reach) in reach.iter().enumerate() {
@@ -175,9 +188,13 @@ impl Boundary {
                         continue;
                     };
                     let toward = setting.scene.lights[light].toward;
+                    let mut axis = active.terminators.axis(setting.scene, light);
+                    if is_own && curve.edge == Edge::Terminator(light) {
+                        axis = None;
+                    }
                     let mut lit = 0xff;
-                    if !(is_own && curve.edge == Edge::Terminator(light)) {
-                        lit = points.normal.dot_one(toward).simd_gt(0.0).to_bitmask();
+                    if let Some(axis) = axis {
+                        lit = points.normal.dot_one(axis).simd_gt(0.0).to_bitmask();
                     }
                     let height = place.dot_one(toward);
                     for caster in casters.clone() {

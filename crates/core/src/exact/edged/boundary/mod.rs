@@ -5,9 +5,11 @@
 //! they cross others, and only where they are seen.
 
 mod arcs;
+mod chord;
 mod clip;
 mod curve;
 mod events;
+mod kinks;
 mod lit;
 mod primitive;
 mod quadrature;
@@ -16,13 +18,16 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec2;
 
+use self::chord::Reference;
 use self::curve::{Circle, Piece, Shape};
+use self::primitive::Noise;
 use self::quadrature::total;
-use super::cell::Goal;
+
 use crate::edges::cell::Cell;
+use crate::exact::classify::active::Terminators;
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
-use crate::exact::part::Part;
+use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
@@ -55,6 +60,13 @@ enum Edge {
     Shadow(usize, usize),
 }
 
+/// A piece of a curve.
+#[derive(Clone, Copy, Debug)]
+struct Path<'a> {
+    curve: &'a Curve,
+    piece: &'a Piece,
+}
+
 /// A part of a piece with the same on one side, and the same on the other.
 #[derive(Clone, Copy, Debug)]
 struct Arc {
@@ -75,11 +87,22 @@ pub(crate) struct Boundary {
     lit_arcs: Vec<Arc>,
     /// What is seen, and how far its edges are from closing.
     regions: Vec<(usize, u64, f64)>,
-    /// For every active sphere the parameter of chords at which light begins to be summed up.
-    references: Vec<f64>,
+    /// Where curves cross the left side of the cell, and the right one.
+    crossings: [Vec<f64>; 2],
+    noise: Noise,
     /// Points at which light was computed.
     pub(crate) samples: u64,
-    /// Into how many parts pieces are cut; with one, events of what is hidden are not looked for.
+}
+
+/// How much is asked of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    pub(crate) tolerance: f64,
+    pub(crate) background: Color,
+    /// About the largest difference of light that an edge may make.
+    pub(crate) contrast: f64,
+    /// Into how many parts pieces of curves are cut; with one, events of what is hidden are not looked
+    /// for.
     pub(crate) parts: usize,
 }
 
@@ -90,7 +113,8 @@ struct Setting<'a, 'scene> {
     cell: &'a Cell,
     contents: &'a Contents,
     goal: &'a Goal,
-    finishes: &'a [Finish],
+    /// What active spheres send their light with, and where chords of them begin.
+    surfaces: &'a [(Finish, Reference)],
 }
 
 /// What arcs contribute so far, by nodes of the rule.
@@ -102,7 +126,7 @@ struct Sum<S: Simd> {
 }
 
 impl Boundary {
-    /// The integral over a cell; nothing where a sphere is rough, or its outline no ellipse.
+    /// The integral over a cell.
     #[inline(always)]
     pub(crate) fn integrate<'scene, S: Simd>(
         &mut self,
@@ -111,38 +135,23 @@ impl Boundary {
         cell: &Cell,
         contents: &Contents,
         goal: &Goal,
-    ) -> Option<Part> {
-        let pixel = contents.pixel;
+    ) -> Result<Part, GiveUp> {
         let actives = &contents.active;
-        let finishes: Vec<Finish> = actives
-            .iter()
-            .map(|active| Finish::new(scene, active.sphere, pixel))
-            .collect();
-        self.references.clear();
+        let mut surfaces = Vec::with_capacity(actives.len());
         for active in actives {
-            let q = &active.discriminant;
-            let is_ahead = active.ball.center.z > active.ball.radius;
-            if !is_ahead || !active.is_smooth || q.xx >= 0.0 {
-                return None;
-            }
-            let half = 0.5 * q.x;
-            let middle = -half / q.xx;
-            let width_sq = (half * half - q.xx * q.one) / (q.xx * q.xx);
-            let reference = if width_sq > 0.0 {
-                let sine = (-middle / width_sq.sqrt()).clamp(-1.0, 1.0);
-                sine / (1.0 + (1.0 - sine * sine).sqrt())
-            } else {
-                0.0
-            };
-            self.references.push(reference);
+            let finish = Finish::new(scene, active.sphere, contents.pixel);
+            let reference = Reference::new(&active.discriminant, &active.along);
+            surfaces.push((finish, reference));
         }
         self.regions.clear();
+        self.crossings[0].clear();
+        self.crossings[1].clear();
         let setting = Setting {
             scene,
             cell,
             contents,
             goal,
-            finishes: &finishes,
+            surfaces: &surfaces,
         };
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = Sum {
@@ -150,19 +159,6 @@ impl Boundary {
             empty: zero,
             error: 0.0,
         };
-        for (edge, x) in [(Edge::Left, -0.5), (Edge::Right, 0.5)] {
-            self.pieces.clear();
-            self.pieces.push(Piece {
-                ends: [DVec2::new(0.0, -0.5), DVec2::new(0.0, 0.5)],
-                roots: [false; 2],
-            });
-            let curve = Curve {
-                shape: Shape::Side(x),
-                edge,
-                own: [NONE; 2],
-            };
-            self.add(simd, &setting, &curve, &mut sum);
-        }
         for (kind, _) in &contents.conics {
             let (circle, edge, own) = match *kind {
                 Kind::Silhouette(one) => {
@@ -175,8 +171,10 @@ impl Boundary {
                     (circle, Edge::Seam, [one, other])
                 }
                 Kind::Terminator(one, light) => {
-                    let toward = scene.lights[light].toward;
-                    let circle = Circle::terminator(&actives[one].ball, toward);
+                    let Some(axis) = actives[one].terminators.axis(scene, light) else {
+                        continue;
+                    };
+                    let circle = Circle::terminator(&actives[one].ball, axis);
                     (circle, Edge::Terminator(light), [one, NONE])
                 }
             };
@@ -197,17 +195,39 @@ impl Boundary {
                 let middle = 0.5 * (patch.ends[0] + patch.ends[1]) - active.ball.center;
                 let near = middle - toward * middle.dot(toward);
                 let around = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
+                // Without bumps, light reaches only one side of the sphere.
+                let sides: &[f64] = match active.terminators {
+                    Terminators::Plain => &[1.0],
+                    Terminators::Tilted(_) | Terminators::Anywhere => &[1.0, -1.0],
+                };
                 for caster in casters.clone() {
-                    let curve = Curve {
-                        shape: Shape::shadow(&active.ball, &contents.occluders[caster], toward),
-                        edge: Edge::Shadow(light, caster),
-                        own,
-                    };
-                    self.pieces.clear();
-                    clip::of_shadow(&curve.shape, near, around, &mut self.pieces);
-                    self.add(simd, &setting, &curve, &mut sum);
+                    for &side in sides {
+                        let caster_ball = &contents.occluders[caster];
+                        let curve = Curve {
+                            shape: Shape::shadow(&active.ball, caster_ball, toward, side),
+                            edge: Edge::Shadow(light, caster),
+                            own,
+                        };
+                        self.pieces.clear();
+                        clip::of_shadow(&curve.shape, near, around, &mut self.pieces);
+                        self.add(simd, &setting, &curve, &mut sum);
+                    }
                 }
             }
+        }
+        // All that crosses the sides is known now.
+        for (edge, x) in [(Edge::Left, -0.5), (Edge::Right, 0.5)] {
+            self.pieces.clear();
+            self.pieces.push(Piece {
+                ends: [DVec2::new(0.0, -0.5), DVec2::new(0.0, 0.5)],
+                roots: [false; 2],
+            });
+            let curve = Curve {
+                shape: Shape::Side(x),
+                edge,
+                own: [NONE; 2],
+            };
+            self.add(simd, &setting, &curve, &mut sum);
         }
         let mut defect = 0.0;
         for (_, _, left) in &self.regions {
@@ -218,13 +238,17 @@ impl Boundary {
             value[channel] = total(sum.value[channel]);
         }
         let rounding = goal.contrast * contents.rounding;
-        Some(Part {
+        let part = Part {
             value,
             covered: 1.0 - total(sum.empty),
             error: sum.error + goal.contrast * defect + rounding,
-            along: 0.0,
             rounding,
-        })
+        };
+        if part.error.is_finite() && part.value.is_finite() {
+            Ok(part)
+        } else {
+            Err(GiveUp::NotFinite)
+        }
     }
 
     #[inline(always)]
@@ -259,14 +283,18 @@ impl Boundary {
         simd.vectorize(
             #[inline(always)]
             || {
-                clip::split(&mut self.pieces, self.parts);
+                clip::split(&mut self.pieces, setting.goal.parts);
                 for index in 0..self.pieces.len() {
                     let piece = self.pieces[index];
                     self.find_arcs(simd, setting, curve, &piece);
                     self.light_arcs(simd, setting, curve, &piece);
                     for index in 0..self.lit_arcs.len() {
                         let arc = self.lit_arcs[index];
-                        self.add_arc(simd, setting, curve, &piece, &arc, 0, sum);
+                        let path = Path {
+                            curve,
+                            piece: &piece,
+                        };
+                        self.add_arc(simd, setting, &path, &arc, 0, sum);
                     }
                 }
             },

@@ -4,11 +4,11 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use super::curve::{Piece, Shape, Trace, trace};
-use super::primitive::{Lines, Sender, lit_up_to};
-use super::{Arc, Boundary, Curve, Edge, NONE, Setting, Sum};
+use super::curve::{Shape, Trace, trace};
+use super::primitive::{Lines, Sender, greatest};
+use super::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
-use crate::exact::edged::rule::{Roots, Rule, error_estimate};
+use crate::exact::edged::rule::{RULE, error_estimate};
 use crate::exact::scene::InCamera;
 
 /// How much larger than what the rules differ by their error is taken to be.
@@ -16,7 +16,7 @@ const CAUTION: f64 = 3.0;
 
 /// Arcs that take more of the tolerance are halved, so often.
 const SHARE: f64 = 0.02;
-const DEEPEST: u32 = 5;
+const DEEPEST: u32 = 12;
 
 /// Arcs that are not worth it, in pieces.
 const SHORTEST: f64 = 1e-12;
@@ -24,19 +24,23 @@ const SHORTEST: f64 = 1e-12;
 /// The lane of a trace that is in the middle of an arc.
 const MIDDLE: usize = 2;
 
+/// What lies on both sides of an arc, at the nodes of the rule: light summed up from references.
+struct Sides<S: Simd> {
+    light: [f64x8<S>; 3],
+    doubt: f64x8<S>,
+    unevenness: f64,
+    /// How often nothing is seen on the inner side, less how often on the outer one.
+    empty: f64,
+}
+
 impl Boundary {
     /// Adds what an arc contributes.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "all of it is at hand where it is called"
-    )]
     #[inline(never)]
     pub(super) fn add_arc<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
-        curve: &Curve,
-        piece: &Piece,
+        path: &Path<'_>,
         arc: &Arc,
         depth: u32,
         sum: &mut Sum<S>,
@@ -47,10 +51,11 @@ impl Boundary {
                 let Setting {
                     scene, cell, goal, ..
                 } = *setting;
-                if arc.end - arc.start < SHORTEST {
+                let length = arc.end - arc.start;
+                if length < SHORTEST {
                     return;
                 }
-                let length = arc.end - arc.start;
+                let Path { curve, piece } = *path;
                 let mut at = [arc.start; 8];
                 at[1] = arc.end;
                 at[MIDDLE] = arc.start + 0.5 * length;
@@ -61,98 +66,121 @@ impl Boundary {
                     self.note_sides(curve, arc, rise);
                     return;
                 }
-                let rule = Rule::of(Roots::default());
-                let nodes: f64x8<S> = rule.nodes.simd_into(simd);
+                let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
                 let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
                 let dy = places.dy * (length * sign);
-                let fine: f64x8<S> = rule.fine.simd_into(simd);
-                let coarse: f64x8<S> = rule.coarse.simd_into(simd);
-                let zero = f64x8::splat(simd, 0.0);
-                let (kept, kept_empty) = (sum.value, sum.empty);
-                let mut light = [zero; 3];
-                let mut doubt = zero;
-                let mut is_empty = [0.0; 2];
-                for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
-                    let factor = if side == 0 { 1.0 } else { -1.0 };
-                    if sphere == NONE {
-                        if side == 1 && matches!(curve.edge, Edge::Left | Edge::Right) {
-                            continue;
-                        }
-                        is_empty[side] = factor;
-                        for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
-                            *light += places.x * (factor * goal.background[channel]);
-                        }
-                        continue;
-                    }
-                    let active = &setting.contents.active[sphere];
-                    let albedo = scene.world.albedo(active.sphere);
-                    let ambient = albedo * scene.ambient * factor;
-                    for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
-                        *light += places.x * ambient[channel];
-                    }
-                    // What both sides have need not be computed.
-                    let mut lights = arc.lit[side];
-                    if arc.inner == arc.outer {
-                        lights &= !arc.lit[1 - side];
-                    }
-                    if lights != 0 {
-                        let lines = Lines {
-                            cell,
-                            x: places.x,
-                            y: places.y,
-                        };
-                        let sender = Sender {
-                            scene,
-                            active,
-                            finish: &setting.finishes[sphere],
-                            lights,
-                            reference: self.references[sphere],
-                        };
-                        let negligible = 0.01 * goal.tolerance;
-                        let summed = lit_up_to(simd, &sender, &lines, negligible);
-                        self.samples += summed.samples;
-                        doubt += summed.doubt;
-                        for (channel, light) in light.iter_mut().enumerate().take(scene.channels) {
-                            *light += summed.light[channel] * factor;
-                        }
-                    }
-                }
-                let empty = is_empty[0] + is_empty[1];
+                let fine: f64x8<S> = RULE.fine.simd_into(simd);
+                let coarse: f64x8<S> = RULE.coarse.simd_into(simd);
+                let sides = self.sides(simd, setting, curve, arc, &places);
                 let all = dy * fine;
                 let slip = (total(all) - rise).abs();
-                let of_sums = total(doubt * all.abs());
                 let mut error = 0.0_f64;
-                if empty != 0.0 {
+                let kept = *sum;
+                if sides.empty != 0.0 {
                     let (one, other) = (places.x * all, places.x * dy * coarse);
-                    sum.empty += one * empty;
-                    error = error_estimate(total(one - other).abs(), total(one.abs())) + slip;
+                    sum.empty += one * sides.empty;
+                    let spread = total((places.x * dy - total(one)).abs() * fine);
+                    error = error_estimate(total(one - other).abs(), spread) + slip;
                 }
-                for (channel, light) in light.into_iter().enumerate().take(scene.channels) {
+                for (channel, light) in sides.light.into_iter().enumerate().take(scene.channels) {
                     let part = light * dy;
                     let (one, other) = (part * fine, part * coarse);
                     sum.value[channel] += one;
                     let difference = total(one - other).abs();
-                    let spread = total(one.abs());
+                    let mean = total(one);
+                    let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
-                    error = error.max(error_estimate(difference, spread) + slip * highest);
+                    let mut estimate = error_estimate(difference, spread);
+                    if sides.unevenness > 0.0 {
+                        estimate = difference.max(sides.unevenness * spread);
+                    }
+                    error = error.max(estimate + slip * highest);
                 }
                 if error > SHARE * goal.tolerance && depth < DEEPEST {
-                    for (channel, kept) in kept.into_iter().enumerate() {
-                        sum.value[channel] = kept;
-                    }
-                    sum.empty = kept_empty;
+                    *sum = kept;
                     let middle = 0.5 * (arc.start + arc.end);
-                    let halves = [(arc.start, middle), (middle, arc.end)];
-                    for (start, end) in halves {
+                    for (start, end) in [(arc.start, middle), (middle, arc.end)] {
                         let half = Arc { start, end, ..*arc };
-                        self.add_arc(simd, setting, curve, piece, &half, depth + 1, sum);
+                        self.add_arc(simd, setting, path, &half, depth + 1, sum);
                     }
                     return;
                 }
+                let of_sums = total(sides.doubt * all.abs());
                 sum.error += CAUTION * (error + of_sums);
                 self.note_sides(curve, arc, rise);
             },
         );
+    }
+
+    /// The light on either side of an arc.
+    #[inline(always)]
+    fn sides<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        arc: &Arc,
+        places: &Trace<S>,
+    ) -> Sides<S> {
+        let Setting {
+            scene, cell, goal, ..
+        } = *setting;
+        let zero = f64x8::splat(simd, 0.0);
+        let mut sides = Sides {
+            light: [zero; 3],
+            doubt: zero,
+            unevenness: 0.0,
+            empty: 0.0,
+        };
+        for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
+            let factor = if side == 0 { 1.0 } else { -1.0 };
+            if sphere == NONE {
+                if side == 1 && matches!(curve.edge, Edge::Left | Edge::Right) {
+                    continue;
+                }
+                sides.empty += factor;
+                for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
+                    *light += places.x * (factor * goal.background[channel]);
+                }
+                continue;
+            }
+            let active = &setting.contents.active[sphere];
+            let albedo = scene.world.albedo(active.sphere);
+            let ambient = albedo * scene.ambient * factor;
+            for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
+                *light += places.x * ambient[channel];
+            }
+            // What both sides have need not be computed.
+            let mut lights = arc.lit[side];
+            if arc.inner == arc.outer {
+                lights &= !arc.lit[1 - side];
+            }
+            if lights == 0 {
+                continue;
+            }
+            let (finish, reference) = &setting.surfaces[sphere];
+            let sender = Sender {
+                scene,
+                cell,
+                active,
+                finish,
+                reference,
+                tolerance: goal.tolerance,
+            };
+            let lines = Lines {
+                x: places.x,
+                y: places.y,
+                lights,
+            };
+            let summed = sender.lit_up_to(simd, &lines, &mut self.noise);
+            self.samples += summed.samples;
+            sides.doubt += summed.doubt;
+            sides.unevenness = sides.unevenness.max(summed.unevenness);
+            for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
+                *light += summed.light[channel] * factor;
+            }
+        }
+        sides
     }
 
     /// Notes how far an arc rises for what lies on either side.
@@ -196,11 +224,6 @@ pub(super) fn total<S: Simd>(lanes: f64x8<S>) -> f64 {
     ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]))
 }
 
-fn greatest<S: Simd>(lanes: f64x8<S>) -> f64 {
-    let v: [f64; 8] = lanes.into();
-    v.into_iter().fold(0.0, f64::max)
-}
-
 /// 1 where the inner side lies to the left of a curve, -1 to its right.
 #[inline(always)]
 fn sign<S: Simd>(
@@ -223,9 +246,18 @@ fn sign<S: Simd>(
             let axis = one - other;
             let along = axis.cross(point - circle.middle);
             let across = (point - one).cross(along);
-            across * across.dot(axis).signum()
+            // An eye inside the other sphere sees what of this one lies in there.
+            let is_inside = contents.active[curve.own[1]].ball.outside <= 0.0;
+            let factor = if is_inside { -1.0 } else { 1.0 };
+            across * (factor * across.dot(axis).signum())
         }
-        (Edge::Terminator(light), _) => scene.lights[light].toward,
+        (Edge::Terminator(light), _) => {
+            let terminators = &contents.active[curve.own[0]].terminators;
+            match terminators.axis(scene, light) {
+                Some(axis) => axis,
+                None => return 0.0,
+            }
+        }
         (
             Edge::Shadow(..),
             Shape::Shadow {

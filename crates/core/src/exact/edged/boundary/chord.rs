@@ -1,0 +1,203 @@
+//! Chords: parts of lines of a cell on which one sphere is seen.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use crate::numeric::polynomial::{Linear, Quadratic};
+
+/// Where chords of a sphere begin: at x = `start` + `slope` · y.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reference {
+    start: f64,
+    slope: f64,
+}
+
+/// Values of y that count as the same.
+const SAME: f64 = 1e-12;
+
+impl Reference {
+    /// A reference inside the cell and the outline with this discriminant and this d · c, in every
+    /// line of the cell that meets the outline.
+    ///
+    /// It is a side of the cell where the outline holds all of it: arcs there need no sums. Otherwise
+    /// it leads from the lowest point of what is seen to the highest one: what is seen is convex.
+    pub(super) fn new(discriminant: &Quadratic, along: &Linear) -> Self {
+        let q = discriminant;
+        let is_ahead = |x: f64, y: f64| along.one + along.x * x + along.y * y > 0.0;
+        let is_inside = |x: f64, y: f64| {
+            (q.xx * x + q.xy * y + q.x) * x + (q.yy * y + q.y) * y + q.one >= 0.0 && is_ahead(x, y)
+        };
+        let corners = [[-0.5, -0.5], [-0.5, 0.5], [0.5, -0.5], [0.5, 0.5]];
+        let holds = corners.map(|[x, y]| is_inside(x, y));
+        if holds[0] && holds[1] {
+            return Self::upright(-0.5);
+        }
+        if holds[2] && holds[3] {
+            return Self::upright(0.5);
+        }
+        let mut seen = Extent::NOTHING;
+        for ([x, y], holds) in corners.into_iter().zip(holds) {
+            if holds {
+                seen.take(x, y);
+            }
+        }
+        let mut note = |x: f64, y: f64| {
+            if x.abs() <= 0.5 && y.abs() <= 0.5 && is_ahead(x, y) {
+                seen.take(x, y);
+            }
+        };
+        for side in [-0.5, 0.5] {
+            for y in q.transposed().crossings(side) {
+                note(side, y);
+            }
+            for x in q.crossings(side) {
+                note(x, side);
+            }
+        }
+        for (x, y) in q.extremes() {
+            note(x, y);
+        }
+        seen.reference()
+    }
+
+    fn upright(x: f64) -> Self {
+        Self {
+            start: x,
+            slope: 0.0,
+        }
+    }
+}
+
+/// The lowest and the highest points that were seen: their y, and between which x they lie.
+#[derive(Clone, Copy, Debug)]
+struct Extent {
+    lowest: (f64, [f64; 2]),
+    highest: (f64, [f64; 2]),
+}
+
+impl Extent {
+    const NOTHING: Self = Self {
+        lowest: (f64::INFINITY, [0.0; 2]),
+        highest: (f64::NEG_INFINITY, [0.0; 2]),
+    };
+
+    fn take(&mut self, x: f64, y: f64) {
+        for (end, sign) in [(&mut self.lowest, -1.0), (&mut self.highest, 1.0)] {
+            if sign * (y - end.0) > SAME {
+                *end = (y, [x; 2]);
+            } else if (y - end.0).abs() <= SAME {
+                end.1 = [end.1[0].min(x), end.1[1].max(x)];
+            }
+        }
+    }
+
+    fn reference(&self) -> Reference {
+        let middle = |[left, right]: [f64; 2]| 0.5 * (left + right);
+        let (low, high) = (middle(self.lowest.1), middle(self.highest.1));
+        let rise = self.highest.0 - self.lowest.0;
+        if !(rise > 0.0) {
+            return Reference::upright(0.0);
+        }
+        if rise <= SAME {
+            return Reference::upright(0.5 * (low + high));
+        }
+        let slope = (high - low) / rise;
+        Reference {
+            start: low - slope * self.lowest.0,
+            slope,
+        }
+    }
+}
+
+/// The chords of eight lines, from a reference to some x.
+///
+/// On a line the root w of the discriminant Q makes x and w a conic w² = Q(x): an ellipse, where the
+/// sphere lies in front of the eye, a hyperbola, where it reaches behind it. A parameter σ from −1 to 1
+/// passes along the conic from one end of the chord to the other as the rational curve of degree 2
+/// between them, whose weights are 1, W, 1: with h half of the chord,
+///
+/// > x = middle + h (σ + ½ (1 − σ²) E) / (1 − ½ (1 − σ²) (1 − W)).
+///
+/// So the root is rational, too, and light is smooth to the very outline. With w₁ and w₂ the roots at the
+/// ends and G = w₁ w₂ + P, where P = Q(middle) − Q″ h² / 2 is the polar form of Q between the ends,
+/// W = (w₁ + w₂) / √(2 G) and E = (w₁ − w₂) / √(2 G). On an ellipse W is the cosine of half of the angle
+/// that the chord spans.
+///
+/// # Source
+/// Farin, Curves and Surfaces for CAGD, 2002, chapter 12.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Chord<S: Simd> {
+    middle: f64x8<S>,
+    /// Half of its length, negative where it leads to the left.
+    half: f64x8<S>,
+    weight: f64x8<S>,
+    lean: f64x8<S>,
+    /// The square of how far the parameter tan(φ/2) of an ellipse goes: 2 tan(Δφ/4).
+    pub(super) way_sq: f64x8<S>,
+    /// The half axis of an ellipse times the square of the way.
+    pub(super) size: f64x8<S>,
+}
+
+impl<S: Simd> Chord<S> {
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        discriminant: &Quadratic,
+        reference: &Reference,
+        x: f64x8<S>,
+        y: f64x8<S>,
+    ) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let q = discriminant;
+        let start = y * reference.slope + reference.start;
+        let half = (x - start) * 0.5;
+        let middle = (x + start) * 0.5;
+        let slope = (middle * q.xx) + (y * q.xy + q.x) * 0.5;
+        let there = (middle * q.xx + y * q.xy + q.x) * middle + (y * q.yy + q.y) * y + q.one;
+        let bend = half * half * q.xx;
+        let rise = half * slope * 2.0;
+        let first = (there + bend - rise).max(zero).sqrt();
+        let last = (there + bend + rise).max(zero).sqrt();
+        let between = (first * last + there - bend).max(one * f64::MIN_POSITIVE);
+        let scale = one / (between * 2.0).sqrt();
+        let weight = (first + last) * scale;
+        let lean = (first - last) * scale;
+        let more = weight + 1.0;
+        let way_sq = (one - weight).abs() / more * 4.0;
+        let spread = (slope * slope - there * q.xx).max(zero).sqrt();
+        let size = half * half * spread * 8.0 / (more * more * between);
+        Self {
+            middle,
+            half,
+            weight,
+            lean,
+            way_sq,
+            size,
+        }
+    }
+
+    /// Whether there is nothing of them.
+    #[inline(always)]
+    pub(super) fn is_empty(&self) -> bool {
+        self.half.simd_eq(0.0).to_bitmask() == 0xff
+    }
+
+    /// Where on the lines the parameter is, and how fast it goes there.
+    #[inline(always)]
+    pub(super) fn at(&self, sigma: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
+        let one = sigma * 0.0 + 1.0;
+        let bow = (one - sigma * sigma) * 0.5;
+        let less = one - self.weight;
+        let inverse = one / (one - bow * less);
+        let share = (sigma + bow * self.lean) * inverse;
+        let slope = (one - sigma * self.lean - share * sigma * less) * inverse;
+        (self.middle + self.half * share, self.half * slope)
+    }
+
+    /// The length of the chords.
+    #[inline(always)]
+    pub(super) fn length(&self) -> f64x8<S> {
+        self.half * 2.0
+    }
+}

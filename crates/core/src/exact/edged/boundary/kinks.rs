@@ -1,0 +1,494 @@
+//! Light summed up along chords on which it is not smooth.
+//!
+//! It bends, or jumps, where a bump turns from a light, or from its half vector: chords are divided
+//! there.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::chord::Chord;
+use super::primitive::{Lines, NEGLIGIBLE, Noise, Sender, Summed, greatest, ray};
+use crate::exact::classify::active::Terminators;
+use crate::exact::edged::rule::{CAUTION, NODES, RULE};
+use crate::exact::points::Points;
+use crate::exact::scene::MOST_LIGHTS;
+use crate::numeric::vectors::Vectors;
+
+/// What vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    /// Unit vector toward the light.
+    toward: DVec3,
+    of_spot: bool,
+}
+
+impl Turn {
+    #[inline(always)]
+    fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
+        let facing = normal.dot_one(self.toward);
+        if self.of_spot {
+            facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
+        } else {
+            facing
+        }
+    }
+}
+
+/// Places on a chord, by its parameter, and the value there.
+#[derive(Clone, Copy, Debug)]
+struct Look<S: Simd> {
+    sigma: f64x8<S>,
+    value: f64x8<S>,
+}
+
+/// A part of chords on which light is smooth.
+#[derive(Clone, Copy, Debug)]
+struct Stretch<S: Simd> {
+    start: f64x8<S>,
+    end: f64x8<S>,
+    /// Whether light may go with a root of the distance to the ends.
+    is_eased: bool,
+    is_bumpy: bool,
+}
+
+/// How closely chords are looked at.
+#[derive(Clone, Copy, Debug)]
+struct Search {
+    /// Into so many parts they are divided in any case.
+    parts: usize,
+    /// Steps of the search in each part.
+    looks: usize,
+    /// Steps to a turn.
+    steps: u32,
+}
+
+/// Parts of a chord, turns included, that are told apart; more make the rules worse, which they
+/// notice.
+const MOST_PARTS: usize = 8;
+const MOST_STOPS: usize = 24;
+
+/// What it costs the sum across lines that some of them turn otherwise than others, in what they
+/// differ by: where light bends, and where it jumps.
+const UNEVEN: f64 = 0.02;
+const JUMPY: f64 = 0.2;
+
+impl Sender<'_, '_> {
+    /// Light with kinks, or jumps.
+    #[inline(never)]
+    pub(super) fn kinked<S: Simd>(
+        &self,
+        simd: S,
+        chord: &Chord<S>,
+        lines: &Lines<S>,
+        noise: &mut Noise,
+    ) -> Summed<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let middle = ray(simd, self.cell, lines.x * 0.0, lines.y * 0.0);
+                let negligible = NEGLIGIBLE * self.tolerance;
+                let size = self.cell.size;
+                let jumps = self
+                    .finish
+                    .jumps(simd, self.scene, &middle, size, negligible);
+                let jumps = jumps.to_bitmask() != 0;
+                let search = self.search(chord, jumps);
+                let mut stops = Stops::default();
+                let mut samples = 0;
+                let is_even =
+                    self.find(simd, chord, lines, &search, &mut stops, noise, &mut samples);
+                let is_bumpy = self.active.terminators == Terminators::Anywhere;
+                let most = stops.most();
+                if !is_bumpy && most == 0 {
+                    let mut sum = self.smooth(simd, chord, lines, noise);
+                    sum.samples += samples;
+                    return sum;
+                }
+                // A power that is not whole begins like a root.
+                let is_eased = most >= search.parts && !self.finish.has_whole_exponent();
+                let zero = f64x8::splat(simd, 0.0);
+                let mut sum = Summed {
+                    light: [zero; 3],
+                    doubt: zero,
+                    samples,
+                    // Edges are cut at terminators that are no bumps'.
+                    unevenness: match (is_even || !is_bumpy, jumps) {
+                        (true, _) => 0.0,
+                        (false, false) => UNEVEN,
+                        (false, true) => JUMPY,
+                    },
+                };
+                let mut start = zero - 1.0;
+                for index in 0..=most {
+                    let end: f64x8<S> = stops.at(index).simd_into(simd);
+                    let stretch = Stretch {
+                        start,
+                        end,
+                        is_eased,
+                        is_bumpy,
+                    };
+                    self.add_stretch(simd, chord, lines, &stretch, noise, &mut sum);
+                    start = end;
+                }
+                if is_bumpy {
+                    // What is there without light is not counted here.
+                    let albedo = self.scene.world.albedo(self.active.sphere);
+                    let constant = albedo * self.scene.ambient;
+                    for channel in 0..self.scene.channels {
+                        sum.light[channel] -= chord.length() * constant[channel];
+                    }
+                }
+                sum
+            },
+        )
+    }
+
+    fn search<S: Simd>(&self, chord: &Chord<S>, jumps: bool) -> Search {
+        /// Cells of the noise that a part may span.
+        const MOST_CELLS: f64 = 0.5;
+        /// Small enough for a search in earnest.
+        const FINE: f64 = 9e-5;
+        let (mut looks, mut steps): (usize, u32) = if self.tolerance > FINE {
+            (4, 4)
+        } else {
+            (8, 7)
+        };
+        if jumps {
+            (looks, steps) = (2 * looks, steps + 3);
+        }
+        if self.active.terminators != Terminators::Anywhere {
+            // A chord crosses a terminator twice at most.
+            looks = 2;
+        }
+        let cells = greatest(chord.way_sq).sqrt() * self.finish.shading_normal.cells();
+        let parts = (cells / MOST_CELLS).ceil().clamp(1.0, MOST_PARTS as f64) as usize;
+        Search {
+            parts,
+            looks: looks.div_ceil(parts).max(2),
+            steps,
+        }
+    }
+
+    /// Finds where the chords are to be divided; whether all of them are so at like places.
+    #[expect(clippy::too_many_arguments, reason = "EXPERIMENT")]
+    #[inline(always)]
+    fn find<S: Simd>(
+        &self,
+        simd: S,
+        chord: &Chord<S>,
+        lines: &Lines<S>,
+        search: &Search,
+        stops: &mut Stops,
+        noise: &mut Noise,
+        samples: &mut u64,
+    ) -> bool {
+        let count = search.parts * search.looks;
+        for part in 1..search.parts {
+            let at = 2.0 * part as f64 / search.parts as f64 - 1.0;
+            for lane in 0..8 {
+                stops.note(lane, at);
+            }
+        }
+        let nothing = Look {
+            sigma: lines.y * 0.0,
+            value: f64x8::splat(simd, f64::NAN),
+        };
+        let kinds = if self.finish.has_blunt_highlight() {
+            2
+        } else {
+            1
+        };
+        let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
+        *samples += 8 * (count + 1) as u64;
+        for index in 0..=count {
+            let at = 2.0 * index as f64 / count as f64 - 1.0;
+            let sigma = f64x8::splat(simd, at);
+            let (points, normal) = self.normal_at(simd, chord, lines, sigma, noise);
+            for (light, in_camera) in self.scene.lights.iter().enumerate() {
+                if lines.lights >> light & 1 == 0 {
+                    continue;
+                }
+                for (kind, looks) in looks.iter_mut().enumerate().take(kinds) {
+                    let turn = Turn {
+                        toward: in_camera.toward,
+                        of_spot: kind == 1,
+                    };
+                    let value = turn.value(&normal, &points);
+                    let here = Look { sigma, value };
+                    let seeker = Seeker {
+                        sender: self,
+                        chord,
+                        lines,
+                        turn,
+                        steps: search.steps,
+                    };
+                    let [before, last] = looks[light];
+                    let turned = (last.value * value).simd_lt(0.0).to_bitmask();
+                    *samples += seeker.note(simd, turned, &last, &here, stops, noise);
+                    if index >= 2 {
+                        let three = [before, last, here];
+                        *samples += seeker.note_dip(simd, &three, stops, noise);
+                    }
+                    looks[light] = [last, here];
+                }
+            }
+        }
+        stops.counts[..NODES]
+            .iter()
+            .all(|&count| count == stops.counts[0])
+    }
+
+    /// The points of chords, and the normals that light is computed with there.
+    #[inline(always)]
+    fn normal_at<S: Simd>(
+        &self,
+        simd: S,
+        chord: &Chord<S>,
+        lines: &Lines<S>,
+        sigma: f64x8<S>,
+        noise: &mut Noise,
+    ) -> (Points<S>, Vectors<S>) {
+        let (x, _) = chord.at(sigma);
+        let points = self.points(simd, x, lines.y);
+        let normal = self.finish.normal(simd, self.scene, &points, noise);
+        (points, normal)
+    }
+
+    /// Adds the light between two parameters.
+    #[inline(never)]
+    fn add_stretch<S: Simd>(
+        &self,
+        simd: S,
+        chord: &Chord<S>,
+        lines: &Lines<S>,
+        stretch: &Stretch<S>,
+        noise: &mut Noise,
+        sum: &mut Summed<S>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let zero = f64x8::splat(simd, 0.0);
+                let start = stretch.start;
+                let width = (stretch.end - start).max(zero);
+                if greatest(width) == 0.0 {
+                    return;
+                }
+                let mut lit = [0; MOST_LIGHTS];
+                for (light, lit) in lit.iter_mut().enumerate() {
+                    *lit = if lines.lights >> light & 1 == 1 {
+                        0xff
+                    } else {
+                        0
+                    };
+                }
+                let mut points = [Points::nowhere(simd); NODES];
+                let mut shares = [zero; NODES];
+                for node in 0..NODES {
+                    let s = RULE.nodes[node];
+                    let (at, slope) = if stretch.is_eased {
+                        (s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s))
+                    } else {
+                        (s, 1.0)
+                    };
+                    let (x, there) = chord.at(start + width * at);
+                    points[node] = self.points(simd, x, lines.y);
+                    shares[node] = width * there * slope;
+                }
+                let normals = self.finish.normals(simd, self.scene, &points, noise);
+                for (points, normal) in points.iter_mut().zip(&normals) {
+                    points.normal = *normal;
+                }
+                sum.samples += 8 * NODES as u64;
+                let (mut apart, mut whole) = ([zero; 3], [zero; 3]);
+                let (mut lowest, mut highest) = (zero + f64::INFINITY, zero - f64::INFINITY);
+                for node in 0..NODES {
+                    let (finish, points) = (self.finish, &points[node]);
+                    // Where terminators are edges, highlights go on beyond them.
+                    let light = if stretch.is_bumpy {
+                        let normal = &normals[node];
+                        finish.radiance(simd, self.scene, points, normal, &lit, None)
+                    } else {
+                        finish.unclamped(simd, self.scene, points, lines.lights)
+                    };
+                    let (fine, coarse) = (RULE.fine[node], RULE.coarse[node]);
+                    let mut gauge = zero;
+                    for channel in 0..self.scene.channels {
+                        let light = light[channel] * shares[node];
+                        whole[channel] += light * fine;
+                        apart[channel] += light * (fine - coarse);
+                        gauge += light;
+                    }
+                    lowest = lowest.min(gauge);
+                    highest = highest.max(gauge);
+                }
+                let one = zero + 1.0;
+                let spread = highest - lowest;
+                let mut largest = zero;
+                for channel in 0..self.scene.channels {
+                    sum.light[channel] += whole[channel];
+                    let difference = apart[channel].abs();
+                    let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);
+                    let estimate = (spread * ratio * ratio.sqrt()).min(difference);
+                    // The noise has no third derivative where its cells meet.
+                    largest = largest.max(if stretch.is_bumpy {
+                        difference
+                    } else {
+                        estimate
+                    });
+                }
+                sum.doubt += largest;
+            },
+        )
+    }
+}
+
+/// Seeks turns of one kind on eight chords.
+#[derive(Clone, Copy, Debug)]
+struct Seeker<'a, 'scene, S: Simd> {
+    sender: &'a Sender<'a, 'scene>,
+    chord: &'a Chord<S>,
+    lines: &'a Lines<S>,
+    turn: Turn,
+    /// To a turn.
+    steps: u32,
+}
+
+impl<S: Simd> Seeker<'_, '_, S> {
+    /// Notes the turns between two looks on some of the chords; the samples that it took.
+    #[inline(always)]
+    fn note(
+        &self,
+        simd: S,
+        which: u64,
+        low: &Look<S>,
+        high: &Look<S>,
+        stops: &mut Stops,
+        noise: &mut Noise,
+    ) -> u64 {
+        if which == 0 {
+            return 0;
+        }
+        let root = self.root(simd, *low, *high, noise);
+        for lane in 0..8 {
+            if which >> lane & 1 == 1 {
+                stops.note(lane, root[lane]);
+            }
+        }
+        8 * u64::from(self.steps)
+    }
+
+    /// Notes the two turns where the value dips below zero between three looks, or rises above it; the
+    /// samples that it took.
+    #[inline(always)]
+    fn note_dip(&self, simd: S, looks: &[Look<S>; 3], stops: &mut Stops, noise: &mut Noise) -> u64 {
+        /// Dips come nearer to zero than the looks by this.
+        const NEARER: f64 = 0.5;
+        let [before, here, after] = looks;
+        let sign = here.value.simd_lt(0.0);
+        let (first, middle) = (before.value.abs(), here.value.abs());
+        let last = after.value.abs();
+        let bend = (first - middle) + (last - middle);
+        let rise = (last - first) * 0.5;
+        // In steps from the middle.
+        let way = rise * -1.0 / bend;
+        let lowest = middle + rise * way * 0.5;
+        let is_same = !(sign ^ before.value.simd_lt(0.0)) & !(sign ^ after.value.simd_lt(0.0));
+        let may_dip = is_same
+            & bend.simd_gt(0.0)
+            & way.abs().simd_lt(1.0)
+            & lowest.simd_lt(first.min(middle).min(last) * NEARER);
+        let may_dip = may_dip.to_bitmask();
+        if may_dip == 0 {
+            return 0;
+        }
+        let sigma = here.sigma + (here.sigma - before.sigma) * way;
+        let value = self.value(simd, sigma, noise);
+        let dips = (value * here.value).simd_lt(0.0).to_bitmask() & may_dip;
+        let bottom = Look { sigma, value };
+        8 + self.note(simd, dips, before, &bottom, stops, noise)
+            + self.note(simd, dips, &bottom, after, stops, noise)
+    }
+
+    #[inline(always)]
+    fn value(&self, simd: S, sigma: f64x8<S>, noise: &mut Noise) -> f64x8<S> {
+        let (points, normal) = self
+            .sender
+            .normal_at(simd, self.chord, self.lines, sigma, noise);
+        self.turn.value(&normal, &points)
+    }
+
+    /// Where between two places light begins or ends: by the rule of false position, with the value
+    /// of an end halved that stays once more (Illinois).
+    #[inline(never)]
+    fn root(&self, simd: S, mut low: Look<S>, mut high: Look<S>, noise: &mut Noise) -> f64x8<S> {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut sigma = low.sigma;
+                let one = f64x8::splat(simd, 1.0);
+                let (mut high_factor, mut low_factor) = (one, one);
+                let never = one.simd_lt(0.0);
+                let (mut was_low, mut was_high) = (never, never);
+                for _ in 0..self.steps {
+                    let (at_low, at_high) = (low.value * low_factor, high.value * high_factor);
+                    let share = at_low / (at_low - at_high);
+                    sigma = low.sigma + (high.sigma - low.sigma) * share;
+                    let value = self.value(simd, sigma, noise);
+                    let is_low = !(value.simd_gt(0.0) ^ low.value.simd_gt(0.0));
+                    low.sigma = is_low.select(sigma, low.sigma);
+                    low.value = is_low.select(value, low.value);
+                    high.sigma = is_low.select(high.sigma, sigma);
+                    high.value = is_low.select(high.value, value);
+                    high_factor = (is_low & was_low).select(high_factor * 0.5, one);
+                    low_factor = (!is_low & was_high).select(low_factor * 0.5, one);
+                    (was_low, was_high) = (is_low, !is_low);
+                }
+                sigma
+            },
+        )
+    }
+}
+
+/// Places at which eight chords are divided, in order.
+#[derive(Clone, Copy, Debug)]
+struct Stops {
+    places: [[f64; 8]; MOST_STOPS],
+    counts: [usize; 8],
+}
+
+impl Default for Stops {
+    fn default() -> Self {
+        Self {
+            places: [[1.0; 8]; MOST_STOPS],
+            counts: [0; 8],
+        }
+    }
+}
+
+impl Stops {
+    /// Adds a place on a chord.
+    fn note(&mut self, lane: usize, place: f64) {
+        if self.counts[lane] == MOST_STOPS || place.is_nan() {
+            return;
+        }
+        let mut at = self.counts[lane];
+        while at > 0 && self.places[at - 1][lane] > place {
+            self.places[at][lane] = self.places[at - 1][lane];
+            at -= 1;
+        }
+        self.places[at][lane] = place;
+        self.counts[lane] += 1;
+    }
+
+    /// The largest number of places on a chord.
+    fn most(&self) -> usize {
+        self.counts.iter().copied().max().unwrap_or(0)
+    }
+
+    /// The places with this number, or the ends of the chords.
+    fn at(&self, index: usize) -> [f64; 8] {
+        self.places.get(index).copied().unwrap_or([1.0; 8])
+    }
+}
