@@ -45,7 +45,7 @@ pub enum Evidence {
 pub struct Work {
     /// Points at which light, or the normal of a rough surface, was computed.
     pub samples: u64,
-    /// Lines that were cut where something happens on them.
+    /// Lines through pixels with edges that light was summed up along.
     pub lines: u64,
     /// Spheres that were asked whether a pixel, or a ray, may see them, or whether they may keep a
     /// light from what a tile, a pixel or a part of one sees.

@@ -193,6 +193,7 @@ impl Workspace {
                 },
             );
             self.work.samples += std::mem::take(&mut self.boundary.samples);
+            self.work.lines += std::mem::take(&mut self.boundary.lines);
             match (found, best) {
                 (Ok(part), Ok(known)) if !(part.error < known.error) => {}
                 (Ok(part), _) => best = Ok(part),

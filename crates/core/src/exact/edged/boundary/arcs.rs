@@ -4,32 +4,27 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::curve::{Piece, Trace};
-use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
+use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
-use crate::exact::classify::contents::{Contents, Kind, Reach};
+use crate::exact::classify::contents::Contents;
 
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
-struct Front<S: Simd> {
+pub(super) struct Front<S: Simd> {
     /// In multiples of the ray.
-    nearest: f64x8<S>,
+    pub(super) nearest: f64x8<S>,
     /// The position of the sphere and one more, or zero.
-    first: f64x8<S>,
+    pub(super) first: f64x8<S>,
     /// Whether one sphere hides all of the places.
-    is_hidden: bool,
+    pub(super) is_hidden: bool,
 }
 
 impl<S: Simd> Front<S> {
     /// At which of the places an active sphere is first.
     #[inline(always)]
-    fn is(&self, sphere: usize) -> u64 {
+    pub(super) fn is(&self, sphere: usize) -> u64 {
         self.first.simd_eq((sphere + 1) as f64).to_bitmask()
     }
-}
-
-/// Intervals that begin or end at some of the places.
-fn beside(lanes: u64) -> u64 {
-    (lanes | lanes >> 1) & INTERVALS
 }
 
 /// Intervals that begin and end at some of the places.
@@ -39,7 +34,12 @@ pub(super) fn between(lanes: u64) -> u64 {
 
 /// The first of the active spheres on which a curve does not lie, at some places of it.
 #[inline(never)]
-fn front<S: Simd>(simd: S, contents: &Contents, own: [usize; 2], places: &Trace<S>) -> Front<S> {
+pub(super) fn front<S: Simd>(
+    simd: S,
+    contents: &Contents,
+    own: [usize; 2],
+    places: &Trace<S>,
+) -> Front<S> {
     simd.vectorize(
         #[inline(always)]
         || {
@@ -180,163 +180,6 @@ impl Boundary {
                 self.breaks.push(at);
             }
         }
-    }
-
-    /// Finds where other spheres begin or end in front of a stretch.
-    #[inline(never)]
-    fn find_breaks<S: Simd>(
-        &mut self,
-        simd: S,
-        setting: &Setting<'_, '_>,
-        stretch: &Stretch<'_>,
-        places: &Trace<S>,
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let contents = setting.contents;
-                let front = front(simd, contents, stretch.curve.own, places);
-                let is_side = matches!(stretch.curve.edge, Edge::Left | Edge::Right);
-                if front.is_hidden && !is_side {
-                    return;
-                }
-                let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
-                let firsts: [f64; 8] = front.first.into();
-                let (mut alike, mut covered) = (0, 0);
-                for lane in 0..7 {
-                    alike |= u64::from(firsts[lane] == firsts[lane + 1]) << lane;
-                    covered |= u64::from(firsts[lane] != 0.0) << lane;
-                }
-                // Nothing comes in sight where one sphere hides both ends.
-                let open = if is_side {
-                    INTERVALS
-                } else {
-                    INTERVALS & !(between(hidden) & alike)
-                };
-                for (position, active) in contents.active.iter().enumerate() {
-                    if stretch.curve.own.contains(&position) {
-                        continue;
-                    }
-                    let mut intervals = open;
-                    if setting.goal.parts == 1 {
-                        // Where the same is first at both ends, others begin behind it.
-                        intervals &= beside(front.is(position)) | !(alike & covered);
-                    }
-                    if intervals == 0 {
-                        continue;
-                    }
-                    let values = polynomial(&active.discriminant, places.x, places.y);
-                    let function = Function::Outline(position);
-                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
-                }
-                for (index, (kind, conic)) in contents.conics.iter().enumerate() {
-                    let Kind::Seam(one, other) = *kind else {
-                        continue;
-                    };
-                    let (function, intervals) = match (
-                        stretch.curve.own.contains(&one),
-                        stretch.curve.own.contains(&other),
-                    ) {
-                        (true, true) => continue,
-                        (false, false) => {
-                            let mut intervals = open;
-                            if setting.goal.parts == 1 {
-                                intervals &= !alike;
-                            }
-                            let values = polynomial(conic, places.x, places.y);
-                            let function = Function::Conic(index);
-                            stretch.roots(
-                                simd,
-                                setting,
-                                function,
-                                values,
-                                intervals,
-                                &mut self.breaks,
-                            );
-                            continue;
-                        }
-                        (true, false) => (Function::Inside(other), beside(front.is(other))),
-                        (false, true) => (Function::Inside(one), beside(front.is(one))),
-                    };
-                    let intervals = intervals & open;
-                    if intervals == 0 {
-                        continue;
-                    }
-                    let values = value(simd, setting, function, places);
-                    stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
-                }
-            },
-        )
-    }
-
-    /// Finds where a piece leaves the outer sides of its own spheres, the cell or the lower side of a
-    /// caster; whether any of it may be seen.
-    #[inline(always)]
-    fn find_own_breaks<S: Simd>(
-        &mut self,
-        simd: S,
-        setting: &Setting<'_, '_>,
-        stretch: &Stretch<'_>,
-        places: &Trace<S>,
-    ) -> bool {
-        let curve = stretch.curve;
-        if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
-            return true;
-        }
-        let mut functions = [(Function::Across(0, 0.0), 0.0); 7];
-        let mut count = 0;
-        for own in curve.own {
-            if own != NONE {
-                functions[count] = (Function::Facing(own), 1.0);
-                count += 1;
-            }
-        }
-        if let Edge::Shadow(light, caster) = curve.edge {
-            functions[count] = (Function::Above(light, caster), -1.0);
-            functions[count + 1] = (Function::Across(0, -0.5), 1.0);
-            functions[count + 2] = (Function::Across(0, 0.5), -1.0);
-            functions[count + 3] = (Function::Across(1, -0.5), 1.0);
-            functions[count + 4] = (Function::Across(1, 0.5), -1.0);
-            count += 5;
-        }
-        let mut outside = [0; 7];
-        for (index, (function, sign)) in functions.iter().enumerate().take(count) {
-            let values = value(simd, setting, *function, places);
-            outside[index] = (values * *sign).simd_lt(0.0).to_bitmask();
-            let known = self.breaks.len();
-            stretch.roots(
-                simd,
-                setting,
-                *function,
-                values,
-                INTERVALS,
-                &mut self.breaks,
-            );
-            if outside[index] == 0xff && self.breaks.len() == known {
-                return false;
-            }
-        }
-        if let Edge::Shadow(light, own) = curve.edge {
-            // Where it is dark anyway, no shadow ends.
-            let lights = setting.scene.lights.len();
-            let reach = &setting.contents.reach[curve.own[0] * lights + light];
-            let Reach::Past(casters) = reach else {
-                return false;
-            };
-            let toward = setting.scene.lights[light].toward;
-            for caster in casters.clone() {
-                if caster == own {
-                    continue;
-                }
-                let inside = in_disc(simd, setting, caster, &places.point);
-                let height = setting.contents.occluders[caster].center.dot(toward);
-                let is_below = places.point.dot_one(toward).simd_lt(height);
-                if (inside.simd_lt(0.0) & is_below).to_bitmask() == 0xff {
-                    return false;
-                }
-            }
-        }
-        true
     }
 
     /// Brings the breaks in order, between two ends.

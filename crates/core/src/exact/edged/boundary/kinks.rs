@@ -5,42 +5,15 @@
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::DVec3;
 
 use super::chord::Chord;
 use super::primitive::{Lines, NEGLIGIBLE, Noise, Sender, Summed, greatest, ray};
+use super::turns::{Look, Seeker, Stops, Turn};
 use crate::exact::classify::active::Terminators;
 use crate::exact::edged::rule::{CAUTION, NODES, RULE};
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::numeric::vectors::Vectors;
-
-/// What vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    /// Unit vector toward the light.
-    toward: DVec3,
-    of_spot: bool,
-}
-
-impl Turn {
-    #[inline(always)]
-    fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
-        let facing = normal.dot_one(self.toward);
-        if self.of_spot {
-            facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
-        } else {
-            facing
-        }
-    }
-}
-
-/// Places on a chord, by its parameter, and the value there.
-#[derive(Clone, Copy, Debug)]
-struct Look<S: Simd> {
-    sigma: f64x8<S>,
-    value: f64x8<S>,
-}
 
 /// A part of chords on which light is smooth.
 #[derive(Clone, Copy, Debug)]
@@ -63,10 +36,8 @@ struct Search {
     steps: u32,
 }
 
-/// Parts of a chord, turns included, that are told apart; more make the rules worse, which they
-/// notice.
+/// Into how many parts a chord on bumps is divided at most.
 const MOST_PARTS: usize = 8;
-const MOST_STOPS: usize = 24;
 
 /// What it costs the sum across lines that some of them turn otherwise than others, in what they
 /// differ by: where light bends, and where it jumps.
@@ -95,14 +66,12 @@ impl Sender<'_, '_> {
                 let jumps = jumps.to_bitmask() != 0;
                 let search = self.search(chord, jumps);
                 let mut stops = Stops::default();
-                let mut samples = 0;
-                let is_even =
-                    self.find(simd, chord, lines, &search, &mut stops, noise, &mut samples);
+                let is_even = self.find(simd, chord, lines, &search, &mut stops, noise);
                 let is_bumpy = self.active.terminators == Terminators::Anywhere;
                 let most = stops.most();
                 if !is_bumpy && most == 0 {
                     let mut sum = self.smooth(simd, chord, lines, noise);
-                    sum.samples += samples;
+                    sum.samples += stops.samples;
                     return sum;
                 }
                 // A power that is not whole begins like a root.
@@ -111,7 +80,7 @@ impl Sender<'_, '_> {
                 let mut sum = Summed {
                     light: [zero; 3],
                     doubt: zero,
-                    samples,
+                    samples: stops.samples,
                     // Edges are cut at terminators that are no bumps'.
                     unevenness: match (is_even || !is_bumpy, jumps) {
                         (true, _) => 0.0,
@@ -171,7 +140,6 @@ impl Sender<'_, '_> {
     }
 
     /// Finds where the chords are to be divided; whether all of them are so at like places.
-    #[expect(clippy::too_many_arguments, reason = "EXPERIMENT")]
     #[inline(always)]
     fn find<S: Simd>(
         &self,
@@ -181,7 +149,6 @@ impl Sender<'_, '_> {
         search: &Search,
         stops: &mut Stops,
         noise: &mut Noise,
-        samples: &mut u64,
     ) -> bool {
         let count = search.parts * search.looks;
         for part in 1..search.parts {
@@ -200,7 +167,7 @@ impl Sender<'_, '_> {
             1
         };
         let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
-        *samples += 8 * (count + 1) as u64;
+        stops.samples += 8 * (count + 1) as u64;
         for index in 0..=count {
             let at = 2.0 * index as f64 / count as f64 - 1.0;
             let sigma = f64x8::splat(simd, at);
@@ -225,10 +192,10 @@ impl Sender<'_, '_> {
                     };
                     let [before, last] = looks[light];
                     let turned = (last.value * value).simd_lt(0.0).to_bitmask();
-                    *samples += seeker.note(simd, turned, &last, &here, stops, noise);
+                    seeker.note(simd, turned, &last, &here, stops, noise);
                     if index >= 2 {
                         let three = [before, last, here];
-                        *samples += seeker.note_dip(simd, &three, stops, noise);
+                        seeker.note_dip(simd, &three, stops, noise);
                     }
                     looks[light] = [last, here];
                 }
@@ -241,7 +208,7 @@ impl Sender<'_, '_> {
 
     /// The points of chords, and the normals that light is computed with there.
     #[inline(always)]
-    fn normal_at<S: Simd>(
+    pub(super) fn normal_at<S: Simd>(
         &self,
         simd: S,
         chord: &Chord<S>,
@@ -341,154 +308,5 @@ impl Sender<'_, '_> {
                 sum.doubt += largest;
             },
         )
-    }
-}
-
-/// Seeks turns of one kind on eight chords.
-#[derive(Clone, Copy, Debug)]
-struct Seeker<'a, 'scene, S: Simd> {
-    sender: &'a Sender<'a, 'scene>,
-    chord: &'a Chord<S>,
-    lines: &'a Lines<S>,
-    turn: Turn,
-    /// To a turn.
-    steps: u32,
-}
-
-impl<S: Simd> Seeker<'_, '_, S> {
-    /// Notes the turns between two looks on some of the chords; the samples that it took.
-    #[inline(always)]
-    fn note(
-        &self,
-        simd: S,
-        which: u64,
-        low: &Look<S>,
-        high: &Look<S>,
-        stops: &mut Stops,
-        noise: &mut Noise,
-    ) -> u64 {
-        if which == 0 {
-            return 0;
-        }
-        let root = self.root(simd, *low, *high, noise);
-        for lane in 0..8 {
-            if which >> lane & 1 == 1 {
-                stops.note(lane, root[lane]);
-            }
-        }
-        8 * u64::from(self.steps)
-    }
-
-    /// Notes the two turns where the value dips below zero between three looks, or rises above it; the
-    /// samples that it took.
-    #[inline(always)]
-    fn note_dip(&self, simd: S, looks: &[Look<S>; 3], stops: &mut Stops, noise: &mut Noise) -> u64 {
-        /// Dips come nearer to zero than the looks by this.
-        const NEARER: f64 = 0.5;
-        let [before, here, after] = looks;
-        let sign = here.value.simd_lt(0.0);
-        let (first, middle) = (before.value.abs(), here.value.abs());
-        let last = after.value.abs();
-        let bend = (first - middle) + (last - middle);
-        let rise = (last - first) * 0.5;
-        // In steps from the middle.
-        let way = rise * -1.0 / bend;
-        let lowest = middle + rise * way * 0.5;
-        let is_same = !(sign ^ before.value.simd_lt(0.0)) & !(sign ^ after.value.simd_lt(0.0));
-        let may_dip = is_same
-            & bend.simd_gt(0.0)
-            & way.abs().simd_lt(1.0)
-            & lowest.simd_lt(first.min(middle).min(last) * NEARER);
-        let may_dip = may_dip.to_bitmask();
-        if may_dip == 0 {
-            return 0;
-        }
-        let sigma = here.sigma + (here.sigma - before.sigma) * way;
-        let value = self.value(simd, sigma, noise);
-        let dips = (value * here.value).simd_lt(0.0).to_bitmask() & may_dip;
-        let bottom = Look { sigma, value };
-        8 + self.note(simd, dips, before, &bottom, stops, noise)
-            + self.note(simd, dips, &bottom, after, stops, noise)
-    }
-
-    #[inline(always)]
-    fn value(&self, simd: S, sigma: f64x8<S>, noise: &mut Noise) -> f64x8<S> {
-        let (points, normal) = self
-            .sender
-            .normal_at(simd, self.chord, self.lines, sigma, noise);
-        self.turn.value(&normal, &points)
-    }
-
-    /// Where between two places light begins or ends: by the rule of false position, with the value
-    /// of an end halved that stays once more (Illinois).
-    #[inline(never)]
-    fn root(&self, simd: S, mut low: Look<S>, mut high: Look<S>, noise: &mut Noise) -> f64x8<S> {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let mut sigma = low.sigma;
-                let one = f64x8::splat(simd, 1.0);
-                let (mut high_factor, mut low_factor) = (one, one);
-                let never = one.simd_lt(0.0);
-                let (mut was_low, mut was_high) = (never, never);
-                for _ in 0..self.steps {
-                    let (at_low, at_high) = (low.value * low_factor, high.value * high_factor);
-                    let share = at_low / (at_low - at_high);
-                    sigma = low.sigma + (high.sigma - low.sigma) * share;
-                    let value = self.value(simd, sigma, noise);
-                    let is_low = !(value.simd_gt(0.0) ^ low.value.simd_gt(0.0));
-                    low.sigma = is_low.select(sigma, low.sigma);
-                    low.value = is_low.select(value, low.value);
-                    high.sigma = is_low.select(high.sigma, sigma);
-                    high.value = is_low.select(high.value, value);
-                    high_factor = (is_low & was_low).select(high_factor * 0.5, one);
-                    low_factor = (!is_low & was_high).select(low_factor * 0.5, one);
-                    (was_low, was_high) = (is_low, !is_low);
-                }
-                sigma
-            },
-        )
-    }
-}
-
-/// Places at which eight chords are divided, in order.
-#[derive(Clone, Copy, Debug)]
-struct Stops {
-    places: [[f64; 8]; MOST_STOPS],
-    counts: [usize; 8],
-}
-
-impl Default for Stops {
-    fn default() -> Self {
-        Self {
-            places: [[1.0; 8]; MOST_STOPS],
-            counts: [0; 8],
-        }
-    }
-}
-
-impl Stops {
-    /// Adds a place on a chord.
-    fn note(&mut self, lane: usize, place: f64) {
-        if self.counts[lane] == MOST_STOPS || place.is_nan() {
-            return;
-        }
-        let mut at = self.counts[lane];
-        while at > 0 && self.places[at - 1][lane] > place {
-            self.places[at][lane] = self.places[at - 1][lane];
-            at -= 1;
-        }
-        self.places[at][lane] = place;
-        self.counts[lane] += 1;
-    }
-
-    /// The largest number of places on a chord.
-    fn most(&self) -> usize {
-        self.counts.iter().copied().max().unwrap_or(0)
-    }
-
-    /// The places with this number, or the ends of the chords.
-    fn at(&self, index: usize) -> [f64; 8] {
-        self.places.get(index).copied().unwrap_or([1.0; 8])
     }
 }

@@ -5,6 +5,7 @@
 //! they cross others, and only where they are seen.
 
 mod arcs;
+mod breaks;
 mod chord;
 mod clip;
 mod curve;
@@ -13,6 +14,7 @@ mod kinks;
 mod lit;
 mod primitive;
 mod quadrature;
+mod turns;
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
@@ -90,8 +92,9 @@ pub(crate) struct Boundary {
     /// Where curves cross the left side of the cell, and the right one.
     crossings: [Vec<f64>; 2],
     noise: Noise,
-    /// Points at which light was computed.
+    /// Points at which light was computed, and lines that it was summed up along.
     pub(crate) samples: u64,
+    pub(crate) lines: u64,
 }
 
 /// How much is asked of a cell.

@@ -174,6 +174,7 @@ impl Boundary {
             };
             let summed = sender.lit_up_to(simd, &lines, &mut self.noise);
             self.samples += summed.samples;
+            self.lines += if summed.samples > 0 { 8 } else { 0 };
             sides.doubt += summed.doubt;
             sides.unevenness = sides.unevenness.max(summed.unevenness);
             for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
