@@ -109,6 +109,23 @@ pub(crate) struct Goal {
     pub(crate) parts: usize,
 }
 
+/// An active sphere's surface.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    finish: Finish,
+    /// Where chords begin.
+    reference: Reference,
+    /// The lights, bit by bit, whose terminators may lie in the cell.
+    terminators: u64,
+}
+
+/// The share of the tolerance that the errors of all arcs may take, before they are made larger for caution:
+/// a cell has about two arcs for each curve, and two for its sides, so that their sum stays within it.
+const SHARE_OF_ALL: f64 = 0.15;
+
+/// Where curves are many most arcs take less than theirs: chosen by `cargo truth promise`.
+const LEAST_SHARE: f64 = 0.02;
+
 /// What does not change in a cell.
 #[derive(Clone, Copy)]
 struct Setting<'a, 'scene> {
@@ -116,8 +133,10 @@ struct Setting<'a, 'scene> {
     cell: &'a Cell,
     contents: &'a Contents,
     goal: &'a Goal,
-    /// What active spheres send their light with, and where chords of them begin.
-    surfaces: &'a [(Finish, Reference)],
+    /// Those of the active spheres.
+    surfaces: &'a [Surface],
+    /// The share of the tolerance that an arc may take before it is halved.
+    share: f64,
 }
 
 /// What arcs contribute so far, by nodes of the rule.
@@ -144,8 +163,18 @@ impl Boundary {
         for active in actives {
             let finish = Finish::new(scene, active.sphere, contents.pixel);
             let reference = Reference::new(&active.discriminant, &active.along);
-            surfaces.push((finish, reference));
+            surfaces.push(Surface {
+                finish,
+                reference,
+                terminators: 0,
+            });
         }
+        for (kind, _) in &contents.conics {
+            if let Kind::Terminator(one, light) = *kind {
+                surfaces[one].terminators |= 1 << light;
+            }
+        }
+        let curves = contents.conics.len() + contents.occluders.len();
         self.regions.clear();
         self.crossings[0].clear();
         self.crossings[1].clear();
@@ -155,6 +184,7 @@ impl Boundary {
             contents,
             goal,
             surfaces: &surfaces,
+            share: (SHARE_OF_ALL / (curves + 1) as f64).max(LEAST_SHARE),
         };
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = Sum {

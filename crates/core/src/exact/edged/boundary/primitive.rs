@@ -63,6 +63,8 @@ pub(super) struct Sender<'a, 'scene> {
     pub(super) finish: &'a Finish,
     /// Where sums begin.
     pub(super) reference: &'a Reference,
+    /// The lights, bit by bit, whose terminators may lie in the cell.
+    pub(super) terminators: u64,
     pub(super) tolerance: f64,
 }
 
@@ -112,7 +114,7 @@ impl Sender<'_, '_> {
                         unevenness: 0.0,
                     };
                 }
-                if self.has_kinks() {
+                if self.has_kinks(lines.lights) {
                     return self.kinked(simd, &chord, lines, noise);
                 }
                 let ball = &self.active.ball;
@@ -129,9 +131,11 @@ impl Sender<'_, '_> {
 
     /// Whether light along chords is not smooth: at terminators of bumps, with powers that are not whole
     /// where they begin, and where highlights end.
-    fn has_kinks(&self) -> bool {
+    fn has_kinks(&self, lights: u64) -> bool {
+        let exponent = self.finish.reflectance.exponents()[0];
+        let has_terminator = self.terminators & lights != 0;
         self.active.terminators == Terminators::Anywhere
-            || self.finish.reflectance.exponents()[0].fract() != 0.0
+            || has_terminator && exponent.fract() != 0.0
             || self.finish.has_blunt_highlight()
     }
 

@@ -14,8 +14,8 @@ use crate::exact::scene::InCamera;
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
 
-/// Arcs that take more of the tolerance are halved, so often.
-const SHARE: f64 = 0.02;
+/// How often arcs are halved: towards an end where light goes with a root, or a small power, of the
+/// distance, only the last half is.
 const DEEPEST: u32 = 12;
 
 /// Arcs that are not worth it, in pieces.
@@ -96,7 +96,7 @@ impl Boundary {
                     }
                     error = error.max(estimate + slip * highest);
                 }
-                if error > SHARE * goal.tolerance && depth < DEEPEST {
+                if error > setting.share * goal.tolerance && depth < DEEPEST {
                     *sum = kept;
                     let middle = 0.5 * (arc.start + arc.end);
                     for (start, end) in [(arc.start, middle), (middle, arc.end)] {
@@ -158,13 +158,14 @@ impl Boundary {
             if lights == 0 {
                 continue;
             }
-            let (finish, reference) = &setting.surfaces[sphere];
+            let surface = &setting.surfaces[sphere];
             let sender = Sender {
                 scene,
                 cell,
                 active,
-                finish,
-                reference,
+                finish: &surface.finish,
+                reference: &surface.reference,
+                terminators: surface.terminators,
                 tolerance: goal.tolerance,
             };
             let lines = Lines {
