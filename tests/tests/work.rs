@@ -40,21 +40,21 @@ const fn at_most(
 const ALLOWANCES: [Allowance; 11] = [
     at_most("tests/truth/pixels/seed1", 1e-2, 2.1, 0.29, 0.24),
     at_most("tests/truth/pixels/seed1", 1e-6, 3.9, 0.43, 0.25),
-    at_most("tests/truth/pixels/cloud1k", 1e-2, 31.5, 5.9, 30.4),
-    at_most("tests/truth/pixels/cloud1k", 1e-4, 35.5, 6.2, 30.5),
-    at_most("tests/truth/pixels/cloud1k", 1e-6, 80.0, 7.8, 30.7),
+    at_most("tests/truth/pixels/cloud1k", 1e-2, 19.6, 5.4, 30.4),
+    at_most("tests/truth/pixels/cloud1k", 1e-4, 24.5, 6.2, 30.5),
+    at_most("tests/truth/pixels/cloud1k", 1e-6, 48.5, 10.0, 30.7),
     at_most("scenes/c60", 1e-3, 53.7, 5.9, 9.8),
     at_most("scenes/c60", 1e-6, 67.6, 7.1, 10.2),
-    at_most("scenes/floor", 1e-3, 28.9, 6.8, 4.5),
-    at_most("scenes/floor", 1e-6, 38.5, 8.0, 4.5),
+    at_most("scenes/floor", 1e-3, 40.5, 4.3, 4.5),
+    at_most("scenes/floor", 1e-6, 58.5, 5.5, 4.5),
     at_most(
         "scenes/original/sphere1-rough-surface",
         1e-3,
-        9.2,
-        0.80,
+        22.4,
+        0.46,
         0.28,
     ),
-    at_most("scenes/original/cover", 1e-3, 68.4, 4.4, 1.25),
+    at_most("scenes/original/cover", 1e-3, 94.4, 2.8, 1.25),
 ];
 
 /// A scene, and a view of it that is 150 pixels wide.

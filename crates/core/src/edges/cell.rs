@@ -42,7 +42,6 @@ impl Cell {
         Self {
             middle,
             size: [self.size[0] * (x[1] - x[0]), self.size[1] * (y[1] - y[0])],
-            ..*self
         }
     }
 

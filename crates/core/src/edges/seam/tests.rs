@@ -75,26 +75,24 @@ fn a_huge_floor_cuts_a_small_ball_in_its_circle() {
         let height =
             ((floor_radius - distance) * (floor_radius + distance) - 1.0) / (2.0 * distance);
         let radius = (1.0 - height * height).sqrt();
-        {
-            let cell = Cell {
-                middle: small.center / 8.0,
-                size: [0.4; 2],
-            };
-            let seam = seam(&cell, &floor, &small);
-            for step in 0..40 {
-                let (sin, cos) = (0.157 * f64::from(step) + 0.1).sin_cos();
-                let point = small.center + DVec3::new(cos * radius, height, sin * radius);
-                let (x, y) = place(&cell, point);
-                let found = crossings(&seam, [y; 8]);
-                let off = (found[0][0] - x).abs().min((found[1][0] - x).abs());
-                // Near the ends of the circle rounding moves a crossing by its root.
-                let (value, terms) = value(&seam, x, y);
-                let is_near = off < 1e-9 || value.abs() < 1e-12 * terms;
-                assert!(
-                    is_near,
-                    "radius {floor_radius:e}: off by {off:e} at step {step}"
-                );
-            }
+        let cell = Cell {
+            middle: small.center / 8.0,
+            size: [0.4; 2],
+        };
+        let seam = seam(&cell, &floor, &small);
+        for step in 0..40 {
+            let (sin, cos) = (0.157 * f64::from(step) + 0.1).sin_cos();
+            let point = small.center + DVec3::new(cos * radius, height, sin * radius);
+            let (x, y) = place(&cell, point);
+            let found = crossings(&seam, [y; 8]);
+            let off = (found[0][0] - x).abs().min((found[1][0] - x).abs());
+            // Near the ends of the circle rounding moves a crossing by its root.
+            let (value, terms) = value(&seam, x, y);
+            let is_near = off < 1e-9 || value.abs() < 1e-12 * terms;
+            assert!(
+                is_near,
+                "radius {floor_radius:e}: off by {off:e} at step {step}"
+            );
         }
     }
 }

@@ -194,10 +194,10 @@ impl Workspace {
             );
             self.work.samples += std::mem::take(&mut self.boundary.samples);
             self.work.lines += std::mem::take(&mut self.boundary.lines);
-            match (found, best) {
-                (Ok(part), Ok(known)) if !(part.error < known.error) => {}
-                (Ok(part), _) => best = Ok(part),
-                (Err(_), _) => {}
+            if let Ok(part) = found
+                && !best.is_ok_and(|known| known.error <= part.error)
+            {
+                best = Ok(part);
             }
             if best.is_ok_and(|part| part.error <= *tolerance) {
                 break;

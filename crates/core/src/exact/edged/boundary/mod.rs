@@ -26,7 +26,7 @@ use self::primitive::Noise;
 use self::quadrature::total;
 
 use crate::edges::cell::Cell;
-use crate::exact::classify::active::Terminators;
+use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::part::{GiveUp, Part};
@@ -174,7 +174,14 @@ impl Boundary {
                 surfaces[one].terminators |= 1 << light;
             }
         }
-        let curves = contents.conics.len() + contents.occluders.len();
+        // Between lines on bumps more may happen than their errors tell.
+        let is_bumpy = |active: &Active| active.terminators == Terminators::Anywhere;
+        let share = if actives.iter().any(is_bumpy) {
+            LEAST_SHARE
+        } else {
+            let curves = contents.conics.len() + contents.occluders.len();
+            (SHARE_OF_ALL / (curves + 1) as f64).max(LEAST_SHARE)
+        };
         self.regions.clear();
         self.crossings[0].clear();
         self.crossings[1].clear();
@@ -184,7 +191,7 @@ impl Boundary {
             contents,
             goal,
             surfaces: &surfaces,
-            share: (SHARE_OF_ALL / (curves + 1) as f64).max(LEAST_SHARE),
+            share,
         };
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = Sum {

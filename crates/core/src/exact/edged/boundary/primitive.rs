@@ -191,7 +191,7 @@ impl Sender<'_, '_> {
         for rule in &RULES[first + 1..] {
             let fine = self.sum(simd, chord, lines, rule, noise);
             samples += 8 * rule.len() as u64;
-            doubt = doubt * 0.0;
+            doubt = f64x8::splat(simd, 0.0);
             for channel in 0..self.scene.channels {
                 doubt = doubt.max((fine[channel] - coarse[channel]).abs());
             }
