@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::curve::{Piece, Trace};
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
-use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
+use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;
 
 /// What is in front, or next behind a curve, at eight places.

@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use super::arcs::{between, front};
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
-use super::{Boundary, Edge, NONE, Setting};
+use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::{Kind, Reach};
 
 /// Intervals that begin or end at some of the places.

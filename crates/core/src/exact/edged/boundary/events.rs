@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::curve::{Piece, Trace, trace};
 use super::primitive::ray;
-use super::{Curve, Setting};
+use super::setting::{Curve, Setting};
 use crate::exact::points::Points;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;

@@ -6,7 +6,7 @@ use super::arcs::{add, between};
 use super::curve::{Piece, Trace};
 use super::events::{Function, INTERVALS, Stretch, in_disc};
 use super::primitive::ray;
-use super::{Arc, Boundary, Curve, Edge, NONE, Setting};
+use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Reach;
 use crate::exact::points::Points;
 

@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::curve::{Shape, Trace, trace};
 use super::primitive::{Lines, Sender, greatest};
-use super::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
+use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{RULE, error_estimate};
 use crate::exact::scene::InCamera;

@@ -1,0 +1,218 @@
+//! The integral over a cell.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec2;
+
+use super::chord::Reference;
+use super::clip;
+use super::curve::{Circle, Piece, Shape};
+use super::quadrature::total;
+
+use crate::edges::cell::Cell;
+use crate::exact::classify::active::{Active, Terminators};
+use crate::exact::classify::contents::{Contents, Kind, Reach};
+use crate::exact::classify::patch::Patch;
+use crate::exact::part::{GiveUp, Part};
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
+use crate::model::color::Color;
+
+use super::setting::{
+    Boundary, Curve, Edge, Goal, LEAST_SHARE, NONE, Path, SHARE_OF_ALL, Setting, Sum, Surface,
+};
+
+impl Boundary {
+    /// The integral over a cell.
+    #[inline(always)]
+    pub(crate) fn integrate<'scene, S: Simd>(
+        &mut self,
+        simd: S,
+        scene: &InCamera<'scene>,
+        cell: &Cell,
+        contents: &Contents,
+        goal: &Goal,
+    ) -> Result<Part, GiveUp> {
+        let actives = &contents.active;
+        let mut surfaces = Vec::with_capacity(actives.len());
+        for active in actives {
+            let finish = Finish::new(scene, active.sphere, contents.pixel);
+            let reference = Reference::new(&active.discriminant, &active.along);
+            surfaces.push(Surface {
+                finish,
+                reference,
+                terminators: 0,
+            });
+        }
+        for (kind, _) in &contents.conics {
+            if let Kind::Terminator(one, light) = *kind {
+                surfaces[one].terminators |= 1 << light;
+            }
+        }
+        // Between lines on bumps more may happen than their errors tell.
+        let is_bumpy = |active: &Active| active.terminators == Terminators::Anywhere;
+        let share = if actives.iter().any(is_bumpy) {
+            LEAST_SHARE
+        } else {
+            let curves = contents.conics.len() + contents.occluders.len();
+            (SHARE_OF_ALL / (curves + 1) as f64).max(LEAST_SHARE)
+        };
+        self.regions.clear();
+        self.crossings[0].clear();
+        self.crossings[1].clear();
+        let setting = Setting {
+            scene,
+            cell,
+            contents,
+            goal,
+            surfaces: &surfaces,
+            share,
+        };
+        let zero = f64x8::splat(simd, 0.0);
+        let mut sum = Sum {
+            value: [zero; 3],
+            empty: zero,
+            error: 0.0,
+        };
+        for (kind, _) in &contents.conics {
+            let (circle, edge, own) = match *kind {
+                Kind::Silhouette(one) => {
+                    let circle = Circle::limb(&actives[one].ball);
+                    (circle, Edge::Limb, [one, NONE])
+                }
+                Kind::Seam(one, other) => {
+                    let circle = Circle::seam(&actives[one].ball, &actives[other].ball);
+                    let Some(circle) = circle else { continue };
+                    (circle, Edge::Seam, [one, other])
+                }
+                Kind::Terminator(one, light) => {
+                    let Some(axis) = actives[one].terminators.axis(scene, light) else {
+                        continue;
+                    };
+                    let circle = Circle::terminator(&actives[one].ball, axis);
+                    (circle, Edge::Terminator(light), [one, NONE])
+                }
+            };
+            self.add_circle(simd, &setting, circle, edge, own, &mut sum);
+        }
+        let lights = scene.lights.len();
+        for (position, active) in actives.iter().enumerate() {
+            for light in 0..lights {
+                let Reach::Past(casters) = &contents.reach[position * lights + light] else {
+                    continue;
+                };
+                let toward = scene.lights[light].toward;
+                let own = [position, NONE];
+                if casters.is_empty() {
+                    continue;
+                }
+                let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+                let middle = 0.5 * (patch.ends[0] + patch.ends[1]) - active.ball.center;
+                let near = middle - toward * middle.dot(toward);
+                let around = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
+                // Without bumps, light reaches only one side of the sphere.
+                let sides: &[f64] = match active.terminators {
+                    Terminators::Plain => &[1.0],
+                    Terminators::Tilted(_) | Terminators::Anywhere => &[1.0, -1.0],
+                };
+                for caster in casters.clone() {
+                    for &side in sides {
+                        let caster_ball = &contents.occluders[caster];
+                        let curve = Curve {
+                            shape: Shape::shadow(&active.ball, caster_ball, toward, side),
+                            edge: Edge::Shadow(light, caster),
+                            own,
+                        };
+                        self.pieces.clear();
+                        clip::of_shadow(&curve.shape, near, around, &mut self.pieces);
+                        self.add(simd, &setting, &curve, &mut sum);
+                    }
+                }
+            }
+        }
+        // All that crosses the sides is known now.
+        for (edge, x) in [(Edge::Left, -0.5), (Edge::Right, 0.5)] {
+            self.pieces.clear();
+            self.pieces.push(Piece {
+                ends: [DVec2::new(0.0, -0.5), DVec2::new(0.0, 0.5)],
+                roots: [false; 2],
+            });
+            let curve = Curve {
+                shape: Shape::Side(x),
+                edge,
+                own: [NONE; 2],
+            };
+            self.add(simd, &setting, &curve, &mut sum);
+        }
+        let mut defect = 0.0;
+        for (_, _, left) in &self.regions {
+            defect += left.abs();
+        }
+        let mut value = Color::ZERO;
+        for channel in 0..scene.channels {
+            value[channel] = total(sum.value[channel]);
+        }
+        let rounding = goal.contrast * contents.rounding;
+        let part = Part {
+            value,
+            covered: 1.0 - total(sum.empty),
+            error: sum.error + goal.contrast * defect + rounding,
+            rounding,
+        };
+        if part.error.is_finite() && part.value.is_finite() {
+            Ok(part)
+        } else {
+            Err(GiveUp::NotFinite)
+        }
+    }
+
+    #[inline(always)]
+    fn add_circle<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        circle: Circle,
+        edge: Edge,
+        own: [usize; 2],
+        sum: &mut Sum<S>,
+    ) {
+        self.pieces.clear();
+        clip::of_circle(setting.cell, &circle, &mut self.pieces);
+        let curve = Curve {
+            shape: Shape::Circle(circle),
+            edge,
+            own,
+        };
+        self.add(simd, setting, &curve, sum);
+    }
+
+    /// Adds what the pieces of a curve contribute.
+    #[inline(never)]
+    fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        curve: &Curve,
+        sum: &mut Sum<S>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                clip::split(&mut self.pieces, setting.goal.parts);
+                for index in 0..self.pieces.len() {
+                    let piece = self.pieces[index];
+                    self.find_arcs(simd, setting, curve, &piece);
+                    self.light_arcs(simd, setting, curve, &piece);
+                    for index in 0..self.lit_arcs.len() {
+                        let arc = self.lit_arcs[index];
+                        let path = Path {
+                            curve,
+                            piece: &piece,
+                        };
+                        self.add_arc(simd, setting, &path, &arc, 0, sum);
+                    }
+                }
+            },
+        );
+    }
+}

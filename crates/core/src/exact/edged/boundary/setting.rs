@@ -1,0 +1,127 @@
+//! Curves, arcs, and what does not change in a cell.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::chord::Reference;
+use super::curve::{Piece, Shape};
+use super::primitive::Noise;
+
+use crate::edges::cell::Cell;
+use crate::exact::classify::contents::Contents;
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
+use crate::model::color::Color;
+
+/// No sphere.
+pub(super) const NONE: usize = usize::MAX;
+
+/// A curve on which what is seen may change.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Curve {
+    pub(super) shape: Shape,
+    pub(super) edge: Edge,
+    /// The active spheres that it lies on.
+    pub(super) own: [usize; 2],
+}
+
+/// What lies on both sides of a curve.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Edge {
+    /// The cell, to the left.
+    Right,
+    Left,
+    /// A sphere and what is behind it.
+    Limb,
+    /// Two spheres.
+    Seam,
+    /// What a light reaches and what it does not.
+    Terminator(usize),
+    /// The light, and which of the casters.
+    Shadow(usize, usize),
+}
+
+/// A piece of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path<'a> {
+    pub(super) curve: &'a Curve,
+    pub(super) piece: &'a Piece,
+}
+
+/// A part of a piece with the same on one side, and the same on the other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Arc {
+    pub(super) start: f64,
+    pub(super) end: f64,
+    pub(super) inner: usize,
+    pub(super) outer: usize,
+    /// Lights that reach there.
+    pub(super) lit: [u64; 2],
+}
+
+/// Memory to work in.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Boundary {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) breaks: Vec<f64>,
+    pub(super) arcs: Vec<Arc>,
+    pub(super) lit_arcs: Vec<Arc>,
+    /// What is seen, and how far its edges are from closing.
+    pub(super) regions: Vec<(usize, u64, f64)>,
+    /// Where curves cross the left side of the cell, and the right one.
+    pub(super) crossings: [Vec<f64>; 2],
+    pub(super) noise: Noise,
+    /// Points at which light was computed, and lines that it was summed up along.
+    pub(crate) samples: u64,
+    pub(crate) lines: u64,
+}
+
+/// How much is asked of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    pub(crate) tolerance: f64,
+    pub(crate) background: Color,
+    /// About the largest difference of light that an edge may make.
+    pub(crate) contrast: f64,
+    /// Into how many parts pieces of curves are cut; with one, events of what is hidden are not looked
+    /// for.
+    pub(crate) parts: usize,
+}
+
+/// An active sphere's surface.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    pub(super) finish: Finish,
+    /// Where chords begin.
+    pub(super) reference: Reference,
+    /// The lights, bit by bit, whose terminators may lie in the cell.
+    pub(super) terminators: u64,
+}
+
+/// The share of the tolerance that the errors of all arcs may take, before they are made larger for caution:
+/// a cell has about two arcs for each curve, and two for its sides, so that their sum stays within it.
+pub(super) const SHARE_OF_ALL: f64 = 0.15;
+
+/// Where curves are many most arcs take less than theirs: chosen by `cargo truth promise`.
+pub(super) const LEAST_SHARE: f64 = 0.02;
+
+/// What does not change in a cell.
+#[derive(Clone, Copy)]
+pub(super) struct Setting<'a, 'scene> {
+    pub(super) scene: &'a InCamera<'scene>,
+    pub(super) cell: &'a Cell,
+    pub(super) contents: &'a Contents,
+    pub(super) goal: &'a Goal,
+    /// Those of the active spheres.
+    pub(super) surfaces: &'a [Surface],
+    /// The share of the tolerance that an arc may take before it is halved.
+    pub(super) share: f64,
+}
+
+/// What arcs contribute so far, by nodes of the rule.
+#[derive(Clone, Copy)]
+pub(super) struct Sum<S: Simd> {
+    pub(super) value: [f64x8<S>; 3],
+    pub(super) empty: f64x8<S>,
+    pub(super) error: f64,
+}
