@@ -32,19 +32,7 @@ enum Shortfall {
     Unmet,
 }
 
-const ALLOWANCES: [Allowance; 2] = [
-    // Bumps that many terminators wind through in a pixel cost more than a pixel may.
-    Allowance {
-        scene: "candy",
-        what: Shortfall::Unmet,
-        pixels: [0, 0, 0, 0, 18],
-    },
-    Allowance {
-        scene: "rough_shiny",
-        what: Shortfall::Unmet,
-        pixels: [0, 0, 0, 0, 4],
-    },
-];
+const ALLOWANCES: [Allowance; 0] = [];
 
 /// Of all pixels of all scenes at a tolerance, so many may be off by more than they claim while
 /// within the tolerance, in parts; broken ones are counted above.
