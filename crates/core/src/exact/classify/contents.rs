@@ -53,10 +53,16 @@ pub(crate) struct Contents {
     pub(crate) occluders: Vec<Caster>,
     /// The pixel that the cell belongs to.
     pub(crate) pixel: PixelKey,
-    /// How far, in sides of the cell, rounding may move an edge.
+    /// How far, in sides of the cell, rounding may move an edge; and the area of spheres that are too small to
+    /// be resolved, which are left out.
     pub(crate) rounding: f64,
     hidden: HiddenSpheres,
 }
+
+/// The width, in sides of a cell, below which the silhouette of a sphere is not resolved: rounding moves the
+/// roots of a discriminant, whose coefficients are of the order of the cell, by the square root of some units
+/// in the last place, 1e-8. Such a sphere covers less than 1e-14 of the cell.
+const NARROWEST: f64 = 1e-7;
 
 /// A bound of what rounding moves points by, relative to the largest numbers that they are computed from:
 /// some units in the last place.
@@ -85,7 +91,13 @@ impl Contents {
         self.occluders.clear();
         let size = cell.size[0].min(cell.size[1]);
         self.rounding = ROUNDINGS * cell.middle.length() / size;
+        let mut unresolved = 0.0;
         for &(sphere, ball) in spheres {
+            let width = silhouette_width(&ball) / size;
+            if width < NARROWEST {
+                unresolved += width * width;
+                continue;
+            }
             let discriminant = silhouette(cell, &ball);
             let along = cell.dot(ball.center);
             let spread = discriminant.spread();
@@ -140,6 +152,7 @@ impl Contents {
                 self.reach.push(reach);
             }
         }
+        self.rounding += unresolved;
     }
 
     /// Adds the curves in which an active sphere intersects those before it.
@@ -276,6 +289,19 @@ fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
     let ahead = offset.dot(toward);
     let aside = (offset - toward * ahead).length();
     ahead > 0.0 && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
+}
+
+/// A bound of the width of a sphere's silhouette on the retina at distance 1; infinite where the sphere comes
+/// near the eye's plane.
+///
+/// Along an axis the silhouette is 2 r √(c_x² + c_z² − r²) / (c_z² − r²) wide.
+fn silhouette_width(ball: &Ball) -> f64 {
+    let product = (ball.center.z - ball.radius) * (ball.center.z + ball.radius);
+    if ball.center.z > 2.0 * ball.radius {
+        2.0 * ball.radius * ball.center.length() / product
+    } else {
+        f64::INFINITY
+    }
 }
 
 #[cfg(test)]
