@@ -126,6 +126,35 @@ fn extreme_numbers_are_not_claimed_to_be_met() {
 }
 
 /// Relative to the viewpoint a floor of any radius is known as well as a small one.
+/// Where four pixels meet, and elsewhere: a speck covers nearly nothing, and no pixel says more.
+#[test]
+fn specks_of_any_radius_are_nearly_dark() {
+    for exponent in 3..=13 {
+        let radius = libm::pow(10.0, -f64::from(exponent));
+        for center in ["0, 0, 40", "0.4, 0, 40", "0.3, 0.2, 40"] {
+            let scene = scene(&format!(
+                "lens: Retina(width: 60, distance: 50), camera: Free(), ambient: 0.1, \
+                 lights: [Directional(toward: (-1, 1, -1), intensity: 0.8)], \
+                 spheres: [(center: ({center}), radius: {radius:e})]"
+            ));
+            let view = scene.view(1).unwrap();
+            let image = exact_picture(scene.world(), &view, 1e-3, true);
+            // A disc, larger than its picture by the lens, and brighter than the light allows.
+            let most = 4.0 * (radius * 50.0 / 40.0).powi(2);
+            for (col, row) in pixels(&image) {
+                let [value, .., alpha] = image.rgba(col, row);
+                let claimed = image.error(col, row);
+                let off = value.abs().max(alpha.abs()) - most;
+                assert!(
+                    off <= claimed,
+                    "{radius:e} at {center}: {value:e}, {alpha:e}, {claimed:e}"
+                );
+                assert!(claimed <= 1e-3, "{radius:e} at {center}: {claimed:e}");
+            }
+        }
+    }
+}
+
 #[test]
 fn floors_of_any_radius_are_met() {
     for body in [
