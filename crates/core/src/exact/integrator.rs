@@ -103,7 +103,10 @@ impl<'scene> Exact<'scene> {
             unknown |= if self.is_moderate && scratch.are_balls_moderate() {
                 dispatch!(self.level, simd => tile_pixels(simd, context, tile, &candidates, scratch, target))
             } else {
-                target.extend(tile.pixels().map(|_| context.empty_pixel()));
+                target.extend(std::iter::repeat_n(
+                    context.empty_pixel(),
+                    tile.count() as usize,
+                ));
                 !0
             };
             work += scratch.take_work();

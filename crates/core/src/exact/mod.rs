@@ -82,7 +82,10 @@ fn tile_pixels<S: Simd>(
     pixels: &mut Vec<Pixel>,
 ) -> u64 {
     let first = pixels.len();
-    pixels.extend(tile.pixels().map(|_| context.empty_pixel()));
+    pixels.extend(std::iter::repeat_n(
+        context.empty_pixel(),
+        tile.count() as usize,
+    ));
     if candidates.is_empty() {
         return 0;
     }

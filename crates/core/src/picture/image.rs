@@ -170,6 +170,7 @@ impl Image {
     ///
     /// # Panics
     /// Outside the picture, as for the other accessors of a pixel.
+    #[inline]
     pub fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
         let count = self.channels.count();
         let stride = count + usize::from(self.alpha);

@@ -148,6 +148,7 @@ pub(crate) enum Sight {
 
 /// Finds out what the pixel with the number `lane` in its row may see: the spheres are written to
 /// `spheres`.
+#[inline]
 pub(crate) fn sight(
     context: &Context<'_>,
     pixel: Tile,
