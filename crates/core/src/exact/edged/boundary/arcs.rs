@@ -3,7 +3,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::curve::{Piece, Trace};
+use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;
@@ -24,6 +24,18 @@ impl<S: Simd> Front<S> {
     #[inline(always)]
     pub(super) fn is(&self, sphere: usize) -> u64 {
         self.first.simd_eq((sphere + 1) as f64).to_bitmask()
+    }
+
+    /// At which of the places it hides a curve.
+    #[inline(always)]
+    fn hidden(&self, curve: &Curve, places: &Trace<S>) -> u64 {
+        if curve.is_side() {
+            0
+        } else if self.is_hidden {
+            0xff
+        } else {
+            self.nearest.simd_lt(places.point.z).to_bitmask()
+        }
     }
 }
 
@@ -83,87 +95,100 @@ pub(super) fn front<S: Simd>(
     )
 }
 
+/// The lanes of a trace in which a part of a stretch begins, is halfway, and ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lanes {
+    pub(super) start: usize,
+    pub(super) middle: usize,
+    pub(super) end: usize,
+}
+
+impl Lanes {
+    /// Those of a stretch at whose eight places nothing changes.
+    pub(super) const WHOLE: Self = Self {
+        start: 0,
+        middle: 3,
+        end: 7,
+    };
+    /// As many steps between breaks as a trace has room for.
+    pub(super) const STEPS: usize = 3;
+
+    /// Those of a step between breaks, in the order of [`Boundary::steps`].
+    pub(super) fn of_step(step: usize) -> Self {
+        Self {
+            start: Self::STEPS + step,
+            middle: step,
+            end: Self::STEPS + step + 1,
+        }
+    }
+}
+
 impl Boundary {
-    /// Finds the parts of a piece that are seen.
+    /// Finds the parts of a piece that are seen; `whole` is all of it.
     #[inline(always)]
     pub(super) fn find_arcs<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
-        curve: &Curve,
-        piece: &Piece,
+        whole: &Stretch<'_>,
+        places: &Trace<S>,
     ) {
         self.arcs.clear();
         self.breaks.clear();
-        let stretch = Stretch {
-            curve,
-            piece,
-            start: 0.0,
-            end: 1.0,
-        };
-        let places = stretch.places(simd, setting);
-        if !self.find_own_breaks(simd, setting, &stretch, &places) {
+        let curve = whole.curve;
+        if !self.find_own_breaks(simd, setting, whole, places) {
             return;
         }
-        if matches!(curve.edge, Edge::Shadow(..)) {
-            // What is in the cell may be a small part of the piece.
-            self.order_breaks(0.0, 1.0);
-            let known = self.breaks.len();
-            let mut first = 0;
-            while first + 1 < known {
-                let count = (known - 1 - first).min(8);
-                let middles = self.middles(first, count);
-                let middles = stretch.trace(simd, setting, middles.simd_into(simd));
-                let hidden = own_hidden(simd, setting, curve, &middles);
-                for lane in 0..count {
-                    if hidden >> lane & 1 == 0 {
-                        let part = Stretch {
-                            start: self.breaks[first + lane],
-                            end: self.breaks[first + lane + 1],
-                            ..stretch
-                        };
-                        let places = part.places(simd, setting);
-                        self.find_breaks(simd, setting, &part, &places);
-                    }
-                }
-                first += count;
+        if self.breaks.is_empty() {
+            let own_hidden = own_hidden(simd, setting, curve, places);
+            if own_hidden >> Lanes::WHOLE.middle & 1 == 1 {
+                return;
             }
-            self.breaks.sort_unstable_by(f64::total_cmp);
+            let front = self.find_breaks(simd, setting, whole, places);
+            self.add_crossings(curve.edge, whole);
+            if self.breaks.is_empty() {
+                let hidden = front.hidden(curve, places);
+                self.see(whole, Lanes::WHOLE, places, &front, hidden);
+                return;
+            }
+            self.order_breaks(0.0, 1.0);
+        } else if matches!(curve.edge, Edge::Shadow(..)) {
+            self.find_breaks_by_parts(simd, setting, whole);
         } else {
-            self.find_breaks(simd, setting, &stretch, &places);
-            self.add_crossings(curve.edge, &stretch);
+            self.find_breaks(simd, setting, whole, places);
             self.order_breaks(0.0, 1.0);
         }
-        self.see_arcs(simd, setting, &stretch);
-        self.note_crossings(simd, setting, &stretch);
+        self.see_steps(simd, setting, whole);
     }
 
-    /// Notes where what is seen of a piece ends on an upright side of the cell.
-    #[inline(always)]
-    fn note_crossings<S: Simd>(
+    /// Finds the breaks of the edge of a shadow between those that are known: what is in the cell may be a
+    /// small part of it.
+    #[inline(never)]
+    fn find_breaks_by_parts<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
-        stretch: &Stretch<'_>,
+        whole: &Stretch<'_>,
     ) {
-        /// Places that count as on a side.
-        const NEAR: f64 = 1e-6;
-        if matches!(stretch.curve.edge, Edge::Left | Edge::Right) {
-            return;
-        }
-        for chunk in self.arcs.chunks(4) {
-            let mut ends = [0.0; 8];
-            for (ends, arc) in ends.chunks_mut(2).zip(chunk) {
-                ends.copy_from_slice(&[arc.start, arc.end]);
-            }
-            let places = stretch.trace(simd, setting, ends.simd_into(simd));
-            for lane in 0..2 * chunk.len() {
-                let side = usize::from(places.x[lane] > 0.0);
-                if (places.x[lane].abs() - 0.5).abs() < NEAR {
-                    self.crossings[side].push(places.y[lane]);
+        self.order_breaks(0.0, 1.0);
+        let known = self.breaks.len();
+        for first in (0..known - 1).step_by(Lanes::STEPS) {
+            let count = (known - 1 - first).min(Lanes::STEPS);
+            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let hidden = own_hidden(simd, setting, whole.curve, &places);
+            for step in 0..count {
+                if hidden >> step & 1 == 0 {
+                    let part = Stretch {
+                        start: self.breaks[first + step],
+                        end: self.breaks[first + step + 1],
+                        ..*whole
+                    };
+                    let places = part.places(simd, setting);
+                    self.find_breaks(simd, setting, &part, &places);
                 }
             }
         }
+        self.breaks.sort_unstable_by(f64::total_cmp);
     }
 
     /// Adds to the breaks of a piece of a side, or of a part of it, where curves are known to cross it.
@@ -182,6 +207,30 @@ impl Boundary {
         }
     }
 
+    /// The intervals of a part of a side in which curves are known to cross it: what changes there needs
+    /// not be looked for. A change that no known curve makes leaves regions open, which counts as error;
+    /// finer parts look for all of them.
+    pub(super) fn crossed(&self, setting: &Setting<'_, '_>, stretch: &Stretch<'_>) -> u64 {
+        let side = match stretch.curve.edge {
+            Edge::Left => 0,
+            Edge::Right => 1,
+            _ => return 0,
+        };
+        if setting.goal.parts > 1 {
+            return 0;
+        }
+        let [low, high] = stretch.piece.ends.map(|end| end.y);
+        let mut intervals = 0;
+        for y in &self.crossings[side] {
+            let at = (y - low) / (high - low);
+            let share = (at - stretch.start) / (stretch.end - stretch.start);
+            if share > 0.0 && share < 1.0 {
+                intervals |= 1 << (share * 7.0) as u64;
+            }
+        }
+        intervals & INTERVALS
+    }
+
     /// Brings the breaks in order, between two ends.
     pub(super) fn order_breaks(&mut self, start: f64, end: f64) {
         self.breaks.push(start);
@@ -189,57 +238,84 @@ impl Boundary {
         self.breaks.sort_unstable_by(f64::total_cmp);
     }
 
-    /// The middles between eight of the breaks and the next ones.
-    pub(super) fn middles(&self, first: usize, count: usize) -> [f64; 8] {
-        let mut middles = [0.0; 8];
-        for (lane, middle) in middles.iter_mut().enumerate() {
-            let at = first + lane.min(count - 1);
-            *middle = 0.5 * (self.breaks[at] + self.breaks[at + 1]);
-        }
-        middles
+    /// The middles of the steps between four of the breaks and the next ones, and these breaks.
+    pub(super) fn steps(&self, first: usize) -> [f64; 8] {
+        let last = self.breaks.len() - 1;
+        let at = |index: usize| self.breaks[(first + index).min(last)];
+        let middle = |step: usize| 0.5 * (at(step) + at(step + 1));
+        [
+            middle(0),
+            middle(1),
+            middle(2),
+            at(0),
+            at(1),
+            at(2),
+            at(3),
+            at(3),
+        ]
     }
 
     /// Finds what is seen beside the curve between the breaks.
     #[inline(always)]
-    fn see_arcs<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, stretch: &Stretch<'_>) {
-        let (contents, curve) = (setting.contents, stretch.curve);
+    fn see_steps<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, whole: &Stretch<'_>) {
         let steps = self.breaks.len() - 1;
-        let mut first = 0;
-        while first < steps {
-            let count = (steps - first).min(8);
-            let middles = self.middles(first, count);
-            let places = stretch.trace(simd, setting, middles.simd_into(simd));
-            let front = front(simd, contents, curve.own, &places);
-            let mut hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
-            if matches!(curve.edge, Edge::Left | Edge::Right) {
-                hidden = 0;
-            } else if front.is_hidden {
-                hidden = 0xff;
-            }
-            hidden |= own_hidden(simd, setting, curve, &places);
-            let firsts: [f64; 8] = front.first.into();
-            for (lane, first_here) in firsts.into_iter().enumerate().take(count) {
-                if hidden >> lane & 1 == 1 {
-                    continue;
-                }
-                let seen = (first_here as usize).wrapping_sub(1);
-                let (inner, outer) = match curve.edge {
-                    Edge::Left | Edge::Right => (seen, NONE),
-                    Edge::Limb => (curve.own[0], seen),
-                    Edge::Seam => (curve.own[0], curve.own[1]),
-                    Edge::Terminator(_) | Edge::Shadow(..) => (curve.own[0], curve.own[0]),
+        for first in (0..steps).step_by(Lanes::STEPS) {
+            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let front = front(simd, setting.contents, whole.curve.own, &places);
+            let hidden = front.hidden(whole.curve, &places)
+                | own_hidden(simd, setting, whole.curve, &places);
+            for step in 0..(steps - first).min(Lanes::STEPS) {
+                let part = Stretch {
+                    start: self.breaks[first + step],
+                    end: self.breaks[first + step + 1],
+                    ..*whole
                 };
-                let arc = Arc {
-                    start: self.breaks[first + lane],
-                    end: self.breaks[first + lane + 1],
-                    inner,
-                    outer,
-                    lit: [0; 2],
-                };
-                add(&mut self.arcs, arc);
+                self.see(&part, Lanes::of_step(step), &places, &front, hidden);
             }
-            first += count;
         }
+    }
+
+    /// Adds a part of a piece on which the same is seen, if it is not hidden; notes where it ends on an
+    /// upright side of the cell.
+    #[inline(always)]
+    fn see<S: Simd>(
+        &mut self,
+        part: &Stretch<'_>,
+        lanes: Lanes,
+        places: &Trace<S>,
+        front: &Front<S>,
+        hidden: u64,
+    ) {
+        /// Places that count as on a side.
+        const NEAR: f64 = 1e-6;
+        if hidden >> lanes.middle & 1 == 1 {
+            return;
+        }
+        let curve = part.curve;
+        let first = (front.first[lanes.middle] as usize).wrapping_sub(1);
+        let (inner, outer) = match curve.edge {
+            Edge::Left | Edge::Right => (first, NONE),
+            Edge::Limb => (curve.own[0], first),
+            Edge::Seam => (curve.own[0], curve.own[1]),
+            Edge::Terminator(_) | Edge::Shadow(..) => (curve.own[0], curve.own[0]),
+        };
+        let arc = Arc {
+            start: part.start,
+            end: part.end,
+            y: [places.y[lanes.start], places.y[lanes.end]],
+            inner,
+            outer,
+            lit: [0; 2],
+        };
+        if !curve.is_side() {
+            for (lane, y) in [lanes.start, lanes.end].into_iter().zip(arc.y) {
+                let x = places.x[lane];
+                if (x.abs() - 0.5).abs() < NEAR {
+                    self.crossings[usize::from(x > 0.0)].push(y);
+                }
+            }
+        }
+        add(&mut self.arcs, arc);
     }
 }
 
@@ -255,7 +331,7 @@ fn own_hidden<S: Simd>(
         #[inline(always)]
         || {
             let mut hidden = 0;
-            if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+            if curve.is_side() || curve.edge == Edge::Limb {
                 return hidden;
             }
             for own in curve.own {
@@ -285,6 +361,7 @@ pub(super) fn add(arcs: &mut Vec<Arc>, arc: Arc) {
                 && last.lit == arc.lit =>
         {
             last.end = arc.end;
+            last.y[1] = arc.y[1];
         }
         _ => arcs.push(arc),
     }

@@ -2,7 +2,7 @@
 
 use fearless_simd::prelude::*;
 
-use super::arcs::{between, front};
+use super::arcs::{Front, between, front};
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
 use super::setting::{Boundary, Edge, NONE, Setting};
@@ -14,7 +14,8 @@ fn beside(lanes: u64) -> u64 {
 }
 
 impl Boundary {
-    /// Finds where other spheres begin or end in front of a stretch.
+    /// Finds where other spheres begin or end in front of a stretch; returns what is in front of it at the
+    /// eight places.
     #[inline(never)]
     pub(super) fn find_breaks<S: Simd>(
         &mut self,
@@ -22,15 +23,15 @@ impl Boundary {
         setting: &Setting<'_, '_>,
         stretch: &Stretch<'_>,
         places: &Trace<S>,
-    ) {
+    ) -> Front<S> {
         simd.vectorize(
             #[inline(always)]
             || {
                 let contents = setting.contents;
                 let front = front(simd, contents, stretch.curve.own, places);
-                let is_side = matches!(stretch.curve.edge, Edge::Left | Edge::Right);
+                let is_side = stretch.curve.is_side();
                 if front.is_hidden && !is_side {
-                    return;
+                    return front;
                 }
                 let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
                 let firsts: [f64; 8] = front.first.into();
@@ -41,7 +42,7 @@ impl Boundary {
                 }
                 // Nothing comes in sight where one sphere hides both ends.
                 let open = if is_side {
-                    INTERVALS
+                    INTERVALS & !self.crossed(setting, stretch)
                 } else {
                     INTERVALS & !(between(hidden) & alike)
                 };
@@ -97,6 +98,7 @@ impl Boundary {
                     let values = value(simd, setting, function, places);
                     stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
                 }
+                front
             },
         )
     }
@@ -112,7 +114,7 @@ impl Boundary {
         places: &Trace<S>,
     ) -> bool {
         let curve = stretch.curve;
-        if matches!(curve.edge, Edge::Left | Edge::Right | Edge::Limb) {
+        if curve.is_side() || curve.edge == Edge::Limb {
             return true;
         }
         let mut functions = [(Function::Across(0, 0.0), 0.0); 7];

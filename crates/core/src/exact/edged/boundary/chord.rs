@@ -132,10 +132,24 @@ pub(super) struct Chord<S: Simd> {
     half: f64x8<S>,
     weight: f64x8<S>,
     lean: f64x8<S>,
-    /// The square of how far the parameter tan(φ/2) of an ellipse goes: 2 tan(Δφ/4).
-    pub(super) way_sq: f64x8<S>,
-    /// The half axis of an ellipse times the square of the way.
-    pub(super) size: f64x8<S>,
+    /// √(2 G).
+    scale: f64x8<S>,
+    /// The roots at the ends.
+    roots: [f64x8<S>; 2],
+    /// The square of the half axis of an ellipse, times −Q″ / 2.
+    spread_sq: f64x8<S>,
+}
+
+/// A place of chords, as quotients with one denominator.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Homogeneous<S: Simd> {
+    /// x, times the denominator.
+    pub(super) x: f64x8<S>,
+    /// The root w, times the denominator.
+    pub(super) root: f64x8<S>,
+    /// How fast x goes with the parameter, times the square of the denominator.
+    pub(super) slope: f64x8<S>,
+    pub(super) denominator: f64x8<S>,
 }
 
 impl<S: Simd> Chord<S> {
@@ -160,21 +174,33 @@ impl<S: Simd> Chord<S> {
         let first = (there + bend - rise).max(zero).sqrt();
         let last = (there + bend + rise).max(zero).sqrt();
         let between = (first * last + there - bend).max(one * f64::MIN_POSITIVE);
-        let scale = one / (between * 2.0).sqrt();
-        let weight = (first + last) * scale;
-        let lean = (first - last) * scale;
-        let more = weight + 1.0;
-        let way_sq = (one - weight).abs() / more * 4.0;
-        let spread = (slope * slope - there * q.xx).max(zero).sqrt();
-        let size = half * half * spread * 8.0 / (more * more * between);
+        let scale = (between * 2.0).sqrt();
+        let inverse = one / scale;
         Self {
             middle,
             half,
-            weight,
-            lean,
-            way_sq,
-            size,
+            weight: (first + last) * inverse,
+            lean: (first - last) * inverse,
+            scale,
+            roots: [first, last],
+            spread_sq: (slope * slope - there * q.xx).max(zero),
         }
+    }
+
+    /// The square of how far the parameter tan(φ/2) of an ellipse goes: 2 tan(Δφ/4).
+    #[inline(always)]
+    pub(super) fn way_sq(&self) -> f64x8<S> {
+        let weight = self.weight;
+        (weight - 1.0).abs() / (weight + 1.0) * 4.0
+    }
+
+    /// The half axis of an ellipse times the third power of the way.
+    #[inline(always)]
+    pub(super) fn size_of_way(&self) -> f64x8<S> {
+        let more = self.weight + 1.0;
+        let product = more * self.scale;
+        let root = (self.spread_sq * self.way_sq()).sqrt();
+        self.half * self.half * root * 16.0 / (product * product)
     }
 
     /// Whether there is nothing of them.
@@ -193,6 +219,26 @@ impl<S: Simd> Chord<S> {
         let share = (sigma + bow * self.lean) * inverse;
         let slope = (one - sigma * self.lean - share * sigma * less) * inverse;
         (self.middle + self.half * share, self.half * slope)
+    }
+
+    /// The place with the parameter σ: the root is the rational curve of degree 2 between those at the ends,
+    /// with √(G / 2) between them.
+    #[inline(always)]
+    pub(super) fn homogeneous(&self, sigma: f64) -> Homogeneous<S> {
+        let bow = 0.5 * (1.0 - sigma * sigma);
+        let [before, after] = [
+            0.25 * (1.0 - sigma) * (1.0 - sigma),
+            0.25 * (1.0 + sigma) * (1.0 + sigma),
+        ];
+        let denominator = self.weight * bow + (1.0 - bow);
+        let share = self.lean * bow + sigma;
+        let less = self.weight * sigma - sigma;
+        Homogeneous {
+            x: self.middle * denominator + self.half * share,
+            root: self.roots[0] * before + self.roots[1] * after + self.scale * (0.5 * bow),
+            slope: self.half * ((1.0 - self.lean * sigma) * denominator + share * less),
+            denominator,
+        }
     }
 
     /// The length of the chords.

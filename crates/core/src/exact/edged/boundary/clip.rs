@@ -14,22 +14,36 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
         let edge = cell.middle[axis] + side * cell.size[axis];
         side.signum() * (vector[axis] - edge * vector.z)
     };
+    // Beside the cell, by so much of its side, nothing ends that lies in it.
+    const BESIDE: f64 = 0.25;
     let mut roots = [DVec2::ZERO; 8];
     let mut count = 0;
+    let mut passes = false;
     for side in SIDES {
-        {
-            let (a, b) = (beyond(side, circle.right), beyond(side, circle.up));
-            let c = beyond(side, circle.middle);
-            let [one, other] = zeros(a, b, c);
-            if let (Some(one), Some(other)) = (one, other) {
-                roots[count] = one;
-                roots[count + 1] = other;
-                count += 2;
-            } else if c >= 0.0 || c.is_nan() {
+        let (a, b) = (beyond(side, circle.right), beyond(side, circle.up));
+        let c = beyond(side, circle.middle);
+        let [Some(one), Some(other)] = zeros(a, b, c) else {
+            if c >= 0.0 || c.is_nan() {
                 // All of it lies beyond.
                 return;
             }
+            continue;
+        };
+        let across = 1 - side.0;
+        for root in [one, other] {
+            let point = circle.at(root);
+            let slack = BESIDE * cell.size[across] * point.z;
+            let is_beside = |end: f64| beyond((across, end), point) > slack;
+            if is_beside(-0.5) || is_beside(0.5) {
+                passes = true;
+            } else {
+                roots[count] = root;
+                count += 1;
+            }
         }
+    }
+    if count == 0 && passes {
+        return;
     }
     between(&mut roots[..count], pieces, |e| {
         let point = circle.at(e);

@@ -7,6 +7,7 @@ use glam::DVec2;
 use super::chord::Reference;
 use super::clip;
 use super::curve::{Circle, Piece, Shape};
+use super::events::Stretch;
 use super::quadrature::total;
 
 use crate::edges::cell::Cell;
@@ -201,8 +202,15 @@ impl Boundary {
                 clip::split(&mut self.pieces, setting.goal.parts);
                 for index in 0..self.pieces.len() {
                     let piece = self.pieces[index];
-                    self.find_arcs(simd, setting, curve, &piece);
-                    self.light_arcs(simd, setting, curve, &piece);
+                    let whole = Stretch {
+                        curve,
+                        piece: &piece,
+                        start: 0.0,
+                        end: 1.0,
+                    };
+                    let places = whole.places(simd, setting);
+                    self.find_arcs(simd, setting, &whole, &places);
+                    self.light_arcs(simd, setting, &whole, &places);
                     for index in 0..self.lit_arcs.len() {
                         let arc = self.lit_arcs[index];
                         let path = Path {

@@ -130,7 +130,7 @@ impl Sender<'_, '_> {
             // A chord crosses a terminator twice at most.
             looks = 2;
         }
-        let cells = greatest(chord.way_sq).sqrt() * self.finish.shading_normal.cells();
+        let cells = greatest(chord.way_sq()).sqrt() * self.finish.shading_normal.cells();
         let parts = (cells / MOST_CELLS).ceil().clamp(1.0, MOST_PARTS as f64) as usize;
         Search {
             parts,

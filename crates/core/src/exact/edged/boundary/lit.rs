@@ -2,8 +2,8 @@
 
 use fearless_simd::prelude::*;
 
-use super::arcs::{add, between};
-use super::curve::{Piece, Trace};
+use super::arcs::{Lanes, add, between};
+use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, in_disc};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
@@ -11,79 +11,101 @@ use crate::exact::classify::contents::Reach;
 use crate::exact::points::Points;
 
 impl Boundary {
-    /// Cuts the arcs where lights begin or end on either side.
+    /// Cuts the arcs of a piece where lights begin or end on either side; `whole` is all of it.
     #[inline(always)]
     pub(super) fn light_arcs<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
-        curve: &Curve,
-        piece: &Piece,
+        whole: &Stretch<'_>,
+        places: &Trace<S>,
     ) {
         self.lit_arcs.clear();
+        let curve = whole.curve;
         for index in 0..self.arcs.len() {
             let arc = self.arcs[index];
-            let stretch = Stretch {
-                curve,
-                piece,
-                start: arc.start,
-                end: arc.end,
-            };
-            self.breaks.clear();
-            for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
-                if sphere != NONE && (side == 0 || sphere != arc.inner) {
-                    self.find_light_breaks(simd, setting, &stretch, sphere);
-                }
-            }
-            if [arc.inner, arc.outer]
-                .iter()
-                .all(|&sphere| is_dark(setting, sphere))
-            {
+            if is_dark(setting, arc.inner) && is_dark(setting, arc.outer) {
                 if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
                     add(&mut self.lit_arcs, arc);
                 }
                 continue;
             }
+            let stretch = Stretch {
+                start: arc.start,
+                end: arc.end,
+                ..*whole
+            };
+            let of_arc;
+            let places = if arc.start == whole.start && arc.end == whole.end {
+                places
+            } else {
+                of_arc = stretch.places(simd, setting);
+                &of_arc
+            };
+            self.breaks.clear();
+            let mut lit = [0; 2];
+            lit[0] = self.find_light_breaks(simd, setting, &stretch, arc.inner, places);
+            lit[1] = if arc.outer == arc.inner {
+                lit[0]
+            } else {
+                self.find_light_breaks(simd, setting, &stretch, arc.outer, places)
+            };
             self.add_crossings(curve.edge, &stretch);
-            self.order_breaks(arc.start, arc.end);
-            let steps = self.breaks.len() - 1;
-            let mut first = 0;
-            while first < steps {
-                let count = (steps - first).min(8);
-                let middles = self.middles(first, count);
-                let places = stretch.trace(simd, setting, middles.simd_into(simd));
-                let mut lit = [[0; 8]; 2];
-                if arc.inner != NONE {
-                    lit[0] = self.lit(simd, setting, arc.inner, curve, &places);
-                }
-                if arc.outer == arc.inner {
-                    lit[1] = lit[0];
-                } else if arc.outer != NONE {
-                    lit[1] = self.lit(simd, setting, arc.outer, curve, &places);
-                }
-                let [inner, outer] = lit;
-                for (lane, sides) in inner.into_iter().zip(outer).enumerate().take(count) {
-                    let mut here = <[u64; 2]>::from(sides);
-                    if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
-                        if here[0] >> light & 1 == 0 {
-                            continue;
-                        }
-                        here[1] = here[0] & !(1 << light);
-                    }
-                    let arc = Arc {
-                        start: self.breaks[first + lane],
-                        end: self.breaks[first + lane + 1],
-                        lit: here,
-                        ..arc
-                    };
-                    add(&mut self.lit_arcs, arc);
-                }
-                first += count;
+            if self.breaks.is_empty() {
+                self.add_lit(curve, Arc { lit, ..arc });
+            } else {
+                self.light_steps(simd, setting, whole, &arc);
             }
         }
     }
 
-    /// Finds where lights begin or end on an active sphere along a stretch.
+    /// Adds the parts of an arc between the breaks.
+    #[inline(never)]
+    fn light_steps<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        whole: &Stretch<'_>,
+        arc: &Arc,
+    ) {
+        self.order_breaks(arc.start, arc.end);
+        let curve = whole.curve;
+        let steps = self.breaks.len() - 1;
+        for first in (0..steps).step_by(Lanes::STEPS) {
+            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let inner = self.lit(simd, setting, arc.inner, curve, &places);
+            let outer = if arc.outer == arc.inner {
+                inner
+            } else {
+                self.lit(simd, setting, arc.outer, curve, &places)
+            };
+            for step in 0..(steps - first).min(Lanes::STEPS) {
+                let lanes = Lanes::of_step(step);
+                let part = Arc {
+                    start: self.breaks[first + step],
+                    end: self.breaks[first + step + 1],
+                    y: [places.y[lanes.start], places.y[lanes.end]],
+                    lit: [inner[lanes.middle], outer[lanes.middle]],
+                    ..*arc
+                };
+                self.add_lit(curve, part);
+            }
+        }
+    }
+
+    /// Adds a part of an arc that these lights reach, but for the event that the curve is.
+    fn add_lit(&mut self, curve: &Curve, mut arc: Arc) {
+        if let Edge::Terminator(light) | Edge::Shadow(light, _) = curve.edge {
+            if arc.lit[0] >> light & 1 == 0 {
+                return;
+            }
+            arc.lit[1] = arc.lit[0] & !(1 << light);
+        }
+        add(&mut self.lit_arcs, arc);
+    }
+
+    /// Finds where lights begin or end on an active sphere along a stretch; returns those that reach its
+    /// middle, if there are none.
     #[inline(never)]
     fn find_light_breaks<S: Simd>(
         &mut self,
@@ -91,17 +113,19 @@ impl Boundary {
         setting: &Setting<'_, '_>,
         stretch: &Stretch<'_>,
         sphere: usize,
-    ) {
+        places: &Trace<S>,
+    ) -> u64 {
         simd.vectorize(
             #[inline(always)]
             || {
+                let mut lights_there = 0;
+                if is_dark(setting, sphere) {
+                    return lights_there;
+                }
                 let lights = setting.scene.lights.len();
                 let reach = &setting.contents.reach[sphere * lights..][..lights];
-                if is_dark(setting, sphere) {
-                    return;
-                }
                 let curve = stretch.curve;
-                let places = stretch.places(simd, setting);
+                let crossed = self.crossed(setting, stretch);
                 let active = &setting.contents.active[sphere];
                 let points = Points::new(
                     simd,
@@ -120,10 +144,11 @@ impl Boundary {
                         axis = None;
                     }
                     let facing = points.normal.dot_one(axis.unwrap_or(toward));
-                    let mut closed = 0;
+                    let mut dark = 0;
                     if axis.is_some() {
-                        closed = between(facing.simd_lt(0.0).to_bitmask());
+                        dark = facing.simd_le(0.0).to_bitmask();
                     }
+                    let mut closed = between(dark);
                     let height = place.dot_one(toward);
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
@@ -131,9 +156,12 @@ impl Boundary {
                         }
                         let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
                         let top = setting.contents.occluders[caster].center.dot(toward);
-                        closed |= between((inside & height.simd_lt(top)).to_bitmask());
+                        let shaded = (inside & height.simd_lt(top)).to_bitmask();
+                        closed |= between(shaded);
+                        dark |= shaded;
                     }
-                    let open = INTERVALS & !closed;
+                    lights_there |= (!dark >> Lanes::WHOLE.middle & 1) << light;
+                    let open = INTERVALS & !closed & !crossed;
                     if open == 0 {
                         continue;
                     }
@@ -150,6 +178,7 @@ impl Boundary {
                         stretch.roots(simd, setting, function, values, open, &mut self.breaks);
                     }
                 }
+                lights_there
             },
         )
     }
@@ -169,12 +198,12 @@ impl Boundary {
             #[inline(always)]
             || {
                 let mut masks = [0; 8];
-                let contents = setting.contents;
-                let lights = setting.scene.lights.len();
-                let reach = &contents.reach[sphere * lights..][..lights];
                 if is_dark(setting, sphere) {
                     return masks;
                 }
+                let contents = setting.contents;
+                let lights = setting.scene.lights.len();
+                let reach = &contents.reach[sphere * lights..][..lights];
                 let active = &contents.active[sphere];
                 let points = Points::new(
                     simd,

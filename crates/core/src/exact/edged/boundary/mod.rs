@@ -13,6 +13,7 @@ mod events;
 mod integral;
 mod kinks;
 mod lit;
+mod plain;
 mod primitive;
 mod quadrature;
 mod setting;

@@ -47,12 +47,7 @@ const EIGHT: [(f64, f64); 8] = [
 ];
 
 /// The rules in their order.
-const RULES: [&[(f64, f64)]; 4] = [&THREE, &FOUR, &SIX, &EIGHT];
-
-/// What the rules are off by for n·l on a way of the parameter that is 1 long, wherever it lies: the
-/// largest that a test finds, made larger. It falls with the power of the way that is twice the nodes and
-/// one.
-const OFF: [f64; 4] = [2e-2, 2e-3, 1.6e-5, 1e-7];
+pub(super) const RULES: [&[(f64, f64)]; 4] = [&THREE, &FOUR, &SIX, &EIGHT];
 
 /// A sphere that sends light.
 #[derive(Clone, Copy, Debug)]
@@ -121,7 +116,7 @@ impl Sender<'_, '_> {
                 // Seen from afar, n·l is what the test of the rules says.
                 let is_far = ball.is_apart() && ball.center.z > ball.radius;
                 if self.finish.is_plain() && is_far {
-                    self.plain(simd, &chord, lines, noise)
+                    self.plain(simd, &chord, lines)
                 } else {
                     self.smooth(simd, &chord, lines, noise)
                 }
@@ -139,38 +134,6 @@ impl Sender<'_, '_> {
             || self.finish.has_blunt_highlight()
     }
 
-    /// n·l, by a rule whose error is known beforehand.
-    #[inline(always)]
-    fn plain<S: Simd>(
-        &self,
-        simd: S,
-        chord: &Chord<S>,
-        lines: &Lines<S>,
-        noise: &mut Noise,
-    ) -> Summed<S> {
-        let negligible = NEGLIGIBLE * self.tolerance;
-        let brightest = self.finish.brightest(self.scene, lines.lights);
-        let way_sq = chord.way_sq;
-        // The power of the way that is twice the nodes, less one: the size holds its square.
-        let mut power = way_sq * way_sq * way_sq.sqrt() * chord.size * brightest;
-        let mut index = 0;
-        while greatest(power) * OFF[index] > negligible && index + 1 < RULES.len() {
-            let last = RULES[index].len();
-            index += 1;
-            for _ in last..RULES[index].len() {
-                power *= way_sq;
-            }
-        }
-        let light = self.sum(simd, chord, lines, RULES[index], noise);
-        let (doubt, samples) = (power * OFF[index], 8 * RULES[index].len() as u64);
-        Summed {
-            light,
-            doubt,
-            samples,
-            unevenness: 0.0,
-        }
-    }
-
     /// Light without kinks, by rules held against each other.
     #[inline(always)]
     pub(super) fn smooth<S: Simd>(
@@ -183,7 +146,7 @@ impl Sender<'_, '_> {
         /// Powers of e by which a lobe falls on a chord that no few points step over.
         const BLUNT: f64 = 1.0;
         let negligible = NEGLIGIBLE * self.tolerance;
-        let steep = greatest(chord.way_sq) * self.finish.sharpness();
+        let steep = greatest(chord.way_sq()) * self.finish.sharpness();
         let first = if steep < BLUNT { 0 } else { 2 };
         let mut coarse = self.sum(simd, chord, lines, RULES[first], noise);
         let mut samples = 8 * RULES[first].len() as u64;
@@ -267,5 +230,3 @@ pub(super) fn greatest<S: Simd>(lanes: f64x8<S>) -> f64 {
     let v: [f64; 8] = lanes.into();
     v.into_iter().fold(0.0, f64::max)
 }
-#[cfg(test)]
-mod tests;

@@ -8,7 +8,7 @@ use super::curve::{Shape, Trace, trace};
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
-use crate::exact::edged::rule::{RULE, error_estimate};
+use crate::exact::edged::rule::{NODES, RULE, error_estimate};
 use crate::exact::scene::InCamera;
 
 /// How much larger than what the rules differ by their error is taken to be.
@@ -21,8 +21,8 @@ const DEEPEST: u32 = 12;
 /// Arcs that are not worth it, in pieces.
 const SHORTEST: f64 = 1e-12;
 
-/// The lane of a trace that is in the middle of an arc.
-const MIDDLE: usize = 2;
+/// The node of the rule that is in the middle of an arc.
+const MIDDLE: usize = NODES / 2;
 
 /// What lies on both sides of an arc, at the nodes of the rule: light summed up from references.
 struct Sides<S: Simd> {
@@ -56,18 +56,14 @@ impl Boundary {
                     return;
                 }
                 let Path { curve, piece } = *path;
-                let mut at = [arc.start; 8];
-                at[1] = arc.end;
-                at[MIDDLE] = arc.start + 0.5 * length;
-                let ends = trace(simd, cell, &curve.shape, piece, at.simd_into(simd));
-                let sign = sign(scene, setting.contents, curve, &ends);
-                let rise = (ends.y[1] - ends.y[0]) * sign;
+                let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
+                let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
+                let sign = sign(scene, setting.contents, curve, &places);
+                let rise = (arc.y[1] - arc.y[0]) * sign;
                 if !sends_light(setting, curve, arc) {
                     self.note_sides(curve, arc, rise);
                     return;
                 }
-                let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
-                let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
                 let dy = places.dy * (length * sign);
                 let fine: f64x8<S> = RULE.fine.simd_into(simd);
                 let coarse: f64x8<S> = RULE.coarse.simd_into(simd);
@@ -98,9 +94,15 @@ impl Boundary {
                 }
                 if error > setting.share * goal.tolerance && depth < DEEPEST {
                     *sum = kept;
-                    let middle = 0.5 * (arc.start + arc.end);
-                    for (start, end) in [(arc.start, middle), (middle, arc.end)] {
-                        let half = Arc { start, end, ..*arc };
+                    let middle = (0.5 * (arc.start + arc.end), places.y[MIDDLE]);
+                    let ends = [(arc.start, arc.y[0]), middle, (arc.end, arc.y[1])];
+                    for half in ends.windows(2) {
+                        let half = Arc {
+                            start: half[0].0,
+                            end: half[1].0,
+                            y: [half[0].1, half[1].1],
+                            ..*arc
+                        };
                         self.add_arc(simd, setting, path, &half, depth + 1, sum);
                     }
                     return;

@@ -25,6 +25,13 @@ pub(super) struct Curve {
     pub(super) own: [usize; 2],
 }
 
+impl Curve {
+    /// Returns whether the curve is an upright side of the cell.
+    pub(super) fn is_side(&self) -> bool {
+        matches!(self.edge, Edge::Left | Edge::Right)
+    }
+}
+
 /// What lies on both sides of a curve.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Edge {
@@ -53,6 +60,8 @@ pub(super) struct Path<'a> {
 pub(super) struct Arc {
     pub(super) start: f64,
     pub(super) end: f64,
+    /// Where the ends are seen in the cell.
+    pub(super) y: [f64; 2],
     pub(super) inner: usize,
     pub(super) outer: usize,
     /// Lights that reach there.

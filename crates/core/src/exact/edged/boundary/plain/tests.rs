@@ -1,4 +1,4 @@
-//! Tests of `primitive.rs`.
+//! Tests of `plain.rs`.
 
 use super::*;
 
