@@ -47,6 +47,27 @@ impl Finish {
         found
     }
 
+    /// A bound of the highlight of a light in the brightest channel, where normals and half vectors turn by no
+    /// more than `turn` from those of points.
+    #[inline(always)]
+    pub(crate) fn highest_highlight<S: Simd>(
+        &self,
+        simd: S,
+        points: &Points<S>,
+        light: &Light,
+        turn: f64,
+    ) -> f64x8<S> {
+        let Some((_, falloff)) = &self.reflectance.highlight else {
+            return f64x8::splat(simd, 0.0);
+        };
+        let viewed = self.viewed(points, &points.normal);
+        let cosine = viewed.cosine(light.toward);
+        let half_cosine = viewed.half_cosine(light.toward, cosine);
+        let highest = highest_cosine(simd, half_cosine, f64x8::splat(simd, turn));
+        let [_, brightest] = self.reflectance.brightest(light.intensity);
+        falloff.of_clamped(highest) * brightest
+    }
+
     /// The largest exponent.
     pub(crate) fn sharpness(&self) -> f64 {
         let [exponent, shininess] = self.reflectance.exponents();

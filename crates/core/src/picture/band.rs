@@ -1,7 +1,7 @@
 //! Whole rows of a picture, while they are written.
 
 use super::pixel::{Evidence, Pixel, Status};
-use super::plane::PlaneBand;
+use super::plane::{PlaneBand, fill};
 use super::tile::{Tile, TileLight};
 use crate::model::color::Color;
 
@@ -38,8 +38,12 @@ impl Band<'_> {
         for row in tile.row..tile.row + tile.height {
             let index = self.index(tile.col, row);
             let values = &mut self.values[index * stride..][..width * stride];
-            for values in values.chunks_exact_mut(stride) {
-                put(values, pixel);
+            if stride == 1 {
+                fill(values, pixel.value.x);
+            } else {
+                for values in values.chunks_exact_mut(stride) {
+                    put(values, pixel);
+                }
             }
             self.errors.fill(index, width, pixel.error);
             self.evidence.fill(index, width, pixel.evidence);
@@ -79,7 +83,7 @@ impl Band<'_> {
                 }
             } else if !self.is_blank {
                 for values in values.chunks_mut(Tile::SIDE as usize) {
-                    copy(values, &[0.0; Tile::SIDE as usize]);
+                    fill(values, 0.0);
                 }
             }
             if error != 0.0 || !self.is_blank {

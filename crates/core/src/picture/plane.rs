@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator};
 
+use super::tile::Tile;
+
 /// A number for every pixel of a picture, row by row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Plane<T> {
@@ -93,7 +95,22 @@ impl<T: Copy> PlaneBand<'_, T> {
     /// Writes the same number for some pixels.
     pub(crate) fn fill(&mut self, index: usize, count: usize, value: T) {
         if let Some(band) = &mut self.0 {
-            band[index..index + count].fill(value);
+            fill(&mut band[index..index + count], value);
         }
     }
+}
+
+/// Fills pixels of a row. Most rows of tiles are whole: a known length takes a few instructions, and no call.
+#[inline(always)]
+pub(super) fn fill<T: Copy>(values: &mut [T], value: T) {
+    match <&mut [T; Tile::SIDE as usize]>::try_from(&mut *values) {
+        Ok(whole) => *whole = [value; Tile::SIDE as usize],
+        Err(_) => fill_some(values, value),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn fill_some<T: Copy>(values: &mut [T], value: T) {
+    values.fill(value);
 }

@@ -76,7 +76,12 @@ impl<S: Simd> Filled<'_, S> {
             divisible: 0,
             samples: sampled.samples,
         };
-        let error = self.weighted(simd, &sampled, &mut averages.values);
+        let is_star_enough = self.which & !sampled.star.is_met.to_bitmask() == 0;
+        let error = if is_star_enough {
+            self.by_star(simd, &sampled, &mut averages.values)
+        } else {
+            self.weighted(simd, &sampled, &mut averages.values)
+        };
         for (lane, of_lane) in averages.errors.iter_mut().enumerate() {
             *of_lane = error[lane];
         }
@@ -129,6 +134,21 @@ impl<S: Simd> Filled<'_, S> {
             }
             into.samples += ON_DIAGONAL;
         }
+    }
+
+    /// Writes the averages by five samples; their errors.
+    #[inline(always)]
+    fn by_star(&self, simd: S, sampled: &Sampled<S>, values: &mut [Color; 8]) -> f64x8<S> {
+        for channel in 0..self.scene.channels {
+            let mut average = f64x8::splat(simd, 0.0);
+            for (light, sample) in sampled.lights.iter().zip(&POINTS[..STAR_SAMPLES]) {
+                average += light[channel] * sample.star;
+            }
+            for (value, average) in values.iter_mut().zip(average.iter()) {
+                value[channel] = *average;
+            }
+        }
+        sampled.star.error
     }
 
     /// Writes the averages by the cheapest rule that is good enough; their errors.

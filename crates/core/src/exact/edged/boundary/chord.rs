@@ -60,7 +60,7 @@ impl Reference {
         seen.reference()
     }
 
-    fn upright(x: f64) -> Self {
+    pub(super) fn upright(x: f64) -> Self {
         Self {
             start: x,
             slope: 0.0,

@@ -15,9 +15,11 @@ use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::part::{GiveUp, Part};
+use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::numeric::vectors::Vectors;
 
 use super::setting::{
     Boundary, Curve, Edge, Goal, LEAST_SHARE, NONE, Path, SHARE_OF_ALL, Setting, Sum, Surface,
@@ -36,8 +38,11 @@ impl Boundary {
     ) -> Result<Part, GiveUp> {
         let actives = &contents.active;
         let mut surfaces = Vec::with_capacity(actives.len());
-        for active in actives {
-            let finish = Finish::new(scene, active.sphere, contents.pixel);
+        let mut missed = 0.0;
+        for (position, active) in actives.iter().enumerate() {
+            let mut finish = Finish::new(scene, active.sphere, contents.pixel);
+            missed +=
+                without_dark_highlight(simd, &mut finish, (scene, cell, contents), position, goal);
             let reference = Reference::new(&active.discriminant, &active.along);
             surfaces.push(Surface {
                 finish,
@@ -73,7 +78,7 @@ impl Boundary {
         let mut sum = Sum {
             value: [zero; 3],
             empty: zero,
-            error: 0.0,
+            error: missed,
         };
         for (kind, _) in &contents.conics {
             let (circle, edge, own) = match *kind {
@@ -223,4 +228,45 @@ impl Boundary {
             },
         );
     }
+}
+
+/// Leaves out the highlight of a surface where it is too dark to count in a cell; returns a bound of what that
+/// leaves out.
+#[inline(always)]
+fn without_dark_highlight<S: Simd>(
+    simd: S,
+    finish: &mut Finish,
+    (scene, cell, contents): (&InCamera<'_>, &Cell, &Contents),
+    position: usize,
+    goal: &Goal,
+) -> f64 {
+    /// The share of the tolerance that a highlight may be.
+    const DARK: f64 = 1e-3;
+    /// More than an angle, up to 1, over the length of its chord.
+    const OF_CHORD: f64 = 1.05;
+    let active = &contents.active[position];
+    let is_ahead = active.ball.outside > 0.0 && active.ball.center.z > active.ball.radius;
+    if finish.reflectance.highlight.is_none() || finish.is_rough() || !is_ahead {
+        return 0.0;
+    }
+    let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+    let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
+    let turn = OF_CHORD * length / active.ball.radius + cell.size[0].max(cell.size[1]);
+    let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
+    let mut highest = 0.0;
+    let lights = scene.lights.len();
+    for (light, reach) in scene
+        .lights
+        .iter()
+        .zip(&contents.reach[position * lights..])
+    {
+        if matches!(reach, Reach::Past(_)) {
+            highest += finish.highest_highlight(simd, &points, light, turn)[0];
+        }
+    }
+    if highest > DARK * goal.tolerance {
+        return 0.0;
+    }
+    finish.reflectance.highlight = None;
+    highest
 }

@@ -4,6 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::chord::{Chord, Reference};
+use super::plain::is_far;
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::points::Points;
@@ -112,10 +113,7 @@ impl Sender<'_, '_> {
                 if self.has_kinks(lines.lights) {
                     return self.kinked(simd, &chord, lines, noise);
                 }
-                let ball = &self.active.ball;
-                // Seen from afar, n·l is what the test of the rules says.
-                let is_far = ball.is_apart() && ball.center.z > ball.radius;
-                if self.finish.is_plain() && is_far {
+                if self.finish.is_plain() && is_far(self.cell, &self.active.ball) {
                     self.plain(simd, &chord, lines)
                 } else {
                     self.smooth(simd, &chord, lines, noise)
