@@ -80,39 +80,19 @@ impl Finish {
         sum
     }
 
-    /// The normals that light is computed with.
+    /// Makes normals of points those that light is computed with.
     #[inline(always)]
-    pub(crate) fn normal<S: Simd>(
+    pub(crate) fn perturb<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
-        points: &Points<S>,
+        normals: &mut [Vectors<S>],
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> Vectors<S> {
-        let [normal] = self.normals(simd, scene, &[*points], noise);
-        normal
-    }
-
-    /// The normals that light is computed with, of several points in each lane: side by side they wait
-    /// less for each other's roots and quotients.
-    #[inline(always)]
-    pub(crate) fn normals<S: Simd, const COUNT: usize>(
-        &self,
-        simd: S,
-        scene: &InCamera<'_>,
-        points: &[Points<S>; COUNT],
-        noise: &mut Option<Box<NoiseCells>>,
-    ) -> [Vectors<S>; COUNT] {
-        let mut normals = [points[0].normal; COUNT];
-        for (normal, points) in normals.iter_mut().zip(points) {
-            *normal = points.normal;
-        }
+    ) {
         if self.is_rough() {
             let frame = &scene.world_from_camera;
-            self.shading_normal
-                .perturb(simd, frame, &mut normals, noise);
+            self.shading_normal.perturb(simd, frame, normals, noise);
         }
-        normals
     }
 
     /// The light of some lights, bit by bit, that points without bumps send to the eye, without what they
@@ -141,7 +121,7 @@ impl Finish {
         sum
     }
 
-    /// The light that points with these normals, of [`Self::normals`], send to the eye, in the channels
+    /// The light that points with these normals, of [`Self::perturb`], send to the eye, in the channels
     /// that the scene counts; `lit` tells for each light, bit by bit, which of the points it reaches. What
     /// highlights depend on is added to `halves`.
     #[inline(always)]

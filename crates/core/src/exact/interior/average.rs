@@ -35,8 +35,7 @@ struct Sampled<S: Simd> {
     samples: usize,
 }
 
-/// Gauss's samples beside the star, and Kronrod's on each diagonal.
-const GRID_REST: usize = GAUSS_SAMPLES - STAR_SAMPLES;
+/// Kronrod's samples on each diagonal.
 const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
 
 impl<S: Simd> Sampled<S> {
@@ -99,8 +98,7 @@ impl<S: Simd> Filled<'_, S> {
         } = into;
 
         // Five samples.
-        let of_star = self.light::<STAR_SAMPLES>(simd, 0, cosines, noise);
-        lights[..STAR_SAMPLES].copy_from_slice(&of_star);
+        self.light(simd, 0, cosines, noise, &mut lights[..STAR_SAMPLES]);
         into.star = self.estimate(simd, Rule::Star, lights, cosines);
         into.samples = STAR_SAMPLES;
         if self.finish.is_rough() {
@@ -113,8 +111,8 @@ impl<S: Simd> Filled<'_, S> {
         }
 
         // Nine.
-        let rest = self.light::<GRID_REST>(simd, into.samples, cosines, noise);
-        lights[STAR_SAMPLES..].copy_from_slice(&rest);
+        let rest = &mut lights[STAR_SAMPLES..];
+        self.light(simd, into.samples, cosines, noise, rest);
         into.grid = self.estimate(simd, Rule::Grid, lights, cosines);
         into.samples = GAUSS_SAMPLES;
         let is_done = is_done | into.grid.is_met;
@@ -127,8 +125,9 @@ impl<S: Simd> Filled<'_, S> {
         for (light, sample) in lights.iter().zip(&POINTS) {
             add_excess(&mut into.excess, light, sample, channels);
         }
+        let mut more = [[f64x8::splat(simd, 0.0); 3]; ON_DIAGONAL];
         while into.samples < SAMPLES {
-            let more = self.light::<ON_DIAGONAL>(simd, into.samples, cosines, noise);
+            self.light(simd, into.samples, cosines, noise, &mut more);
             for (light, sample) in more.iter().zip(&POINTS[into.samples..]) {
                 add_excess(&mut into.excess, light, sample, channels);
             }

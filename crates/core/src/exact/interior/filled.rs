@@ -57,34 +57,44 @@ pub(super) struct Filled<'a, S: Simd> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The light at some samples of each pixel, from the one with the number `first`.
-    #[inline(always)]
-    pub(super) fn light<const COUNT: usize>(
+    /// Writes the light at some samples of each pixel, the first of them with the number `first`: no more
+    /// than [`STAR_SAMPLES`].
+    #[inline(never)]
+    pub(super) fn light(
         &self,
         simd: S,
         first: usize,
         cosines: &mut LightCosines<S>,
         noise: &mut Option<Box<NoiseCells>>,
-    ) -> [Radiance<S>; COUNT] {
-        let (scene, finish) = (self.scene, self.finish);
-        let mut points = [Points::nowhere(simd); COUNT];
-        for (points, sample) in points.iter_mut().zip(&POINTS[first..]) {
-            let mut ray = self.middle;
-            ray.x += sample.u * self.size[0];
-            ray.y += sample.v * self.size[1];
-            *points = Points::new(simd, self.ball, ray);
-        }
-        let normals = finish.normals(simd, scene, &points, noise);
-        let mut lights = [[f64x8::splat(simd, 0.0); 3]; COUNT];
-        for index in 0..COUNT {
-            let (points, normal) = (&points[index], &normals[index]);
-            let mut halves = None;
-            if finish.needs_cosines() {
-                cosines.add_sample(&scene.lights, normal);
-                halves = Some(&mut cosines.halves);
-            }
-            lights[index] = finish.radiance(simd, scene, points, normal, self.lit, halves);
-        }
-        lights
+        lights: &mut [Radiance<S>],
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let (scene, finish) = (self.scene, self.finish);
+                let mut points = [Points::nowhere(simd); STAR_SAMPLES];
+                let mut normals = [points[0].normal; STAR_SAMPLES];
+                let count = lights.len();
+                let samples = &POINTS[first..];
+                for ((points, normal), sample) in
+                    points.iter_mut().zip(&mut normals).zip(samples).take(count)
+                {
+                    let mut ray = self.middle;
+                    ray.x += sample.u * self.size[0];
+                    ray.y += sample.v * self.size[1];
+                    *points = Points::new(simd, self.ball, ray);
+                    *normal = points.normal;
+                }
+                finish.perturb(simd, scene, &mut normals[..count], noise);
+                for ((light, points), normal) in lights.iter_mut().zip(&points).zip(&normals) {
+                    let mut halves = None;
+                    if finish.needs_cosines() {
+                        cosines.add_sample(&scene.lights, normal);
+                        halves = Some(&mut cosines.halves);
+                    }
+                    *light = finish.radiance(simd, scene, points, normal, self.lit, halves);
+                }
+            },
+        );
     }
 }

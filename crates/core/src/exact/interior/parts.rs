@@ -50,8 +50,7 @@ impl<S: Simd> Filled<'_, S> {
                 };
                 let mut cosines = LightCosines::new(simd);
                 let mut lights = [[zero; 3]; GAUSS_SAMPLES];
-                let of_star = parts.light::<STAR_SAMPLES>(simd, 0, &mut cosines, noise);
-                lights[..STAR_SAMPLES].copy_from_slice(&of_star);
+                parts.light(simd, 0, &mut cosines, noise, &mut lights[..STAR_SAMPLES]);
                 let estimate = parts.estimate(simd, Rule::Star, &lights, &cosines);
                 if estimate.is_known.to_bitmask() != ALL {
                     return None;
@@ -59,7 +58,7 @@ impl<S: Simd> Filled<'_, S> {
                 let mut value = Color::ZERO;
                 for channel in 0..self.scene.channels {
                     let mut sum = zero;
-                    for (light, sample) in of_star.iter().zip(&POINTS) {
+                    for (light, sample) in lights.iter().zip(&POINTS[..STAR_SAMPLES]) {
                         sum += light[channel] * sample.star;
                     }
                     value[channel] = mean(&sum.into());

@@ -218,8 +218,9 @@ impl Sender<'_, '_> {
     ) -> (Points<S>, Vectors<S>) {
         let (x, _) = chord.at(sigma);
         let points = self.points(simd, x, lines.y);
-        let normal = self.finish.normal(simd, self.scene, &points, noise);
-        (points, normal)
+        let mut normal = [points.normal];
+        self.finish.perturb(simd, self.scene, &mut normal, noise);
+        (points, normal[0])
     }
 
     /// Adds the light between two parameters.
@@ -251,6 +252,7 @@ impl Sender<'_, '_> {
                     };
                 }
                 let mut points = [Points::nowhere(simd); NODES];
+                let mut normals = [points[0].normal; NODES];
                 let mut shares = [zero; NODES];
                 for node in 0..NODES {
                     let s = RULE.nodes[node];
@@ -261,9 +263,10 @@ impl Sender<'_, '_> {
                     };
                     let (x, there) = chord.at(start + width * at);
                     points[node] = self.points(simd, x, lines.y);
+                    normals[node] = points[node].normal;
                     shares[node] = width * there * slope;
                 }
-                let normals = self.finish.normals(simd, self.scene, &points, noise);
+                self.finish.perturb(simd, self.scene, &mut normals, noise);
                 for (points, normal) in points.iter_mut().zip(&normals) {
                     points.normal = *normal;
                 }

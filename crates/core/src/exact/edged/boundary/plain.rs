@@ -15,6 +15,11 @@ use crate::numeric::vectors::Vectors;
 const OFF: [f64; 4] = [2e-2, 2e-3, 1.6e-5, 1e-7];
 
 impl Sender<'_, '_> {
+    /// Returns whether light is n·l and nothing else, and the error of the rules for it is known.
+    pub(super) fn is_plain(&self) -> bool {
+        self.finish.is_plain() && is_far(self.cell, &self.active.ball)
+    }
+
     /// The light of a surface that is n·l and nothing else, of a sphere that the eye is far from.
     #[inline(always)]
     pub(super) fn plain<S: Simd>(&self, simd: S, chord: &Chord<S>, lines: &Lines<S>) -> Summed<S> {
@@ -61,7 +66,7 @@ impl Sender<'_, '_> {
 
 /// Returns whether a sphere is far enough from the eye, and a cell small enough, for what the rules are said
 /// to be off by.
-pub(super) fn is_far(cell: &Cell, ball: &Ball) -> bool {
+fn is_far(cell: &Cell, ball: &Ball) -> bool {
     /// Of the center's distance. Chosen by the test of the rules, which fails at 0.98.
     const LARGEST: f64 = 0.9;
     /// Sides of a cell, at distance 1.

@@ -4,7 +4,6 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::chord::{Chord, Reference};
-use super::plain::is_far;
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::points::Points;
@@ -113,7 +112,7 @@ impl Sender<'_, '_> {
                 if self.has_kinks(lines.lights) {
                     return self.kinked(simd, &chord, lines, noise);
                 }
-                if self.finish.is_plain() && is_far(self.cell, &self.active.ball) {
+                if self.is_plain() {
                     self.plain(simd, &chord, lines)
                 } else {
                     self.smooth(simd, &chord, lines, noise)
@@ -186,9 +185,8 @@ impl Sender<'_, '_> {
                     let sigma = f64x8::splat(simd, 2.0 * node - 1.0);
                     let (x, slope) = chord.at(sigma);
                     let mut points = self.points(simd, x, lines.y);
-                    if self.finish.is_rough() {
-                        points.normal = self.finish.normal(simd, self.scene, &points, noise);
-                    }
+                    let normal = std::slice::from_mut(&mut points.normal);
+                    self.finish.perturb(simd, self.scene, normal, noise);
                     let light = self
                         .finish
                         .unclamped(simd, self.scene, &points, lines.lights);
