@@ -134,42 +134,4 @@ impl Strip for StripEncoder<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::mpsc::channel;
-
-    use marbles_core::Channels;
-
-    use super::*;
-    use crate::base::region::Region;
-    use crate::base::size::Size;
-    use crate::formats::encoding::{Encoding, PngOptions};
-    use crate::formats::form::Form;
-
-    #[test]
-    fn a_strip_that_is_given_up_leaves_nobody_waiting() {
-        let (width, height) = (3, 90);
-        let form = Form {
-            region: Region::all(Size { width, height }),
-            channels: Channels::Grey,
-            alpha: false,
-        };
-        let (deep, rgb) = (false, false);
-        let encoder = Encoder::new(Encoding::Png(PngOptions { deep, rgb }), form);
-        let buffer = ReorderBuffer::new(2);
-        let (sender, finished) = channel();
-        let clock = Clock::new(1);
-        let picture = PictureEncoder::new(&encoder, &buffer, 0, &clock, sender);
-        let [first, second] = [0, 1].map(|index| picture.begin(index).unwrap());
-        second.end();
-        std::thread::scope(|scope| {
-            let waiting = scope.spawn(|| picture.begin(2).is_none());
-            let closing = buffer.closing();
-            drop(first);
-            assert!(buffer.is_closed());
-            std::mem::forget(closing);
-            assert!(waiting.join().unwrap());
-        });
-        assert!(buffer.take().is_none());
-        assert!(finished.try_recv().is_err());
-    }
-}
+mod tests;

@@ -179,35 +179,4 @@ fn markdown<const N: usize>(titles: &[String; N], rows: &[[String; N]]) -> Vec<S
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::commands::report::tests::report;
-
-    #[test]
-    fn tables_are_aligned() {
-        let row = |cells: [&str; 3]| cells.map(str::to_owned);
-        let lines = markdown(
-            &row(["setting", "t", "x"]),
-            &[row(["a", "1.0 µs", "10"]), row(["longer name", "2", ""])],
-        );
-        let expected = [
-            "| setting     |      t |  x |",
-            "|-------------|-------:|---:|",
-            "| a           | 1.0 µs | 10 |",
-            "| longer name |      2 |    |",
-        ];
-        assert_eq!(lines, expected);
-    }
-
-    #[test]
-    fn marks_are_explained_and_nothing_else() {
-        let text = lines(&report()).join("\n");
-        assert!(text.contains(" 5000 * |"), "{text}");
-        assert!(text.contains("\n* extrapolated: the time of supersampling as RMSE^-1.00,"));
-        assert!(text.contains("times       median of 1 run; the time did not suffice for 5\n"));
-        assert!(!text.contains('?'), "{text}");
-        let table = text.lines().filter(|line| line.starts_with('|'));
-        let columns: Vec<usize> = table.map(|line| line.matches('|').count()).collect();
-        assert_eq!(columns, [TITLES.len() + 1; 6]);
-    }
-}
+mod tests;
