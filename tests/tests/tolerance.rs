@@ -125,7 +125,6 @@ fn extreme_numbers_are_not_claimed_to_be_met() {
     }
 }
 
-/// Relative to the viewpoint a floor of any radius is known as well as a small one.
 /// Where four pixels meet, and elsewhere: a speck covers nearly nothing, and no pixel says more.
 #[test]
 fn specks_of_any_radius_are_nearly_dark() {
@@ -155,6 +154,7 @@ fn specks_of_any_radius_are_nearly_dark() {
     }
 }
 
+/// Relative to the viewpoint a floor of any radius is known as well as a small one.
 #[test]
 fn floors_of_any_radius_are_met() {
     for body in [

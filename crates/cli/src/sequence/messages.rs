@@ -51,8 +51,12 @@ pub(crate) fn counts(outcome: &Outcome) -> String {
     counts
 }
 
-/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound)`.
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound)`, or `error unknown` where single
+/// samples tell nothing of it.
 pub(crate) fn claim(summary: &Summary) -> String {
+    if summary.largest_error == f64::INFINITY {
+        return "error unknown".to_owned();
+    }
     let evidence = match summary.evidence {
         Evidence::Bound => "bound",
         Evidence::Estimate => "estimate",
@@ -103,5 +107,10 @@ mod tests {
             total(7, &summary(Evidence::Estimate), time),
             "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, 0.012 s"
         );
+        let unknown = Summary {
+            largest_error: f64::INFINITY,
+            ..summary(Evidence::Estimate)
+        };
+        assert_eq!(claim(&unknown), "error unknown");
     }
 }

@@ -13,9 +13,10 @@ use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
+use crate::numeric::rounding::WIDER;
 use crate::picture::band::Band;
 use crate::picture::image::Channels;
-use crate::picture::pixel::{Pixel, Status, Work};
+use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;
@@ -31,6 +32,11 @@ pub(crate) struct Exact<'scene> {
     is_moderate: bool,
     /// One for each group of lights.
     groups: Vec<Context<'scene>>,
+    world: &'scene World,
+    /// The error that a pixel may have.
+    tolerance: f64,
+    /// Whether pictures have an alpha channel in place of the background.
+    alpha: bool,
     /// The samples of the last rung.
     samples: Supersampling<'scene>,
     level: Level,
@@ -73,6 +79,9 @@ impl<'scene> Exact<'scene> {
         Self {
             is_moderate: is_view_moderate(view),
             groups: (0..count).map(context).collect(),
+            world,
+            tolerance,
+            alpha,
             samples: Supersampling::new(world, view, index, SAMPLES, alpha),
             index: index.clone(),
             level: Level::new(),
@@ -116,8 +125,14 @@ impl<'scene> Exact<'scene> {
                 }
             }
         }
+        // What one group is over its share, another may be below.
+        for pixel in &mut pixels[first..] {
+            if pixel.error <= self.tolerance {
+                pixel.status = Status::Met;
+            }
+        }
 
-        // The last rung: samples, which see exactly but claim nothing.
+        // The last rung: samples, which see exactly but miss what lies between them.
         if !candidates.is_empty() {
             for place in set_bits(unknown).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
@@ -125,10 +140,48 @@ impl<'scene> Exact<'scene> {
                     row: tile.row + place as u32 / tile.width,
                     frame: self.groups[0].view.frame,
                 };
-                pixels[first + place] = self.samples.pixel_of_last_resort(key);
+                pixels[first + place] = self.sampled(key, &candidates);
             }
         }
         work
+    }
+
+    /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them.
+    fn sampled(&self, key: PixelKey, candidates: &[usize]) -> Pixel {
+        let mut pixel = self.samples.pixel(key);
+        let [least, most] = self.range_of_light(candidates);
+        let above = (most - pixel.value).max_element();
+        let below = (pixel.value - least).max_element();
+        pixel.error = above.max(below) * WIDER;
+        if self.alpha {
+            pixel.error = pixel.error.max(pixel.alpha).max(1.0 - pixel.alpha);
+        }
+        pixel.evidence = Evidence::Bound;
+        pixel.status = if pixel.error <= self.tolerance {
+            Status::Met
+        } else {
+            Status::OutOfBudget
+        };
+        pixel
+    }
+
+    /// Bounds of the light, in each channel, of what may be seen of these spheres and of the background: in the
+    /// dark, and where all lights and their highlights are at their highest.
+    fn range_of_light(&self, candidates: &[usize]) -> [Color; 2] {
+        let world = self.world;
+        let lights = world.lights.iter().map(|light| light.intensity());
+        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
+        let background = self.groups[0].background;
+        let [mut least, mut most] = [background; 2];
+        for &sphere in candidates {
+            let albedo = world.albedo(sphere);
+            let highlight = world.material(sphere).highlight;
+            let strength = highlight.map_or(0.0, |highlight| highlight.strength);
+            let dark = albedo * world.ambient;
+            least = least.min(dark);
+            most = most.max(dark + albedo * lights + lights * strength);
+        }
+        [least, most]
     }
 
     /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.

@@ -71,8 +71,8 @@ pub enum Status {
     /// The tolerance is not met, and most of the error is that of rounding.
     AtRoundoff,
     /// The tolerance is not met: the work that a pixel may cost did not suffice, or numbers are so
-    /// extreme that edges are not found in doubles. Where edges were given up, samples tell value and
-    /// error: a guess, as they miss what lies between them.
+    /// extreme that edges are not found in doubles. Where edges were given up, samples tell the
+    /// value, and the error is the contrast of all that the pixel may show.
     OutOfBudget,
 }
 

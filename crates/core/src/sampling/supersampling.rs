@@ -77,8 +77,8 @@ impl<'scene> Supersampling<'scene> {
         }
     }
 
-    /// A pixel for which a tolerance was asked that cannot be met.
-    pub(crate) fn pixel_of_last_resort(&self, key: PixelKey) -> Pixel {
+    /// One pixel.
+    pub(crate) fn pixel(&self, key: PixelKey) -> Pixel {
         let PixelKey { col, row, .. } = key;
         let (width, height) = (1, 1);
         let tile = Tile {
@@ -89,10 +89,7 @@ impl<'scene> Supersampling<'scene> {
         };
         let mut pixels = Vec::with_capacity(1);
         self.integrate(tile, &mut Scratch::default(), &mut pixels);
-        Pixel {
-            status: Status::OutOfBudget,
-            ..pixels[0]
-        }
+        pixels[0]
     }
 
     /// The light of rays that meet nothing.
@@ -144,7 +141,7 @@ impl<'scene> Supersampling<'scene> {
     }
 
     /// One of the pixels of a tile's light.
-    fn pixel(&self, light: &TileLight, col: u32, row: u32) -> Pixel {
+    fn pixel_of(&self, light: &TileLight, col: u32, row: u32) -> Pixel {
         let (row, place) = (light.row(row), col as usize);
         let [red, green, blue] = row.channels.map(|channel| channel[place]);
         Pixel {
@@ -290,7 +287,7 @@ impl<'scene> Supersampling<'scene> {
             light.fill(self.background(), self.error_of_equal_samples());
         }
         let tile_pixels = tile.pixels();
-        let pixel = |(col, row)| self.pixel(light, col - tile.col, row - tile.row);
+        let pixel = |(col, row)| self.pixel_of(light, col - tile.col, row - tile.row);
         pixels.extend(tile_pixels.map(pixel));
         self.work(tile, tests.unwrap_or(0))
     }

@@ -118,6 +118,20 @@ impl Contents {
                 }
                 continue;
             }
+            // Of spheres with one outline the nearest hides the others.
+            let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
+            if let Some(other) = self.active.iter_mut().find(is_alike) {
+                if ball.outside < other.ball.outside {
+                    *other = Active {
+                        sphere,
+                        ball,
+                        discriminant,
+                        along,
+                        terminators: Terminators::of(scene, sphere, self.pixel),
+                    };
+                }
+                continue;
+            }
             self.active.push(Active {
                 sphere,
                 ball,
@@ -278,6 +292,20 @@ impl Contents {
         }
         false
     }
+}
+
+/// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
+/// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
+fn has_same_outline(one: &Ball, other: &Ball) -> bool {
+    /// Of the distances, more than rounding.
+    const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+    if one.outside <= 0.0 || other.outside <= 0.0 {
+        return false;
+    }
+    let far = [one, other].map(|ball| ball.center.length());
+    let slack = ALIKE * far[0] * far[1];
+    (one.radius * far[1] - other.radius * far[0]).abs() <= slack
+        && (one.center * far[1] - other.center * far[0]).length() <= slack
 }
 
 /// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow

@@ -184,6 +184,10 @@ impl<S: Simd> Filled<'_, S> {
                 value[channel] = *average;
             }
         }
+        if self.finish.needs_cosines() {
+            // Along diagonals, what lobes miss along both axes may cancel.
+            error = error.max(self.of_lobes(Rule::Grid, &sampled.cosines));
+        }
         if is_rough {
             error += self.missed(simd, &sampled.cosines, FROM_GRID);
         }

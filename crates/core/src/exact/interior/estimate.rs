@@ -129,18 +129,22 @@ impl<S: Simd> Filled<'_, S> {
     }
 
     /// The error of rules for bells exp(−κ) where normals turn through them, however the bend of light
-    /// adds up: see [`share_of_bell`].
+    /// adds up: see [`Bell`].
     #[inline(always)]
-    fn of_lobes(&self, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
-        let [exponent, shininess] = self.finish.reflectance.exponents();
-        let shares = [
-            share_of_bell(self.turn, exponent, rule),
-            share_of_bell(self.turn, shininess, rule),
-        ];
+    pub(super) fn of_lobes(&self, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
+        let bells = self.finish.reflectance.exponents().map(|exponent| Bell {
+            exponent,
+            rule,
+            is_followed: !self.finish.is_rough(),
+        });
         let mut sum = self.turn * 0.0;
         for (index, light) in self.scene.lights.iter().enumerate() {
             if self.lit[index] != 0 {
                 let (cosine, highlight) = (cosines.highest[index], cosines.halves.powers[index]);
+                let shares = [
+                    bells[0].share(self.turn, cosines.lowest[index]),
+                    bells[1].share(self.turn, cosines.halves.lowest[index]),
+                ];
                 sum += self.finish.lobes(light, cosine, highlight, shares);
             }
         }
@@ -148,26 +152,52 @@ impl<S: Simd> Filled<'_, S> {
     }
 }
 
-/// A bound of the share of a bell exp(−x² / (2 σ²)) that rules are off by: 15 / σ⁶ over 7! · 400 for
-/// each axis of Gauss's rule, and 3 / σ⁴ over 720 more for the star. For an exponent 1 / σ² is twice
-/// that times the square of the turn from the middle to a corner.
-#[inline(always)]
-fn share_of_bell<S: Simd>(turn: f64x8<S>, exponent: f64, rule: Rule) -> f64x8<S> {
-    const SIXTH: f64 = 1.5e-5;
-    const FOURTH: f64 = 4.2e-3;
-    /// Up to this exponent nothing bends so that second derivatives do not tell.
-    const BLUNT: f64 = 2.0;
-    let twice = if exponent > BLUNT {
-        2.0 * exponent
-    } else {
-        0.0
-    };
-    let steep = turn * turn * twice;
-    let steep_sq = steep * steep;
-    let sixth = steep_sq * steep * SIXTH;
-    match rule {
-        Rule::Star => sixth + steep_sq * FOURTH,
-        Rule::Grid => sixth,
+/// The bell that a power of a cosine is near its top.
+struct Bell {
+    exponent: f64,
+    rule: Rule,
+    /// Whether cosines tell how far from its top light is: those of bumps tell little.
+    is_followed: bool,
+}
+
+impl Bell {
+    /// A bound of the share of a bell exp(−x² / (2 σ²)) that rules are off by, where normals turn by `turn`
+    /// from the middle of a pixel to a corner and the cosine falls to `lowest`.
+    ///
+    /// It is 15 / σ⁶ over 7! · 400 for each axis of Gauss's rule, and 3 / σ⁴ over 720 more for the star.
+    /// For an exponent 1 / σ² is twice that times the square of the turn, or, where all of the turn is
+    /// along one axis, four times that along it and 0 along the other, which is worse. Away from the top,
+    /// by u = x / σ, derivatives are a larger share of the bell: Hermite's polynomials of u, with all
+    /// terms added, over their values at the top. With u² = −ln(bell)·2 less than exponent · tan².
+    #[inline(always)]
+    fn share<S: Simd>(&self, turn: f64x8<S>, lowest: f64x8<S>) -> f64x8<S> {
+        const SIXTH: f64 = 6e-5;
+        const FOURTH: f64 = 4.2e-3;
+        /// Up to this exponent nothing bends so that second derivatives do not tell.
+        const BLUNT: f64 = 2.0;
+        /// A cosine below which the bell is nothing.
+        const LEAST: f64 = 1e-3;
+        let zero = turn * 0.0;
+        if self.exponent <= BLUNT {
+            return zero;
+        }
+        let steep = turn * turn * (2.0 * self.exponent);
+        let mut off_top = zero;
+        if self.is_followed {
+            let cosine = lowest.max(zero + LEAST).min(zero + 1.0);
+            let cosine_sq = cosine * cosine;
+            off_top = (1.0 - cosine_sq) / cosine_sq * self.exponent;
+        }
+        let steep_sq = steep * steep;
+        let of_sixth = ((off_top * (1.0 / 15.0) + 1.0) * off_top + 3.0) * off_top + 1.0;
+        let sixth = steep_sq * steep * of_sixth * SIXTH;
+        match self.rule {
+            Rule::Star => {
+                let of_fourth = (off_top * (1.0 / 3.0) + 2.0) * off_top + 1.0;
+                sixth + steep_sq * of_fourth * FOURTH
+            }
+            Rule::Grid => sixth,
+        }
     }
 }
 

@@ -12,7 +12,7 @@ use crate::numeric::vectors::Vectors;
 /// The cosines n · l and n · h of the samples so far, of each light.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LightCosines<S: Simd> {
-    lowest: [f64x8<S>; MOST_LIGHTS],
+    pub(super) lowest: [f64x8<S>; MOST_LIGHTS],
     pub(super) highest: [f64x8<S>; MOST_LIGHTS],
     /// At the samples of the star.
     star: [[f64x8<S>; STAR_SAMPLES]; MOST_LIGHTS],

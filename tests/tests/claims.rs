@@ -1,0 +1,102 @@
+//! What pixels claim where it is hard to claim anything.
+
+use glam::DVec3;
+use marbles_core::{Color, DirectionalLight, Status};
+
+use crate::studio::{GREY_HALF, exact_picture, looking_forward, pixels, world_of};
+
+/// Numbers beyond what edges can be found with: samples tell the value, and the claim is that all is possible
+/// that the spheres and the background show.
+#[test]
+fn pixels_by_samples_claim_no_less_than_the_contrast() {
+    for (distance, radius) in [(4e200, 1e200), (4e-200, 1e-200)] {
+        let center = DVec3::new(0.0, 0.0, distance);
+        let mut world = world_of(&[(center, radius, GREY_HALF)], &[DVec3::NEG_Z]);
+        world.background = Color::new(0.1, 0.2, 0.9);
+        let image = exact_picture(&world, &looking_forward(8, 8, 10.0), 1e-3, false);
+        let mut over = 0;
+        for (col, row) in pixels(&image) {
+            if image.status(col, row) == Status::Met {
+                continue;
+            }
+            over += 1;
+            // In the third channel between darkness and the background.
+            let blue = image.rgba(col, row)[2];
+            let claimed = image.error(col, row);
+            assert!(claimed >= blue.max(0.9 - blue), "{blue} {claimed}");
+        }
+        assert!(over > 10, "{over}");
+        assert_eq!(image.summary().over_tolerance, over);
+    }
+}
+
+/// Lights beyond the eighth are integrated in groups, each to its share of the tolerance.
+#[test]
+fn no_pixel_of_many_lights_is_over_that_claims_to_be_within() {
+    let balls = [
+        (DVec3::new(0.0, 0.0, 40.0), 9.0, GREY_HALF),
+        (DVec3::new(5.0, 6.0, 28.0), 3.0, GREY_HALF),
+    ];
+    for count in [8, 9, 17] {
+        let mut world = world_of(&balls, &[]);
+        for index in 0..count {
+            let angle = f64::from(index) * 2.4;
+            let toward = DVec3::new(libm::cos(angle), libm::sin(angle), -0.3);
+            let intensity = Color::splat(1.0 / f64::from(count));
+            world
+                .lights
+                .extend(DirectionalLight::new(toward, intensity));
+        }
+        for tolerance in [1e-3, 1e-6] {
+            let image = exact_picture(&world, &looking_forward(30, 30, 40.0), tolerance, false);
+            for (col, row) in pixels(&image) {
+                let is_within = image.error(col, row) <= tolerance;
+                assert_eq!(image.status(col, row) == Status::Met, is_within);
+            }
+        }
+    }
+}
+
+/// Balls exactly behind another, and larger by as much as they are farther, have its outline: nothing of
+/// them is seen.
+#[test]
+fn balls_with_one_outline_are_one() {
+    let toward = [DVec3::new(-1.0, 0.5, -1.0)];
+    let (center, radius) = (DVec3::new(3.1, -2.3, 60.7), 7.3);
+    let view = looking_forward(24, 24, 60.0);
+    let mut alone = world_of(&[(center, radius, Color::ONE)], &toward);
+    alone.background = GREY_HALF;
+    alone.shadows = false;
+    for factors in [[2.0, 1.0, 3.0], [1.25, 1.1, 1.0], [1.0, 1.7, 1.000_000_1]] {
+        let balls = factors.map(|factor| {
+            let albedo = if factor == 1.0 {
+                Color::ONE
+            } else {
+                Color::new(1.0, 0.0, 0.3)
+            };
+            (center * factor, radius * factor, albedo)
+        });
+        let mut world = world_of(&balls, &toward);
+        world.background = GREY_HALF;
+        world.shadows = false;
+        for tolerance in [1e-2, 1e-4, 1e-6] {
+            let expected = exact_picture(&alone, &view, tolerance, false);
+            let found = exact_picture(&world, &view, tolerance, false);
+            for (col, row) in pixels(&found) {
+                let off = found
+                    .rgba(col, row)
+                    .into_iter()
+                    .zip(expected.rgba(col, row));
+                let off = off
+                    .map(|(one, other)| (one - other).abs())
+                    .fold(0.0, f64::max);
+                let claimed = found.error(col, row) + expected.error(col, row);
+                assert!(
+                    off <= claimed + 1e-14,
+                    "{factors:?} {col} {row}: {off:e} {claimed:e}"
+                );
+                assert_eq!(found.status(col, row), Status::Met);
+            }
+        }
+    }
+}
