@@ -3,6 +3,7 @@
 //! `cargo truth` prints how it is used.
 
 mod files;
+mod hunt;
 mod judge;
 mod numbers;
 mod table;
@@ -19,6 +20,9 @@ cargo truth doubt SCENE [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT]
     compares the truth of random pixels with that of their quarters
 cargo truth pixel SCENE COL ROW [--size WIDTHxHEIGHT]
     what is known of one pixel
+cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--write FOLDER]
+    renders random scenes of every family to all tolerances, and counts pixels that are over them without
+    saying so, and pixels that are over what they say; --write reduces their scenes and writes them
 cargo truth write [NAME]
 cargo truth check [NAME]
     write, or compute again, the exact pixels of the scenes in tests/truth/promise, or of those
@@ -46,6 +50,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         ["judge", scene, options @ ..] => judge::judge(scene, options)?,
         ["doubt", scene, options @ ..] => judge::doubt(scene, options)?,
         ["pixel", scene, col, row, options @ ..] => judge::pixel(scene, col, row, options)?,
+        ["hunt", options @ ..] => hunt::hunt(options)?,
         ["write"] => files::write("")?,
         ["write", part] => files::write(part)?,
         ["check"] => files::check("")?,

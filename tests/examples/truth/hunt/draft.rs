@@ -1,0 +1,100 @@
+//! Scenes that are easy to make smaller.
+
+use std::path::Path;
+
+use marbles_scene::Scene;
+
+use crate::numbers::Numbers;
+
+/// A scene file in parts.
+#[derive(Clone, Debug)]
+pub(super) struct Draft {
+    /// Fields of the scene.
+    pub(super) head: Vec<String>,
+    pub(super) material: String,
+    pub(super) lights: Vec<String>,
+    pub(super) spheres: Vec<String>,
+}
+
+impl Draft {
+    /// A scene without spheres: a camera at the origin that looks along z with a random lens of about this
+    /// distance, in pixels, and some lights.
+    pub(super) fn new(numbers: &mut Numbers, distance: f64, lights: usize) -> Self {
+        let distance = distance * numbers.between(0.5, 2.0);
+        let mut draft = Self {
+            head: vec![
+                format!("image: (width: {SIDE}, height: {SIDE})"),
+                format!("lens: Retina(width: {SIDE}, distance: {distance})"),
+                "camera: Free(position: (0, 0, 0))".to_owned(),
+                format!(
+                    "background: {}",
+                    numbers.either(&["0", "0.3", "(0.1, 0.2, 0.5)"])
+                ),
+                format!("ambient: {}", numbers.either(&["0", "0.1"])),
+                format!("shadows: {}", numbers.either(&["true", "true", "false"])),
+            ],
+            material: "albedo: 1".to_owned(),
+            lights: Vec::new(),
+            spheres: Vec::new(),
+        };
+        for _ in 0..lights {
+            let toward = [
+                numbers.between(-1.0, 1.0),
+                numbers.between(-1.0, 1.0),
+                numbers.between(-1.2, 0.4),
+            ];
+            let share = 1.0 / lights as f64;
+            draft.light(toward, numbers.between(0.3, 1.0) * share);
+        }
+        draft
+    }
+
+    pub(super) fn light(&mut self, [x, y, z]: [f64; 3], intensity: f64) {
+        let light = format!("Directional(toward: ({x}, {y}, {z}), intensity: {intensity})");
+        self.lights.push(light);
+    }
+
+    pub(super) fn sphere(&mut self, [x, y, z]: [f64; 3], radius: f64) {
+        let sphere = format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")");
+        self.spheres.push(sphere);
+    }
+
+    pub(super) fn text(&self) -> String {
+        let lines = |list: &[String]| {
+            list.iter()
+                .map(|item| format!("\n        {item},"))
+                .collect::<String>()
+        };
+        let head: String = self
+            .head
+            .iter()
+            .map(|field| format!("    {field},\n"))
+            .collect();
+        format!(
+            "(\n{head}    lights: [{}\n    ],\n    materials: {{ \"m\": ({}) }},\n    spheres: [{}\n    ],\n)\n",
+            lines(&self.lights),
+            self.material,
+            lines(&self.spheres)
+        )
+    }
+
+    pub(super) fn scene(&self) -> Result<Scene, String> {
+        Scene::parse(&self.text(), Path::new("hunt.ron")).map_err(|error| error.to_string())
+    }
+
+    /// The scene without one of its spheres or lights.
+    pub(super) fn without(&self, index: usize) -> Option<Self> {
+        let mut less = self.clone();
+        if index < less.spheres.len() {
+            less.spheres.remove(index);
+        } else if index - less.spheres.len() < less.lights.len() {
+            less.lights.remove(index - self.spheres.len());
+        } else {
+            return None;
+        }
+        Some(less)
+    }
+}
+
+/// Columns and rows of the pictures.
+pub(super) const SIDE: u32 = 32;
