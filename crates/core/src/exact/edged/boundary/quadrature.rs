@@ -29,6 +29,9 @@ struct Sides<S: Simd> {
     light: [f64x8<S>; 3],
     doubt: f64x8<S>,
     unevenness: f64,
+    /// Whether light goes with a power of the distance to a terminator that is not whole: rules converge slowly,
+    /// and their difference is not to be raised to a power.
+    is_singular: bool,
     /// How often nothing is seen on the inner side, less how often on the outer one.
     empty: f64,
 }
@@ -87,6 +90,9 @@ impl Boundary {
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
                     let mut estimate = error_estimate(difference, spread);
+                    if sides.is_singular {
+                        estimate = difference;
+                    }
                     if sides.unevenness > 0.0 {
                         estimate = difference.max(sides.unevenness * spread);
                     }
@@ -132,6 +138,7 @@ impl Boundary {
             light: [zero; 3],
             doubt: zero,
             unevenness: 0.0,
+            is_singular: false,
             empty: 0.0,
         };
         for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
@@ -161,6 +168,8 @@ impl Boundary {
                 continue;
             }
             let surface = &setting.surfaces[sphere];
+            let exponent = surface.finish.reflectance.exponents()[0];
+            sides.is_singular |= surface.terminators & lights != 0 && exponent.fract() != 0.0;
             let sender = Sender {
                 scene,
                 cell,
