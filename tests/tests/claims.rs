@@ -1,7 +1,8 @@
 //! What pixels claim where it is hard to claim anything.
 
 use glam::DVec3;
-use marbles_core::{Color, DirectionalLight, Status};
+use marbles_core::{Color, DirectionalLight, Highlight, Material, Sphere, Status};
+use marbles_tests::reference::Reference;
 
 use crate::studio::{GREY_HALF, exact_picture, looking_forward, pixels, world_of};
 
@@ -99,4 +100,36 @@ fn balls_with_one_outline_are_one() {
             }
         }
     }
+}
+
+/// Light from nearly behind, where half vectors turn fast: highlights at the rim count wherever they are bright.
+#[test]
+fn highlights_against_the_light_are_seen() {
+    let mut bright = 0;
+    for (aside, shininess) in [(0.02, 30.0), (0.1, 300.0), (0.3, 60.0)] {
+        let mut world = world_of(&[], &[DVec3::new(aside, 0.4 * aside, 1.0)]);
+        let shiny = world.add_material(Material {
+            highlight: Some(Highlight {
+                strength: 1.0,
+                shininess,
+            }),
+            ..Material::MATTE_WHITE
+        });
+        let ball = Sphere::new(DVec3::new(1.3, -0.7, 40.0), 6.1).unwrap();
+        world.add_sphere(ball, shiny);
+        let view = looking_forward(20, 20, 50.0);
+        let reference = Reference::new(&world, &view);
+        for tolerance in [1e-3, 1e-6] {
+            let image = exact_picture(&world, &view, tolerance, true);
+            for (col, row) in pixels(&image) {
+                let truth = reference.pixel(col, row);
+                let found = image.rgba(col, row)[0];
+                let off = (found - truth.value.x).abs();
+                let allowed = tolerance.max(image.error(col, row)) + truth.error;
+                assert!(off <= allowed, "{aside} {col} {row}: {off:e} {tolerance:e}");
+                bright += u32::from(truth.value.x > 1e-4);
+            }
+        }
+    }
+    assert!(bright > 20, "{bright}");
 }

@@ -68,6 +68,9 @@ const NARROWEST: f64 = 1e-7;
 /// some units in the last place.
 const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
+/// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
+const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+
 /// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
 /// rounding moves such a line by, in sides of a cell: it is a double root.
 const SEEN_EDGE_ON: f64 = 1e-5;
@@ -121,6 +124,8 @@ impl Contents {
             // Of spheres with one outline the nearest hides the others.
             let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
             if let Some(other) = self.active.iter_mut().find(is_alike) {
+                let moved = ALIKE * cell.middle.length() / size;
+                self.rounding = self.rounding.max(moved);
                 if ball.outside < other.ball.outside {
                     *other = Active {
                         sphere,
@@ -297,8 +302,6 @@ impl Contents {
 /// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
 /// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
 fn has_same_outline(one: &Ball, other: &Ball) -> bool {
-    /// Of the distances, more than rounding.
-    const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
     if one.outside <= 0.0 || other.outside <= 0.0 {
         return false;
     }

@@ -238,7 +238,8 @@ impl Boundary {
         self.breaks.sort_unstable_by(f64::total_cmp);
     }
 
-    /// The middles of the steps between four of the breaks and the next ones, and these breaks.
+    /// Parameters of three steps between breaks, from the break with this number: their middles, then the breaks
+    /// at their ends. After the last break it repeats.
     pub(super) fn steps(&self, first: usize) -> [f64; 8] {
         let last = self.breaks.len() - 1;
         let at = |index: usize| self.breaks[(first + index).min(last)];

@@ -251,7 +251,10 @@ fn without_dark_highlight<S: Simd>(
     }
     let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
     let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
-    let turn = OF_CHORD * length / active.ball.radius + cell.size[0].max(cell.size[1]);
+    let turn = OF_CHORD * length / active.ball.radius;
+    // Rays are at least 1 long: so far may one, as a unit vector, be from the middle's.
+    let view = cell.middle * (-1.0 / cell.middle.length());
+    let aside = DVec2::from_array(cell.size).length();
     let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
     let mut highest = 0.0;
     let lights = scene.lights.len();
@@ -261,6 +264,12 @@ fn without_dark_highlight<S: Simd>(
         .zip(&contents.reach[position * lights..])
     {
         if matches!(reach, Reach::Past(_)) {
+            // Half vectors turn by that over their length before they are made unit vectors.
+            let length = (light.toward + view).length() - aside;
+            if length <= aside {
+                return 0.0;
+            }
+            let turn = turn + OF_CHORD * aside / length;
             highest += finish.highest_highlight(simd, &points, light, turn)[0];
         }
     }

@@ -110,7 +110,7 @@ fn normals<S: Simd>(
                     (foot.minus(&ray.times(at.root)), ray.length_squared())
                 } else {
                     let along = ray.dot_one(ball.center) + at.root;
-                    let place = ray.times(along * 0.0 + ball.outside);
+                    let place = ray.times(f64x8::splat(simd, ball.outside));
                     (place.minus(&center.times(along)), along)
                 };
                 let below = at.denominator * at.denominator * length * ball.radius;
