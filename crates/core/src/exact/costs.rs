@@ -169,6 +169,14 @@ impl Finish {
         exponent.fract() == 0.0 && (!self.has_blunt_highlight() || shininess.fract() == 0.0)
     }
 
+    /// Returns whether diffuse light begins with a power that is not whole, and is not smooth there.
+    pub(crate) fn has_fractional_exponent(&self) -> bool {
+        /// Powers that are smooth enough where they begin: the sixth derivative is bounded.
+        const SMOOTH: f64 = 6.0;
+        let [exponent, _] = self.reflectance.exponents();
+        exponent.fract() != 0.0 && exponent < SMOOTH
+    }
+
     /// Returns whether a highlight's end is seen, as it is where bumps turn from eye and light together.
     pub(crate) fn has_blunt_highlight(&self) -> bool {
         /// Powers that are smooth enough where they begin: x⁶ has five continuous derivatives, as many as

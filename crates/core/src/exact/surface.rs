@@ -96,14 +96,15 @@ impl Finish {
     }
 
     /// The light of some lights, bit by bit, that points without bumps send to the eye, without what they
-    /// send where none of them reaches; on where the surface turns from them, as smooth as it is.
+    /// send where none of them reaches; on where the surface turns from them, as smooth as it is. Diffuse
+    /// light counts of those lights alone that come second.
     #[inline(always)]
     pub(crate) fn unclamped<S: Simd>(
         &self,
         simd: S,
         scene: &InCamera<'_>,
         points: &Points<S>,
-        lights: u64,
+        [lights, diffuse]: [u64; 2],
     ) -> [f64x8<S>; 3] {
         let reflectance = &self.reflectance;
         let mut sum = [f64x8::splat(simd, 0.0); 3];
@@ -114,7 +115,9 @@ impl Finish {
                 let (toward, intensity) = (light.toward, light.intensity);
                 let cosine = viewed.cosine(toward);
                 let half_cosine = viewed.half_cosine(toward, cosine);
-                reflectance.add_diffuse(reflectance.albedo * intensity, cosine, None, sum);
+                if diffuse >> index & 1 == 1 {
+                    reflectance.add_diffuse(reflectance.albedo * intensity, cosine, None, sum);
+                }
                 reflectance.add_highlight(intensity, half_cosine, None, sum);
             }
         }

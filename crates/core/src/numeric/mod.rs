@@ -4,6 +4,7 @@ pub(crate) mod angle;
 pub(crate) mod bits;
 pub(crate) mod double_double;
 pub(crate) mod fused;
+pub(crate) mod jacobi;
 pub(crate) mod kronrod;
 pub(crate) mod lanes;
 pub(crate) mod polynomial;

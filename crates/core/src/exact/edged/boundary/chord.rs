@@ -60,6 +60,23 @@ impl Reference {
         seen.reference()
     }
 
+    /// Its x on the line with this y.
+    #[cfg(test)]
+    pub(super) fn at(&self, y: f64) -> f64 {
+        self.start + self.slope * y
+    }
+
+    /// The y at which the zeros of a polynomial cross the reference; NaN where they do not.
+    pub(super) fn crossings(&self, q: &Quadratic) -> [f64; 2] {
+        let along = Quadratic {
+            one: (q.xx * self.start + q.x) * self.start + q.one,
+            x: (2.0 * q.xx * self.start + q.x) * self.slope + q.xy * self.start + q.y,
+            xx: (q.xx * self.slope + q.xy) * self.slope + q.yy,
+            ..Quadratic::default()
+        };
+        along.crossings(0.0)
+    }
+
     pub(super) fn upright(x: f64) -> Self {
         Self {
             start: x,
@@ -237,6 +254,24 @@ impl<S: Simd> Chord<S> {
             x: self.middle * denominator + self.half * share,
             root: self.roots[0] * before + self.roots[1] * after + self.scale * (0.5 * bow),
             slope: self.half * ((1.0 - self.lean * sigma) * denominator + share * less),
+            denominator,
+        }
+    }
+
+    /// The places with these parameters, which may lie beyond the ends.
+    #[inline(always)]
+    pub(super) fn homogeneous_lanes(&self, sigma: f64x8<S>) -> Homogeneous<S> {
+        let one = sigma * 0.0 + 1.0;
+        let bow = (one - sigma * sigma) * 0.5;
+        let (before, after) = (one - sigma, one + sigma);
+        let denominator = self.weight * bow + (one - bow);
+        let share = self.lean * bow + sigma;
+        let less = self.weight * sigma - sigma;
+        let of_ends = self.roots[0] * (before * before) + self.roots[1] * (after * after);
+        Homogeneous {
+            x: self.middle * denominator + self.half * share,
+            root: of_ends * 0.25 + self.scale * (bow * 0.5),
+            slope: self.half * ((one - self.lean * sigma) * denominator + share * less),
             denominator,
         }
     }

@@ -181,7 +181,7 @@ pub(super) fn trace<S: Simd>(
 /// A parameter in which places are smooth that go with the root of the distance to an end, and how fast
 /// the former changes.
 #[inline(always)]
-fn warped<S: Simd>(roots: [bool; 2], s: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
+pub(super) fn warped<S: Simd>(roots: [bool; 2], s: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
     let one = s * 0.0 + 1.0;
     match roots {
         [false, false] => (s, one),

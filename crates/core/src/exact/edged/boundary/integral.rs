@@ -8,6 +8,7 @@ use super::chord::Reference;
 use super::clip;
 use super::curve::{Circle, Piece, Shape};
 use super::events::Stretch;
+use super::fractional::PowerRules;
 use super::quadrature::total;
 
 use crate::edges::cell::Cell;
@@ -48,11 +49,19 @@ impl Boundary {
                 finish,
                 reference,
                 terminators: 0,
+                rules: PowerRules::ZERO,
             });
         }
-        for (kind, _) in &contents.conics {
+        self.levels.clear();
+        for (kind, conic) in &contents.conics {
             if let Kind::Terminator(one, light) = *kind {
-                surfaces[one].terminators |= 1 << light;
+                let surface = &mut surfaces[one];
+                surface.terminators |= 1 << light;
+                if surface.is_singular(1 << light) {
+                    let exponent = surface.finish.reflectance.exponents()[0];
+                    surface.rules = PowerRules::of(exponent, &mut self.rules);
+                    self.add_levels(one, &surface.reference, conic);
+                }
             }
         }
         // Between lines on bumps more may happen than their errors tell.
@@ -216,6 +225,7 @@ impl Boundary {
                     let places = whole.places(simd, setting);
                     self.find_arcs(simd, setting, &whole, &places);
                     self.light_arcs(simd, setting, &whole, &places);
+                    self.cut_at_levels(simd, setting, &whole);
                     for index in 0..self.lit_arcs.len() {
                         let arc = self.lit_arcs[index];
                         let path = Path {

@@ -280,7 +280,7 @@ impl Sender<'_, '_> {
                         let normal = &normals[node];
                         finish.radiance(simd, self.scene, points, normal, &lit, None)
                     } else {
-                        finish.unclamped(simd, self.scene, points, lines.lights)
+                        finish.unclamped(simd, self.scene, points, [lines.lights, lines.diffuse])
                     };
                     let (fine, coarse) = (RULE.fine[node], RULE.coarse[node]);
                     let mut gauge = zero;

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use super::chord::Chord;
+use super::chord::{Chord, Homogeneous};
 use super::primitive::{Lines, NEGLIGIBLE, RULES, Sender, Summed, greatest};
 use crate::edges::cell::{Ball, Cell};
 use crate::numeric::vectors::Vectors;
@@ -93,32 +93,49 @@ fn normals<S: Simd>(
     simd.vectorize(
         #[inline(always)]
         || {
-            let center = Vectors::splat(simd, ball.center);
-            let is_apart = ball.is_apart();
-            let [width, height] = cell.size;
-            let upward = y * height + cell.middle.y;
             let mut sum = Vectors::splat(simd, DVec3::ZERO);
             for (node, weight) in rule {
                 let at = chord.homogeneous(2.0 * node - 1.0);
-                let ray = Vectors {
-                    x: at.x * width + at.denominator * cell.middle.x,
-                    y: at.denominator * upward,
-                    z: at.denominator,
-                };
-                let (normal, length) = if is_apart {
-                    let foot = ray.cross(&ray.cross(&center));
-                    (foot.minus(&ray.times(at.root)), ray.length_squared())
-                } else {
-                    let along = ray.dot_one(ball.center) + at.root;
-                    let place = ray.times(f64x8::splat(simd, ball.outside));
-                    (place.minus(&center.times(along)), along)
-                };
+                let ray = ray_times(cell, &at, y);
+                let (normal, length, _) = normal_times(simd, ball, &ray, at.root);
                 let below = at.denominator * at.denominator * length * ball.radius;
                 sum = sum.plus(&normal.times(at.slope * (2.0 * weight) / below));
             }
             sum
         },
     )
+}
+
+/// The rays to places of chords on lines with these y, times the denominators of the places.
+#[inline(always)]
+pub(super) fn ray_times<S: Simd>(cell: &Cell, at: &Homogeneous<S>, y: f64x8<S>) -> Vectors<S> {
+    let [width, height] = cell.size;
+    let upward = y * height + cell.middle.y;
+    Vectors {
+        x: at.x * width + at.denominator * cell.middle.x,
+        y: at.denominator * upward,
+        z: at.denominator,
+    }
+}
+
+/// The normals of a ball where rays R with the roots w meet it, times its radius and the second numbers that
+/// are returned. The third are R·c + w.
+#[inline(always)]
+pub(super) fn normal_times<S: Simd>(
+    simd: S,
+    ball: &Ball,
+    ray: &Vectors<S>,
+    root: f64x8<S>,
+) -> (Vectors<S>, f64x8<S>, f64x8<S>) {
+    let center = Vectors::splat(simd, ball.center);
+    let along = ray.dot_one(ball.center) + root;
+    if ball.is_apart() {
+        let foot = ray.cross(&ray.cross(&center));
+        (foot.minus(&ray.times(root)), ray.length_squared(), along)
+    } else {
+        let place = ray.times(f64x8::splat(simd, ball.outside));
+        (place.minus(&center.times(along)), along, along)
+    }
 }
 
 #[cfg(test)]

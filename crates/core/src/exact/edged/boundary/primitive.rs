@@ -4,6 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::chord::{Chord, Reference};
+use super::fractional::PowerRules;
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::points::Points;
@@ -27,7 +28,7 @@ const FOUR: [(f64, f64); 4] = [
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
-const SIX: [(f64, f64); 6] = [
+pub(super) const SIX: [(f64, f64); 6] = [
     (0.033_765_242_898_423_975, 0.085_662_246_189_585_25),
     (0.169_395_306_766_867_7, 0.180_380_786_524_069_3),
     (0.380_690_406_958_401_5, 0.233_956_967_286_345_63),
@@ -35,7 +36,7 @@ const SIX: [(f64, f64); 6] = [
     (0.830_604_693_233_132_4, 0.180_380_786_524_069_3),
     (0.966_234_757_101_576, 0.085_662_246_189_585_25),
 ];
-const EIGHT: [(f64, f64); 8] = [
+pub(super) const EIGHT: [(f64, f64); 8] = [
     (0.019_855_071_751_231_856, 0.050_614_268_145_188_09),
     (0.101_666_761_293_186_66, 0.111_190_517_226_687_23),
     (0.237_233_795_041_835_5, 0.156_853_322_938_943_7),
@@ -60,6 +61,8 @@ pub(super) struct Sender<'a, 'scene> {
     pub(super) reference: &'a Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
+    /// Those for its diffuse light, where its power is not whole.
+    pub(super) rules: &'a PowerRules,
     pub(super) tolerance: f64,
 }
 
@@ -70,6 +73,8 @@ pub(super) struct Lines<S: Simd> {
     pub(super) y: f64x8<S>,
     /// The lights, bit by bit.
     pub(super) lights: u64,
+    /// Those of them whose diffuse light counts.
+    pub(super) diffuse: u64,
 }
 
 /// Light summed up, and what the sum may be off by.
@@ -109,8 +114,11 @@ impl Sender<'_, '_> {
                         unevenness: 0.0,
                     };
                 }
-                if self.has_kinks(lines.lights) {
+                if self.has_kinks() {
                     return self.kinked(simd, &chord, lines, noise);
+                }
+                if self.terminators & lines.lights != 0 && self.finish.has_fractional_exponent() {
+                    return self.fractional(simd, &chord, lines, noise);
                 }
                 if self.is_plain() {
                     self.plain(simd, &chord, lines)
@@ -121,14 +129,10 @@ impl Sender<'_, '_> {
         )
     }
 
-    /// Whether light along chords is not smooth: at terminators of bumps, with powers that are not whole
-    /// where they begin, and where highlights end.
-    fn has_kinks(&self, lights: u64) -> bool {
-        let exponent = self.finish.reflectance.exponents()[0];
-        let has_terminator = self.terminators & lights != 0;
-        self.active.terminators == Terminators::Anywhere
-            || has_terminator && exponent.fract() != 0.0
-            || self.finish.has_blunt_highlight()
+    /// Whether light along chords bends or jumps at unknown places: at terminators of bumps, and where highlights
+    /// end.
+    fn has_kinks(&self) -> bool {
+        self.active.terminators == Terminators::Anywhere || self.finish.has_blunt_highlight()
     }
 
     /// Light without kinks, by rules held against each other.
@@ -187,9 +191,12 @@ impl Sender<'_, '_> {
                     let mut points = self.points(simd, x, lines.y);
                     let normal = std::slice::from_mut(&mut points.normal);
                     self.finish.perturb(simd, self.scene, normal, noise);
-                    let light = self
-                        .finish
-                        .unclamped(simd, self.scene, &points, lines.lights);
+                    let light = self.finish.unclamped(
+                        simd,
+                        self.scene,
+                        &points,
+                        [lines.lights, lines.diffuse],
+                    );
                     let share = slope * (2.0 * weight);
                     for channel in 0..self.scene.channels {
                         sum[channel] += light[channel] * share;

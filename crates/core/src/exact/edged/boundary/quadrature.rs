@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use glam::DVec3;
 
-use super::curve::{Shape, Trace, trace};
+use super::curve::{Shape, Trace, trace, warped};
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
@@ -29,9 +29,6 @@ struct Sides<S: Simd> {
     light: [f64x8<S>; 3],
     doubt: f64x8<S>,
     unevenness: f64,
-    /// Whether light goes with a power of the distance to a terminator that is not whole: rules converge slowly,
-    /// and their difference is not to be raised to a power.
-    is_singular: bool,
     /// How often nothing is seen on the inner side, less how often on the outer one.
     empty: f64,
 }
@@ -60,6 +57,8 @@ impl Boundary {
                 }
                 let Path { curve, piece } = *path;
                 let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
+                let is_singular = setting.is_singular(arc);
+                let (nodes, slope) = warped([is_singular; 2], nodes);
                 let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
                 let sign = sign(scene, setting.contents, curve, &places);
                 let rise = (arc.y[1] - arc.y[0]) * sign;
@@ -67,7 +66,7 @@ impl Boundary {
                     self.note_sides(curve, arc, rise);
                     return;
                 }
-                let dy = places.dy * (length * sign);
+                let dy = places.dy * slope * (length * sign);
                 let fine: f64x8<S> = RULE.fine.simd_into(simd);
                 let coarse: f64x8<S> = RULE.coarse.simd_into(simd);
                 let sides = self.sides(simd, setting, curve, arc, &places);
@@ -90,7 +89,7 @@ impl Boundary {
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
                     let mut estimate = error_estimate(difference, spread);
-                    if sides.is_singular {
+                    if is_singular {
                         estimate = difference;
                     }
                     if sides.unevenness > 0.0 {
@@ -138,7 +137,6 @@ impl Boundary {
             light: [zero; 3],
             doubt: zero,
             unevenness: 0.0,
-            is_singular: false,
             empty: 0.0,
         };
         for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
@@ -168,8 +166,6 @@ impl Boundary {
                 continue;
             }
             let surface = &setting.surfaces[sphere];
-            let exponent = surface.finish.reflectance.exponents()[0];
-            sides.is_singular |= surface.terminators & lights != 0 && exponent.fract() != 0.0;
             let sender = Sender {
                 scene,
                 cell,
@@ -177,12 +173,14 @@ impl Boundary {
                 finish: &surface.finish,
                 reference: &surface.reference,
                 terminators: surface.terminators,
+                rules: &surface.rules,
                 tolerance: goal.tolerance,
             };
             let lines = Lines {
                 x: places.x,
                 y: places.y,
                 lights,
+                diffuse: lights,
             };
             let summed = sender.lit_up_to(simd, &lines, &mut self.noise);
             self.samples += summed.samples;

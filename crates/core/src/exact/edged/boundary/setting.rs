@@ -5,6 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::chord::Reference;
 use super::curve::{Piece, Shape};
+use super::fractional::PowerRules;
 use super::primitive::Noise;
 
 use crate::edges::cell::Cell;
@@ -80,6 +81,10 @@ pub(crate) struct Boundary {
     /// Where curves cross the left side of the cell, and the right one.
     pub(super) crossings: [Vec<f64>; 2],
     pub(super) noise: Noise,
+    /// For each active sphere, the y at which sums of light along its lines are singular.
+    pub(super) levels: Vec<(usize, f64)>,
+    /// The rules for powers that were met so far.
+    pub(super) rules: Vec<PowerRules>,
     /// Points at which light was computed, and lines that it was summed up along.
     pub(crate) samples: u64,
     pub(crate) lines: u64,
@@ -105,6 +110,15 @@ pub(super) struct Surface {
     pub(super) reference: Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
+    /// Those for diffuse light with a power that is not whole, where there are such terminators.
+    pub(super) rules: PowerRules,
+}
+
+impl Surface {
+    /// Whether sums of these lights along lines are singular at levels of the surface.
+    pub(super) fn is_singular(&self, lights: u64) -> bool {
+        self.terminators & lights != 0 && self.finish.has_fractional_exponent()
+    }
 }
 
 /// The share of the tolerance that the errors of all arcs may take, before they are made larger for caution:
@@ -125,6 +139,17 @@ pub(super) struct Setting<'a, 'scene> {
     pub(super) surfaces: &'a [Surface],
     /// The share of the tolerance that an arc may take before it is halved.
     pub(super) share: f64,
+}
+
+impl Setting<'_, '_> {
+    /// Whether light summed up to an arc goes with a power that is not whole of the distance to its ends: rules
+    /// converge slowly there, and their difference is not to be raised to a power.
+    pub(super) fn is_singular(&self, arc: &Arc) -> bool {
+        let sides = [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])];
+        sides
+            .into_iter()
+            .any(|(sphere, lit)| sphere != NONE && self.surfaces[sphere].is_singular(lit))
+    }
 }
 
 /// What arcs contribute so far, by nodes of the rule.
