@@ -5,6 +5,7 @@ use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use super::curve::{Shape, Trace, trace, warped};
+use super::events::polynomial;
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
@@ -58,8 +59,18 @@ impl Boundary {
                 let Path { curve, piece } = *path;
                 let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
                 let is_singular = setting.is_singular(arc);
-                let (nodes, slope) = warped([is_singular; 2], nodes);
-                let places = trace(simd, cell, &curve.shape, piece, nodes * length + arc.start);
+                let mut roots = [is_singular; 2];
+                let (mut shares, mut slope) = warped(roots, nodes);
+                let at = shares * length + arc.start;
+                let mut places = trace(simd, cell, &curve.shape, piece, at);
+                if !is_singular {
+                    roots = roots_at_ends(setting, curve, arc, &places);
+                    if roots.contains(&true) {
+                        (shares, slope) = warped(roots, nodes);
+                        let at = shares * length + arc.start;
+                        places = trace(simd, cell, &curve.shape, piece, at);
+                    }
+                }
                 let sign = sign(scene, setting.contents, curve, &places);
                 let rise = (arc.y[1] - arc.y[0]) * sign;
                 if !sends_light(setting, curve, arc) {
@@ -99,7 +110,7 @@ impl Boundary {
                 }
                 if error > setting.share * goal.tolerance && depth < DEEPEST {
                     *sum = kept;
-                    let middle = (0.5 * (arc.start + arc.end), places.y[MIDDLE]);
+                    let middle = (arc.start + length * shares[MIDDLE], places.y[MIDDLE]);
                     let ends = [(arc.start, arc.y[0]), middle, (arc.end, arc.y[1])];
                     for half in ends.windows(2) {
                         let half = Arc {
@@ -212,6 +223,32 @@ impl Boundary {
             None => self.regions.push((sphere, lit, rise)),
         }
     }
+}
+
+/// The ends of an arc at which the outline of a sphere beside it begins, on which the arc does not lie: there
+/// light goes with the root of the distance, as the outline's own points do. Between its nodes in the middle and
+/// beside the ends the discriminant is nearly linear.
+#[inline(always)]
+fn roots_at_ends<S: Simd>(
+    setting: &Setting<'_, '_>,
+    curve: &Curve,
+    arc: &Arc,
+    places: &Trace<S>,
+) -> [bool; 2] {
+    /// Of the value in the middle; of a line that vanishes at the end it is 0.04.
+    const LEAST: f64 = 0.08;
+    let (sphere, lit) = match curve.edge {
+        Edge::Left | Edge::Right => (arc.inner, arc.lit[0]),
+        Edge::Limb => (arc.outer, arc.lit[1]),
+        _ => return [false; 2],
+    };
+    if sphere == NONE || lit == 0 {
+        return [false; 2];
+    }
+    let discriminant = &setting.contents.active[sphere].discriminant;
+    let values = polynomial(discriminant, places.x, places.y);
+    let least = LEAST * values[MIDDLE];
+    [values[0] < least, values[NODES - 1] < least]
 }
 
 /// Whether anything but darkness lies on either side of an arc.
