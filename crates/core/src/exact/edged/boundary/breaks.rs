@@ -52,8 +52,11 @@ impl Boundary {
                     }
                     let mut intervals = open;
                     if setting.goal.parts == 1 {
-                        // Where the same is first at both ends, others begin behind it.
-                        intervals &= beside(front.is(position)) | !(alike & covered);
+                        // Where the same is first at both ends, what lies wholly behind it begins behind it.
+                        let ball = &active.ball;
+                        let is_behind = front.nearest.simd_lt(ball.center.z - ball.radius);
+                        let behind = between(is_behind.to_bitmask());
+                        intervals &= beside(front.is(position)) | !(alike & covered & behind);
                     }
                     if intervals == 0 {
                         continue;
@@ -74,7 +77,7 @@ impl Boundary {
                         (false, false) => {
                             let mut intervals = open;
                             if setting.goal.parts == 1 {
-                                intervals &= !alike;
+                                intervals &= !alike | beside(front.is(one) | front.is(other));
                             }
                             let values = polynomial(conic, places.x, places.y);
                             let function = Function::Conic(index);
