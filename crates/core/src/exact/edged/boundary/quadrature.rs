@@ -9,7 +9,7 @@ use super::events::polynomial;
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
-use crate::exact::edged::rule::{NODES, RULE, error_estimate};
+use crate::exact::edged::rule::{NODES, RULE, doubt, error_estimate};
 use crate::exact::scene::InCamera;
 
 /// How much larger than what the rules differ by their error is taken to be.
@@ -80,6 +80,7 @@ impl Boundary {
                 let dy = places.dy * slope * (length * sign);
                 let fine: f64x8<S> = RULE.fine.simd_into(simd);
                 let coarse: f64x8<S> = RULE.coarse.simd_into(simd);
+                let odd: f64x8<S> = RULE.odd.simd_into(simd);
                 let sides = self.sides(simd, setting, curve, arc, &places);
                 let all = dy * fine;
                 let slip = (total(all) - rise).abs();
@@ -89,13 +90,15 @@ impl Boundary {
                     let (one, other) = (places.x * all, places.x * dy * coarse);
                     sum.empty += one * sides.empty;
                     let spread = total((places.x * dy - total(one)).abs() * fine);
-                    error = error_estimate(total(one - other).abs(), spread) + slip;
+                    let of_odd = total(places.x * dy * odd);
+                    let difference = doubt(total(one - other), of_odd);
+                    error = error_estimate(difference, spread) + slip;
                 }
                 for (channel, light) in sides.light.into_iter().enumerate().take(scene.channels) {
                     let part = light * dy;
                     let (one, other) = (part * fine, part * coarse);
                     sum.value[channel] += one;
-                    let difference = total(one - other).abs();
+                    let difference = doubt(total(one - other), total(part * odd));
                     let mean = total(one);
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
