@@ -58,7 +58,7 @@ const FAR: f64 = (1_u64 << 25) as f64;
 pub(crate) struct GroupScratch(Vec<Scratch>);
 
 impl GroupScratch {
-    /// The units that the pixel at a place of the last tile has cost along its edges.
+    /// The units that the pixel at a place of the last tile has cost.
     pub(crate) fn cost_of(&self, place: usize) -> u64 {
         self.0.iter().map(|group| group.costs.of(place)).sum()
     }

@@ -28,7 +28,7 @@ mod surface;
 
 use fearless_simd::prelude::*;
 
-use self::budget::TileCosts;
+use self::budget::{FILLED, TileCosts};
 use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::row::{Coverage, Sight, classify_row, sight};
@@ -191,6 +191,10 @@ fn row_pixels<S: Simd>(
         };
         let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
         edged.work.samples += done.samples;
+        let is_rough = context.scene.world.material(sphere).roughness.is_some();
+        for lane in set_bits(which) {
+            costs.add(place + lane, FILLED[usize::from(is_rough)]);
+        }
         for lane in set_bits(done.hard) {
             let spheres = [(sphere, coverage.ball)];
             match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
