@@ -54,7 +54,7 @@ pub(crate) const MOST: u64 = 500_000;
 pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 8;
 
 /// The units that a pixel may cost over all moments together, before it ends: the last panels are finished.
-pub(crate) const MOST_OVER_TIME: u64 = MOST / 4;
+pub(crate) const MOST_OVER_TIME: u64 = MOST / 8;
 
 /// Bumps side by side in a pixel up to which all of the budget is theirs, and from which on nothing is: a
 /// hundred and more bumps are not followed one by one.

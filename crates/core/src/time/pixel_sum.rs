@@ -117,12 +117,16 @@ impl PixelSum {
             order.then(one.panel.cmp(&other.panel))
         });
         let mut rest = self.time_error + of_time(&open);
+        // Panels that may still be added, at the mean cost of those so far.
+        let cost = (self.units / self.panels.max(1) as u64).max(1);
+        let mut affordable = MOST_OVER_TIME.saturating_sub(self.units) / cost;
         let mut is_halved = false;
         for part in open {
             let is_small = part.time_error <= SMALL * tolerance * part.panel.length();
             match part.panel.halves() {
-                Some(halves) if rest > allowed && !is_small => {
+                Some(halves) if rest > allowed && !is_small && affordable >= 2 => {
                     rest -= part.time_error;
+                    affordable -= 2;
                     is_halved = true;
                     halves.into_iter().for_each(&mut request);
                 }

@@ -156,9 +156,11 @@ impl Boundary {
         for channel in 0..scene.channels {
             value[channel] = total(sum.value[channel]);
         }
-        // Rounding may move each of the edges.
-        let edges = contents.conics.len() + contents.occluders.len();
-        let rounding = goal.contrast * contents.rounding * edges.max(1) as f64;
+        let mut rounding = goal.contrast * contents.rounding;
+        if rounding > goal.tolerance {
+            // It may move each of the edges.
+            rounding *= (contents.conics.len() + contents.occluders.len()).max(1) as f64;
+        }
         let part = Part {
             value,
             covered: 1.0 - total(sum.empty),
