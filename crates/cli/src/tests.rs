@@ -70,3 +70,40 @@ camera      Free: x 0, y 0, z 0
 "
     );
 }
+
+/// Seventeen lights are three groups, and their bumps are too fine: the summary counts what the core counts, and
+/// the exit code tells it.
+#[test]
+fn pixels_over_their_budget_are_counted_and_told() {
+    let lights = "Directional(toward: (-1, 1, -1), intensity: 0.05),".repeat(17);
+    let text = format!(
+        "(image: (width: 10, height: 10), lens: Retina(width: 10, distance: 20), camera: Free(),
+        lights: [{lights}],
+        materials: {{ \"m\": (rough: (amplitude: 0.5, grain: Surface(1e-3))) }},
+        spheres: [(center: (0, 0, 40), radius: 7, material: \"m\")])"
+    );
+    let (scene, image) = (temporary("budget.ron"), temporary("budget.exr"));
+    std::fs::write(&scene, text).unwrap();
+    let paths = [&scene, &image].map(|path| path.to_str().unwrap());
+    let (code, out, err) = run_here(&["render", paths[0], "-o", paths[1]]);
+    let loaded = marbles_scene::Scene::load(&scene).unwrap();
+    for path in [&scene, &image] {
+        std::fs::remove_file(path).unwrap();
+    }
+    let settings = marbles_core::Settings {
+        method: marbles_core::Method::Tolerance(1e-3),
+        alpha: false,
+    };
+    let go = |_| std::ops::ControlFlow::Continue(());
+    let picture = marbles_core::Renderer::new(loaded.world())
+        .render(&loaded.view(1).unwrap(), &settings, &go)
+        .unwrap();
+    let over = picture.summary().over_tolerance;
+    assert!(over > 20);
+    assert_eq!(code, 1);
+    assert!(
+        out.contains(&format!(", {over} over the tolerance")),
+        "{out}"
+    );
+    assert!(err.contains("over the tolerance"), "{err}");
+}

@@ -1,4 +1,6 @@
-//! `marbles check`: validates a scene file and tells what it contains.
+//! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
+
+mod costs;
 
 use std::ops::RangeInclusive;
 
@@ -43,6 +45,9 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
+    for warning in costs::warnings(&scene, &views) {
+        console.warn(&warning);
+    }
     match errors.first() {
         None => Ok(status::SUCCESS),
         Some(error) => {

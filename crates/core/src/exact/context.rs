@@ -24,8 +24,10 @@ pub(crate) struct Context<'scene> {
     pub(crate) tolerance: f64,
     /// The light of pixels that see no sphere.
     pub(crate) background: Color,
-    /// About the largest difference of light that an edge may make.
+    /// About the largest difference of light that an edge may make, highlights left out.
     pub(crate) contrast: f64,
+    /// The units that a pixel may cost, of `exact::budget`.
+    pub(crate) budget: u64,
 }
 
 impl Context<'_> {

@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
+use super::budget::MOST;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::scene::{InCamera, MOST_LIGHTS};
@@ -37,17 +38,31 @@ pub(crate) struct Exact<'scene> {
     tolerance: f64,
     /// Whether pictures have an alpha channel in place of the background.
     alpha: bool,
-    /// The samples of the last rung.
+    /// The samples of the last rung: of most pixels, and of those whose spheres are so far that each ray
+    /// costs thousands of others.
     samples: Supersampling<'scene>,
+    few_samples: Supersampling<'scene>,
     level: Level,
 }
 
 /// Samples on a side of a pixel that no other rung answers for.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
+const FEW_SAMPLES: NonZeroU32 = NonZeroU32::new(1).unwrap();
+
+/// How far spheres may be, in radii, for rays to be decided without integers: the square of this is what
+/// numbers of twice the precision may lose and still have all places of a double.
+const FAR: f64 = (1_u64 << 25) as f64;
 
 /// Memory for a thread, with a part for each group of lights.
 #[derive(Debug, Default)]
 pub(crate) struct GroupScratch(Vec<Scratch>);
+
+impl GroupScratch {
+    /// The units that the pixel at a place of the last tile has cost.
+    pub(crate) fn cost_of(&self, place: usize) -> u64 {
+        self.0.iter().map(|group| group.costs.of(place)).sum()
+    }
+}
 
 impl<'scene> Exact<'scene> {
     pub(crate) fn new(
@@ -75,6 +90,7 @@ impl<'scene> Exact<'scene> {
                 world.background
             },
             contrast,
+            budget: MOST,
         };
         Self {
             is_moderate: is_view_moderate(view),
@@ -83,9 +99,18 @@ impl<'scene> Exact<'scene> {
             tolerance,
             alpha,
             samples: Supersampling::new(world, view, index, SAMPLES, alpha),
+            few_samples: Supersampling::new(world, view, index, FEW_SAMPLES, alpha),
             index: index.clone(),
             level: Level::new(),
         }
+    }
+
+    /// The same with so many units, of `exact::budget`, for a pixel.
+    pub(crate) fn with_budget(mut self, units: u64) -> Self {
+        for context in &mut self.groups {
+            context.budget = units;
+        }
+        self
     }
 
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.
@@ -109,6 +134,7 @@ impl<'scene> Exact<'scene> {
                 &mut of_group
             };
             scratch.prepare(context, &candidates);
+            scratch.costs.clear(tile.count());
             unknown |= if self.is_moderate && scratch.are_balls_moderate() {
                 dispatch!(self.level, simd => tile_pixels(simd, context, tile, &candidates, scratch, target))
             } else {
@@ -148,7 +174,16 @@ impl<'scene> Exact<'scene> {
 
     /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them.
     fn sampled(&self, key: PixelKey, candidates: &[usize]) -> Pixel {
-        let mut pixel = self.samples.pixel(key);
+        let is_far = |&sphere: &usize| {
+            let (center, radius) = self.groups[0].scene.center(sphere);
+            center.length() > FAR * radius
+        };
+        let samples = if candidates.iter().any(is_far) {
+            &self.few_samples
+        } else {
+            &self.samples
+        };
+        let mut pixel = samples.pixel(key);
         let [least, most] = self.range_of_light(candidates);
         let above = (most - pixel.value).max_element();
         let below = (pixel.value - least).max_element();

@@ -11,7 +11,10 @@
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
 //! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
 //! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
+//!
+//! [`budget`] limits what a pixel may cost. A pixel that ends over its tolerance says so.
 
+pub(crate) mod budget;
 mod classify;
 mod context;
 mod costs;
@@ -25,6 +28,7 @@ mod surface;
 
 use fearless_simd::prelude::*;
 
+use self::budget::{FILLED, TileCosts};
 use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::row::{Coverage, Sight, classify_row, sight};
@@ -49,6 +53,7 @@ struct Scratch {
     /// The spheres that fill pixels of a row, and these pixels bit by bit.
     filled: Vec<(usize, u64)>,
     edged: Workspace,
+    costs: TileCosts,
 }
 
 impl Scratch {
@@ -111,7 +116,7 @@ fn tile_pixels<S: Simd>(
             let of_row = row_pixels(
                 simd,
                 context,
-                start,
+                (start, place as usize),
                 candidates,
                 (scratch, &mut cache),
                 pixels,
@@ -123,12 +128,13 @@ fn tile_pixels<S: Simd>(
     unknown
 }
 
-/// Writes up to eight pixels of a row, which are empty so far; returns those of which nothing is known.
+/// Writes up to eight pixels of a row, which are empty so far and begin at a place of their tile; returns those of
+/// which nothing is known.
 #[inline(always)]
 fn row_pixels<S: Simd>(
     simd: S,
     context: &Context<'_>,
-    row: Tile,
+    (row, place): (Tile, usize),
     candidates: &[usize],
     (scratch, cache): (&mut Scratch, &mut OccluderCache),
     pixels: &mut [Pixel],
@@ -139,6 +145,7 @@ fn row_pixels<S: Simd>(
         spheres,
         filled,
         edged,
+        costs,
     } = scratch;
     edged.work.candidate_tests += candidates.len() as u64 * u64::from(row.width);
     coverages.clear();
@@ -162,10 +169,13 @@ fn row_pixels<S: Simd>(
                 Some((_, lanes)) => *lanes |= 1 << lane,
                 None => filled.push((sphere, 1 << lane)),
             },
-            Sight::Edges => match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
-                Ok(known) => *target = known,
-                Err(_) => unknown |= 1 << lane,
-            },
+            Sight::Edges => {
+                match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
+                    Ok(known) => *target = known,
+                    Err(_) => unknown |= 1 << lane,
+                }
+                costs.add(place + lane, edged.budget.spent());
+            }
         }
     }
 
@@ -181,12 +191,17 @@ fn row_pixels<S: Simd>(
         };
         let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
         edged.work.samples += done.samples;
+        let is_rough = context.scene.world.material(sphere).roughness.is_some();
+        for lane in set_bits(which) {
+            costs.add(place + lane, FILLED[usize::from(is_rough)]);
+        }
         for lane in set_bits(done.hard) {
             let spheres = [(sphere, coverage.ball)];
             match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
                 Ok(known) => pixels[lane] = known,
                 Err(_) => unknown |= 1 << lane,
             }
+            costs.add(place + lane, edged.budget.spent());
         }
     }
     unknown
@@ -201,10 +216,10 @@ fn edged_pixel<S: Simd>(
     cache: &mut OccluderCache,
     workspace: &mut Workspace,
 ) -> Result<Pixel, GiveUp> {
-    workspace.contents.pixel = context.key(pixel, 0);
     let edged = EdgedPixel {
         context,
         cell: context.cell(pixel),
+        key: context.key(pixel, 0),
         spheres,
     };
     // Along the edges of the whole pixel.

@@ -5,10 +5,12 @@
 //! pixels cut at the same places: what is seen at a moment is found out once for all of them.
 
 use super::band::paint_band;
+use super::contrast::Contrast;
 use super::instants::{Instant, Instants};
 use super::panel::{MOMENTS, Panel, Part};
 use super::panel_levels::PanelLevels;
 use super::pixel_sum::{PixelSum, SHARE_OF_AREA};
+use crate::exact::budget::MOST_AT_A_MOMENT;
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::world::World;
 use crate::picture::band::Band;
@@ -28,8 +30,7 @@ pub(crate) struct ExactOverTime<'scene> {
     instants: Instants<'scene>,
     tolerance: f64,
     alpha: bool,
-    /// About the largest difference of light that something may make.
-    contrast: f64,
+    contrast: Contrast,
     levels: PanelLevels,
 }
 
@@ -48,12 +49,9 @@ impl<'scene> ExactOverTime<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let lights = world.lights.iter();
-        let lights = lights.map(|light| light.intensity().max_element());
-        let brightest = world.ambient.max_element() + lights.sum::<f64>();
-        let contrast = brightest.max(world.background.max_element()).max(1.0);
+        let contrast = Contrast::new(world);
         let (view, motion) = (&instants.view, instants.motion.as_ref());
-        let levels = PanelLevels::new(world, view, motion, tolerance / contrast);
+        let levels = PanelLevels::new(world, view, motion, tolerance / contrast.ordinary);
         Self {
             world,
             instants,
@@ -87,7 +85,7 @@ impl<'scene> ExactOverTime<'scene> {
         let mut requests: Vec<Request> = Vec::new();
         for (pixel, (col, row)) in (0..).zip(places) {
             let first = self.levels.at(col, row);
-            sums.push(PixelSum::new(first, self.contrast));
+            sums.push(PixelSum::new(first, &self.contrast));
             let level = first.level;
             let panels = (0..1 << level).map(|index| Panel { level, index });
             requests.extend(panels.map(|panel| Request { panel, pixel }));
@@ -120,7 +118,7 @@ impl<'scene> ExactOverTime<'scene> {
     fn integrators(&self, instants: &[Instant<'scene>]) -> Vec<Exact<'scene>> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
         let at = |Instant { view, index }: &Instant<'scene>| {
-            Exact::new(self.world, view, index, tolerance, self.alpha)
+            Exact::new(self.world, view, index, tolerance, self.alpha).with_budget(MOST_AT_A_MOMENT)
         };
         instants.iter().map(at).collect()
     }
@@ -135,7 +133,7 @@ fn integrate_panel(
     mut add: impl FnMut(u32, Part),
 ) -> Result<Work, Cancelled> {
     let mut work = Work::default();
-    let mut pixels = Vec::new();
+    let (mut pixels, mut costs) = (Vec::new(), Vec::new());
     // All tiles but the last have as many.
     let tile_pixels = tiles[0].count() as u32;
     for of_tile in
@@ -146,17 +144,26 @@ fn integrate_panel(
         let tile = tiles[number as usize];
         let wanted = of_tile.iter().map(|request| request.pixel - first);
         let around = around(tile, wanted.clone());
+        let count = around.count() as usize;
         pixels.clear();
+        costs.clear();
+        costs.resize(count, 0);
         for integrator in integrators {
             work += integrator.integrate(around, room, &mut pixels);
+            for (place, cost) in costs.iter_mut().enumerate() {
+                *cost += room.cost_of(place);
+            }
         }
-        let count = around.count() as usize;
         for (request, pixel) in of_tile.iter().zip(wanted) {
             let (col, row) = (tile.col + pixel % tile.width, tile.row + pixel / tile.width);
             let place = (row - around.row) * around.width + col - around.col;
             let moments: [Pixel; MOMENTS] =
                 std::array::from_fn(|moment| pixels[moment * count + place as usize]);
-            add(request.pixel, Part::new(request.panel, &moments));
+            let part = Part {
+                units: costs[place as usize],
+                ..Part::new(request.panel, &moments)
+            };
+            add(request.pixel, part);
         }
         if progress(0).is_break() {
             return Err(Cancelled);

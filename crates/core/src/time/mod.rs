@@ -1,6 +1,7 @@
 //! The average of a pixel over the time that the shutter is open, too.
 
 mod band;
+mod contrast;
 pub(crate) mod exact;
 pub(crate) mod instants;
 mod panel;

@@ -15,6 +15,10 @@ pub(super) const DEEPEST: u32 = 14;
 /// moves quickly.
 pub(super) const FASTEST: u32 = 8;
 
+/// The level of the panels of a pixel that anything may cross between two moments, however short panels are:
+/// 56 moments for a mean whose error is all of the contrast. Not tuned.
+pub(super) const BLIND: u32 = 3;
+
 /// No two moments of a panel of length 1 are farther apart than this.
 pub(super) const LONGEST_GAP: f64 = 0.5 * ABSCISSAS[4];
 
@@ -90,6 +94,8 @@ pub(super) struct Part {
     pub(super) time_error: f64,
     /// True where nothing certain is known of some moment.
     pub(super) is_lost: bool,
+    /// The units of `exact::budget` that all moments have cost.
+    pub(super) units: u64,
 }
 
 impl Part {
@@ -128,6 +134,7 @@ impl Part {
             area_error,
             time_error: panel.length() * off,
             is_lost,
+            units: 0,
         }
     }
 }

@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec2;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use super::panel::{DEEPEST, FASTEST, LONGEST_GAP};
+use super::panel::{BLIND, DEEPEST, FASTEST, LONGEST_GAP};
 use super::travel::{HALF_MOMENTS, MovingSphere};
 use crate::model::exposure::{HALVES, Motion, view_at};
 use crate::model::view::View;
@@ -65,6 +65,11 @@ impl PanelLevels {
                 });
             }
         });
+        if turns_unseen(view, motion) {
+            for longest in &travels.longest {
+                longest.store(f64::INFINITY.to_bits(), Ordering::Relaxed);
+            }
+        }
         let lowest = u32::from(!motion.is_smooth());
         let longest = travels.longest.into_iter().map(AtomicU64::into_inner);
         let cells = longest.map(|bits| FirstPanels::new(f64::from_bits(bits), tolerance, lowest));
@@ -89,6 +94,10 @@ impl FirstPanels {
         let mut level = lowest;
         while level < FASTEST && missed(travel, level) > SHARE * tolerance {
             level += 1;
+        }
+        if missed(travel, level) >= 1.0 {
+            // More moments would not tell more.
+            level = lowest.max(BLIND);
         }
         let missed = missed(travel, level);
         Self {
@@ -117,6 +126,30 @@ fn missed(travel: f64, level: u32) -> f64 {
     } else {
         1.0
     }
+}
+
+/// Returns whether a camera turns so fast that the moments at which travel is measured may see it come back: by
+/// more than a radian from one to the next.
+///
+/// How fast it turns is measured between moments that are close together. A camera that is fast only between those
+/// would fool it; poses between two frames go with polynomials, which are not.
+fn turns_unseen(view: &View, motion: &dyn Motion) -> bool {
+    /// Far more than rounding, of the whole time.
+    const CLOSE: f64 = 1.0 / (1_u64 << 24) as f64;
+    const MOST_TURN: f64 = 1.0;
+    HALVES.iter().any(|times| {
+        times.windows(2).any(|step| {
+            let middle = 0.5 * (step[0] + step[1]);
+            let axes = [middle, middle + CLOSE]
+                .map(|time| view_at(view, motion, time).camera.world_from_camera);
+            let apart = axes[1] - axes[0];
+            let turn = apart.x_axis.length().max(apart.y_axis.length());
+            let turn = turn.max(apart.z_axis.length());
+            let turn = turn / CLOSE * (step[1] - step[0]);
+            // What is not a number may be any turn.
+            turn.is_nan() || turn > MOST_TURN
+        })
+    })
 }
 
 /// The longest travel in each cell, while spheres are added.

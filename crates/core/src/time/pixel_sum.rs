@@ -1,7 +1,9 @@
 //! The average of a pixel over panels of time, and the choice of those that are halved.
 
+use super::contrast::Contrast;
 use super::panel::{Panel, Part};
 use super::panel_levels::FirstPanels;
+use crate::exact::budget::MOST_OVER_TIME;
 use crate::model::color::Color;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 
@@ -30,14 +32,20 @@ pub(super) struct PixelSum {
     /// The number of panels that it was integrated over, and the most that it may be.
     panels: usize,
     most_panels: usize,
+    /// The units that they have cost.
+    units: u64,
     /// True where its first panels are as short as they should be.
     is_fine: bool,
 }
 
 impl PixelSum {
     /// Nothing is known yet of a pixel that begins with such panels.
-    pub(super) fn new(first: FirstPanels, contrast: f64) -> Self {
-        let missed = contrast * first.missed;
+    pub(super) fn new(first: FirstPanels, contrast: &Contrast) -> Self {
+        let missed = if first.missed < 1.0 {
+            contrast.ordinary * first.missed
+        } else {
+            contrast.most
+        };
         Self {
             first: None,
             value: Color::ZERO,
@@ -48,6 +56,7 @@ impl PixelSum {
             missed,
             open: Vec::new(),
             panels: 0,
+            units: 0,
             most_panels: MOST_PANELS + (4 << first.level),
             is_fine: first.is_fine,
         }
@@ -57,6 +66,7 @@ impl PixelSum {
     pub(super) fn add(&mut self, part: Part) {
         self.first.get_or_insert((part.value, part.alpha));
         self.panels += 1;
+        self.units += part.units;
         self.open.push(part);
     }
 
@@ -88,7 +98,11 @@ impl PixelSum {
         let area: f64 = self.area_error + open.iter().map(of_area).sum::<f64>();
         let of_time = |parts: &[Part]| parts.iter().map(|part| part.time_error).sum::<f64>();
         let is_done = area + self.time_error + of_time(&open) <= tolerance;
-        let is_over = self.panels >= self.most_panels || !self.is_fine;
+        let is_lost = self.is_lost || open.iter().any(|part| part.is_lost);
+        // What was cut off at some moment is not known better at more of them.
+        let is_hopeless = !self.is_fine || is_lost && area > tolerance;
+        let is_dear = self.panels >= self.most_panels || self.units >= MOST_OVER_TIME;
+        let is_over = is_dear || is_hopeless;
         if is_done || is_over || !area.is_finite() {
             for part in &open {
                 self.settle(part);
@@ -103,12 +117,16 @@ impl PixelSum {
             order.then(one.panel.cmp(&other.panel))
         });
         let mut rest = self.time_error + of_time(&open);
+        // Panels that may still be added, at the mean cost of those so far.
+        let cost = (self.units / self.panels.max(1) as u64).max(1);
+        let mut affordable = MOST_OVER_TIME.saturating_sub(self.units) / cost;
         let mut is_halved = false;
         for part in open {
             let is_small = part.time_error <= SMALL * tolerance * part.panel.length();
             match part.panel.halves() {
-                Some(halves) if rest > allowed && !is_small => {
+                Some(halves) if rest > allowed && !is_small && affordable >= 2 => {
                     rest -= part.time_error;
+                    affordable -= 2;
                     is_halved = true;
                     halves.into_iter().for_each(&mut request);
                 }
@@ -132,11 +150,9 @@ impl PixelSum {
             alpha: alpha + self.alpha,
             error,
             evidence: Evidence::Estimate,
-            status: if self.is_lost || !self.is_fine {
-                Status::OutOfBudget
-            } else if error <= tolerance {
+            status: if error <= tolerance {
                 Status::Met
-            } else if self.area_error > tolerance {
+            } else if !self.is_lost && self.is_fine && self.area_error > tolerance {
                 Status::AtRoundoff
             } else {
                 Status::OutOfBudget

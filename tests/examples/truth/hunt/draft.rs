@@ -82,6 +82,19 @@ impl Draft {
         Scene::parse(&self.text(), Path::new("hunt.ron")).map_err(|error| error.to_string())
     }
 
+    /// The scene with many frames for one, if its shutter is open from frame 1.5 to 2.5.
+    pub(super) fn moments(&self) -> Option<Scene> {
+        let text = self.text();
+        if !text.contains(OPEN) {
+            return None;
+        }
+        let text = text
+            .replace(OPEN, &format!("frames: (1, {})", 4 * MOMENTS))
+            .replace("(frame: 1,", &format!("(frame: {MOMENTS},"))
+            .replace("(frame: 3,", &format!("(frame: {},", 3 * MOMENTS));
+        Scene::parse(&text, Path::new("hunt.ron")).ok()
+    }
+
     /// The scene without one of its spheres or lights.
     pub(super) fn without(&self, index: usize) -> Option<Self> {
         let mut less = self.clone();
@@ -98,3 +111,7 @@ impl Draft {
 
 /// Columns and rows of the pictures.
 pub(super) const SIDE: u32 = 32;
+
+/// The frames of scenes whose shutter is open, and how many frames tell the moments of one.
+pub(super) const OPEN: &str = "frames: (1, 3), shutter: 1";
+pub(super) const MOMENTS: i32 = 4096;

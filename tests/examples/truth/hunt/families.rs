@@ -1,6 +1,6 @@
 //! Families of small random scenes, each hard in its own way.
 
-use super::draft::{Draft, SIDE};
+use super::draft::{Draft, OPEN, SIDE};
 use crate::numbers::Numbers;
 
 /// A family, and the way to make one of its scenes.
@@ -9,7 +9,7 @@ pub(super) struct Family {
     pub(super) draft: fn(&mut Numbers) -> Draft,
 }
 
-pub(super) const FAMILIES: [Family; 16] = [
+pub(super) const FAMILIES: [Family; 17] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -73,6 +73,10 @@ pub(super) const FAMILIES: [Family; 16] = [
     Family {
         name: "seams",
         draft: seams,
+    },
+    Family {
+        name: "shutters",
+        draft: shutters,
     },
 ];
 
@@ -340,5 +344,31 @@ fn seams(numbers: &mut Numbers) -> Draft {
             numbers.between(4.0, 14.0),
         );
     }
+    draft
+}
+
+/// A camera that moves by a tenth of a pixel to ten pixels while the shutter is open.
+fn shutters(numbers: &mut Numbers) -> Draft {
+    let lights = numbers.below(2) + 1;
+    let mut draft = Draft::new(numbers, DISTANCE, lights);
+    let exponent = numbers.either(&["1", "1", "2"]);
+    let highlight = numbers.either(&["", ", highlight: (strength: 0.5, shininess: 30)"]);
+    draft.material = format!("albedo: (0.9, 0.6, 0.3), exponent: {exponent}{highlight}");
+    let count = numbers.below(4) + 1;
+    add_balls(numbers, &mut draft, count, [0.5, 9.0]);
+    let power = numbers.between(-1.0, 1.0);
+    // Twice as far from key to key as while the shutter is open; a pixel is about 2 units wide there.
+    let way = 4.0 * libm::pow(10.0, power);
+    let [x, y, z] = numbers.direction().map(|part| part * way);
+    let [pan, roll] = [numbers.between(-1.0, 1.0) * way, numbers.between(-3.0, 3.0)];
+    let key = match numbers.below(3) {
+        0 => format!("position: ({x}, {y}, {z})"),
+        1 => format!("pan: {pan}, roll: {roll}"),
+        _ => format!("position: ({x}, {y}, {z}), pan: {pan}, zoom: 1.1"),
+    };
+    draft.head.push(format!(
+        "animation: Keyframes({OPEN}, keys: [\
+         (frame: 1, position: (0, 0, 0), pan: 0, roll: 0, zoom: 1, ease: Linear), (frame: 3, {key})])"
+    ));
     draft
 }

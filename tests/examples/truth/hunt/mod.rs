@@ -11,13 +11,13 @@ use std::fmt::{self, Write};
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use glam::DVec4;
+use glam::{DVec3, DVec4};
 use marbles_core::{Image, Method, Renderer, Settings, View};
 use marbles_scene::Scene;
 use marbles_tests::reference::Reference;
 use rayon::prelude::*;
 
-use self::draft::{Draft, SIDE};
+use self::draft::{Draft, MOMENTS, SIDE};
 use self::families::{FAMILIES, Family};
 use crate::numbers::Numbers;
 
@@ -132,7 +132,7 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
             .map(|index| {
                 let seed = options.seed.wrapping_mul(1_000_003).wrapping_add(index);
                 let draft = (family.draft)(&mut Numbers(seed));
-                let found = draft.scene().map(|scene| judge(&scene));
+                let found = Subject::of(&draft).map(|subject| judge(&subject));
                 (index, draft, found)
             })
             .map(|(index, draft, found)| Ok((index, draft, found?)))
@@ -169,6 +169,69 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     Ok(text + "\n" + &examples)
 }
 
+/// A scene, and the same with many frames for one, where its shutter is open.
+pub(super) struct Subject {
+    scene: Scene,
+    moments: Option<Scene>,
+}
+
+impl Subject {
+    pub(super) fn of(draft: &Draft) -> Result<Self, String> {
+        let scene = draft.scene()?;
+        let moments = draft.moments();
+        Ok(Self { scene, moments })
+    }
+
+    fn view(&self) -> Option<View> {
+        let frame = if self.moments.is_some() { 2 } else { 1 };
+        self.scene.view(frame).ok()
+    }
+
+    /// The light of a pixel with its background, and what that may be off by.
+    fn truth(&self, col: u32, row: u32, fine: f64) -> Option<(DVec3, f64)> {
+        match &self.moments {
+            None => Some(truth(&self.scene, &self.view()?, col, row)),
+            Some(moments) => over_time(moments, col, row, fine),
+        }
+    }
+}
+
+fn truth(scene: &Scene, view: &View, col: u32, row: u32) -> (DVec3, f64) {
+    let truth = Reference::new(scene.world(), view).pixel(col, row);
+    let background = scene.world().background * (1.0 - truth.value.w);
+    (truth.value.truncate() + background, truth.error + 1e-13)
+}
+
+/// The mean over the midpoints of equal parts of the time, twice as many as long as that changes it by more than
+/// a little. Light goes with time without jumps, so that the mean converges with the square of their number:
+/// it is said to be off by twice the last change.
+fn over_time(moments: &Scene, col: u32, row: u32, fine: f64) -> Option<(DVec3, f64)> {
+    const FIRST: i32 = 32;
+    const LAST: i32 = 1024;
+    let mean = |count: i32| {
+        let step = MOMENTS / count;
+        let mut sum = (DVec3::ZERO, 0.0);
+        for part in 0..count {
+            let frame = 2 * MOMENTS - MOMENTS / 2 + part * step + step / 2;
+            let view = moments.view(frame).ok()?;
+            let (light, error) = truth(moments, &view, col, row);
+            sum.0 += light / f64::from(count);
+            sum.1 += error / f64::from(count);
+        }
+        Some(sum)
+    };
+    let (mut count, mut known) = (FIRST, mean(FIRST)?);
+    loop {
+        count *= 2;
+        let better = mean(count)?;
+        let change = (better.0 - known.0).abs().max_element();
+        known = better;
+        if change < fine || count == LAST {
+            return Some((known.0, known.1 + 2.0 * change));
+        }
+    }
+}
+
 fn render(scene: &Scene, view: &View, tolerance: f64) -> Option<Image> {
     let settings = Settings {
         method: Method::Tolerance(tolerance),
@@ -176,14 +239,15 @@ fn render(scene: &Scene, view: &View, tolerance: f64) -> Option<Image> {
     };
     let go = |_| ControlFlow::Continue(());
     Renderer::new(scene.world())
-        .render(view, &settings, &go)
+        .render(scene.exposure(view), &settings, &go)
         .ok()
 }
 
 /// The pixels of a scene that fall short, at all tolerances.
-fn judge(scene: &Scene) -> Found {
+fn judge(subject: &Subject) -> Found {
     let mut found = Found::default();
-    let Ok(view) = scene.view(1) else {
+    let scene = &subject.scene;
+    let Some(view) = subject.view() else {
         return found;
     };
     let finer = View {
@@ -194,7 +258,6 @@ fn judge(scene: &Scene) -> Found {
     let Some(finer) = render(scene, &finer, FINEST) else {
         return found;
     };
-    let reference = Reference::new(scene.world(), &view);
     for tolerance in TOLERANCES {
         let Some(image) = render(scene, &view, tolerance) else {
             continue;
@@ -210,7 +273,9 @@ fn judge(scene: &Scene) -> Found {
                 if apart <= SUSPECT * allowed {
                     continue;
                 }
-                let (error, uncertain) = error_of(scene, &reference, col, row, value);
+                let Some((error, uncertain)) = subject.error_of(col, row, value, allowed) else {
+                    continue;
+                };
                 if error > allowed + uncertain {
                     found.broken.push(Broken {
                         col,
@@ -237,36 +302,26 @@ fn mean(finer: &Image, col: u32, row: u32) -> DVec4 {
     sum / f64::from(FINER * FINER)
 }
 
-/// How far a pixel's light, with its background, is from the truth, and what that may be off by.
-pub(super) fn error_of(
-    scene: &Scene,
-    reference: &Reference<'_>,
-    col: u32,
-    row: u32,
-    value: DVec4,
-) -> (f64, f64) {
-    let truth = reference.pixel(col, row);
-    let background = scene.world().background * (1.0 - truth.value.w);
-    let exact = truth.value.truncate() + background;
-    (
-        (value.truncate() - exact).abs().max_element(),
-        truth.error + 1e-13,
-    )
-}
+impl Subject {
+    /// How far a pixel's light is from the truth, and what that may be off by.
+    fn error_of(&self, col: u32, row: u32, value: DVec4, allowed: f64) -> Option<(f64, f64)> {
+        /// Of what is allowed.
+        const FINE: f64 = 0.02;
+        let (exact, uncertain) = self.truth(col, row, FINE * allowed)?;
+        Some(((value.truncate() - exact).abs().max_element(), uncertain))
+    }
 
-/// The error of one pixel of a scene at a tolerance, where it is over it without saying so, or over its
-/// claim.
-pub(super) fn shortfall(scene: &Scene, broken: &Broken) -> Option<f64> {
-    let view = scene.view(1).ok()?;
-    let image = render(scene, &view, broken.tolerance)?;
-    let reference = Reference::new(scene.world(), &view);
-    let value = DVec4::from_array(image.rgba(broken.col, broken.row));
-    let (error, uncertain) = error_of(scene, &reference, broken.col, broken.row, value);
-    let is_over = image.status(broken.col, broken.row).is_over_tolerance();
-    let allowed = if is_over {
-        image.error(broken.col, broken.row)
-    } else {
-        broken.tolerance
-    };
-    (error > allowed + uncertain).then_some(error)
+    /// The error of one pixel at a tolerance, where it is over it without saying so, or over its claim.
+    pub(super) fn shortfall(&self, broken: &Broken) -> Option<f64> {
+        let (col, row) = (broken.col, broken.row);
+        let image = render(&self.scene, &self.view()?, broken.tolerance)?;
+        let value = DVec4::from_array(image.rgba(col, row));
+        let allowed = if image.status(col, row).is_over_tolerance() {
+            image.error(col, row)
+        } else {
+            broken.tolerance
+        };
+        let (error, uncertain) = self.error_of(col, row, value, allowed)?;
+        (error > allowed + uncertain).then_some(error)
+    }
 }

@@ -3,16 +3,15 @@
 use std::path::Path;
 
 use super::draft::Draft;
-use super::{Broken, shortfall};
+use super::{Broken, Subject};
 
 /// Leaves out what is not needed for a pixel to fall short.
 fn reduced(draft: &Draft, broken: &Broken) -> Draft {
     let mut draft = draft.clone();
     let mut index = 0;
     while let Some(less) = draft.without(index) {
-        let falls_short = less
-            .scene()
-            .is_ok_and(|scene| shortfall(&scene, broken).is_some());
+        let falls_short =
+            Subject::of(&less).is_ok_and(|subject| subject.shortfall(broken).is_some());
         if falls_short {
             draft = less;
         } else {

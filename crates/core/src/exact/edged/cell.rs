@@ -8,10 +8,12 @@ use fearless_simd::prelude::*;
 
 use super::boundary::{Boundary, Goal};
 use crate::edges::cell::{Ball, Cell};
+use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
 use crate::exact::part::{GiveUp, Part};
+use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::picture::pixel::Work;
 
@@ -22,6 +24,10 @@ pub(crate) struct Workspace {
     boundary: Boundary,
     pub(crate) noise: Option<Box<NoiseCells>>,
     pub(crate) work: Work,
+    /// The largest difference of light that something in the pixel may make.
+    contrast: f64,
+    /// What the pixel has cost so far.
+    pub(crate) budget: Budget,
 }
 
 /// A pixel with edges.
@@ -29,12 +35,15 @@ pub(crate) struct Workspace {
 pub(crate) struct EdgedPixel<'a, 'scene> {
     pub(crate) context: &'a Context<'scene>,
     pub(crate) cell: Cell,
+    pub(crate) key: PixelKey,
     /// The spheres that may be seen.
     pub(crate) spheres: &'a [(usize, Ball)],
 }
 
-/// What rounding, or parts of a pixel that were given up, may cost before samples know more.
+/// What parts of a pixel that were given up may cost before samples know more, and rounding, which moves edges
+/// but hides none.
 const LOST: f64 = 0.01;
+const LOST_TO_ROUNDING: f64 = 0.25;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
 /// pixel and in parts of it: into more where something does not fit.
@@ -43,14 +52,6 @@ const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 /// How deep pixels are quartered: what is left of an edge in cells of the last depth is less than
 /// 2⁻¹² of the contrast.
 const DEEPEST: i32 = 12;
-
-/// Samples that a pixel may cost: only bumps much smaller than a pixel, or exponents that make steep
-/// terminators of them, ask for so many.
-const MOST_SAMPLES: u64 = 400_000;
-
-/// The work that a pixel may cost, in pairs of curves that are held against each other: crowds of
-/// hundreds of spheres in one pixel ask for so many.
-const MOST_PAIRS: u64 = 1_600_000;
 
 /// Powers that no rule along a chord overlooks.
 const BROAD: f64 = 60.0;
@@ -69,9 +70,9 @@ impl EdgedPixel<'_, '_> {
         cell
     }
 
-    /// The error that moving the pixel aside adds.
-    fn moved(&self) -> f64 {
-        self.context.contrast * (ASIDE[0].abs() + ASIDE[1].abs())
+    /// The error that moving the pixel aside adds, where light differs by so much.
+    fn moved(&self, contrast: f64) -> f64 {
+        contrast * (ASIDE[0].abs() + ASIDE[1].abs())
     }
 }
 
@@ -83,8 +84,24 @@ impl Workspace {
         pixel: &EdgedPixel<'_, '_>,
         cache: &mut OccluderCache,
     ) -> Result<Part, GiveUp> {
-        let mut part = self.part(simd, pixel, (&pixel.whole(), 0), cache)?;
-        part.error += pixel.moved();
+        let Context {
+            scene,
+            budget,
+            tolerance,
+            ..
+        } = pixel.context;
+        let cell = pixel.whole();
+        self.contents.pixel = pixel.key;
+        self.contents.see(scene, &cell, pixel.spheres, cache);
+        self.work.candidate_tests += pixel.spheres.len() as u64;
+        let contents = &self.contents;
+        self.contrast = pixel.context.contrast + contents.excess(simd, scene, &cell);
+        self.budget = Budget::new(*budget, contents.grains_across(scene, &cell), *tolerance);
+        if self.budget.is_nothing() {
+            return Err(GiveUp::Unknown);
+        }
+        let mut part = self.part(simd, pixel, &cell, 0)?;
+        part.error += pixel.moved(self.contrast);
         if part.error <= pixel.context.tolerance {
             Ok(part)
         } else {
@@ -93,7 +110,7 @@ impl Workspace {
     }
 
     /// The average by parts, each the quarter of another that claims too much, those first that cost most,
-    /// until the pixel has cost enough. `why` tells what is known of the whole.
+    /// until the budget is over. `why` tells what is known of the whole.
     pub(crate) fn by_parts<S: Simd>(
         &mut self,
         simd: S,
@@ -102,37 +119,42 @@ impl Workspace {
         cache: &mut OccluderCache,
     ) -> Result<Part, GiveUp> {
         let context = pixel.context;
+        let moved = pixel.moved(self.contrast);
         let unknown = Part {
-            error: context.contrast,
+            error: self.contrast,
             ..Part::NOTHING
         };
         let whole = match why {
             GiveUp::Claims(part) => part,
             _ => unknown,
         };
-        let samples = self.work.samples;
-        let mut pairs = 0;
-        let mut error = whole.error + pixel.moved();
+        let mut doubt = Doubt {
+            error: whole.error + moved,
+            rounding: whole.rounding,
+        };
         let mut best = Part {
-            error: pixel.moved(),
+            error: moved,
             ..Part::NOTHING
         };
+        // However small its parts are, all of the pixel is moved.
+        let mut is_over = moved > context.tolerance;
         let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
         while let Some(worst) = left.pop() {
-            let is_over = pairs > MOST_PAIRS || self.work.samples > samples + MOST_SAMPLES;
-            if error <= context.tolerance || is_over || worst.depth == DEEPEST {
+            is_over = is_over || self.budget.is_over(doubt, context.tolerance);
+            if doubt.error <= context.tolerance || is_over || worst.depth == DEEPEST {
                 best.add(&worst.part, worst.share());
                 continue;
             }
-            error -= worst.cost;
+            doubt.add(&worst, -1.0);
             let depth = worst.depth + 1;
             for [x, y] in QUARTERS {
                 let cell = worst.cell.part(x, y);
-                let part = self.part(simd, pixel, (&cell, depth), cache);
+                self.contents
+                    .see(&context.scene, &cell, pixel.spheres, cache);
+                self.work.candidate_tests += pixel.spheres.len() as u64;
+                let part = self.part(simd, pixel, &cell, depth);
                 let quarter = Quarter::new(cell, depth, part.unwrap_or(unknown));
-                let curves = 4 + self.contents.conics.len() + self.contents.occluders.len();
-                pairs += (curves * curves) as u64;
-                error += quarter.cost;
+                doubt.add(&quarter, 1.0);
                 left.push(quarter);
             }
         }
@@ -140,8 +162,10 @@ impl Workspace {
             best = whole;
         }
         // Samples at least see exactly.
-        let most = context.tolerance.max(LOST);
-        let is_known = best.value.is_finite() && best.error <= most && best.rounding <= most;
+        let lost = best.error - best.rounding;
+        let is_known = best.value.is_finite()
+            && lost <= context.tolerance.max(LOST)
+            && best.rounding <= context.tolerance.max(LOST_TO_ROUNDING);
         if is_known {
             Ok(best)
         } else {
@@ -149,24 +173,28 @@ impl Workspace {
         }
     }
 
-    /// The average over a part of a pixel, at a depth.
+    /// The average over a part of a pixel, at a depth, whose contents have been seen.
     fn part<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
-        (cell, depth): (&Cell, i32),
-        cache: &mut OccluderCache,
+        cell: &Cell,
+        depth: i32,
     ) -> Result<Part, GiveUp> {
         let Context {
             scene,
             tolerance,
             background,
-            contrast,
             ..
         } = pixel.context;
-        self.work.candidate_tests += pixel.spheres.len() as u64;
-        self.contents.see(scene, cell, pixel.spheres, cache);
         let contents = &self.contents;
+        let mut work = CellWork {
+            samples: 0,
+            tests: pixel.spheres.len() as u64,
+        };
+        // What rounding makes hopeless is not looked at closely.
+        let is_coarse = self.contrast * contents.rounding > *tolerance;
+        let units = if is_coarse { 0 } else { self.budget.of_part() };
         let negligible = 0.01 * tolerance;
         let is_sharp = depth < DEEPEST
             && contents.is_narrow(scene, BROAD)
@@ -175,6 +203,7 @@ impl Workspace {
                 || contents.is_sharp(simd, scene, cell, negligible),
             );
         if is_sharp {
+            self.budget.spend(work);
             return Err(GiveUp::Narrow);
         }
         let mut best: Result<Part, GiveUp> = Err(GiveUp::NotFinite);
@@ -182,8 +211,9 @@ impl Workspace {
             let goal = Goal {
                 tolerance: *tolerance,
                 background: *background,
-                contrast: *contrast,
+                contrast: self.contrast,
                 parts,
+                units,
             };
             let found = simd.vectorize(
                 #[inline(always)]
@@ -192,17 +222,20 @@ impl Workspace {
                         .integrate(simd, scene, cell, &self.contents, &goal)
                 },
             );
-            self.work.samples += std::mem::take(&mut self.boundary.samples);
+            let cost = std::mem::take(&mut self.boundary.work);
+            work += cost;
+            self.work.samples += cost.samples;
             self.work.lines += std::mem::take(&mut self.boundary.lines);
             if let Ok(part) = found
                 && !best.is_ok_and(|known| known.error <= part.error)
             {
                 best = Ok(part);
             }
-            if best.is_ok_and(|part| part.error <= *tolerance) {
+            if is_coarse || best.is_ok_and(|part| part.error <= *tolerance) {
                 break;
             }
         }
+        self.budget.spend(work);
         best
     }
 }
@@ -240,6 +273,14 @@ impl Quarter {
     /// Its share of the pixel.
     fn share(&self) -> f64 {
         0.25_f64.powi(self.depth)
+    }
+}
+
+impl Doubt {
+    /// Adds what a part adds to the pixel's error, or its opposite.
+    fn add(&mut self, quarter: &Quarter, sign: f64) {
+        self.error += sign * quarter.cost;
+        self.rounding += sign * quarter.part.rounding * quarter.share();
     }
 }
 

@@ -73,3 +73,28 @@ fn panels_are_as_short_as_they_have_to_be() {
     let lost = FirstPanels::new(1e5, 1e-3, 0);
     assert!(!lost.is_fine && lost.missed == 1.0);
 }
+
+/// Whole turns between the moments at which travel is measured look like none.
+#[test]
+fn whole_turns_are_not_taken_for_rest() {
+    let motion = Around(8.0 * 360.0 * 1000.0);
+    let view = View {
+        camera: motion.pose(0.0).unwrap().camera,
+        lens: Lens {
+            width: 1.0,
+            distance: 1.0,
+            shift: DVec2::ZERO,
+        },
+        zoom: 1.0,
+        width: 32,
+        height: 24,
+        frame: 1,
+    };
+    let mut world = World::new();
+    let white = world.add_material(Material::MATTE_WHITE);
+    world.add_sphere(Sphere::new(DVec3::ZERO, 2.0).unwrap(), white);
+    let levels = PanelLevels::new(&world, &view, &motion, 1e-3);
+    let first = levels.at(16, 12);
+    assert!(!first.is_fine && first.missed == 1.0, "{first:?}");
+    assert_eq!(first.level, BLIND);
+}

@@ -16,11 +16,9 @@ use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::part::{GiveUp, Part};
-use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
-use crate::numeric::vectors::Vectors;
 
 use super::setting::{
     Boundary, Curve, Edge, Goal, LEAST_SHARE, NONE, Path, SHARE_OF_ALL, Setting, Sum, Surface,
@@ -167,7 +165,11 @@ impl Boundary {
         for channel in 0..scene.channels {
             value[channel] = total(sum.value[channel]);
         }
-        let rounding = goal.contrast * contents.rounding;
+        let mut rounding = goal.contrast * contents.rounding;
+        if rounding > goal.tolerance {
+            // It may move each of the edges.
+            rounding *= (contents.conics.len() + contents.occluders.len()).max(1) as f64;
+        }
         let part = Part {
             value,
             covered: 1.0 - total(sum.empty),
@@ -214,6 +216,10 @@ impl Boundary {
             #[inline(always)]
             || {
                 clip::split(&mut self.pieces, setting.goal.parts);
+                let contents = setting.contents;
+                let others =
+                    contents.active.len() + contents.conics.len() + contents.occluders.len();
+                self.work.tests += (self.pieces.len() * others) as u64;
                 for index in 0..self.pieces.len() {
                     let piece = self.pieces[index];
                     let whole = Stretch {
@@ -252,37 +258,10 @@ fn without_dark_highlight<S: Simd>(
 ) -> f64 {
     /// The share of the tolerance that a highlight may be.
     const DARK: f64 = 1e-3;
-    /// More than an angle, up to 1, over the length of its chord.
-    const OF_CHORD: f64 = 1.05;
-    let active = &contents.active[position];
-    let is_ahead = active.ball.outside > 0.0 && active.ball.center.z > active.ball.radius;
-    if finish.reflectance.highlight.is_none() || finish.is_rough() || !is_ahead {
+    if finish.reflectance.highlight.is_none() {
         return 0.0;
     }
-    let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
-    let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
-    let turn = OF_CHORD * length / active.ball.radius;
-    // Rays are at least 1 long: so far may one, as a unit vector, be from the middle's.
-    let view = cell.middle * (-1.0 / cell.middle.length());
-    let aside = DVec2::from_array(cell.size).length();
-    let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
-    let mut highest = 0.0;
-    let lights = scene.lights.len();
-    for (light, reach) in scene
-        .lights
-        .iter()
-        .zip(&contents.reach[position * lights..])
-    {
-        if matches!(reach, Reach::Past(_)) {
-            // Half vectors turn by that over their length before they are made unit vectors.
-            let length = (light.toward + view).length() - aside;
-            if length <= aside {
-                return 0.0;
-            }
-            let turn = turn + OF_CHORD * aside / length;
-            highest += finish.highest_highlight(simd, &points, light, turn)[0];
-        }
-    }
+    let highest = contents.highlight(simd, finish, (scene, cell), position);
     if highest > DARK * goal.tolerance {
         return 0.0;
     }

@@ -111,7 +111,8 @@ impl Boundary {
                     }
                     error = error.max(estimate + slip * highest);
                 }
-                if error > setting.share * goal.tolerance && depth < DEEPEST {
+                let is_over = self.work.units() > goal.units;
+                if error > setting.share * goal.tolerance && depth < DEEPEST && !is_over {
                     *sum = kept;
                     let middle = (arc.start + length * shares[MIDDLE], places.y[MIDDLE]);
                     let ends = [(arc.start, arc.y[0]), middle, (arc.end, arc.y[1])];
@@ -197,7 +198,7 @@ impl Boundary {
                 diffuse: lights,
             };
             let summed = sender.lit_up_to(simd, &lines, &mut self.noise);
-            self.samples += summed.samples;
+            self.work.samples += summed.samples;
             self.lines += if summed.samples > 0 { 8 } else { 0 };
             sides.doubt += summed.doubt;
             sides.unevenness = sides.unevenness.max(summed.unevenness);

@@ -9,6 +9,7 @@ use super::fractional::PowerRules;
 use super::primitive::Noise;
 
 use crate::edges::cell::Cell;
+use crate::exact::budget::CellWork;
 use crate::exact::classify::contents::Contents;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -85,8 +86,8 @@ pub(crate) struct Boundary {
     pub(super) levels: Vec<(usize, f64)>,
     /// The rules for powers that were met so far.
     pub(super) rules: Vec<PowerRules>,
-    /// Points at which light was computed, and lines that it was summed up along.
-    pub(crate) samples: u64,
+    /// The work since it was asked for, and lines that light was summed up along.
+    pub(crate) work: CellWork,
     pub(crate) lines: u64,
 }
 
@@ -100,6 +101,8 @@ pub(crate) struct Goal {
     /// Into how many parts pieces of curves are cut; with one, events of what is hidden are not looked
     /// for.
     pub(crate) parts: usize,
+    /// The units after which arcs are not halved any more.
+    pub(crate) units: u64,
 }
 
 /// An active sphere's surface.

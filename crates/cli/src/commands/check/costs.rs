@@ -1,0 +1,169 @@
+//! What in a scene costs much, or cannot be known to small tolerances.
+
+use marbles_core::{Grain, Sphere, View};
+use marbles_scene::Scene;
+
+use crate::base::numbers::short;
+
+/// Views that are looked at, spread evenly over those of an animation.
+const VIEWS: usize = 5;
+
+/// The part of a pixel from which on it matters that rounding moves edges by that.
+const COARSE: f64 = 1e-6;
+
+/// A bound of what rounding moves edges by, in parts of what they are computed from: as in the core.
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
+
+/// Plain sentences: what costs much and where, what follows, and what to do.
+pub(super) fn warnings(scene: &Scene, views: &[View]) -> Vec<String> {
+    let step = views.len().div_ceil(VIEWS).max(1);
+    let views: Vec<&View> = views.iter().step_by(step).collect();
+    let (grains, highlights) = (fine_grains(scene, &views), narrow_highlights(scene, &views));
+    let all = [grains, highlights, coarse_lens(&views)];
+    all.into_iter().flatten().collect()
+}
+
+/// Bumps that are smaller than pixels even where their sphere is nearest to the eye.
+fn fine_grains(scene: &Scene, views: &[&View]) -> Option<String> {
+    let (place, grain, pixel) = smaller_than_pixels(scene, views, |index, _| {
+        let roughness = scene.world().material(index).roughness.as_ref()?;
+        match roughness.grain {
+            Grain::Surface(size) if roughness.amplitude > 0.0 => Some(size),
+            Grain::Surface(_) | Grain::Pixel => None,
+        }
+    })?;
+    Some(format!(
+        "{place}: bumps with a grain of {grain} are smaller than a pixel, which is {pixel} wide there: such \
+         pixels cost hundreds of times as much as smooth ones, and those with many bumps end over small \
+         tolerances; choose a larger grain, or render more pixels"
+    ))
+}
+
+/// Highlights whose width at half of their height is less than a pixel's.
+fn narrow_highlights(scene: &Scene, views: &[&View]) -> Option<String> {
+    let (place, width, pixel) = smaller_than_pixels(scene, views, |index, sphere| {
+        let highlight = scene.world().material(index).highlight?;
+        // cos(θ) to the power of s is a half at about θ = √(2 ln 2 / s).
+        let angle = (2.0 * std::f64::consts::LN_2 / highlight.shininess).sqrt();
+        (highlight.strength > 0.0).then(|| 2.0 * angle.min(1.0) * sphere.radius())
+    })?;
+    Some(format!(
+        "{place}: a highlight {width} wide is narrower than a pixel, which is {pixel} wide there: such pixels \
+         cost tens of times as much as others; choose a smaller shininess, or render more pixels"
+    ))
+}
+
+/// A lens so long that rounding moves edges by a noticeable part of a pixel.
+fn coarse_lens(views: &[&View]) -> Option<String> {
+    let pixels = views.iter().map(|view| pixel_at_one(view));
+    let moved = ROUNDINGS / pixels.fold(f64::INFINITY, f64::min);
+    (moved > COARSE).then(|| {
+        format!(
+            "lens: a pixel is so small an angle that rounding moves edges by up to {} of it: smaller tolerances \
+             than about that cannot be met at edges; bring the camera nearer and shorten the lens",
+            short(moved)
+        )
+    })
+}
+
+/// The first sphere on which something is smaller than a pixel in all views that look at it, the count of
+/// others, how large that is, and the pixel there.
+fn smaller_than_pixels(
+    scene: &Scene,
+    views: &[&View],
+    size: impl Fn(usize, &Sphere) -> Option<f64>,
+) -> Option<(String, String, String)> {
+    let mut first = None;
+    let mut others = 0;
+    for (index, sphere) in scene.world().spheres().iter().enumerate() {
+        let Some(size) = size(index, sphere) else {
+            continue;
+        };
+        let pixels = views.iter().filter_map(|view| pixel_on(view, sphere));
+        let pixel = pixels.fold(f64::INFINITY, f64::min);
+        if pixel.is_infinite() || size >= pixel {
+            continue;
+        }
+        match first {
+            None => first = Some((index + 1, size, pixel)),
+            Some(_) => others += 1,
+        }
+    }
+    let (number, size, pixel) = first?;
+    let place = match others {
+        0 => format!("sphere {number}"),
+        _ => format!("sphere {number} and {others} more"),
+    };
+    Some((place, short(size), short(pixel)))
+}
+
+/// The width of a pixel where a sphere is nearest to the eye; none behind the eye and inside of it.
+fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
+    let from_eye = sphere.center() - view.camera.position;
+    let ahead = from_eye.dot(view.camera.forward());
+    let distance = from_eye.length() - sphere.radius();
+    (ahead > -sphere.radius() && distance > 0.0).then(|| distance * pixel_at_one(view))
+}
+
+/// The width of a pixel at a distance of 1.
+fn pixel_at_one(view: &View) -> f64 {
+    view.pixel_size() / (view.lens.distance * view.zoom)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    /// The warnings of a scene with a ball of this material, and of this lens from this far away.
+    fn of(material: &str, distance: f64) -> Vec<String> {
+        let text = format!(
+            "(image: (width: 100, height: 100), lens: Retina(width: 2, distance: {distance:e}),
+            camera: Free(position: (0, 0, -{distance:e})), lights: [Directional(toward: (0, 1, -1))],
+            materials: {{ \"m\": ({material}) }},
+            spheres: [(center: (0, 0, 1), radius: 1), (center: (0, 0, 1), radius: 1, material: \"m\"),
+                (center: (0, 0, 2), radius: 1, material: \"m\")])"
+        );
+        let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
+        let view = scene.view(1).unwrap();
+        warnings(&scene, &[view])
+    }
+
+    #[test]
+    fn ordinary_scenes_have_no_warnings() {
+        let material = "highlight: (strength: 1, shininess: 2000),
+            rough: (amplitude: 0.5, grain: Surface(0.03))";
+        assert_eq!(of(material, 10.0), Vec::<String>::new());
+        // Without an amplitude there are no bumps, and without a strength no highlight.
+        let material = "highlight: (strength: 0, shininess: 1e9),
+            rough: (amplitude: 0, grain: Surface(1e-3))";
+        assert_eq!(of(material, 10.0), Vec::<String>::new());
+    }
+
+    #[test]
+    fn grain_below_a_pixel_is_told() {
+        let found = of("rough: (amplitude: 0.5, grain: Surface(0.01))", 10.0);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let expected = "sphere 2 and 1 more: bumps with a grain of 0.01 are smaller than a pixel, which is 0.02 wide";
+        assert!(found[0].starts_with(expected), "{found:?}");
+    }
+
+    #[test]
+    fn highlights_below_a_pixel_are_told() {
+        let found = of("highlight: (strength: 1, shininess: 1e5)", 10.0);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(found[0].contains("narrower than a pixel"), "{found:?}");
+    }
+
+    #[test]
+    fn a_lens_too_long_for_doubles_is_told() {
+        let found = of("exponent: 1", 1e12);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(
+            found[0].starts_with("lens: a pixel is so small an angle"),
+            "{found:?}"
+        );
+        assert_eq!(of("exponent: 1", 1e6), Vec::<String>::new());
+    }
+}

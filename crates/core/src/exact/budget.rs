@@ -1,0 +1,236 @@
+//! The work that a pixel may cost, and the signs that more of it would be in vain.
+
+use std::ops::AddAssign;
+
+/// The work on a part of a pixel, counted while it goes on.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct CellWork {
+    /// Points at which light was computed.
+    pub(crate) samples: u64,
+    /// Pieces of curves that were held against a sphere, a curve or an occluder.
+    pub(crate) tests: u64,
+}
+
+impl CellWork {
+    /// The work in units, of about 30 ns each: a sample of light on bumps, and a test, take one. What every cell
+    /// costs before its first sample is added.
+    pub(crate) fn units(self) -> u64 {
+        const OF_CELL: u64 = 50;
+        OF_CELL + self.samples + self.tests
+    }
+}
+
+impl AddAssign for CellWork {
+    fn add_assign(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.tests += other.tests;
+    }
+}
+
+/// The work that one pixel, at one moment, has cost and may cost.
+///
+/// All of it is counted in the pixel itself: threads, tiles and other pixels cannot change where it ends.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Budget {
+    spent: u64,
+    most: u64,
+    /// The error by rounding when the work was looked at last, and when it is looked at next.
+    rounding: Option<f64>,
+    next: u64,
+}
+
+/// What a pixel may be off by so far.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Doubt {
+    pub(crate) error: f64,
+    /// The share of the error that comes from rounding.
+    pub(crate) rounding: f64,
+}
+
+/// The units that a pixel may cost: a few thousand times a pixel with ordinary edges, which costs about 200.
+pub(crate) const MOST: u64 = 500_000;
+
+/// The units that a pixel may cost at each of the moments of an open shutter, which are seven at least.
+pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 8;
+
+/// The units that a pixel may cost over all moments together, before it ends: the last panels are finished.
+pub(crate) const MOST_OVER_TIME: u64 = MOST / 8;
+
+/// Bumps side by side in a pixel up to which all of the budget is theirs, and from which on nothing is: a
+/// hundred and more bumps are not followed one by one.
+const FEW_GRAINS: f64 = 0.5;
+const MANY_GRAINS: f64 = 12.0;
+
+/// The share of the budget that pixels with bumps may need, on average, to be worth it; and the shares that they
+/// have at least if they are, and if they are not.
+const MOST_NEED: f64 = 0.04;
+const HOPEFUL: f64 = 0.06;
+const HOPELESS: f64 = 0.01;
+
+/// The share of the budget that a single part of a pixel may take.
+const OF_PART: u64 = 8;
+
+/// The units at which rounding is looked at for the first time; every doubling after that it is looked at
+/// again.
+const FIRST_LOOK: u64 = 512;
+
+impl Budget {
+    /// The budget of a pixel that may cost `most` where it is ordinary, with so many bumps side by side.
+    ///
+    /// The finer bumps are, the less is to be had for the same work, and the more pixels of a picture are alike:
+    /// what most of them would need tells whether a pixel has much, or little.
+    pub(crate) fn new(most: u64, grains: f64, tolerance: f64) -> Self {
+        let share = if grains > MANY_GRAINS {
+            0.0
+        } else {
+            FEW_GRAINS / grains.max(FEW_GRAINS)
+        };
+        let is_hopeful = need(grains, tolerance) <= MOST_NEED * most as f64;
+        let least = if grains > MANY_GRAINS {
+            0.0
+        } else if is_hopeful {
+            HOPEFUL
+        } else {
+            HOPELESS
+        };
+        Self {
+            spent: 0,
+            most: (most as f64 * (share * share).max(least)) as u64,
+            rounding: None,
+            next: FIRST_LOOK,
+        }
+    }
+
+    /// The units that the pixel has cost.
+    pub(crate) fn spent(&self) -> u64 {
+        self.spent
+    }
+
+    /// Returns whether the budget does not suffice for anything: bumps divide lines so often that even the whole
+    /// of a pixel costs more.
+    pub(crate) fn is_nothing(&self) -> bool {
+        const LEAST: u64 = 2000;
+        self.most < LEAST
+    }
+
+    /// Counts the work on a part of the pixel.
+    pub(crate) fn spend(&mut self, work: CellWork) {
+        self.spent += work.units();
+    }
+
+    /// The units that the next part may take.
+    pub(crate) fn of_part(&self) -> u64 {
+        (self.most / OF_PART).min(self.most.saturating_sub(self.spent))
+    }
+
+    /// Returns whether the work ends: it has cost all that it may, or rounding alone exceeds the tolerance and
+    /// stays as it is however small the cells become.
+    pub(crate) fn is_over(&mut self, now: Doubt, tolerance: f64) -> bool {
+        /// What falls by less than this while the work doubles stays.
+        const SAME: f64 = 0.9;
+        if self.spent >= self.most {
+            return true;
+        }
+        if self.spent < self.next {
+            return false;
+        }
+        self.next = 2 * self.spent;
+        let before = self.rounding.replace(now.rounding);
+        now.rounding > tolerance && before.is_some_and(|before| now.rounding > SAME * before)
+    }
+}
+
+/// The units that the pixels of a tile have cost, by their places.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TileCosts(Vec<u64>);
+
+impl TileCosts {
+    /// Begins with a tile of so many pixels.
+    pub(crate) fn clear(&mut self, count: u64) {
+        self.0.clear();
+        self.0.resize(count as usize, 0);
+    }
+
+    pub(crate) fn add(&mut self, place: usize, units: u64) {
+        self.0[place] += units;
+    }
+
+    pub(crate) fn of(&self, place: usize) -> u64 {
+        self.0[place]
+    }
+}
+
+/// The units that a pixel without edges costs, about: where it is smooth, and on bumps.
+pub(crate) const FILLED: [u64; 2] = [10, 60];
+
+/// The units that pixels with so many bumps side by side take on average, as measured with amplitudes from
+/// 0.5 to 0.9: an estimate, which only decides how much is tried.
+fn need(grains: f64, tolerance: f64) -> f64 {
+    const OF_ONE: f64 = 200.0;
+    const TOLERANCE: f64 = 1e-3;
+    const POWER: f64 = 2.0 / 3.0;
+    OF_ONE * grains * grains * libm::pow(TOLERANCE / tolerance, POWER)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-5;
+
+    /// The units after which a pixel ends whose parts cost so much, and whose error falls so.
+    fn end(mut budget: Budget, of_part: u64, error: impl Fn(f64) -> f64, rounding: f64) -> u64 {
+        loop {
+            let now = Doubt {
+                error: error(budget.spent as f64) + rounding,
+                rounding,
+            };
+            if now.error <= TOLERANCE || budget.is_over(now, TOLERANCE) {
+                return budget.spent;
+            }
+            budget.spend(CellWork {
+                samples: of_part,
+                tests: 0,
+            });
+        }
+    }
+
+    fn halving(spent: f64) -> f64 {
+        2.0 / spent.max(1.0)
+    }
+
+    #[test]
+    fn edges_are_followed_to_the_tolerance() {
+        let spent = end(Budget::new(MOST, 0.0, TOLERANCE), 300, halving, 0.0);
+        assert!((200_000..201_000).contains(&spent), "{spent}");
+    }
+
+    #[test]
+    fn rounding_that_stays_ends_at_once() {
+        let spent = end(
+            Budget::new(MOST, 0.0, TOLERANCE),
+            100,
+            halving,
+            10.0 * TOLERANCE,
+        );
+        assert!(spent < 3 * FIRST_LOOK, "{spent}");
+    }
+
+    #[test]
+    fn no_pixel_costs_more_than_its_budget_and_one_part() {
+        for most in [3000, 30_000, MOST] {
+            let spent = end(Budget::new(most, 0.4, TOLERANCE), 300, |_| 0.1, 0.0);
+            assert!((most..=most + 350).contains(&spent), "{spent}");
+        }
+    }
+
+    #[test]
+    fn finer_bumps_have_less() {
+        let most = |grains: f64, tolerance: f64| Budget::new(MOST, grains, tolerance).most;
+        assert_eq!(most(0.5, 1e-5), MOST);
+        assert_eq!(most(1.0, 1e-5), MOST / 4);
+        assert_eq!(most(7.0, 1e-3), 30_000);
+        assert_eq!(most(7.0, 1e-5), 5000);
+        assert!(Budget::new(MOST, 12.1, 1e-2).is_nothing());
+    }
+}

@@ -1,0 +1,104 @@
+//! What makes light in a cell hard: how bright highlights may be, and how fine bumps are.
+
+use fearless_simd::prelude::*;
+use glam::DVec2;
+
+use super::contents::{Contents, Reach};
+use super::patch::Patch;
+use crate::edges::cell::Cell;
+use crate::exact::points::Points;
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
+use crate::numeric::vectors::Vectors;
+
+/// More than an angle, up to 1, over the length of its chord.
+const OF_CHORD: f64 = 1.05;
+
+impl Contents {
+    /// By how much more than white that all lights reach, without a highlight, what is in the cell that was seen
+    /// last may send.
+    #[inline(always)]
+    pub(crate) fn excess<S: Simd>(&self, simd: S, scene: &InCamera<'_>, cell: &Cell) -> f64 {
+        let lights = scene.lights.iter().map(|light| light.intensity);
+        let white = lights.fold(scene.ambient, |sum, light| sum + light);
+        let mut highest = 0.0_f64;
+        for (position, active) in self.active.iter().enumerate() {
+            let albedo = scene.world.albedo(active.sphere).max_element();
+            let mut excess = (albedo - 1.0).max(0.0) * white.max_element();
+            let material = scene.world.material(active.sphere);
+            if material.highlight.is_some() {
+                let finish = Finish::new(scene, active.sphere, self.pixel);
+                excess += self.highlight(simd, &finish, (scene, cell), position);
+            }
+            highest = highest.max(excess);
+        }
+        highest
+    }
+
+    /// About the number of cells of the noise of bumps side by side in the cell that was seen last, where they
+    /// are finest; surfaces that recede have more.
+    pub(crate) fn grains_across(&self, scene: &InCamera<'_>, cell: &Cell) -> f64 {
+        let mut most = 0.0_f64;
+        for active in &self.active {
+            let material = scene.world.material(active.sphere);
+            if material.roughness.is_none() || active.ball.outside <= 0.0 {
+                continue;
+            }
+            let finish = Finish::new(scene, active.sphere, self.pixel);
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let middle = 0.5 * (patch.ends[0] + patch.ends[1]);
+            let side = cell.size[0] * middle.length() / cell.middle.length();
+            most = most.max(finish.shading_normal.cells() * side / active.ball.radius);
+        }
+        most
+    }
+
+    /// A bound of the highlights, of all lights together, of an active sphere in the brightest channel.
+    #[inline(never)]
+    pub(crate) fn highlight<S: Simd>(
+        &self,
+        simd: S,
+        finish: &Finish,
+        (scene, cell): (&InCamera<'_>, &Cell),
+        position: usize,
+    ) -> f64 {
+        let active = &self.active[position];
+        let first = position * scene.lights.len();
+        let mut all = 0.0;
+        for (light, reach) in scene.lights.iter().zip(&self.reach[first..]) {
+            if matches!(reach, Reach::Past(_)) {
+                let [_, highlight] = finish.reflectance.brightest(light.intensity);
+                all += highlight;
+            }
+        }
+        let is_ahead = active.ball.outside > 0.0 && active.ball.center.z > active.ball.radius;
+        if all == 0.0 || finish.is_rough() || !is_ahead {
+            return all;
+        }
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+                let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
+                let turn = OF_CHORD * length / active.ball.radius;
+                // Rays are at least 1 long: so far may one, as a unit vector, be from the middle's.
+                let view = cell.middle * (-1.0 / cell.middle.length());
+                let aside = DVec2::from_array(cell.size).length();
+                let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
+                let mut highest = 0.0;
+                for (light, reach) in scene.lights.iter().zip(&self.reach[first..]) {
+                    if matches!(reach, Reach::Past(_)) {
+                        // Half vectors turn by that over their length before they are made unit vectors.
+                        let length = (light.toward + view).length() - aside;
+                        if length <= aside {
+                            return all;
+                        }
+                        let turn = turn + OF_CHORD * aside / length;
+                        highest += finish.highest_highlight(simd, &points, light, turn)[0];
+                    }
+                }
+                highest
+            },
+        )
+    }
+}

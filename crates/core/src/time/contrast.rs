@@ -1,0 +1,33 @@
+//! How far the light of things in a world may lie apart.
+
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use crate::model::world::World;
+
+/// The differences of light, and of coverage, that something may make in any channel.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Contrast {
+    /// About the largest one, highlights left out: they are seldom as narrow as what is missed between moments.
+    pub(super) ordinary: f64,
+    /// A bound of all.
+    pub(super) most: f64,
+}
+
+impl Contrast {
+    pub(super) fn new(world: &World) -> Self {
+        let lights = world.lights.iter();
+        let lights: f64 = lights.map(|light| light.intensity().max_element()).sum();
+        let white = world.ambient.max_element() + lights;
+        let spheres = (0..world.spheres().len()).into_par_iter();
+        let of_spheres = spheres.map(|sphere| {
+            let highlight = world.material(sphere).highlight;
+            let strength = highlight.map_or(0.0, |highlight| highlight.strength);
+            world.albedo(sphere).max_element() * white + strength * lights
+        });
+        let least = world.background.max_element().max(1.0);
+        Self {
+            ordinary: white.max(least),
+            most: of_spheres.reduce(|| 0.0, f64::max).max(least),
+        }
+    }
+}
