@@ -69,6 +69,7 @@ impl<'scene> Exact<'scene> {
             scene: InCamera::new(world, index.visibility, view, channels, group),
             view: *view,
             tolerance: tolerance / count as f64,
+            is_proved: true,
             background: if alpha || group > 0 {
                 Color::ZERO
             } else {
@@ -86,6 +87,14 @@ impl<'scene> Exact<'scene> {
             index: index.clone(),
             level: Level::new(),
         }
+    }
+
+    /// The same, with estimates where bounds would claim more.
+    pub(crate) fn without_proofs(mut self) -> Self {
+        for context in &mut self.groups {
+            context.is_proved = false;
+        }
+        self
     }
 
     /// Appends the tile's pixels to `pixels`, in the order of [`Tile::pixels`]; returns what they cost.

@@ -120,7 +120,7 @@ impl<'scene> ExactOverTime<'scene> {
     fn integrators(&self, instants: &[Instant<'scene>]) -> Vec<Exact<'scene>> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
         let at = |Instant { view, index }: &Instant<'scene>| {
-            Exact::new(self.world, view, index, tolerance, self.alpha)
+            Exact::new(self.world, view, index, tolerance, self.alpha).without_proofs()
         };
         instants.iter().map(at).collect()
     }
