@@ -1,6 +1,6 @@
 //! The complex neighborhoods of pixels in which normals are analytic, and how far light changes there.
 //!
-//! Let a ray be d = d₀ + (δ, ε, 0) with complex |δ|, |ε| ≤ h around the middle d₀ of a pixel. With B = d · c,
+//! Let a ray be d = d₀ + (x, y, 0) with complex |x|, |y| ≤ h around the middle d₀ of a pixel. With B = d · c,
 //! A = d · d and Q = B² − A K it meets a sphere at t d, t = K / (B + √Q), where the normal is n = (t d − c) / r.
 //! Q is a polynomial: |Q − Q₀| ≤ G h + S h², with the sums G and S of its coefficients' sizes. Where that is
 //! κ Q₀, κ < 1, the root has no singularity; as the coefficients of 1 − √(1 − z) are positive,
@@ -16,6 +16,24 @@
 //! ```
 //!
 //! All of this shrinks at least as fast as h, as it is convex in h and begins at 0.
+//!
+//! Rules are exact for polynomials of degree 3, and n·l is nearly one. With A = A₀ (1 + α), |α| ≤ a ≤ ½, and
+//! Q = Q₀ (1 + ε), |ε| ≤ κ, it is (B − √Q) (d·l) / (r A) less a constant, where
+//!
+//! ```text
+//! √Q = √Q₀ (1 + ε/2 + ρ),    |ρ| ≤ 1 − √(1 − κ) − κ/2,    1/A = (1 − α + α² / (1 + α)) / A₀.
+//! ```
+//!
+//! B and d·l are linear, with |B| ≤ B₀ + b and |d·l| ≤ m = |d₀·l| + h (|l_x| + |l_y|), and α and ε quadratic. So it
+//! differs from a polynomial of degree 3 by 1 / (r A₀) times
+//!
+//! ```text
+//! √Q₀ m (|ρ| / (1 − a) + κ a / 2 + (1 + κ/2) a² / (1 − a)) + (B₀ + b) m a² / (1 − a)
+//!     + b h (|l_x| + |l_y|) 2 h² / A₀
+//! ```
+//!
+//! or less: by ρ, by ε α / 2, by α² / (1 + α), and by the product of the linear parts of B and d·l with the
+//! quadratic one of α.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
@@ -26,10 +44,13 @@ use crate::exact::classify::discriminant::{Discriminant, bend};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 
-/// κ, and 1 − √(1 − κ) for one that is larger by more than what rounding makes wrong in Q₀, G and h; see
-/// [`SOUND`].
-const KAPPA: f64 = 0.95;
-const CHANGE_OF_ROOT: f64 = 0.8;
+/// κ, and 1 − √(1 − κ) for 0.91: rounding makes less than this difference wrong in Q₀, G and h, see [`SOUND`].
+const KAPPA: f64 = 0.9;
+const CHANGE_OF_ROOT: f64 = 0.7;
+
+/// |ρ|, and κ / 2, for 0.91.
+const BEND_OF_ROOT: f64 = 0.245;
+const HALF_KAPPA: f64 = 0.455;
 
 /// The least Q₀ over A r (r + |c|): Q₀ is off by 16 roundoffs of that, which is 0.2 % of this.
 const SOUND: f64 = 1e-12;
@@ -53,6 +74,9 @@ pub(super) struct Domain<'a, S: Simd> {
     pub(super) share: f64x8<S>,
     /// h.
     reach: f64x8<S>,
+    /// B₀, and b.
+    along: f64x8<S>,
+    slack: f64x8<S>,
     /// t₀, and √Q₀.
     t: f64x8<S>,
     root: f64x8<S>,
@@ -90,9 +114,9 @@ impl<'a, S: Simd> Domain<'a, S> {
     /// Of pixels with these rays through their middles and this side.
     #[inline(always)]
     pub(super) fn new(simd: S, ball: &'a Ball, ray: &Vectors<S>, size: f64) -> Self {
-        /// More than normals are off by, in roundoffs of (1 + |c| / r) over the cosine of the angle of incidence
-        /// at the middle, which is at most twice that elsewhere in the pixel: 18 by the center in the camera's
-        /// frame and the place on the retina, 15 by the root.
+        /// More than normals are off by, over (1 + |c| / r) and the cosine of the angle of incidence at the middle,
+        /// which is less than twice that elsewhere in the pixel. In roundoffs, the center in the camera's frame is
+        /// off by 10 |c|, the place on the retina by 4, and Q by 16 A r (r + |c|): together 44.
         const ROUNDINGS: f64 = 256.0 * UNIT_ROUNDOFF;
         let (c, r, k) = (ball.center, ball.radius, ball.outside);
         let far = c.length();
@@ -112,7 +136,8 @@ impl<'a, S: Simd> Domain<'a, S> {
         let reach = (most * 2.0 / steep).min(along * (0.5 / aside));
 
         let sum = along + root;
-        let loss = reach * aside + root * CHANGE_OF_ROOT;
+        let slack = reach * aside;
+        let loss = slack + root * CHANGE_OF_ROOT;
         // t₀ / (r (W − w)), t₀ and 1 / √Q₀, by one division.
         let rest = (sum - loss) * r;
         let inverse = f64x8::splat(simd, 1.0) / (root * sum * rest);
@@ -126,6 +151,8 @@ impl<'a, S: Simd> Domain<'a, S> {
             is_known: is_sound & is_far & along.simd_gt(0.0),
             share: f64x8::splat(simd, 0.5 * size) / reach,
             reach,
+            along,
+            slack,
             t,
             root,
             factors: [sum * reach * scale, loss * scale],
@@ -148,7 +175,7 @@ impl<'a, S: Simd> Domain<'a, S> {
         }
     }
 
-    /// What n·h of all lights depends on.
+    /// What the light of all lights depends on.
     ///
     /// Where A changes by half of A₀ at most, 1 / √A changes by 0.83 of that, relatively, and n·v = √Q / (r √A).
     #[inline(always)]
@@ -164,6 +191,24 @@ impl<'a, S: Simd> Domain<'a, S> {
             cosine,
             change: cosine * (stretch * OF_ROOT + CHANGE_OF_ROOT * ROOT_OF_TWO),
         }
+    }
+
+    /// A bound of what n·l differs by from a polynomial of degree 3, anywhere in the domain.
+    #[inline(always)]
+    pub(super) fn bend(&self, toward: DVec3, eye: &TowardEye<S>) -> f64x8<S> {
+        let reach = self.reach;
+        let aside = reach * (toward.x.abs() + toward.y.abs());
+        let most = self.ray.dot_one(toward).abs() + aside;
+        // 1 / (1 − a) ≤ 1 + 2 a ≤ 2.
+        let a = eye.stretch;
+        let by_root =
+            (a * 2.0 + 1.0) * BEND_OF_ROOT + a * HALF_KAPPA + a * a * (2.0 * (1.0 + HALF_KAPPA));
+        let by_along = (self.along + self.slack) * most * a * a * 2.0;
+        let inverse_sq = eye.inverse * eye.inverse;
+        let mixed = self.slack * aside * reach * reach * inverse_sq * 2.0;
+        let bend = (self.root * most * by_root + by_along + mixed) * inverse_sq;
+        let bend = bend * (1.0 / self.ball.radius);
+        a.simd_le(0.5).select(bend, bend * 0.0 + f64::INFINITY)
     }
 
     /// n·h, from n·l.

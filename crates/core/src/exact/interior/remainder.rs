@@ -7,7 +7,8 @@
 //! 4 or 6. With p = (2R)⁻² all terms of degree 2m are M p^m Σ 2^2m |e_jk| or less; [`Remainder`] has these
 //! sums, and the test `rules_miss_no_more_of_monomials` computes them.
 //!
-//! [`Domain`] finds R, and bounds the change of cosines. A power c^e of a cosine changes by
+//! [`Domain`] finds R, and bounds the change of cosines; of that of n·l itself, only what is no polynomial of
+//! degree 3 counts. A power c^e of a cosine changes by
 //! (c₀ + Δ)^e − c₀^e or less for whole e, by the binomial theorem, and is at most (c₀ + Δ)^e elsewhere, where it
 //! is analytic for |c − c₀| < c₀. Smaller domains have smaller changes: for high powers a part is taken.
 //!
@@ -23,7 +24,7 @@ use super::domain::{Change, Domain};
 use super::filled::Filled;
 use crate::exact::context::NEGLIGIBLE;
 use crate::light::reflection::Falloff;
-use crate::numeric::rounding::{UNIT_ROUNDOFF, WIDER};
+use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// A rule whose remainder is bounded.
 #[derive(Clone, Copy, Debug)]
@@ -84,6 +85,8 @@ impl<S: Simd> Filled<'_, S> {
     pub(super) fn bound(&self, simd: S, is_star: mask64x8<S>) -> f64x8<S> {
         /// More than powers, products and sums of light make wrong, relatively.
         const ROUNDING: f64 = 1024.0 * UNIT_ROUNDOFF;
+        /// More than the rounding of domains makes wrong in M.
+        const SLACK: f64 = 1.001;
         let zero = f64x8::splat(simd, 0.0);
         let unknown = zero + f64::INFINITY;
         if self.finish.is_rough() {
@@ -93,10 +96,7 @@ impl<S: Simd> Filled<'_, S> {
         let [width, height] = self.size;
         let domain = Domain::new(simd, self.ball, &self.middle, width.max(height));
         let pixels = Pixels::new(domain.share, is_star);
-        let mut highlight = None;
-        if let Some((_, falloff)) = &reflectance.highlight {
-            highlight = Some((falloff, domain.toward_eye()));
-        }
+        let eye = domain.toward_eye();
         let ambient = (reflectance.albedo * self.scene.ambient).max_element();
         let mut sum = zero + ambient * ROUNDING;
         for (index, light) in self.scene.lights.iter().enumerate() {
@@ -105,12 +105,17 @@ impl<S: Simd> Filled<'_, S> {
             }
             let [diffuse, specular] = reflectance.brightest(light.intensity);
             let cosine = domain.cosine(light.toward);
-            let missed = pixels.missed(&reflectance.diffuse, &cosine);
+            let missed = if reflectance.diffuse.exponent == 1.0 {
+                let change = domain.bend(light.toward, &eye).min(cosine.change);
+                change * pixels.remainder + cosine.rounding * 2.0
+            } else {
+                pixels.missed(&reflectance.diffuse, &cosine)
+            };
             let mut error = (missed + ROUNDING) * diffuse;
-            if let Some((falloff, eye)) = &highlight
+            if let Some((_, falloff)) = &reflectance.highlight
                 && specular > 0.0
             {
-                let half_cosine = domain.half_cosine(light.toward, &cosine, eye);
+                let half_cosine = domain.half_cosine(light.toward, &cosine, &eye);
                 let height = pixels.height(falloff, &half_cosine);
                 let is_low = height.simd_lt(NEGLIGIBLE * self.tolerance / specular);
                 let mut missed = height;
@@ -124,7 +129,7 @@ impl<S: Simd> Filled<'_, S> {
             sum += lit.select(error, zero);
         }
         let is_known = domain.is_known & pixels.p.simd_le(MOST);
-        is_known.select(sum * WIDER, unknown)
+        is_known.select(sum * SLACK, unknown)
     }
 }
 
@@ -157,9 +162,6 @@ impl<S: Simd> Pixels<S> {
         const HIGHEST: f64 = 8.0;
         let exponent = falloff.exponent;
         let rounding = cosine.rounding * 2.0;
-        if exponent == 1.0 && cosine.limit.is_none() {
-            return cosine.change * self.remainder + rounding;
-        }
         let is_whole = exponent.fract() == 0.0;
         let value = cosine.value;
         let zero = value * 0.0;

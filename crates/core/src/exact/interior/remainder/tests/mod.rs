@@ -67,5 +67,5 @@ fn nothing_is_farther_from_its_average_than_is_proved() {
     }
     // Most are proved, and not by claiming much more than is wrong.
     assert!(asked < PLACES * 4 / 3, "{asked}");
-    assert!(largest > 0.02, "{largest}");
+    assert!(largest > 0.1, "{largest}");
 }
