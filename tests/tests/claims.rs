@@ -1,7 +1,7 @@
 //! What pixels claim where it is hard to claim anything.
 
 use glam::DVec3;
-use marbles_core::{Color, DirectionalLight, Highlight, Material, Sphere, Status};
+use marbles_core::{Color, DirectionalLight, Evidence, Highlight, Material, Sphere, Status};
 use marbles_tests::reference::Reference;
 
 use crate::studio::{GREY_HALF, exact_picture, looking_forward, pixels, world_of};
@@ -132,4 +132,62 @@ fn highlights_against_the_light_are_seen() {
         }
     }
     assert!(bright > 20, "{bright}");
+}
+
+/// Balls that touch, intersect, hide and shade each other, matte and shiny, on a floor: whatever is proved is true.
+#[test]
+fn bounds_hold_among_other_balls() {
+    let mut world = world_of(
+        &[],
+        &[DVec3::new(-1.0, 1.2, -0.8), DVec3::new(1.0, 0.3, -0.4)],
+    );
+    let look = |exponent, strength| Material {
+        albedo: Color::splat(0.7),
+        exponent,
+        highlight: Some(Highlight {
+            strength,
+            shininess: 30.0,
+        }),
+        ..Material::MATTE_WHITE
+    };
+    let looks = [
+        look(1.0, 0.0),
+        look(1.0, 0.5),
+        look(2.0, 0.2),
+        look(1.5, 0.0),
+    ];
+    let materials = looks.map(|look| world.add_material(look));
+    let floor = Sphere::new(DVec3::new(0.0, -1003.0, 20.0), 1000.0).unwrap();
+    world.add_sphere(floor, materials[0]);
+    for index in 0..12_u32 {
+        let (row, col) = (f64::from(index / 4), f64::from(index % 4));
+        let place = DVec3::new(
+            3.6 * col - 5.7 + 0.5 * row,
+            1.6 * row - 2.0,
+            16.0 + 2.5 * row,
+        );
+        let radius = 1.3 + 0.2 * f64::from(index % 5);
+        let ball = Sphere::new(place, radius).unwrap();
+        world.add_sphere(ball, materials[index as usize % materials.len()]);
+    }
+    let view = looking_forward(60, 40, 75.0);
+    let reference = Reference::new(&world, &view);
+    let truths: Vec<_> = pixels(&exact_picture(&world, &view, 1e-1, true))
+        .map(|(col, row)| reference.pixel(col, row))
+        .collect();
+    for (tolerance, least) in [(1e-2, 400), (1e-3, 400), (1e-5, 250)] {
+        let image = exact_picture(&world, &view, tolerance, true);
+        let mut lit = 0;
+        for ((col, row), truth) in pixels(&image).zip(&truths) {
+            if image.evidence(col, row) == Evidence::Estimate {
+                continue;
+            }
+            let found = image.rgba(col, row)[0];
+            let off = (found - truth.value.x).abs();
+            let allowed = image.error(col, row) + truth.error;
+            assert!(off <= allowed, "{col} {row}: {off:e} {allowed:e}");
+            lit += u32::from(found > 0.0);
+        }
+        assert!(lit > least, "{tolerance:e}: {lit}");
+    }
 }

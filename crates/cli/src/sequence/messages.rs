@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::Duration;
 
-use marbles_core::{Evidence, Summary};
+use marbles_core::Summary;
 
 use super::frames;
 use super::outcome::Outcome;
@@ -51,17 +51,32 @@ pub(crate) fn counts(outcome: &Outcome) -> String {
     counts
 }
 
-/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound)`, or `error unknown` where single
-/// samples tell nothing of it.
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound for 97 % of the pixels)`, or `error
+/// unknown` where single samples tell nothing of it.
 pub(crate) fn claim(summary: &Summary) -> String {
     if summary.largest_error == f64::INFINITY {
         return "error unknown".to_owned();
     }
-    let evidence = match summary.evidence {
-        Evidence::Bound => "bound",
-        Evidence::Estimate => "estimate",
-    };
-    format!("error <= {} ({evidence})", bound(summary.largest_error))
+    format!(
+        "error <= {} ({})",
+        bound(summary.largest_error),
+        evidence(summary)
+    )
+}
+
+/// The evidence for errors: `bound`, `estimate`, or the share of bounds, rounded down.
+fn evidence(summary: &Summary) -> String {
+    match bound_percent(summary) {
+        100 => "bound".to_owned(),
+        0 if summary.bounds == 0 => "estimate".to_owned(),
+        0 => "bound for less than 1 % of the pixels".to_owned(),
+        percent => format!("bound for {percent} % of the pixels"),
+    }
+}
+
+/// The share of pixels whose errors are bounds, in whole percents, rounded down.
+pub(crate) fn bound_percent(summary: &Summary) -> u128 {
+    u128::from(summary.bounds) * 100 / u128::from(summary.pixels.max(1))
 }
 
 /// The warning that numbers were too large for the file's floats.
@@ -92,24 +107,33 @@ mod tests {
 
     #[test]
     fn lines_say_what_stands_behind_the_error() {
-        let summary = |evidence| Summary {
+        let summary = |bounds| Summary {
             pixels: 600,
             largest_error: 8.21e-4,
-            evidence,
+            bounds,
             over_tolerance: 2,
         };
         let time = Duration::from_millis(12);
         assert_eq!(
-            result("a.png", &summary(Evidence::Bound), time),
+            result("a.png", &summary(600), time),
             "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, 0.012 s"
         );
         assert_eq!(
-            total(7, &summary(Evidence::Estimate), time),
+            total(7, &summary(0), time),
             "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, 0.012 s"
         );
+        for (bounds, share) in [
+            (599, "99 %"),
+            (360, "60 %"),
+            (6, "1 %"),
+            (5, "less than 1 %"),
+        ] {
+            let expected = format!("error <= 8.3e-04 (bound for {share} of the pixels)");
+            assert_eq!(claim(&summary(bounds)), expected);
+        }
         let unknown = Summary {
             largest_error: f64::INFINITY,
-            ..summary(Evidence::Estimate)
+            ..summary(0)
         };
         assert_eq!(claim(&unknown), "error unknown");
     }

@@ -22,6 +22,9 @@ pub(crate) struct Context<'scene> {
     pub(crate) view: View,
     /// The error that a pixel may have under the lights of one group.
     pub(crate) tolerance: f64,
+    /// Whether errors are to be proved where that is possible. A proof claims more than an estimate, which
+    /// averages over time have to make up for.
+    pub(crate) is_proved: bool,
     /// The light of pixels that see no sphere.
     pub(crate) background: Color,
     /// About the largest difference of light that an edge may make, highlights left out.

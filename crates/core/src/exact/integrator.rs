@@ -84,6 +84,7 @@ impl<'scene> Exact<'scene> {
             scene: InCamera::new(world, index.visibility, view, channels, group),
             view: *view,
             tolerance: tolerance / count as f64,
+            is_proved: true,
             background: if alpha || group > 0 {
                 Color::ZERO
             } else {
@@ -109,6 +110,14 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn with_budget(mut self, units: u64) -> Self {
         for context in &mut self.groups {
             context.budget = units;
+        }
+        self
+    }
+
+    /// The same, with estimates where bounds would claim more.
+    pub(crate) fn without_proofs(mut self) -> Self {
+        for context in &mut self.groups {
+            context.is_proved = false;
         }
         self
     }

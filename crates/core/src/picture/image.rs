@@ -88,20 +88,29 @@ pub struct Summary {
     pub pixels: u64,
     /// The largest error that any pixel claims.
     pub largest_error: f64,
-    /// The foundation of the errors: a bound only where all of them are.
-    pub evidence: Evidence,
+    /// Number of pixels whose errors are bounds.
+    pub bounds: u64,
     /// Number of pixels that did not meet the tolerance; 0 where none was asked for.
     pub over_tolerance: u64,
 }
 
 impl Summary {
+    /// The foundation of the errors: a bound only where all of them are.
+    pub fn evidence(&self) -> Evidence {
+        if self.bounds == self.pixels {
+            Evidence::Bound
+        } else {
+            Evidence::Estimate
+        }
+    }
+
     /// The summary of two pictures, or parts of one, together.
     #[must_use]
     pub fn and(self, other: &Self) -> Self {
         Self {
             pixels: self.pixels + other.pixels,
             largest_error: self.largest_error.max(other.largest_error),
-            evidence: self.evidence.min(other.evidence),
+            bounds: self.bounds + other.bounds,
             over_tolerance: self.over_tolerance + other.over_tolerance,
         }
     }
@@ -221,23 +230,14 @@ impl Image {
 
     /// The achievement of the picture as a whole.
     pub fn summary(&self) -> Summary {
-        let is_over = |status: &Status| status.is_over_tolerance();
         let pixels = u64::from(self.width) * u64::from(self.height);
         Summary {
             pixels,
             largest_error: largest(self.errors.distinct()),
-            evidence: if self.evidence.distinct().contains(&Evidence::Estimate) {
-                Evidence::Estimate
-            } else {
-                Evidence::Bound
-            },
-            over_tolerance: match &self.statuses {
-                Plane::Same(status) if is_over(status) => pixels,
-                Plane::Same(_) => 0,
-                Plane::Each(statuses) => {
-                    statuses.iter().filter(|&status| is_over(status)).count() as u64
-                }
-            },
+            bounds: count(&self.evidence, pixels, |evidence| {
+                evidence == Evidence::Bound
+            }),
+            over_tolerance: count(&self.statuses, pixels, Status::is_over_tolerance),
         }
     }
 
@@ -344,6 +344,15 @@ impl PartialEq for Image {
             && self.errors == other.errors
             && self.evidence == other.evidence
             && self.statuses == other.statuses
+    }
+}
+
+/// The number of pixels, of so many, of which something holds.
+fn count<T: Copy>(plane: &Plane<T>, pixels: u64, holds: impl Fn(T) -> bool) -> u64 {
+    match plane {
+        Plane::Same(value) if holds(*value) => pixels,
+        Plane::Same(_) => 0,
+        Plane::Each(values) => values.iter().filter(|&&value| holds(value)).count() as u64,
     }
 }
 

@@ -118,7 +118,9 @@ impl<'scene> ExactOverTime<'scene> {
     fn integrators(&self, instants: &[Instant<'scene>]) -> Vec<Exact<'scene>> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
         let at = |Instant { view, index }: &Instant<'scene>| {
-            Exact::new(self.world, view, index, tolerance, self.alpha).with_budget(MOST_AT_A_MOMENT)
+            Exact::new(self.world, view, index, tolerance, self.alpha)
+                .with_budget(MOST_AT_A_MOMENT)
+                .without_proofs()
         };
         instants.iter().map(at).collect()
     }

@@ -5,7 +5,7 @@ use marbles_core::{Evidence, Method, Summary, Work};
 use super::results::Report;
 use super::row::Row;
 
-const COLUMNS: [&str; 24] = [
+const COLUMNS: [&str; 25] = [
     "scene",
     "frame",
     "width",
@@ -25,6 +25,7 @@ const COLUMNS: [&str; 24] = [
     "pixels_not_met",
     "largest_claimed",
     "evidence",
+    "pixels_bound",
     "median_true_over_claimed",
     "largest_true_over_claimed",
     "samples_per_pixel",
@@ -55,7 +56,7 @@ pub(super) fn bytes(report: &Report) -> Vec<u8> {
 fn picture(report: &Report, summary: &Summary, work: &Work) -> Cells {
     let view = &report.view;
     let a_pixel = |count: u64| number(count as f64 / summary.pixels as f64);
-    let evidence = match summary.evidence {
+    let evidence = match summary.evidence() {
         Evidence::Bound => "bound",
         Evidence::Estimate => "estimate",
     };
@@ -67,6 +68,7 @@ fn picture(report: &Report, summary: &Summary, work: &Work) -> Cells {
         ("threads", report.threads.to_string()),
         ("pixels_measured", report.reference().known.to_string()),
         ("evidence", evidence.to_owned()),
+        ("pixels_bound", summary.bounds.to_string()),
         ("samples_per_pixel", a_pixel(work.samples)),
         ("lines_per_pixel", a_pixel(work.lines)),
         ("candidate_tests_per_pixel", a_pixel(work.candidate_tests)),

@@ -8,7 +8,7 @@ use crate::sequence::messages;
 
 /// Width of the column with the names of facts.
 const NAMES: usize = 12;
-const TITLES: [&str; 10] = [
+const TITLES: [&str; 11] = [
     "setting",
     "time",
     "speed-up",
@@ -17,6 +17,7 @@ const TITLES: [&str; 10] = [
     "over",
     "true/claimed",
     "largest/claimed",
+    "bound",
     "samples",
     "lines",
 ];
@@ -80,7 +81,7 @@ fn facts(report: &Report) -> Vec<String> {
         .collect()
 }
 
-fn cells(row: &Row, report: &Report) -> [String; 10] {
+fn cells(row: &Row, report: &Report) -> [String; 11] {
     let setting = &row.setting;
     let (accuracy, work) = (&setting.accuracy, &setting.work);
     let nothing = || "-".to_owned();
@@ -111,6 +112,10 @@ fn cells(row: &Row, report: &Report) -> [String; 10] {
         },
         accuracy.median_of_claimed.map_or_else(nothing, fraction),
         accuracy.largest_of_claimed().map_or_else(nothing, fraction),
+        match setting.summary.bounds {
+            0 => nothing(),
+            _ => format!("{} %", messages::bound_percent(&setting.summary)),
+        },
         a_pixel(work.samples),
         a_pixel(work.lines),
     ]

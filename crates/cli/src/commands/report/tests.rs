@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::time::Duration;
 
-use marbles_core::{Evidence, Method, Summary, Work};
+use marbles_core::{Method, Summary, Work};
 
 use super::accuracy::Accuracy;
 use super::measure::{Measurement, Reference, Setting};
@@ -26,7 +26,7 @@ fn setting(method: Method, rmse: f64, seconds: f64) -> Setting {
         summary: Summary {
             pixels: 100,
             largest_error: 20.0 * rmse,
-            evidence: Evidence::Estimate,
+            bounds: 93,
             over_tolerance: 0,
         },
         work: Work::default(),

@@ -2,6 +2,7 @@
 
 pub(crate) mod active;
 pub(crate) mod contents;
+pub(crate) mod discriminant;
 mod hardness;
 mod hidden;
 pub(crate) mod magnitude;

@@ -3,11 +3,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
+use super::discriminant::{Discriminant, bend};
 use super::patch::{Patch, Side};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::context::Context;
-use crate::numeric::rounding::GEOMETRY_SLACK;
+use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
@@ -75,6 +76,14 @@ pub(crate) fn classify_row<S: Simd>(
     coverages.retain(|coverage| coverage.touched != 0);
 }
 
+/// More than rounding makes wrong in a discriminant near its roots, as a move of the ray.
+///
+/// With u the roundoff, B = d · c and |d × c| are off by 4 u |d| |c|, and the squares that Q is the difference of
+/// by 8 u of what they are. Where Q is about 0, B² = A K and |d × c|² = r² A, so that Q is off by no more than
+/// 8 u A r (|c| + r) ≤ 20 u A r √K where K ≥ r², and 8 u A √K (|c| + √K) ≤ 20 u A r √K elsewhere. The slope of Q
+/// along the retina is 2 r √K or more there: times half a side, it is a part of the spread.
+const ROUNDINGS: f64 = 32.0 * UNIT_ROUNDOFF;
+
 /// The part of a ball that eight pixels of this size see, with these rays through their middles, whose third
 /// component is 1.
 ///
@@ -84,29 +93,20 @@ pub(crate) fn classify_row<S: Simd>(
 fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
     let (u, v) = (ray.x, ray.y);
     let ray_sq = u * u + v * v + 1.0;
-    let (c, r, k) = (ball.center, ball.radius, ball.outside);
-    let along = u * c.x + v * c.y + c.z;
+    let (c, k) = (ball.center, ball.outside);
+    let discriminant = Discriminant::new(ray, ray_sq, ball);
     let along_spread = 0.5 * size * (c.x.abs() + c.y.abs());
 
     // Bounds of Q, and so of its root.
-    let (q, by_u, by_v);
-    if ball.is_apart() {
-        let across = [v * c.z - c.y, c.x - u * c.z, u * c.y - v * c.x];
-        q = ray_sq * (r * r)
-            - (across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
-        by_u = u * (r * r) + across[1] * c.z - across[2] * c.y;
-        by_v = v * (r * r) - across[0] * c.z + across[2] * c.x;
-    } else {
-        q = along * along - ray_sq * k;
-        by_u = along * c.x - u * k;
-        by_v = along * c.y - v * k;
-    }
-    let square = size * size;
-    let second =
-        0.25 * square * ((c.x * c.x - k).abs() + (c.y * c.y - k).abs() + 2.0 * (c.x * c.y).abs());
+    let Discriminant {
+        along, value: q, ..
+    } = discriminant;
+    let [by_u, by_v] = discriminant.half_slopes;
+    let second = 0.25 * size * size * bend(ball);
     // Half of the derivatives, which are twice these.
     let spread = (by_u.abs() + by_v.abs()) * size + second;
-    let slack = (spread + q.abs()) * GEOMETRY_SLACK;
+    let moved = ray_sq * (ROUNDINGS / size) + GEOMETRY_SLACK;
+    let slack = spread * moved + q.abs() * GEOMETRY_SLACK;
     let (lowest, highest) = (q - spread - slack, q + spread + slack);
     let zero = f64x8::splat(simd, 0.0);
     let one = f64x8::splat(simd, 1.0);
@@ -122,7 +122,7 @@ fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<
         }
     } else {
         // From the inside: t = (B + √Q) / A.
-        let half = (u.abs() + v.abs()) * size + 0.5 * square;
+        let half = (u.abs() + v.abs()) * size + 0.5 * size * size;
         let everywhere = mask64x8::splat(simd, true);
         Extent {
             touched: everywhere,

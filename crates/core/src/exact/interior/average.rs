@@ -16,6 +16,8 @@ use crate::model::roughness::noise::NoiseCells;
 pub(super) struct Averages {
     pub(super) values: [Color; 8],
     pub(super) errors: [f64; 8],
+    /// Bounds of the errors; infinite where there is none.
+    pub(super) bounds: [f64; 8],
     /// The pixels that are better divided, bit by bit.
     pub(super) divisible: u64,
     /// The number of samples that each of the pixels took.
@@ -72,6 +74,7 @@ impl<S: Simd> Filled<'_, S> {
         let mut averages = Averages {
             values: [Color::ZERO; 8],
             errors: [0.0; 8],
+            bounds: [f64::INFINITY; 8],
             divisible: 0,
             samples: sampled.samples,
         };
@@ -86,6 +89,8 @@ impl<S: Simd> Filled<'_, S> {
         }
         if self.finish.is_rough() {
             averages.divisible = self.gains_by_parts(&sampled.star).to_bitmask();
+        } else if self.is_proved {
+            averages.bounds = self.bound(simd, sampled.star.is_met).into();
         }
         averages
     }

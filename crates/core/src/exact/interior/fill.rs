@@ -38,8 +38,8 @@ pub(crate) fn fill<S: Simd>(
     let Coverage { sphere, ball, .. } = row.coverage;
     let material = scene.world.material(*sphere);
     let mut reached = Reached::nothing(simd);
+    let mut finish = Finish::new(scene, *sphere, context.key(row.start, 0));
     if ball.outside > 0.0 && !scene.is_enclosed {
-        let finish = Finish::new(scene, *sphere, context.key(row.start, 0));
         simd.vectorize(
             #[inline(always)]
             || reached = Reached::new(simd, context, row, &finish, cache),
@@ -72,7 +72,15 @@ pub(crate) fn fill<S: Simd>(
             rest
         };
         rest &= !group;
-        let of_group = fill_lit(simd, context, row, &reached, group, noise, pixels);
+        if is_own {
+            finish = Finish::new(
+                scene,
+                *sphere,
+                context.key(row.start, group.trailing_zeros()),
+            );
+        }
+        let lit = (&reached, &finish);
+        let of_group = fill_lit(simd, context, row, lit, group, noise, pixels);
         filled.hard |= of_group.hard;
         filled.samples += of_group.samples;
     }
@@ -85,13 +93,11 @@ fn fill_lit<S: Simd>(
     simd: S,
     context: &Context<'_>,
     row: &FilledRow<'_>,
-    reached: &Reached<S>,
+    (reached, finish): (&Reached<S>, &Finish),
     which: u64,
     noise: &mut Option<Box<NoiseCells>>,
     pixels: &mut [Pixel],
 ) -> FilledPixels {
-    let Coverage { sphere, ball, .. } = row.coverage;
-    let key = context.key(row.start, which.trailing_zeros());
     let (middle, size) = context.rays(simd, row.start);
     let mut lit = reached.lit;
     for lit in &mut lit {
@@ -99,8 +105,8 @@ fn fill_lit<S: Simd>(
     }
     let filled = Filled {
         scene: &context.scene,
-        ball,
-        finish: &Finish::new(&context.scene, *sphere, key),
+        ball: &row.coverage.ball,
+        finish,
         middle,
         size: [size; 2],
         lit: &lit,
@@ -108,6 +114,7 @@ fn fill_lit<S: Simd>(
         nearness: reached.nearness,
         which,
         tolerance: context.tolerance,
+        is_proved: context.is_proved,
     };
     let averages = simd.vectorize(
         #[inline(always)]
@@ -125,7 +132,16 @@ fn fill_lit<S: Simd>(
             }
         }
         if is_met(error) {
-            pixels[lane] = met(context.scene.spread(value), error);
+            let bound = averages.bounds[lane];
+            let (error, evidence) = if is_met(bound) {
+                (bound, Evidence::Bound)
+            } else {
+                (error, Evidence::Estimate)
+            };
+            pixels[lane] = Pixel {
+                evidence,
+                ..met(context.scene.spread(value), error)
+            };
         } else {
             hard |= 1 << lane;
         }

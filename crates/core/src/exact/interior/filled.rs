@@ -54,6 +54,8 @@ pub(super) struct Filled<'a, S: Simd> {
     /// The pixels that count, bit by bit, and the error that is allowed in them.
     pub(super) which: u64,
     pub(super) tolerance: f64,
+    /// Whether bounds of the errors are asked for.
+    pub(super) is_proved: bool,
 }
 
 impl<S: Simd> Filled<'_, S> {

@@ -1,0 +1,175 @@
+//! A pixel that a ball fills, and its average in 256-bit arithmetic.
+
+use glam::{DVec2, DVec3};
+
+use super::fixed::{Fixed, dot};
+use crate::exact::integrator::{Exact, GroupScratch};
+use crate::model::camera::{Camera, Lens};
+use crate::model::color::Color;
+use crate::model::light::DirectionalLight;
+use crate::model::material::{Highlight, Material};
+use crate::model::ray::Ray;
+use crate::model::sphere::Sphere;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::numeric::angle::Angle;
+use crate::picture::pixel::Pixel;
+use crate::picture::tile::Tile;
+use crate::search::grid::RayPoints;
+use crate::search::tests::Random;
+use crate::search::view_index::ViewIndex;
+use crate::search::visibility::Visibility;
+
+/// Powers of cosines: whole exponents, and such with a half.
+const EXPONENTS: [f64; 8] = [1.0, 1.0, 1.0, 2.0, 3.0, 0.5, 1.5, 7.0];
+
+/// A ball before an eye at the origin, a pixel, and a light.
+#[derive(Debug)]
+pub(super) struct Place {
+    center: DVec3,
+    radius: f64,
+    /// The middle of the pixel on the retina at distance 1, and its side.
+    middle: DVec2,
+    size: f64,
+    toward: DVec3,
+    exponent: f64,
+    highlight: Option<(f64, u32)>,
+    tolerance: f64,
+}
+
+impl Place {
+    pub(super) fn new(random: &mut Random) -> Self {
+        let mut log = |low: f64, high: f64| libm::pow(10.0, low + (high - low) * random.number());
+        // How near to the outline, how large a pixel beside what is left, how far the eye from the surface.
+        let graze = log(-5.0, 0.0);
+        let size = log(-3.0, 0.3);
+        let (radius, above) = (log(-3.0, 6.0), log(-4.5, 4.0));
+        let tolerance = log(-8.0, -1.0);
+        let distance = radius * (1.0 + above);
+        let widest = libm::asin(1.0 / (1.0 + above));
+        let angle = widest * (1.0 - graze);
+        // The ray, and the center at an angle to it.
+        let ray = DVec3::new(
+            2.0 * random.number() - 1.0,
+            2.0 * random.number() - 1.0,
+            1.0,
+        );
+        let (right, up) = ray.normalize().any_orthonormal_pair();
+        let turn = std::f64::consts::TAU * random.number();
+        let aside = right * libm::cos(turn) + up * libm::sin(turn);
+        let center = ray.normalize() * libm::cos(angle) + aside * libm::sin(angle);
+        let which = |count: usize, random: &mut Random| (random.number() * count as f64) as usize;
+        let has_highlight = random.number() < 0.4;
+        Self {
+            center: center * distance,
+            radius,
+            middle: ray.truncate(),
+            size: (size * (widest - angle)).min(0.5),
+            toward: random.point() - ray * 0.3,
+            exponent: EXPONENTS[which(EXPONENTS.len(), random)],
+            highlight: has_highlight.then(|| (random.number(), 1 << which(9, random))),
+            tolerance,
+        }
+    }
+
+    /// The pixel as it is rendered.
+    pub(super) fn pixel(&self) -> Pixel {
+        let mut world = World::new();
+        let highlight = self.highlight.map(|(strength, shininess)| Highlight {
+            strength,
+            shininess: f64::from(shininess),
+        });
+        let material = world.add_material(Material {
+            exponent: self.exponent,
+            highlight,
+            ..Material::MATTE_WHITE
+        });
+        world.add_sphere(Sphere::new(self.center, self.radius).unwrap(), material);
+        let light = DirectionalLight::new(self.toward, Color::ONE).unwrap();
+        world.lights.push(light);
+        let view = View {
+            camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+            lens: Lens {
+                width: self.size,
+                distance: 1.0,
+                shift: self.middle,
+            },
+            zoom: 1.0,
+            width: 1,
+            height: 1,
+            frame: 1,
+        };
+        let visibility = Visibility::new(&world);
+        let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
+        let exact = Exact::new(&world, &view, &seen, self.tolerance, true);
+        let tile = Tile {
+            col: 0,
+            row: 0,
+            width: 1,
+            height: 1,
+        };
+        let mut pixels = Vec::new();
+        exact.integrate(tile, &mut GroupScratch::default(), &mut pixels);
+        pixels[0]
+    }
+
+    /// Whether the ball faces the light in the middle of the pixel.
+    pub(super) fn is_lit(&self) -> bool {
+        let sphere = Sphere::new(self.center, self.radius).unwrap();
+        let ray = Ray {
+            origin: DVec3::ZERO,
+            direction: self.middle.extend(1.0),
+        };
+        sphere
+            .hit(&ray)
+            .is_some_and(|hit| hit.normal.dot(self.toward) > 0.0)
+    }
+
+    /// How far a number is from the average.
+    pub(super) fn distance_from_average(&self, nodes: &[(Fixed, Fixed)], value: f64) -> f64 {
+        let toward = self.toward.to_array().map(Fixed::new);
+        let length = dot(&toward, &toward).sqrt();
+        let toward = toward.map(|component| &component / &length);
+        let (size, x, y) = (
+            Fixed::new(self.size),
+            Fixed::new(self.middle.x),
+            Fixed::new(self.middle.y),
+        );
+        let mut sum = Fixed::new(0.0);
+        for (v, of_row) in nodes {
+            for (u, of_col) in nodes {
+                let ray = [&x + &(&size * u), &y + &(&size * v), Fixed::new(1.0)];
+                let light = self.light(&ray, &toward);
+                sum = &sum + &(&light * &(of_row * of_col));
+            }
+        }
+        (&sum - &Fixed::new(value)).to_f64().abs()
+    }
+
+    /// The light that a ray meets.
+    fn light(&self, ray: &[Fixed; 3], toward: &[Fixed; 3]) -> Fixed {
+        let center = self.center.to_array().map(Fixed::new);
+        let radius = Fixed::new(self.radius);
+        let ray_sq = dot(ray, ray);
+        let along = dot(ray, &center);
+        let outside = &dot(&center, &center) - &(&radius * &radius);
+        let root = (&(&along * &along) - &(&ray_sq * &outside)).sqrt();
+        let t = &outside / &(&along + &root);
+        let normal = |axis: usize| &(&(&t * &ray[axis]) - &center[axis]) / &radius;
+        let normal = [normal(0), normal(1), normal(2)];
+        let cosine = dot(&normal, toward);
+        let mut light = cosine.powi(self.exponent as u32);
+        if self.exponent.fract() != 0.0 {
+            light = &light * &cosine.sqrt();
+        }
+        if let Some((strength, shininess)) = self.highlight {
+            let length = ray_sq.sqrt();
+            let half = |axis: usize| &toward[axis] - &(&ray[axis] / &length);
+            let half = [half(0), half(1), half(2)];
+            let cosine = &dot(&normal, &half) / &dot(&half, &half).sqrt();
+            let highlight = &Fixed::new(strength) * &cosine.powi(shininess);
+            light = &light + &highlight;
+        }
+        light
+    }
+}
