@@ -70,7 +70,7 @@ impl ShadingNormal {
                         let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
                         for normal in &mut *normals {
                             let Vectors { x, y, z } = rotated(normal, world_from_camera);
-                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
+                            let [x, y, z] = bumps.tilt_lanes([x, y, z], noise);
                             *normal = Vectors { x, y, z };
                         }
                     }
