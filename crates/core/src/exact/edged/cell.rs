@@ -11,6 +11,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
+use crate::exact::interior::cell::of_bumpy_cell;
 use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::noise::NoiseCells;
 use crate::picture::pixel::Work;
@@ -22,6 +23,8 @@ pub(crate) struct Workspace {
     boundary: Boundary,
     pub(crate) noise: Option<Box<NoiseCells>>,
     pub(crate) work: Work,
+    /// Whether parts of the pixel are known by random samples.
+    is_random: bool,
 }
 
 /// A pixel with edges.
@@ -48,12 +51,20 @@ const DEEPEST: i32 = 12;
 /// terminators of them, ask for so many.
 const MOST_SAMPLES: u64 = 400_000;
 
+/// The same where bumps are so fine that parts of the pixel are known by random samples: their claims fall with
+/// the root of their number only.
+const MOST_RANDOM_SAMPLES: u64 = 40_000;
+
 /// The work that a pixel may cost, in pairs of curves that are held against each other: crowds of
 /// hundreds of spheres in one pixel ask for so many.
 const MOST_PAIRS: u64 = 1_600_000;
 
 /// Powers that no rule along a chord overlooks.
 const BROAD: f64 = 60.0;
+
+/// Cells of the noise of bumps, from the middle of a cell to a corner, up to which chords are divided finely enough
+/// to see all bumps: rules that look less closely agree by chance.
+const MOST_CELLS: f64 = 4.0;
 
 /// How far pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
 /// in the middle of a picture, must not coincide with sides of cells. It is far more than rounding, and
@@ -83,9 +94,10 @@ impl Workspace {
         pixel: &EdgedPixel<'_, '_>,
         cache: &mut OccluderCache,
     ) -> Result<Part, GiveUp> {
+        self.is_random = false;
         let mut part = self.part(simd, pixel, (&pixel.whole(), 0), cache)?;
         part.error += pixel.moved();
-        if part.error <= pixel.context.tolerance {
+        if part.error <= pixel.context.tolerance || self.is_random {
             Ok(part)
         } else {
             Err(GiveUp::Claims(part))
@@ -119,7 +131,12 @@ impl Workspace {
         };
         let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
         while let Some(worst) = left.pop() {
-            let is_over = pairs > MOST_PAIRS || self.work.samples > samples + MOST_SAMPLES;
+            let most = if self.is_random {
+                MOST_RANDOM_SAMPLES
+            } else {
+                MOST_SAMPLES
+            };
+            let is_over = pairs > MOST_PAIRS || self.work.samples > samples + most;
             if error <= context.tolerance || is_over || worst.depth == DEEPEST {
                 best.add(&worst.part, worst.share());
                 continue;
@@ -168,6 +185,19 @@ impl Workspace {
         self.contents.see(scene, cell, pixel.spheres, cache);
         let contents = &self.contents;
         let negligible = 0.01 * tolerance;
+        let bumpy = of_bumpy_cell(simd, scene, cell, contents, *tolerance, &mut self.noise);
+        if let Some(found) = bumpy {
+            self.work.samples += found.samples;
+            self.is_random |= found.is_random;
+            if found.error <= *tolerance || found.is_random {
+                return Ok(Part {
+                    value: found.value,
+                    covered: 1.0,
+                    error: found.error,
+                    rounding: 0.0,
+                });
+            }
+        }
         let is_sharp = depth < DEEPEST
             && contents.is_narrow(scene, BROAD)
             && simd.vectorize(
@@ -176,6 +206,9 @@ impl Workspace {
             );
         if is_sharp {
             return Err(GiveUp::Narrow);
+        }
+        if depth < DEEPEST && contents.has_finer_bumps(scene, cell, MOST_CELLS) {
+            return Err(GiveUp::Bumps);
         }
         let mut best: Result<Part, GiveUp> = Err(GiveUp::NotFinite);
         for &parts in FINER[usize::from(depth > 0)] {

@@ -2,11 +2,12 @@
 
 use fearless_simd::prelude::*;
 
-use super::filled::{Filled, FilledRow, SAMPLES_OF_PARTS};
+use super::filled::{Filled, FilledRow};
 use super::reached::Reached;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::row::Coverage;
 use crate::exact::context::Context;
+use crate::exact::part::Part;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::material::Grain;
@@ -118,14 +119,20 @@ fn fill_lit<S: Simd>(
     let is_met = |error: f64| error <= context.tolerance;
     for lane in set_bits(which) {
         let (mut value, mut error) = (averages.values[lane], averages.errors[lane]);
-        if !is_met(error) && averages.divisible >> lane & 1 == 1 {
-            samples += SAMPLES_OF_PARTS;
-            if let Some(found) = filled.in_parts(simd, lane, noise) {
-                (value, error) = found;
-            }
+        let mut is_last = false;
+        if !is_met(error)
+            && let Some(found) = filled.of_bumps(simd, lane, noise)
+        {
+            samples += found.samples;
+            (value, error, is_last) = (found.value, found.error, found.is_random);
         }
-        if is_met(error) {
-            pixels[lane] = met(context.scene.spread(value), error);
+        if is_met(error) || is_last {
+            pixels[lane] = context.pixel_of(&Part {
+                value,
+                covered: 1.0,
+                error,
+                rounding: 0.0,
+            });
         } else {
             hard |= 1 << lane;
         }

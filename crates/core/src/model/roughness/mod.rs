@@ -10,13 +10,15 @@
 
 pub(crate) mod noise;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8};
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
 #[cfg(test)]
 use self::noise::Cell;
 use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
+use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::Lanes;
 
 /// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
@@ -92,40 +94,67 @@ impl Bumps {
 
     /// The tilted normals of eight lanes; [`unit`] makes them shading normals.
     ///
-    /// All lanes of one cell are done at once, and the values of cells are kept in `cells`: fast
-    /// where neighbors lie in the same cell, as fast as one by one where each has its own. Lanes
-    /// that nobody needs should repeat others; NaN costs the time of a cell, too.
+    /// Many lanes of one cell are done at once, few one by one; the values of cells are kept in `cells`.
+    /// Lanes that nobody needs should repeat others; NaN costs the time of a cell, too.
     #[inline(always)]
     pub(crate) fn tilt_lanes<S: Simd>(
         &self,
+        simd: S,
         normal: [f64x8<S>; 3],
         cells: &mut NoiseCells,
     ) -> [f64x8<S>; 3] {
+        /// Lanes that take less time one by one.
+        const FEW: u32 = 3;
         let (nearest, offset) = self.place(normal);
         let [x, y, z]: [[f64; 8]; 3] = [nearest[0].into(), nearest[1].into(), nearest[2].into()];
+        let [u, v, w]: [[f64; 8]; 3] = [offset[0].into(), offset[1].into(), offset[2].into()];
         let mut draw = normal;
+        let mut alone = [[0.0; 8]; 3];
+        let mut which_alone = 0;
         let mut pending = 0xff_u64;
         while pending != 0 {
             let lane = pending.trailing_zeros() as usize;
             let is_here = nearest[0].simd_eq(x[lane])
                 & nearest[1].simd_eq(y[lane])
                 & nearest[2].simd_eq(z[lane]);
-            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
-            let drawn = cell.blend(offset);
-            draw = [
-                is_here.select(drawn[0], draw[0]),
-                is_here.select(drawn[1], draw[1]),
-                is_here.select(drawn[2], draw[2]),
-            ];
             // NaN is not even where it is: without its own bit the loop would not end.
-            pending &= !(is_here.to_bitmask() | 1 << lane);
+            let here = is_here.to_bitmask() | 1 << lane;
+            pending &= !here;
+            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
+            if here.count_ones() > FEW {
+                let drawn = cell.blend(offset);
+                draw = [
+                    is_here.select(drawn[0], draw[0]),
+                    is_here.select(drawn[1], draw[1]),
+                    is_here.select(drawn[2], draw[2]),
+                ];
+                continue;
+            }
+            which_alone |= here;
+            for lane in set_bits(here) {
+                let drawn = cell.blend_one(simd, [u[lane], v[lane], w[lane]]);
+                alone[0][lane] = drawn[0];
+                alone[1][lane] = drawn[1];
+                alone[2][lane] = drawn[2];
+            }
         }
+        let is_alone = mask64x8::from_bitmask(simd, which_alone);
+        draw = [
+            is_alone.select(alone[0].simd_into(simd), draw[0]),
+            is_alone.select(alone[1].simd_into(simd), draw[1]),
+            is_alone.select(alone[2].simd_into(simd), draw[2]),
+        ];
         self.tilt(normal, draw)
     }
 
     /// The number of cells of the noise that the radius spans.
     pub(crate) fn cells(&self) -> f64 {
         self.cells
+    }
+
+    /// A bound of the angle between a normal and its shading normal: atan(√3 a).
+    pub(crate) fn most_tilt(&self) -> f64 {
+        libm::atan(3.0_f64.sqrt() * self.amplitude)
     }
 
     /// A bound of |∂n′/∂n|: two points of the sphere whose normals enclose the angle δ, in

@@ -197,7 +197,7 @@ fn lanes_hold_the_bits_of_single_normals() {
                 let parts = [0, 1, 2].map(|part| eight.map(|normal| normal[part]));
                 let lanes: [[f64; 8]; 3] = dispatch!(level, simd => {
                     let parts = parts.map(|part| f64x8::simd_from(simd, part));
-                    unit(bumps.tilt_lanes(parts, &mut table)).map(Into::into)
+                    unit(bumps.tilt_lanes(simd, parts, &mut table)).map(Into::into)
                 });
                 for (lane, normal) in eight.into_iter().enumerate() {
                     let expected = bumps.perturb(normal).to_array();

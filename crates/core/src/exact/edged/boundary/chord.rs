@@ -60,6 +60,12 @@ impl Reference {
         seen.reference()
     }
 
+    /// Its x on some lines.
+    #[inline(always)]
+    pub(super) fn at<S: Simd>(&self, y: f64x8<S>) -> f64x8<S> {
+        y * self.slope + self.start
+    }
+
     pub(super) fn upright(x: f64) -> Self {
         Self {
             start: x,
