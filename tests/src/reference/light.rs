@@ -2,7 +2,7 @@
 
 use glam::{DVec3, DVec4};
 
-use super::noise::draw;
+use super::noise::bump;
 use super::patch::{Candidate, Patch};
 
 /// What may jump, or bend sharply, from one ray to the next.
@@ -52,11 +52,11 @@ impl Patch<'_> {
             },
             Some(rough) => {
                 let radius = candidate.ball.radius;
-                let draw = draw(rough, candidate.sphere, radius, normal, self.key);
+                let bump = bump(rough, candidate.sphere, radius, normal, self.key);
                 Spot {
                     point,
-                    normal: (normal * draw.factor).normalize(),
-                    cell: draw.cell,
+                    normal: bump.normal,
+                    cell: bump.cell,
                 }
             }
         }

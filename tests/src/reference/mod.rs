@@ -19,6 +19,7 @@ mod noise;
 mod patch;
 mod quadrature;
 mod seeds;
+mod strata;
 
 use glam::{DVec2, DVec4};
 use marbles_core::{View, World};

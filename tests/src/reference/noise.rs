@@ -7,33 +7,39 @@
 use glam::DVec3;
 use marbles_core::{Grain, Roughness};
 
-/// What multiplies the components of a normal, and which lattice cell it came from: the factors
-/// are polynomials of the place inside a cell, but not across cells.
-pub(crate) struct Draw {
-    pub(crate) factor: DVec3,
+/// A shading normal, and which lattice cell its noise came from: the numbers are polynomials of the
+/// place inside a cell, but not across cells.
+pub(crate) struct Bump {
+    pub(crate) normal: DVec3,
     pub(crate) cell: [i64; 3],
 }
 
-/// The numbers for the point of a sphere with the outward normal `normal`; `pixel` is the column
-/// and row, and the frame.
-pub(crate) fn draw(
+/// The bump at the point of a sphere with the outward normal `normal`; `pixel` is the column and
+/// row, and the frame.
+pub(crate) fn bump(
     rough: &Roughness,
     sphere: usize,
     radius: f64,
     normal: DVec3,
     (col, row, frame): (u32, u32, i64),
-) -> Draw {
+) -> Bump {
     let of_sphere = mix(rough.seed, sphere as u64);
-    let (numbers, cell) = match rough.grain {
+    match rough.grain {
         Grain::Pixel => {
             let place = (u64::from(col) << 32) | u64::from(row);
-            (numbers(mix(mix(of_sphere, frame as u64), place)), [0; 3])
+            let factor = 1.0 + rough.amplitude * numbers(mix(mix(of_sphere, frame as u64), place));
+            Bump {
+                normal: (normal * factor).normalize(),
+                cell: [0; 3],
+            }
         }
-        Grain::Surface(size) => blend(of_sphere, normal * (radius / size)),
-    };
-    Draw {
-        factor: 1.0 + rough.amplitude * numbers,
-        cell,
+        Grain::Surface(size) => {
+            let (numbers, cell) = blend(of_sphere, normal * (radius / size));
+            Bump {
+                normal: (normal + rough.amplitude * numbers.reject_from(normal)).normalize(),
+                cell,
+            }
+        }
     }
 }
 

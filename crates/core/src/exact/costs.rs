@@ -6,6 +6,7 @@ use fearless_simd::{f64x8, mask64x8};
 use super::points::Points;
 use super::scene::{InCamera, Light};
 use super::surface::Finish;
+use crate::light::shading_normal::ShadingNormal;
 use crate::numeric::vectors::Vectors;
 
 impl Finish {
@@ -15,6 +16,9 @@ impl Finish {
     /// exponent, and normals that turn toward the light.
     ///
     /// Points at which it is nowhere higher than `negligible` do not count.
+    ///
+    /// On a rough surface shading normals turn faster than the sphere's, from ones that are tilted already: how
+    /// high light may be is told by bounds of both, how fast it falls by [`Self::usual_slope`].
     #[inline(always)]
     pub(crate) fn too_sharp<S: Simd>(
         &self,
@@ -25,7 +29,9 @@ impl Finish {
         most: f64,
         negligible: f64,
     ) -> u64 {
-        let turn_sq = turn * turn;
+        let usual = turn * self.usual_slope();
+        let turn_sq = usual * usual;
+        let turn = turn * self.shading_normal.slope_bound() + self.shading_normal.most_tilt();
         let is_turning = (turn_sq * self.sharpness()).simd_gt(2.0 * most);
         if is_turning.to_bitmask() == 0 {
             return 0;
@@ -68,6 +74,16 @@ impl Finish {
         falloff.of_clamped(highest) * brightest
     }
 
+    /// How many times as fast as the sphere's the shading normals turn, where they turn fast: half of the bound,
+    /// and four times the root of the mean square over bumps. Not tuned.
+    pub(crate) fn usual_slope(&self) -> f64 {
+        let slope = self.shading_normal.slope_bound();
+        match self.shading_normal {
+            ShadingNormal::Bumpy(_) => (0.5 * slope).max(1.0),
+            ShadingNormal::Smooth | ShadingNormal::Factors(_) => slope,
+        }
+    }
+
     /// The largest exponent.
     pub(crate) fn sharpness(&self) -> f64 {
         let [exponent, shininess] = self.reflectance.exponents();
@@ -95,6 +111,15 @@ impl Finish {
         let cosine = cosine.max(cosine * 0.0);
         let falloff = &self.reflectance.diffuse;
         falloff.of_clamped(cosine) * diffuse * shares[0] + highlight * specular * shares[1]
+    }
+
+    /// The power of a highlight, of any light, where n·h, at least 0, is this.
+    #[inline(always)]
+    pub(crate) fn highlight_of<S: Simd>(&self, half_cosine: f64x8<S>) -> f64x8<S> {
+        match &self.reflectance.highlight {
+            Some((_, falloff)) => falloff.of_clamped(half_cosine),
+            None => half_cosine * 0.0,
+        }
     }
 
     /// A bound of what a rule of three points a side misses where in a pixel the surface turns from a
@@ -202,15 +227,16 @@ fn cost_of_kink(power: f64) -> f64 {
 }
 
 /// The largest cosine of an angle that is `turn` less at most than one with this cosine:
-/// cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ. Not negative.
+/// cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ, and ≤ cos θ + δ anywhere. Not negative.
 #[inline(always)]
-fn highest_cosine<S: Simd>(simd: S, cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
+pub(super) fn highest_cosine<S: Simd>(simd: S, cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
     let zero = f64x8::splat(simd, 0.0);
     let one = f64x8::splat(simd, 1.0);
     let cosine = cosine.min(one);
     let sine = (one - cosine * cosine).max(zero).sqrt();
     let nearer = (cosine + turn * sine).min(one).max(zero);
-    turn.simd_ge(sine).select(one, nearer)
+    let farther = (cosine + turn).min(one).max(zero);
+    turn.simd_ge(sine).select(farther, nearer)
 }
 
 #[cfg(test)]

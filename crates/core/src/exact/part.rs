@@ -33,6 +33,8 @@ impl Part {
 pub(crate) enum GiveUp {
     /// A highlight is so narrow that a rule along a chord may step over it.
     Narrow,
+    /// Bumps are so fine that rules overlook some of them.
+    Bumps,
     /// Something is not a finite number.
     NotFinite,
     /// More may be wrong than the tolerance allows; this is known.

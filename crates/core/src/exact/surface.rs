@@ -61,6 +61,11 @@ impl Finish {
         !self.shading_normal.is_smooth()
     }
 
+    /// Returns whether the surface has bumps of its own.
+    pub(crate) fn is_bumpy(&self) -> bool {
+        matches!(self.shading_normal, ShadingNormal::Bumpy(_))
+    }
+
     /// Returns whether light is the cosine of the angle to it, and nothing else.
     pub(crate) fn is_plain(&self) -> bool {
         self.reflectance.diffuse.exponent == 1.0

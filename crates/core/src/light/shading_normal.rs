@@ -43,6 +43,21 @@ impl ShadingNormal {
         }
     }
 
+    /// A bound of the angle between a normal of the sphere and its shading normal.
+    ///
+    /// Positive factors from m to M turn a vector by no more than the angle with the cosine
+    /// 2 √(m M) / (m + M), whose tangent is (M − m) / (2 √(m M)).
+    pub(crate) fn most_tilt(&self) -> f64 {
+        match self {
+            Self::Smooth => 0.0,
+            Self::Factors(factors) => {
+                let (least, most) = (factors.min_element(), factors.max_element());
+                libm::atan((most - least) / (2.0 * (least * most).sqrt()))
+            }
+            Self::Bumpy(bumps) => bumps.most_tilt(),
+        }
+    }
+
     /// The number of cells of the noise that a radius spans.
     pub(crate) fn cells(&self) -> f64 {
         match self {
@@ -70,7 +85,7 @@ impl ShadingNormal {
                         let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
                         for normal in &mut *normals {
                             let Vectors { x, y, z } = rotated(normal, world_from_camera);
-                            let [x, y, z] = bumps.scale_lanes([x, y, z], noise);
+                            let [x, y, z] = bumps.tilt_lanes(simd, [x, y, z], noise);
                             *normal = Vectors { x, y, z };
                         }
                     }

@@ -36,8 +36,7 @@ pub struct Highlight {
     pub shininess: f64,
 }
 
-/// A perturbation of the shading normal: each component is multiplied by a number from
-/// 1 − amplitude to 1 + amplitude.
+/// A perturbation of the shading normal by random numbers in [−1, 1): see [`Grain`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Roughness {
     /// From 0 (smooth) up to, not including, 1.
@@ -51,8 +50,11 @@ pub struct Roughness {
 /// The thing that the random numbers of a rough surface are attached to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grain {
-    /// To the surface: smooth noise with cells of this size, in scene units, greater than 0.
+    /// To the surface: smooth noise with cells of this size, in scene units, greater than 0. It tilts
+    /// normals, alike in all directions: what of the vector of three numbers is across the normal is added
+    /// to it, times the amplitude.
     Surface(f64),
-    /// To the picture: an independent draw for each pixel and frame.
+    /// To the picture: an independent draw for each pixel and frame. Each component of the normal is
+    /// multiplied by a number from 1 − amplitude to 1 + amplitude.
     Pixel,
 }

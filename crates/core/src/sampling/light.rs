@@ -154,7 +154,7 @@ impl<'scene> Shading<'scene> {
                         let mut rough = [own.x, own.y, own.z];
                         if let Some(bumps) = roughness.bumps(radius, sphere) {
                             let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
-                            rough = bumps.scale_lanes(rough, noise);
+                            rough = bumps.tilt_lanes(simd, rough, noise);
                         } else {
                             let mut factors = Vectors::splat(simd, DVec3::ONE);
                             for lane in set_bits(lanes) {

@@ -9,7 +9,7 @@ pub(super) struct Family {
     pub(super) draft: fn(&mut Numbers) -> Draft,
 }
 
-pub(super) const FAMILIES: [Family; 17] = [
+pub(super) const FAMILIES: [Family; 21] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -77,6 +77,22 @@ pub(super) const FAMILIES: [Family; 17] = [
     Family {
         name: "shutters",
         draft: shutters,
+    },
+    Family {
+        name: "bumps larger than pixels",
+        draft: |numbers| surface_bumps(numbers, [0.5, 2.0]),
+    },
+    Family {
+        name: "bumps like pixels",
+        draft: |numbers| surface_bumps(numbers, [-0.3, 0.5]),
+    },
+    Family {
+        name: "bumps finer than pixels",
+        draft: |numbers| surface_bumps(numbers, [-2.0, -0.3]),
+    },
+    Family {
+        name: "bumps of pixels",
+        draft: |numbers| rough(numbers, "Pixel"),
     },
 ];
 
@@ -370,5 +386,34 @@ fn shutters(numbers: &mut Numbers) -> Draft {
         "animation: Keyframes({OPEN}, keys: [\
          (frame: 1, position: (0, 0, 0), pan: 0, roll: 0, zoom: 1, ease: Linear), (frame: 3, {key})])"
     ));
+    draft
+}
+
+/// Bumps that belong to the surface, whose size in pixels has its decimal logarithm between two numbers.
+fn surface_bumps(numbers: &mut Numbers, logarithms: [f64; 2]) -> Draft {
+    let size = libm::pow(10.0, numbers.between(logarithms[0], logarithms[1]));
+    rough(numbers, &format!("Surface({size})"))
+}
+
+/// Rough balls about as many units away as the lens is pixels: a unit is about a pixel.
+fn rough(numbers: &mut Numbers, grain: &str) -> Draft {
+    let lights = numbers.below(2) + 1;
+    let mut draft = Draft::new(numbers, DISTANCE, lights);
+    draft.head[1] = format!("lens: Retina(width: {SIDE}, distance: {DISTANCE})");
+    let exponent = numbers.either(&[1.0, 1.0, 0.5, 2.0]);
+    let amplitude = numbers.between(0.1, 0.9);
+    let seed = numbers.below(1000);
+    draft.material = format!(
+        "albedo: 0.8, exponent: {exponent}, rough: (amplitude: {amplitude}, grain: {grain}, seed: {seed})"
+    );
+    if numbers.below(2) == 0 {
+        let shininess = libm::pow(10.0, numbers.between(0.0, 3.3));
+        draft.material += &format!(", highlight: (strength: 0.5, shininess: {shininess})");
+    }
+    for _ in 0..2 {
+        let depth = DISTANCE * numbers.between(0.9, 1.2);
+        let center = place(numbers, depth);
+        draft.sphere(center, numbers.between(3.0, 12.0));
+    }
     draft
 }

@@ -252,9 +252,12 @@ impl Contents {
         Reach::Past(first..self.occluders.len())
     }
 
-    /// Returns whether some sphere has a larger exponent than this.
+    /// Returns whether some sphere has a larger exponent than this, or bumps, which make any exponent steep.
     pub(crate) fn is_narrow(&self, scene: &InCamera<'_>, broad: f64) -> bool {
         self.active.iter().any(|active| {
+            if active.terminators == Terminators::Anywhere {
+                return true;
+            }
             let material = scene.world.material(active.sphere);
             let highlight = material.highlight;
             let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
@@ -276,12 +279,15 @@ impl Contents {
             if active.ball.outside <= 0.0 {
                 continue;
             }
-            // The patch is no longer than this; bumps turn with it, as a rule, a few times as fast.
+            // The patch is no longer than this.
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
             let turn = 0.5 * length / active.ball.radius + cell.size[0];
             let finish = Finish::new(scene, active.sphere, self.pixel);
-            if finish.sharpness() * turn * turn < 2.0 * FOLLOWED {
+            // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
+            let cells = finish.shading_normal.cells();
+            let usual = turn.min(0.25 / cells) * finish.usual_slope();
+            if finish.sharpness() * usual * usual < 2.0 * FOLLOWED {
                 continue;
             }
             let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
@@ -296,6 +302,24 @@ impl Contents {
             }
         }
         false
+    }
+
+    /// Returns whether bumps are so fine that rules along chords of the cell, and across them, know too little
+    /// of them: more than `most` cells of the noise from the middle to the corners.
+    pub(crate) fn has_finer_bumps(&self, scene: &InCamera<'_>, cell: &Cell, most: f64) -> bool {
+        self.active.iter().any(|active| {
+            let roughness = &scene.world.material(active.sphere).roughness;
+            let bumps = roughness
+                .as_ref()
+                .and_then(|roughness| roughness.bumps(active.ball.radius, active.sphere));
+            let Some(bumps) = bumps else { return false };
+            if active.ball.outside <= 0.0 {
+                return false;
+            }
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let length = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
+            length * bumps.cells() > most * active.ball.radius
+        })
     }
 }
 

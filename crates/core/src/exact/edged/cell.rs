@@ -12,6 +12,7 @@ use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
+use crate::exact::interior::cell::of_bumpy_cell;
 use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
@@ -28,6 +29,8 @@ pub(crate) struct Workspace {
     contrast: f64,
     /// What the pixel has cost so far.
     pub(crate) budget: Budget,
+    /// Whether parts of the pixel are known by random samples.
+    is_random: bool,
 }
 
 /// A pixel with edges.
@@ -55,6 +58,10 @@ const DEEPEST: i32 = 12;
 
 /// Powers that no rule along a chord overlooks.
 const BROAD: f64 = 60.0;
+
+/// Cells of the noise of bumps, from the middle of a cell to a corner, up to which chords are divided finely enough
+/// to see all bumps: rules that look less closely agree by chance.
+const MOST_CELLS: f64 = 4.0;
 
 /// How far pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
 /// in the middle of a picture, must not coincide with sides of cells. It is far more than rounding, and
@@ -97,12 +104,13 @@ impl Workspace {
         let contents = &self.contents;
         self.contrast = pixel.context.contrast + contents.excess(simd, scene, &cell);
         self.budget = Budget::new(*budget, contents.grains_across(scene, &cell), *tolerance);
+        self.is_random = false;
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);
         }
         let mut part = self.part(simd, pixel, &cell, 0)?;
         part.error += pixel.moved(self.contrast);
-        if part.error <= pixel.context.tolerance {
+        if part.error <= pixel.context.tolerance || self.is_random {
             Ok(part)
         } else {
             Err(GiveUp::Claims(part))
@@ -196,6 +204,21 @@ impl Workspace {
         let is_coarse = self.contrast * contents.rounding > *tolerance;
         let units = if is_coarse { 0 } else { self.budget.of_part() };
         let negligible = 0.01 * tolerance;
+        let bumpy = of_bumpy_cell(simd, scene, cell, contents, *tolerance, &mut self.noise);
+        if let Some(found) = bumpy {
+            self.work.samples += found.samples;
+            work.samples += found.samples;
+            self.is_random |= found.is_random;
+            if found.error <= *tolerance || found.is_random {
+                self.budget.spend(work);
+                return Ok(Part {
+                    value: found.value,
+                    covered: 1.0,
+                    error: found.error,
+                    rounding: 0.0,
+                });
+            }
+        }
         let is_sharp = depth < DEEPEST
             && contents.is_narrow(scene, BROAD)
             && simd.vectorize(
@@ -205,6 +228,10 @@ impl Workspace {
         if is_sharp {
             self.budget.spend(work);
             return Err(GiveUp::Narrow);
+        }
+        if depth < DEEPEST && contents.has_finer_bumps(scene, cell, MOST_CELLS) {
+            self.budget.spend(work);
+            return Err(GiveUp::Bumps);
         }
         let mut best: Result<Part, GiveUp> = Err(GiveUp::NotFinite);
         for &parts in FINER[usize::from(depth > 0)] {

@@ -3,11 +3,11 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::estimate::{Estimate, MOST_NEARNESS, ROUNDING, Rule, bend_of_grid};
-use super::filled::{Filled, Radiance, SIZE_OF_PARTS};
+use super::estimate::{Estimate, ROUNDING, Rule, bend_of_grid};
+use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
 use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
-use super::terminators::SMALL;
+use super::terminators::MEDIUM;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 
@@ -18,8 +18,6 @@ pub(super) struct Averages {
     pub(super) errors: [f64; 8],
     /// Bounds of the errors; infinite where there is none.
     pub(super) bounds: [f64; 8],
-    /// The pixels that are better divided, bit by bit.
-    pub(super) divisible: u64,
     /// The number of samples that each of the pixels took.
     pub(super) samples: usize,
 }
@@ -75,7 +73,6 @@ impl<S: Simd> Filled<'_, S> {
             values: [Color::ZERO; 8],
             errors: [0.0; 8],
             bounds: [f64::INFINITY; 8],
-            divisible: 0,
             samples: sampled.samples,
         };
         let is_star_enough = self.which & !sampled.star.is_met.to_bitmask() == 0;
@@ -87,9 +84,7 @@ impl<S: Simd> Filled<'_, S> {
         for (lane, of_lane) in averages.errors.iter_mut().enumerate() {
             *of_lane = error[lane];
         }
-        if self.finish.is_rough() {
-            averages.divisible = self.gains_by_parts(&sampled.star).to_bitmask();
-        } else if self.is_proved {
+        if !self.finish.is_rough() && self.is_proved {
             averages.bounds = self.bound(simd, sampled.star.is_met).into();
         }
         averages
@@ -102,6 +97,13 @@ impl<S: Simd> Filled<'_, S> {
             lights, cosines, ..
         } = into;
 
+        // Samples that are far apart beside bumps tell nothing of what lies between them.
+        let is_seen = self.is_within(MEDIUM);
+        if self.finish.is_rough() && self.which & is_seen.to_bitmask() == 0 {
+            into.is_out_of_reach = !is_seen;
+            return;
+        }
+
         // Five samples.
         self.light(simd, 0, cosines, noise, &mut lights[..STAR_SAMPLES]);
         into.star = self.estimate(simd, Rule::Star, lights, cosines);
@@ -109,6 +111,7 @@ impl<S: Simd> Filled<'_, S> {
         if self.finish.is_rough() {
             let missed = self.missed(simd, cosines, FROM_GRID);
             into.is_out_of_reach = !into.star.is_met & missed.simd_gt(self.tolerance);
+            into.is_out_of_reach |= !is_seen;
         }
         let is_done = into.star.is_met | into.is_out_of_reach;
         if self.which & !is_done.to_bitmask() == 0 {
@@ -191,24 +194,18 @@ impl<S: Simd> Filled<'_, S> {
         }
         if self.finish.needs_cosines() {
             // Along diagonals, what lobes miss along both axes may cancel.
-            error = error.max(self.of_lobes(Rule::Grid, &sampled.cosines));
+            error = error.max(self.of_lobes(simd, Rule::Grid, &sampled.cosines));
         }
         if is_rough {
             error += self.missed(simd, &sampled.cosines, FROM_GRID);
         }
-        error = sampled.is_out_of_reach.select(zero + f64::INFINITY, error);
+        if is_rough {
+            // Samples that are farther apart tell nothing of what lies between them, though they may agree.
+            let is_unseen = sampled.is_out_of_reach | !self.is_within(MEDIUM);
+            error = is_unseen.select(zero + f64::INFINITY, error);
+        }
         error = grid.is_met.select(grid.error, error);
         star.is_met.select(star.error, error)
-    }
-
-    /// The pixels whose parts are small beside the bumps, and promise an error that is small enough.
-    #[inline(always)]
-    fn gains_by_parts(&self, star: &Estimate<S>) -> mask64x8<S> {
-        /// Errors of parts over the whole pixel's, at best. Not tuned.
-        const GAIN: f64 = 0.1;
-        self.is_within(SMALL / SIZE_OF_PARTS)
-            & self.nearness.simd_lt(MOST_NEARNESS / SIZE_OF_PARTS)
-            & (star.error * GAIN).simd_le(self.tolerance)
     }
 }
 

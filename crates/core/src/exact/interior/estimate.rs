@@ -6,11 +6,15 @@ use fearless_simd::{f64x8, mask64x8};
 use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
 use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, STAR_SAMPLES, WEIGHTS};
-use super::terminators::SMALL;
+use super::terminators::{MEDIUM, SMALL};
+use crate::exact::costs::highest_cosine;
 
 /// The nearness of a singularity from which on light is not smooth enough for an estimate. The terms of a
 /// root's series fall like powers of it; not tuned.
 pub(super) const MOST_NEARNESS: f64 = 0.25;
+
+/// The same on bumps, whose parts are many: there the terms of a root's series that are left out are counted.
+const MOST_NEARNESS_OF_BUMPS: f64 = 0.5;
 
 /// The relative error that rounding makes: some units in the last place, of about ten operations.
 pub(super) const ROUNDING: f64 = 1e-15;
@@ -88,6 +92,10 @@ impl<S: Simd> Filled<'_, S> {
         if is_star {
             of_root += nearness_sq * nearness_sq * OF_ROOT[0];
         }
+        if is_rough {
+            // Each term is less than ν² times that before.
+            of_root /= (nearness_sq * -1.0 + 1.0).max(zero);
+        }
         let mut error = zero;
         for channel in 0..self.scene.channels {
             let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
@@ -111,15 +119,14 @@ impl<S: Simd> Filled<'_, S> {
             error = error.max(estimate * bend + highest * (of_root + ROUNDING));
         }
         if self.finish.needs_cosines() {
-            error = error.max(self.of_lobes(rule, cosines));
+            error = error.max(self.of_lobes(simd, rule, cosines));
         }
         let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
         if is_rough {
+            is_known = self.nearness.simd_lt(MOST_NEARNESS_OF_BUMPS);
             let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
             error += self.missed(simd, cosines, from_samples);
-            if is_star {
-                is_known &= self.is_within(SMALL);
-            }
+            is_known &= self.is_within(if is_star { SMALL } else { MEDIUM });
         }
         Estimate {
             error,
@@ -131,19 +138,33 @@ impl<S: Simd> Filled<'_, S> {
     /// The error of rules for bells exp(−κ) where normals turn through them, however the bend of light
     /// adds up: see [`Bell`].
     #[inline(always)]
-    pub(super) fn of_lobes(&self, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
+    pub(super) fn of_lobes(&self, simd: S, rule: Rule, cosines: &LightCosines<S>) -> f64x8<S> {
         let bells = self.finish.reflectance.exponents().map(|exponent| Bell {
             exponent,
             rule,
             is_followed: !self.finish.is_rough(),
         });
         let mut sum = self.turn * 0.0;
+        let turn = self.turn * self.finish.usual_slope();
+        let from_samples = match rule {
+            Rule::Star => FROM_STAR,
+            Rule::Grid => FROM_GRID,
+        };
+        let most = self.turn * (self.finish.shading_normal.slope_bound() * from_samples);
         for (index, light) in self.scene.lights.iter().enumerate() {
             if self.lit[index] != 0 {
-                let (cosine, highlight) = (cosines.highest[index], cosines.halves.powers[index]);
+                let mut cosine = cosines.highest[index];
+                let mut highlight = cosines.halves.powers[index];
+                if self.finish.is_rough() {
+                    // Bumps may lead up to the top between the samples.
+                    cosine = highest_cosine(simd, cosine, most);
+                    let half_cosine = cosines.halves.highest[index];
+                    let half_cosine = highest_cosine(simd, half_cosine, most);
+                    highlight = self.finish.highlight_of(half_cosine);
+                }
                 let shares = [
-                    bells[0].share(self.turn, cosines.lowest[index]),
-                    bells[1].share(self.turn, cosines.halves.lowest[index]),
+                    bells[0].share(turn, cosines.lowest[index]),
+                    bells[1].share(turn, cosines.halves.lowest[index]),
                 ];
                 sum += self.finish.lobes(light, cosine, highlight, shares);
             }

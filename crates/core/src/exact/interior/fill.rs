@@ -2,11 +2,12 @@
 
 use fearless_simd::prelude::*;
 
-use super::filled::{Filled, FilledRow, SAMPLES_OF_PARTS};
+use super::filled::{Filled, FilledRow};
 use super::reached::Reached;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::row::Coverage;
 use crate::exact::context::Context;
+use crate::exact::part::Part;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::material::Grain;
@@ -125,23 +126,26 @@ fn fill_lit<S: Simd>(
     let is_met = |error: f64| error <= context.tolerance;
     for lane in set_bits(which) {
         let (mut value, mut error) = (averages.values[lane], averages.errors[lane]);
-        if !is_met(error) && averages.divisible >> lane & 1 == 1 {
-            samples += SAMPLES_OF_PARTS;
-            if let Some(found) = filled.in_parts(simd, lane, noise) {
-                (value, error) = found;
-            }
+        let mut is_last = false;
+        if !is_met(error)
+            && let Some(found) = filled.of_bumps(simd, lane, noise)
+        {
+            samples += found.samples;
+            (value, error, is_last) = (found.value, found.error, found.is_random);
         }
-        if is_met(error) {
+        if is_met(error) || is_last {
             let bound = averages.bounds[lane];
-            let (error, evidence) = if is_met(bound) {
-                (bound, Evidence::Bound)
-            } else {
-                (error, Evidence::Estimate)
+            let is_proved = is_met(bound);
+            let known = Part {
+                value,
+                covered: 1.0,
+                error: if is_proved { bound } else { error },
+                rounding: 0.0,
             };
-            pixels[lane] = Pixel {
-                evidence,
-                ..met(context.scene.spread(value), error)
-            };
+            pixels[lane] = context.pixel_of(&known);
+            if is_proved {
+                pixels[lane].evidence = Evidence::Bound;
+            }
         } else {
             hard |= 1 << lane;
         }

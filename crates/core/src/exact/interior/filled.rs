@@ -32,12 +32,9 @@ pub(crate) struct FilledRow<'a> {
 /// not recede evenly.
 pub(super) const SIZE_OF_PARTS: f64 = 0.45;
 
-/// Samples that the parts of a pixel take.
-pub(super) const SAMPLES_OF_PARTS: u64 = 8 * STAR_SAMPLES as u64;
-
 /// Eight pixels, or parts of one, that one sphere fills.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Filled<'a, S: Simd> {
+pub(crate) struct Filled<'a, S: Simd> {
     pub(super) scene: &'a InCamera<'a>,
     pub(super) ball: &'a Ball,
     pub(super) finish: &'a Finish,

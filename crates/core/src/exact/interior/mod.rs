@@ -1,13 +1,15 @@
 //! Pixels that one sphere fills: by rules with few samples, where light is smooth.
 
 mod average;
+pub(crate) mod cell;
 mod domain;
 mod estimate;
 pub(crate) mod fill;
 pub(crate) mod filled;
 mod light_cosines;
-mod parts;
+pub(crate) mod parts;
 mod reached;
 mod remainder;
 pub(crate) mod samples;
+mod strata;
 mod terminators;

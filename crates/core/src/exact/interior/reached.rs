@@ -115,7 +115,8 @@ impl<S: Simd> Reached<S> {
                 }
             }
             // Highlights.
-            if reached != 0 {
+            // Those of bumps are told by samples of parts, and by how far their normals turn.
+            if reached != 0 && !finish.is_bumpy() {
                 let negligible = NEGLIGIBLE * context.tolerance;
                 let turn = turn + size;
                 let sharp = finish.too_sharp(simd, &points, light, turn, SHARPEST, negligible);

@@ -12,6 +12,9 @@ use crate::exact::context::NEGLIGIBLE;
 /// tuned.
 pub(super) const SMALL: f64 = 0.25;
 
+/// The same for nine samples and more.
+pub(super) const MEDIUM: f64 = SMALL / SIZE_OF_PARTS;
+
 /// A light's cosines all over the pixels.
 #[derive(Clone, Copy, Debug)]
 struct Variation<S: Simd> {
@@ -92,7 +95,7 @@ impl<S: Simd> Filled<'_, S> {
         let cells = self.turn * shading_normal.cells();
         let doubt = corners.width() * OF_RANGE + corners.bend * OF_BEND + slope * cells * OF_TURN;
         let width = corners.width() * CAUTION;
-        let is_small = self.is_within(SMALL / SIZE_OF_PARTS);
+        let is_small = self.is_within(MEDIUM);
         let bound = slope * from_samples;
         Variation {
             range: CosineRange {

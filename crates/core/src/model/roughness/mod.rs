@@ -1,14 +1,24 @@
-//! Rough surfaces: shading normals are normals whose components are multiplied by random numbers.
+//! Rough surfaces: shading normals that are tilted by noise, or multiplied by random numbers.
+//!
+//! With the numbers w, in [−1, 1), and the amplitude a, bumps of the surface make the unit normal n
+//!
+//! > n′ = u / |u|, u = n + a (w − (w·n) n):
+//!
+//! they tilt it the way that w leans, alike in all directions. As the noise's part is across n, |u| is at least
+//! 1, and the angle between n and n′ is at most atan(√3 a). [`Grain::Pixel`] multiplies the components of n by
+//! 1 + a w, as the original program did; it leaves a component of 0 as it is.
 
 pub(crate) mod noise;
 
-use fearless_simd::{Select, Simd, SimdBase, SimdMask, f64x8};
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
 #[cfg(test)]
 use self::noise::Cell;
 use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
+use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::Lanes;
 
 /// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
@@ -79,40 +89,62 @@ impl Bumps {
         let normal = normal.to_array();
         let (nearest, offset) = self.place(normal);
         let draw = Cell::new(self.key, nearest.map(|part| part as i64)).blend(offset);
-        DVec3::from_array(unit(self.scale(normal, draw)))
+        DVec3::from_array(unit(self.tilt(normal, draw)))
     }
 
-    /// The normals of eight lanes with their components multiplied; [`unit`] makes them shading normals.
+    /// The tilted normals of eight lanes; [`unit`] makes them shading normals.
     ///
-    /// All lanes of one cell are done at once, and the values of cells are kept in `cells`: fast
-    /// where neighbors lie in the same cell, as fast as one by one where each has its own. Lanes
-    /// that nobody needs should repeat others; NaN costs the time of a cell, too.
+    /// Many lanes of one cell are done at once, few one by one; the values of cells are kept in `cells`.
+    /// Lanes that nobody needs should repeat others; NaN costs the time of a cell, too.
     #[inline(always)]
-    pub(crate) fn scale_lanes<S: Simd>(
+    pub(crate) fn tilt_lanes<S: Simd>(
         &self,
+        simd: S,
         normal: [f64x8<S>; 3],
         cells: &mut NoiseCells,
     ) -> [f64x8<S>; 3] {
+        /// Lanes that take less time one by one.
+        const FEW: u32 = 3;
         let (nearest, offset) = self.place(normal);
         let [x, y, z]: [[f64; 8]; 3] = [nearest[0].into(), nearest[1].into(), nearest[2].into()];
+        let [u, v, w]: [[f64; 8]; 3] = [offset[0].into(), offset[1].into(), offset[2].into()];
         let mut draw = normal;
+        let mut alone = [[0.0; 8]; 3];
+        let mut which_alone = 0;
         let mut pending = 0xff_u64;
         while pending != 0 {
             let lane = pending.trailing_zeros() as usize;
             let is_here = nearest[0].simd_eq(x[lane])
                 & nearest[1].simd_eq(y[lane])
                 & nearest[2].simd_eq(z[lane]);
-            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
-            let drawn = cell.blend(offset);
-            draw = [
-                is_here.select(drawn[0], draw[0]),
-                is_here.select(drawn[1], draw[1]),
-                is_here.select(drawn[2], draw[2]),
-            ];
             // NaN is not even where it is: without its own bit the loop would not end.
-            pending &= !(is_here.to_bitmask() | 1 << lane);
+            let here = is_here.to_bitmask() | 1 << lane;
+            pending &= !here;
+            let cell = cells.cell(self.key, [x[lane], y[lane], z[lane]]);
+            if here.count_ones() > FEW {
+                let drawn = cell.blend(offset);
+                draw = [
+                    is_here.select(drawn[0], draw[0]),
+                    is_here.select(drawn[1], draw[1]),
+                    is_here.select(drawn[2], draw[2]),
+                ];
+                continue;
+            }
+            which_alone |= here;
+            for lane in set_bits(here) {
+                let drawn = cell.blend_one(simd, [u[lane], v[lane], w[lane]]);
+                alone[0][lane] = drawn[0];
+                alone[1][lane] = drawn[1];
+                alone[2][lane] = drawn[2];
+            }
         }
-        self.scale(normal, draw)
+        let is_alone = mask64x8::from_bitmask(simd, which_alone);
+        draw = [
+            is_alone.select(alone[0].simd_into(simd), draw[0]),
+            is_alone.select(alone[1].simd_into(simd), draw[1]),
+            is_alone.select(alone[2].simd_into(simd), draw[2]),
+        ];
+        self.tilt(normal, draw)
     }
 
     /// The number of cells of the noise that the radius spans.
@@ -120,31 +152,37 @@ impl Bumps {
         self.cells
     }
 
+    /// A bound of the angle between a normal and its shading normal: atan(√3 a).
+    pub(crate) fn most_tilt(&self) -> f64 {
+        libm::atan(3.0_f64.sqrt() * self.amplitude)
+    }
+
     /// A bound of |∂n′/∂n|: two points of the sphere whose normals enclose the angle δ, in
     /// radians, have shading normals that differ by at most `slope_bound() · δ`.
     ///
-    /// Let n move along the sphere with unit speed and u = n ∘ w, w = 1 + a g(n · cells), with a
-    /// the amplitude.
+    /// Let n move along the sphere with unit speed, and u = n + a t, t = w − p n, p = w·n, with a the
+    /// amplitude and w = g(n · cells).
     ///
-    /// A component of g is Σ v W, v in [−1, 1], where the weight W is a product of three
-    /// B-splines Bⱼ. Along a unit vector d it changes by g′ = Σ v d·∇W = Σ v W Σⱼ dⱼ Bⱼ′/Bⱼ. The W
-    /// are at least 0 and sum to 1, and so do the B of each axis. Read as probabilities, they make
-    /// the three ratios ξⱼ = Bⱼ′/Bⱼ independent and of mean 0, as Σ B′ = 0, and g′ is the
-    /// covariance of v and Σ dⱼ ξⱼ. With E v = g, v has a variance of at most 1 − g². With the
-    /// offset o from −½ to ½, E ξ² = Σ B′²/B ≤ 2 + 4o²/(¾ − o²) + 2 ≤ 6, so that Σ dⱼ ξⱼ has a
-    /// variance of at most 6. By Cauchy and Schwarz |g′| ≤ √6 √(1 − g²).
+    /// Along a unit vector f, g changes as f·v does: f·g = Σ (f·v) W, with v the vectors at the lattice
+    /// points, whose components are in [−1, 1], and W a product of three B-splines Bⱼ. Along a unit vector
+    /// d it changes by Σ (f·v) d·∇W = Σ (f·v) W Σⱼ dⱼ Bⱼ′/Bⱼ. The W are at least 0 and sum to 1, and so do
+    /// the B of each axis. Read as probabilities, they make the three ratios ξⱼ = Bⱼ′/Bⱼ independent and of
+    /// mean 0, as Σ B′ = 0, and the change is the covariance of f·v and Σ dⱼ ξⱼ. With the offset o from −½
+    /// to ½, E ξ² = Σ B′²/B ≤ 2 + 4o²/(¾ − o²) + 2 ≤ 6, so that Σ dⱼ ξⱼ has a variance of at most 6. That
+    /// of f·v is at most that of v, E|v|² − |E v|² ≤ 3 − |w|². By Cauchy and Schwarz
+    /// |w′| ≤ √6 cells √(3 − |w|²).
     ///
-    /// So |w′|/w ≤ √6 cells a √(1 − g²)/(1 + a g), at most √6 cells a/√(1 − a²) (where g = −a): a
-    /// bound for |n ∘ w′|/|u|, too. The other part of u′, n′ ∘ w, turns u by at most the largest
-    /// ratio of two factors, (1 + a)/(1 − a). The direction of u changes by at most |u′|/|u|, and
-    /// chords are no longer than the paths along the sphere.
+    /// With e = n′, the direction of the move, u′ = (1 − a p) e − a (w·e) n + a (w′ − (w′·n) n). The
+    /// first two parts are across each other, and |w·e| ≤ |t|: together they are at most
+    /// √((1 + a |p|)² + a²|t|²) ≤ (1 + a |p|) √(1 + a²|t|²) = (1 + a |p|) |u| long. The last is at most
+    /// √6 cells a √(3 − p²), and |u| ≥ 1. The direction of u changes by at most |u′|/|u|, so by
+    /// 1 + a (|p| + √6 cells √(3 − p²)), which is at most 1 + a √(3 + 18 cells²), again by Cauchy and
+    /// Schwarz. Chords are no longer than the paths along the sphere.
     ///
     /// The bound holds for exact arithmetic; rounding adds 2⁻⁵³ times it, and some units in the last
     /// place.
     pub(crate) fn slope_bound(&self) -> f64 {
-        const NOISE_SLOPE: f64 = 2.449_489_742_783_178_4;
-        let a = self.amplitude;
-        (1.0 + a) / (1.0 - a) + NOISE_SLOPE * self.cells * a / ((1.0 - a) * (1.0 + a)).sqrt()
+        1.0 + self.amplitude * (3.0 + 18.0 * self.cells * self.cells).sqrt()
     }
 
     /// The lattice point next to a point of the surface, and the offset of the point from it: at most ½
@@ -158,20 +196,21 @@ impl Bumps {
         (nearest, offset)
     }
 
-    /// The normal with its components multiplied by 1 + amplitude · draw.
+    /// n + a (w − (w·n) n) with the amplitude a and the numbers w of the noise.
     #[inline(always)]
-    fn scale<L: Lanes>(&self, normal: [L; 3], draw: [L; 3]) -> [L; 3] {
+    fn tilt<L: Lanes>(&self, [x, y, z]: [L; 3], draw: [L; 3]) -> [L; 3] {
+        let own = (draw[0] * x + draw[1] * y + draw[2] * z) * -self.amplitude + 1.0;
         [
-            normal[0] * (draw[0] * self.amplitude + 1.0),
-            normal[1] * (draw[1] * self.amplitude + 1.0),
-            normal[2] * (draw[2] * self.amplitude + 1.0),
+            draw[0] * self.amplitude + x * own,
+            draw[1] * self.amplitude + y * own,
+            draw[2] * self.amplitude + z * own,
         ]
     }
 }
 
 /// The unit vector in the direction of one whose length is neither tiny nor huge.
 ///
-/// (A normal times numbers above 1 − amplitude > 0 is neither.)
+/// (Neither is a normal times numbers above 1 − amplitude > 0, nor one that is tilted.)
 #[inline(always)]
 pub(crate) fn unit<L: Lanes>(vector: [L; 3]) -> [L; 3] {
     let [x, y, z] = vector;

@@ -1,6 +1,9 @@
 //! Smooth noise in [−1, 1): random values at the points of the unit lattice, blended by quadratic
 //! B-splines, so that slopes are continuous and no lattice shows.
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8};
+
 use crate::numeric::lanes::Lanes;
 
 /// The noise in the unit cube about one lattice point: random values at the 27 lattice points around,
@@ -11,8 +14,9 @@ use crate::numeric::lanes::Lanes;
 /// exact.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cell {
-    /// By powers of z, then y, then x; three independent polynomials.
-    coefficients: [[[[f64; 3]; 3]; 3]; 3],
+    /// By powers of x, then y, then z; three independent polynomials. The last five are not used: eight
+    /// can be computed at a time.
+    coefficients: [[f64; 32]; 3],
 }
 
 impl Cell {
@@ -37,12 +41,12 @@ impl Cell {
             plane
         });
         let [before, middle, after] = planes;
-        let mut coefficients = planes;
+        let mut coefficients = [[0.0; 32]; 3];
         for y in 0..3 {
-            for x in 0..3 {
+            for (x, coefficients) in coefficients.iter_mut().enumerate() {
                 let along = spline([before[y][x], middle[y][x], after[y][x]]);
-                for (plane, value) in coefficients.iter_mut().zip(along) {
-                    plane[y][x] = value;
+                for (z, value) in along.into_iter().enumerate() {
+                    coefficients[9 * y + 3 * z..][..3].copy_from_slice(&value);
                 }
             }
         }
@@ -54,28 +58,60 @@ impl Cell {
     /// Axis by axis: first the nine rows along x, then three along y, then one along z.
     #[inline(always)]
     pub(super) fn blend<L: Lanes>(&self, [x, y, z]: [L; 3]) -> [L; 3] {
-        let [constant, linear, square] = &self.coefficients;
         let planes = [
-            plane(x, y, constant),
-            plane(x, y, linear),
-            plane(x, y, square),
+            self.plane(x, y, 0),
+            self.plane(x, y, 1),
+            self.plane(x, y, 2),
         ];
         along(z, planes)
     }
-}
 
-#[inline(always)]
-fn plane<L: Lanes>(x: L, y: L, [constant, linear, square]: &[[[f64; 3]; 3]; 3]) -> [L; 3] {
-    along(y, [row(x, constant), row(x, linear), row(x, square)])
-}
+    /// The coefficients of a power of z.
+    #[inline(always)]
+    fn plane<L: Lanes>(&self, x: L, y: L, of_z: usize) -> [L; 3] {
+        let rows = [
+            self.row(x, 3 * of_z),
+            self.row(x, 3 * of_z + 9),
+            self.row(x, 3 * of_z + 18),
+        ];
+        along(y, rows)
+    }
 
-#[inline(always)]
-fn row<L: Lanes>(x: L, [a, b, c]: &[[f64; 3]; 3]) -> [L; 3] {
-    [
-        (x * c[0] + b[0]) * x + a[0],
-        (x * c[1] + b[1]) * x + a[1],
-        (x * c[2] + b[2]) * x + a[2],
-    ]
+    #[inline(always)]
+    fn row<L: Lanes>(&self, x: L, first: usize) -> [L; 3] {
+        let [a, b, c] = &self.coefficients;
+        let at = [first, first + 1, first + 2];
+        [
+            (x * c[at[0]] + b[at[0]]) * x + a[at[0]],
+            (x * c[at[1]] + b[at[1]]) * x + a[at[1]],
+            (x * c[at[2]] + b[at[2]]) * x + a[at[2]],
+        ]
+    }
+
+    /// The noise at one offset, the same to the bit: with eight coefficients at a time, where
+    /// [`Self::blend`] takes eight offsets.
+    #[inline(always)]
+    pub(super) fn blend_one<S: Simd>(&self, simd: S, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = &self.coefficients;
+        let mut rows = [0.0; 32];
+        for first in [0, 8, 16, 24] {
+            let a = f64x8::from_slice(simd, &a[first..first + 8]);
+            let b = f64x8::from_slice(simd, &b[first..first + 8]);
+            let c = f64x8::from_slice(simd, &c[first..first + 8]);
+            let eight: [f64; 8] = ((c * x + b) * x + a).into();
+            rows[first..first + 8].copy_from_slice(&eight);
+        }
+        let a = f64x8::from_slice(simd, &rows[..8]);
+        let b = f64x8::from_slice(simd, &rows[9..17]);
+        let c = f64x8::from_slice(simd, &rows[18..26]);
+        let eight: [f64; 8] = ((c * y + b) * y + a).into();
+        let ninth = (rows[26] * y + rows[17]) * y + rows[8];
+        [
+            (eight[6] * z + eight[3]) * z + eight[0],
+            (eight[7] * z + eight[4]) * z + eight[1],
+            (ninth * z + eight[5]) * z + eight[2],
+        ]
+    }
 }
 
 #[inline(always)]
@@ -161,7 +197,7 @@ fn last_bits(whole: f64) -> usize {
 }
 
 /// Three numbers in [−1, 1) from the bits of one.
-pub(super) fn spread(bits: u64) -> [f64; 3] {
+pub(crate) fn spread(bits: u64) -> [f64; 3] {
     const BITS: u32 = 21;
     const UNIT: f64 = 1.0 / (1_u64 << (BITS - 1)) as f64;
     let part = |index: u32| {
@@ -176,7 +212,7 @@ pub(super) fn spread(bits: u64) -> [f64; 3] {
 /// # Source
 /// The increment and finalizer of SplitMix64: Steele, Lea, Flood, Fast Splittable Pseudorandom
 /// Number Generators, OOPSLA 2014, with the constants of Stafford's variant 13.
-pub(super) fn hash(key: u64, word: u64) -> u64 {
+pub(crate) fn hash(key: u64, word: u64) -> u64 {
     const GOLDEN_GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
     let mut z = (key ^ word.wrapping_mul(GOLDEN_GAMMA)).wrapping_add(GOLDEN_GAMMA);
     z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);

@@ -197,7 +197,7 @@ fn lanes_hold_the_bits_of_single_normals() {
                 let parts = [0, 1, 2].map(|part| eight.map(|normal| normal[part]));
                 let lanes: [[f64; 8]; 3] = dispatch!(level, simd => {
                     let parts = parts.map(|part| f64x8::simd_from(simd, part));
-                    unit(bumps.scale_lanes(parts, &mut table)).map(Into::into)
+                    unit(bumps.tilt_lanes(simd, parts, &mut table)).map(Into::into)
                 });
                 for (lane, normal) in eight.into_iter().enumerate() {
                     let expected = bumps.perturb(normal).to_array();
@@ -240,6 +240,48 @@ fn shading_normals_differ_by_no_more_than_the_slope_bound() {
             largest > 0.05 * bumps.slope_bound(),
             "{cells} cells, amplitude {amplitude}: {largest} of {}",
             bumps.slope_bound()
+        );
+    }
+}
+
+#[test]
+fn bumps_are_alike_in_all_directions() {
+    let directions = [
+        DVec3::X,
+        -DVec3::Y,
+        DVec3::Z,
+        DVec3::new(0.0, 0.6, -0.8),
+        DVec3::ONE.normalize(),
+        DVec3::new(0.3, -0.9, 0.2).normalize(),
+    ];
+    let amplitude = 0.5;
+    // The variance of a component of noise is a third of the sum of squared weights.
+    let of_axis = |at: f64| {
+        let offset = at - at.round();
+        let weight = |step: f64| 0.5 * (0.5 + step * offset).powi(2);
+        weight(1.0).powi(2) + weight(-1.0).powi(2) + (0.75 - offset * offset).powi(2)
+    };
+    for normal in directions {
+        let mut next = uniform();
+        let (mut sum, mut expected) = (0.0, 0.0);
+        for sphere in 0..4000 {
+            let bumps = Bumps {
+                key: hash(7, sphere),
+                cells: 20.0 + next(),
+                amplitude,
+            };
+            let tilted = bumps.perturb(normal);
+            assert!((tilted.length() - 1.0).abs() < 1e-15);
+            let tangent = tilted.cross(normal).length() / tilted.dot(normal);
+            assert!(tangent > 0.0 && tangent <= amplitude * 3.0_f64.sqrt());
+            sum += tangent * tangent;
+            // Two components are across the normal.
+            let weights = (normal * bumps.cells).to_array().map(of_axis);
+            expected += 2.0 / 3.0 * amplitude * amplitude * weights.iter().product::<f64>();
+        }
+        assert!(
+            (sum / expected - 1.0).abs() < 0.06,
+            "{normal}: {sum}, not {expected}"
         );
     }
 }

@@ -60,12 +60,6 @@ impl Reference {
         seen.reference()
     }
 
-    /// Its x on the line with this y.
-    #[cfg(test)]
-    pub(super) fn at(&self, y: f64) -> f64 {
-        self.start + self.slope * y
-    }
-
     /// The y at which the zeros of a polynomial cross the reference; NaN where they do not.
     pub(super) fn crossings(&self, q: &Quadratic) -> [f64; 2] {
         let along = Quadratic {
@@ -75,6 +69,12 @@ impl Reference {
             ..Quadratic::default()
         };
         along.crossings(0.0)
+    }
+
+    /// Its x on some lines.
+    #[inline(always)]
+    pub(super) fn at<S: Simd>(&self, y: f64x8<S>) -> f64x8<S> {
+        y * self.slope + self.start
     }
 
     pub(super) fn upright(x: f64) -> Self {

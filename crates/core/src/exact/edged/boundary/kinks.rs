@@ -36,8 +36,27 @@ struct Search {
     steps: u32,
 }
 
+/// Whether a value that has one sign on neighboring lines may have the other between them: where it is smaller
+/// than half of what it changes by. Then all lines miss what lies there, and their sums agree.
+#[inline(always)]
+fn may_turn_between(values: &[f64; 8]) -> bool {
+    const NEAR: f64 = 0.5;
+    for node in 1..NODES {
+        let (one, other) = (values[node - 1], values[node]);
+        let nearest = one.abs().min(other.abs());
+        if one * other > 0.0 && nearest < NEAR * (other - one).abs() {
+            return true;
+        }
+    }
+    false
+}
+
 /// Into how many parts a chord on bumps is divided at most.
-const MOST_PARTS: usize = 8;
+const MOST_PARTS: usize = 16;
+
+/// Tolerances that are small enough for a search in earnest, and for tips of light between lines to count.
+const FINE: f64 = 9e-5;
+const WARY: f64 = 9e-4;
 
 /// What it costs the sum across lines that some of them turn otherwise than others, in what they
 /// differ by: where light bends, and where it jumps.
@@ -116,8 +135,6 @@ impl Sender<'_, '_> {
     fn search<S: Simd>(&self, chord: &Chord<S>, jumps: bool) -> Search {
         /// Cells of the noise that a part may span.
         const MOST_CELLS: f64 = 0.5;
-        /// Small enough for a search in earnest.
-        const FINE: f64 = 9e-5;
         let (mut looks, mut steps): (usize, u32) = if self.tolerance > FINE {
             (4, 4)
         } else {
@@ -167,6 +184,7 @@ impl Sender<'_, '_> {
             1
         };
         let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
+        let mut is_near = false;
         stops.samples += 8 * (count + 1) as u64;
         for index in 0..=count {
             let at = 2.0 * index as f64 / count as f64 - 1.0;
@@ -183,6 +201,7 @@ impl Sender<'_, '_> {
                     };
                     let value = turn.value(&normal, &points);
                     let here = Look { sigma, value };
+                    is_near |= self.tolerance < WARY && may_turn_between(&value.into());
                     let seeker = Seeker {
                         sender: self,
                         chord,
@@ -201,9 +220,8 @@ impl Sender<'_, '_> {
                 }
             }
         }
-        stops.counts[..NODES]
-            .iter()
-            .all(|&count| count == stops.counts[0])
+        let mut counts = stops.counts[..NODES].iter();
+        !is_near && counts.all(|&count| count == stops.counts[0])
     }
 
     /// The points of chords, and the normals that light is computed with there.

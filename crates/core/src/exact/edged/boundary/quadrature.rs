@@ -6,10 +6,11 @@ use glam::DVec3;
 
 use super::curve::{Shape, Trace, trace, warped};
 use super::events::polynomial;
-use super::primitive::{Lines, Sender, greatest};
+use super::primitive::{Lines, Sender, greatest, ray};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{NODES, RULE, doubt, error_estimate};
+use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 
 /// How much larger than what the rules differ by their error is taken to be.
@@ -71,6 +72,11 @@ impl Boundary {
                         places = trace(simd, cell, &curve.shape, piece, at);
                     }
                 }
+                let middle = (arc.start + length * shares[MIDDLE], places.y[MIDDLE]);
+                if depth < DEEPEST && spans_bumps(simd, setting, arc, &places) {
+                    self.add_halves(simd, setting, path, (arc, middle), depth, sum);
+                    return;
+                }
                 let sign = sign(scene, setting.contents, curve, &places);
                 let rise = (arc.y[1] - arc.y[0]) * sign;
                 if !sends_light(setting, curve, arc) {
@@ -114,17 +120,7 @@ impl Boundary {
                 let is_over = self.work.units() > goal.units;
                 if error > setting.share * goal.tolerance && depth < DEEPEST && !is_over {
                     *sum = kept;
-                    let middle = (arc.start + length * shares[MIDDLE], places.y[MIDDLE]);
-                    let ends = [(arc.start, arc.y[0]), middle, (arc.end, arc.y[1])];
-                    for half in ends.windows(2) {
-                        let half = Arc {
-                            start: half[0].0,
-                            end: half[1].0,
-                            y: [half[0].1, half[1].1],
-                            ..*arc
-                        };
-                        self.add_arc(simd, setting, path, &half, depth + 1, sum);
-                    }
+                    self.add_halves(simd, setting, path, (arc, middle), depth, sum);
                     return;
                 }
                 let of_sums = total(sides.doubt * all.abs());
@@ -132,6 +128,28 @@ impl Boundary {
                 self.note_sides(curve, arc, rise);
             },
         );
+    }
+
+    /// Adds what both halves of an arc contribute, which meet at this parameter and y.
+    fn add_halves<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        path: &Path<'_>,
+        (arc, middle): (&Arc, (f64, f64)),
+        depth: u32,
+        sum: &mut Sum<S>,
+    ) {
+        let ends = [(arc.start, arc.y[0]), middle, (arc.end, arc.y[1])];
+        for half in ends.windows(2) {
+            let half = Arc {
+                start: half[0].0,
+                end: half[1].0,
+                y: [half[0].1, half[1].1],
+                ..*arc
+            };
+            self.add_arc(simd, setting, path, &half, depth + 1, sum);
+        }
     }
 
     /// The light on either side of an arc.
@@ -253,6 +271,39 @@ fn roots_at_ends<S: Simd>(
     let values = polynomial(discriminant, places.x, places.y);
     let least = LEAST * values[MIDDLE];
     [values[0] < least, values[NODES - 1] < least]
+}
+
+/// Whether the lines of an arc are farther apart than bumps let them: what lies between them would be overlooked
+/// by both rules. Counted at the arc, where chords begin, and halfway.
+#[inline(never)]
+fn spans_bumps<S: Simd>(simd: S, setting: &Setting<'_, '_>, arc: &Arc, places: &Trace<S>) -> bool {
+    /// Cells of the noise that the seven lines of an arc may span. Noise has no shorter waves than two cells.
+    const MOST_CELLS: f64 = 2.0;
+    for (sphere, lit) in [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])] {
+        if sphere == NONE || lit == 0 {
+            continue;
+        }
+        let surface = &setting.surfaces[sphere];
+        let cells = surface.finish.shading_normal.cells();
+        if cells == 0.0 {
+            continue;
+        }
+        let ball = &setting.contents.active[sphere].ball;
+        let start = surface.reference.at(places.y);
+        for x in [places.x, start, (places.x + start) * 0.5] {
+            let points = Points::new(simd, ball, ray(simd, setting.cell, x, places.y));
+            let normal = &points.normal;
+            let mut way = 0.0;
+            for node in 1..NODES {
+                let at = |node: usize| DVec3::new(normal.x[node], normal.y[node], normal.z[node]);
+                way += at(node).distance(at(node - 1));
+            }
+            if way * cells > MOST_CELLS {
+                return true;
+            }
+        }
+    }
+    false
 }
 
 /// Whether anything but darkness lies on either side of an arc.

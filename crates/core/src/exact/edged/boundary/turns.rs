@@ -160,7 +160,7 @@ pub(super) struct Stops {
 }
 
 /// The places on a chord that are told apart; more make the rules worse, which they notice.
-const MOST_STOPS: usize = 24;
+const MOST_STOPS: usize = 48;
 
 impl Default for Stops {
     fn default() -> Self {

@@ -181,10 +181,10 @@ fn powers_are_summed_up_along_chords() {
             };
             let chord = Chord::new(simd, &discriminant, &reference, lines.x, lines.y);
             let sum = sender.fractional(simd, &chord, &lines, &mut None);
-            [sum.light[0], sum.doubt].map(|lanes| <[f64; 8]>::from(lanes))
+            [sum.light[0], sum.doubt, reference.at(lines.y)].map(<[f64; 8]>::from)
         });
         for (lane, (end, y)) in lines.into_iter().enumerate().take(count) {
-            let start = reference.at(y);
+            let start = found[2][lane];
             let light = |x: f64| light(&cell, &ball, toward, exponent, x, y);
             let exact = brute(light, start, end);
             let (off, doubt) = ((found[0][lane] - exact).abs(), found[1][lane]);

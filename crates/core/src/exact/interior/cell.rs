@@ -1,0 +1,122 @@
+//! A cell that one rough sphere fills, and that lights reach all over, or nowhere.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::filled::Filled;
+use super::parts::{ALL, Average};
+use super::terminators::SMALL;
+use crate::edges::cell::Cell;
+use crate::exact::classify::contents::{Contents, Reach};
+use crate::exact::classify::patch::Patch;
+use crate::exact::points::Points;
+use crate::exact::scene::{InCamera, MOST_LIGHTS};
+use crate::exact::surface::Finish;
+use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::vectors::Vectors;
+
+/// Divisions that a cell is worth; each takes forty samples. Bumps that are so small that their parts would be more
+/// are left to random samples.
+const MOST_DIVISIONS: usize = 512;
+
+/// The same to tolerances for which rules along lines are better than rules of five samples.
+const FEW_DIVISIONS: usize = 8;
+const FINE: f64 = 3e-5;
+
+/// Strata on a side of a cell: those of a first look, and those by which a tolerance may be met.
+const FIRST_STRATA: u32 = 32;
+const MOST_STRATA: u32 = 64;
+
+impl<S: Simd> Filled<'_, S> {
+    /// The average over one of the cells, if it has bumps: in parts, or by strata where bumps are too many.
+    pub(crate) fn of_bumps(
+        &self,
+        simd: S,
+        lane: usize,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Option<Average> {
+        if !self.finish.is_bumpy() {
+            return None;
+        }
+        // Parts as small as they must be for five samples.
+        let across = self.turn[lane] * self.finish.shading_normal.cells() / SMALL;
+        if across * across < 4.0 * MOST_DIVISIONS as f64 {
+            let most = if self.tolerance < FINE {
+                FEW_DIVISIONS
+            } else {
+                MOST_DIVISIONS
+            };
+            return Some(self.in_parts(simd, lane, most, noise));
+        }
+        let first = self.by_strata(simd, lane, FIRST_STRATA, noise);
+        // With so many more samples the claim falls by that at most.
+        let gain = f64::from(MOST_STRATA * MOST_STRATA) / f64::from(FIRST_STRATA * FIRST_STRATA);
+        if first.error <= self.tolerance || first.error > gain * self.tolerance {
+            return Some(first);
+        }
+        let more = self.by_strata(simd, lane, MOST_STRATA, noise);
+        Some(Average {
+            samples: first.samples + more.samples,
+            ..more
+        })
+    }
+}
+
+/// The average over a cell, if one sphere with bumps is all that is seen in it, and no edge of a shadow.
+#[inline(never)]
+pub(crate) fn of_bumpy_cell<S: Simd>(
+    simd: S,
+    scene: &InCamera<'_>,
+    cell: &Cell,
+    contents: &Contents,
+    tolerance: f64,
+    noise: &mut Option<Box<NoiseCells>>,
+) -> Option<Average> {
+    let [active] = contents.active.as_slice() else {
+        return None;
+    };
+    let finish = &Finish::new(scene, active.sphere, contents.pixel);
+    let ball = &active.ball;
+    if !contents.conics.is_empty() || ball.outside <= 0.0 || !finish.is_bumpy() {
+        return None;
+    }
+    if active.discriminant.one <= 0.0 {
+        return None;
+    }
+    let mut lit = [0; MOST_LIGHTS];
+    for (lit, reach) in lit.iter_mut().zip(&contents.reach) {
+        match reach {
+            Reach::Nowhere => {}
+            Reach::Past(casters) if casters.is_empty() => *lit = ALL,
+            Reach::Past(_) => return None,
+        }
+    }
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            let zero = f64x8::splat(simd, 0.0);
+            let middle = Vectors::splat(simd, cell.middle);
+            let points = Points::new(simd, ball, middle);
+            let patch = Patch::new(cell, ball, &active.discriminant, &active.along);
+            let length = cell.middle.length();
+            let at = points.t[0] * length;
+            let ends = patch.ends.map(|end| (end.length() - at).abs());
+            let turn = (ends[0].max(ends[1]) + patch.around) / ball.radius;
+            let grazing = -points.normal.dot(&points.ray)[0] / length;
+            let filled = Filled {
+                scene,
+                ball,
+                finish,
+                middle,
+                size: cell.size,
+                lit: &lit,
+                turn: zero + turn,
+                nearness: zero + 2.0 * turn / grazing.max(0.0),
+                which: ALL,
+                tolerance,
+                is_proved: false,
+            };
+            filled.of_bumps(simd, 0, noise)
+        },
+    )
+}

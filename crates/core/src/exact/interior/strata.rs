@@ -1,0 +1,104 @@
+//! Cells that one rough sphere fills, with bumps far smaller than the cell, by random samples.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::filled::Filled;
+use super::parts::Average;
+use crate::exact::points::Points;
+use crate::model::color::Color;
+use crate::model::roughness::noise::{NoiseCells, hash, spread};
+use crate::numeric::vectors::Vectors;
+
+/// ln(3/δ), where δ = 10⁻⁹ is the probability with which a claim may be too small.
+const CONFIDENCE: f64 = 21.822;
+
+impl<S: Simd> Filled<'_, S> {
+    /// The average over one of the cells, by two random samples in each of `side` × `side` strata, a multiple
+    /// of 2.
+    ///
+    /// # Accuracy
+    /// An estimate that holds with a probability: the samples are independent, and light lies between those of
+    /// the dark and of all lights at their brightest, R apart. With V the sum of the variances in the strata,
+    /// of which half the squared difference of both samples is an estimate without bias, the mean of N
+    /// samples is off by more than √(2 V L) / N + 3 R L / N with a probability of at most 3 exp(−L). The
+    /// second part counts what samples missed altogether, such as tops of highlights. Random places have
+    /// nothing in common with a lattice of bumps; they depend on the cell's own place alone.
+    ///
+    /// # Source
+    /// Audibert, Munos, Szepesvári, Exploration–exploitation tradeoff using variance estimates in multi-armed
+    /// bandits, Theoretical Computer Science 410, 2009, theorem 1.
+    #[inline(never)]
+    pub(crate) fn by_strata(
+        &self,
+        simd: S,
+        lane: usize,
+        side: u32,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Average {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let zero = f64x8::splat(simd, 0.0);
+                let lit = self.lit_in_parts(lane);
+                let key = hash(self.middle.x[lane].to_bits(), self.middle.y[lane].to_bits());
+                let step = 1.0 / f64::from(side);
+                let mut value = Color::ZERO;
+                let mut squares = Color::ZERO;
+                // Four strata at a time, two by two: bumps may be alike in them.
+                for row in (0..side).step_by(2) {
+                    for col in (0..side).step_by(2) {
+                        let (mut u, mut v) = ([0.0; 8], [0.0; 8]);
+                        for index in 0..8_u32 {
+                            let stratum = [col + (index & 1), row + (index >> 1 & 1)];
+                            let name = u64::from(stratum[0]) << 32 | u64::from(stratum[1]) << 1;
+                            let [x, y, _] = spread(hash(key, name | u64::from(index >> 2)));
+                            let place = |stratum: u32, offset: f64| {
+                                (f64::from(stratum) + 0.5 + 0.5 * offset) * step - 0.5
+                            };
+                            u[index as usize] = place(stratum[0], x);
+                            v[index as usize] = place(stratum[1], y);
+                        }
+                        let (u, v): (f64x8<S>, f64x8<S>) = (u.simd_into(simd), v.simd_into(simd));
+                        let ray = Vectors {
+                            x: u * self.size[0] + self.middle.x[lane],
+                            y: v * self.size[1] + self.middle.y[lane],
+                            z: zero + self.middle.z[lane],
+                        };
+                        let points = Points::new(simd, self.ball, ray);
+                        let mut normals = [points.normal];
+                        self.finish.perturb(simd, self.scene, &mut normals, noise);
+                        let light = self.finish.radiance(
+                            simd,
+                            self.scene,
+                            &points,
+                            &normals[0],
+                            &lit,
+                            None,
+                        );
+                        for channel in 0..self.scene.channels {
+                            let light: [f64; 8] = light[channel].into();
+                            for stratum in 0..4 {
+                                let (one, other) = (light[stratum], light[stratum + 4]);
+                                value[channel] += one + other;
+                                squares[channel] += (one - other) * (one - other);
+                            }
+                        }
+                    }
+                }
+                let count = 2.0 * f64::from(side) * f64::from(side);
+                let range = self.range_of_light();
+                // Both samples of a stratum have the variance.
+                let variance = squares.max_element();
+                let error =
+                    ((2.0 * CONFIDENCE * variance).sqrt() + 3.0 * CONFIDENCE * range) / count;
+                Average {
+                    value: value / count,
+                    error: error.min(range),
+                    samples: count as u64,
+                    is_random: true,
+                }
+            },
+        )
+    }
+}

@@ -1,0 +1,49 @@
+//! The average over a pixel by random samples, for bumps that are far smaller than it.
+
+use glam::{DVec2, DVec4};
+
+use super::patch::Patch;
+use super::{Reference, Truth};
+
+/// Standard deviations that the mean is taken to be off by at most.
+const DEVIATIONS: f64 = 6.0;
+
+impl Reference<'_> {
+    /// The truth of a pixel by two random samples in each of `side` × `side` strata.
+    ///
+    /// The error follows from how far both samples of a stratum are apart; what no sample sees is not in it.
+    pub fn by_strata(&self, col: u32, row: u32, side: u32) -> Truth {
+        let patch = Patch::of_pixel(&self.stage, col, row);
+        let mut state = u64::from(col) << 32 | u64::from(row);
+        let mut uniform = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let (mut sum, mut squares) = (DVec4::ZERO, DVec4::ZERO);
+        let mut first = None;
+        let mut has_edge = false;
+        for y in 0..side {
+            for x in 0..side {
+                let mut sample = || {
+                    let place = DVec2::new(f64::from(x) + uniform(), f64::from(y) + uniform());
+                    let place = place / f64::from(side) - 0.5;
+                    let (signature, light) = patch.look(patch.direction(place), true);
+                    has_edge |= *first.get_or_insert(signature) != signature;
+                    light
+                };
+                let (one, other) = (sample(), sample());
+                sum += one + other;
+                squares += (one - other) * (one - other);
+            }
+        }
+        let count = 2.0 * f64::from(side).powi(2);
+        Truth {
+            value: sum / count,
+            error: DEVIATIONS * squares.max_element().sqrt() / count,
+            has_edge,
+            lines: 0,
+        }
+    }
+}
