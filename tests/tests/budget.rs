@@ -68,7 +68,7 @@ fn hard_pixels_cost_no_more_than_allowed() {
         (scene("exponent: 1", 1, FAR, ""), 1e-5, 1000.0),
         (scene("exponent: 1", 1, NEAR, TURNS), 1e-5, 3000.0),
         (scene("exponent: 1", 1, NEAR, LEAPS), 1e-5, 100.0),
-        (scene(&bumps(0.1), 1, NEAR, GOES), 1e-4, 90_000.0),
+        (scene(&bumps(0.1), 1, NEAR, GOES), 1e-4, 220_000.0),
     ];
     for (number, (scene, tolerance, allowed)) in cases.iter().enumerate() {
         let image = image(scene, *tolerance);

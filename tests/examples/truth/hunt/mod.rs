@@ -184,7 +184,7 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
 }
 
 /// A scene, and the same with many frames for one, where its shutter is open.
-pub(super) struct Subject {
+struct Subject {
     scene: Scene,
     moments: Option<Scene>,
 }
@@ -329,7 +329,7 @@ impl Subject {
     }
 
     /// The error of one pixel at a tolerance, where it is over it without saying so, or over its claim.
-    pub(super) fn shortfall(&self, broken: &Broken) -> Option<f64> {
+    fn shortfall(&self, broken: &Broken) -> Option<f64> {
         let (col, row) = (broken.col, broken.row);
         let image = render(&self.scene, &self.view()?, broken.tolerance)?;
         let value = DVec4::from_array(image.rgba(col, row));
