@@ -119,6 +119,7 @@ impl Sender<'_, '_> {
                     doubt: zero,
                     samples: 0,
                     unevenness: 0.0,
+                    tip: 0.0,
                 };
                 if rest.diffuse != 0 || self.finish.reflectance.highlight.is_some() {
                     sum = self.smooth(simd, chord, &rest, noise);

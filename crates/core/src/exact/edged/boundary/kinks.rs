@@ -13,6 +13,7 @@ use crate::exact::classify::active::Terminators;
 use crate::exact::edged::rule::{CAUTION, NODES, RULE};
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
+use crate::numeric::bits::set_bits;
 use crate::numeric::vectors::Vectors;
 
 /// A part of chords on which light is smooth.
@@ -36,19 +37,23 @@ struct Search {
     steps: u32,
 }
 
-/// Whether a value that has one sign on neighboring lines may have the other between them: where it is smaller
-/// than half of what it changes by. Then all lines miss what lies there, and their sums agree.
+/// How far beyond zero a value may go between neighboring lines on which it has one sign: it is a smaller part of
+/// what the value changes by beside them than half. Then all lines miss what lies there, and their sums agree.
 #[inline(always)]
-fn may_turn_between(values: &[f64; 8]) -> bool {
+fn beyond_zero(values: &[f64; 8]) -> f64 {
     const NEAR: f64 = 0.5;
+    let step = |node: usize| (values[node] - values[node - 1]).abs();
+    let mut most = 0.0_f64;
     for node in 1..NODES {
         let (one, other) = (values[node - 1], values[node]);
-        let nearest = one.abs().min(other.abs());
-        if one * other > 0.0 && nearest < NEAR * (other - one).abs() {
-            return true;
+        if one * other > 0.0 {
+            let before = step((node - 1).max(1));
+            let after = step((node + 1).min(NODES - 1));
+            let change = step(node).max(before).max(after);
+            most = most.max(NEAR * change - one.abs().min(other.abs()));
         }
     }
-    false
+    most
 }
 
 /// Into how many parts a chord on bumps is divided at most.
@@ -85,7 +90,7 @@ impl Sender<'_, '_> {
                 let jumps = jumps.to_bitmask() != 0;
                 let search = self.search(chord, jumps);
                 let mut stops = Stops::default();
-                let is_even = self.find(simd, chord, lines, &search, &mut stops, noise);
+                let (is_even, beyond) = self.find(simd, chord, lines, &search, &mut stops, noise);
                 let is_bumpy = self.active.terminators == Terminators::Anywhere;
                 let most = stops.most();
                 if !is_bumpy && most == 0 {
@@ -106,6 +111,7 @@ impl Sender<'_, '_> {
                         (false, false) => UNEVEN,
                         (false, true) => JUMPY,
                     },
+                    tip: self.tip(simd, lines.lights, beyond, jumps),
                 };
                 let mut start = zero - 1.0;
                 for index in 0..=most {
@@ -156,7 +162,25 @@ impl Sender<'_, '_> {
         }
     }
 
-    /// Finds where the chords are to be divided; whether all of them are so at like places.
+    /// The light where a surface turns to lights by so much between lines that it averts itself on.
+    #[inline(never)]
+    fn tip<S: Simd>(&self, simd: S, lights: u64, beyond: f64, jumps: bool) -> f64 {
+        if beyond <= 0.0 {
+            return 0.0;
+        }
+        let reflectance = &self.finish.reflectance;
+        let cosine = f64x8::splat(simd, beyond.min(1.0));
+        let power = reflectance.diffuse.of_clamped(cosine)[0];
+        let mut light = 0.0;
+        for index in set_bits(lights) {
+            let [diffuse, highlight] = reflectance.brightest(self.scene.lights[index].intensity);
+            light += diffuse * power + if jumps { highlight } else { 0.0 };
+        }
+        light
+    }
+
+    /// Finds where the chords are to be divided; whether all of them are so at like places, and how far n·l may
+    /// go beyond zero between them.
     #[inline(always)]
     fn find<S: Simd>(
         &self,
@@ -166,7 +190,7 @@ impl Sender<'_, '_> {
         search: &Search,
         stops: &mut Stops,
         noise: &mut Noise,
-    ) -> bool {
+    ) -> (bool, f64) {
         let count = search.parts * search.looks;
         for part in 1..search.parts {
             let at = 2.0 * part as f64 / search.parts as f64 - 1.0;
@@ -184,7 +208,7 @@ impl Sender<'_, '_> {
             1
         };
         let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
-        let mut is_near = false;
+        let mut beyond = 0.0_f64;
         stops.samples += 8 * (count + 1) as u64;
         for index in 0..=count {
             let at = 2.0 * index as f64 / count as f64 - 1.0;
@@ -201,7 +225,9 @@ impl Sender<'_, '_> {
                     };
                     let value = turn.value(&normal, &points);
                     let here = Look { sigma, value };
-                    is_near |= self.tolerance < WARY && may_turn_between(&value.into());
+                    if self.tolerance < WARY {
+                        beyond = beyond.max(beyond_zero(&value.into()));
+                    }
                     let seeker = Seeker {
                         sender: self,
                         chord,
@@ -221,7 +247,8 @@ impl Sender<'_, '_> {
             }
         }
         let mut counts = stops.counts[..NODES].iter();
-        !is_near && counts.all(|&count| count == stops.counts[0])
+        let is_even = beyond == 0.0 && counts.all(|&count| count == stops.counts[0]);
+        (is_even, beyond)
     }
 
     /// The points of chords, and the normals that light is computed with there.

@@ -60,6 +60,7 @@ impl Sender<'_, '_> {
             doubt: power * OFF[index],
             samples: 8 * RULES[index].len() as u64,
             unevenness: 0.0,
+            tip: 0.0,
         }
     }
 }

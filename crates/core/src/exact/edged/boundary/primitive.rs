@@ -85,6 +85,8 @@ pub(super) struct Summed<S: Simd> {
     pub(super) samples: u64,
     /// The share of what the lines differ by that rules across them may miss.
     pub(super) unevenness: f64,
+    /// The brightest light that may lie between lines which are dark there.
+    pub(super) tip: f64,
 }
 
 /// Memory of the noise.
@@ -112,6 +114,7 @@ impl Sender<'_, '_> {
                         doubt: zero,
                         samples: 0,
                         unevenness: 0.0,
+                        tip: 0.0,
                     };
                 }
                 if self.has_kinks() {
@@ -169,6 +172,7 @@ impl Sender<'_, '_> {
             doubt,
             samples,
             unevenness: 0.0,
+            tip: 0.0,
         }
     }
 

@@ -23,6 +23,10 @@ const DEEPEST: u32 = 12;
 /// Arcs that are not worth it, in pieces.
 const SHORTEST: f64 = 1e-12;
 
+/// The share of the square of an arc's rise that may be lit between its lines, where none is: that of a square
+/// as high as four of their distances.
+const OF_TIP: f64 = 0.5;
+
 /// The node of the rule that is in the middle of an arc.
 const MIDDLE: usize = NODES / 2;
 
@@ -31,6 +35,7 @@ struct Sides<S: Simd> {
     light: [f64x8<S>; 3],
     doubt: f64x8<S>,
     unevenness: f64,
+    tip: f64,
     /// How often nothing is seen on the inner side, less how often on the outer one.
     empty: f64,
 }
@@ -117,6 +122,8 @@ impl Boundary {
                     }
                     error = error.max(estimate + slip * highest);
                 }
+                // What lies between lines is about as wide as it is high, which is less than a sixth of the rise.
+                error += OF_TIP * sides.tip * rise * rise;
                 let is_over = self.work.units() > goal.units;
                 if error > setting.share * goal.tolerance && depth < DEEPEST && !is_over {
                     *sum = kept;
@@ -170,6 +177,7 @@ impl Boundary {
             light: [zero; 3],
             doubt: zero,
             unevenness: 0.0,
+            tip: 0.0,
             empty: 0.0,
         };
         for (side, sphere) in [arc.inner, arc.outer].into_iter().enumerate() {
@@ -220,6 +228,7 @@ impl Boundary {
             self.lines += if summed.samples > 0 { 8 } else { 0 };
             sides.doubt += summed.doubt;
             sides.unevenness = sides.unevenness.max(summed.unevenness);
+            sides.tip += summed.tip;
             for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
                 *light += summed.light[channel] * factor;
             }
