@@ -63,6 +63,21 @@ impl Falloff {
         self.of_clamped(cosine.max(zero).min(one))
     }
 
+    /// The power of cosines, continued to negative ones as the same polynomial where it is one of a low degree:
+    /// what is analytic is integrated by few samples, and none of them may step over what is lit.
+    #[inline(always)]
+    fn continued<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
+        const HIGHEST: f64 = 5.0;
+        if self.exponent.fract() != 0.0 || self.exponent > HIGHEST {
+            return self.of(cosine);
+        }
+        let mut power = cosine;
+        for _ in 1..self.exponent as u32 {
+            power *= cosine;
+        }
+        power
+    }
+
     /// The power of cosines from 0 to 1.
     #[inline(always)]
     pub(crate) fn of_clamped<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
@@ -106,8 +121,7 @@ impl Reflectance {
     ) {
         let diffuse = match lit {
             Some(lit) => lit.select(self.diffuse.of(cosine), f64x8::splat(cosine.simd, 0.0)),
-            None if self.diffuse.exponent == 1.0 => cosine,
-            None => self.diffuse.of(cosine),
+            None => self.diffuse.continued(cosine),
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
             *sum += diffuse * color[channel];
