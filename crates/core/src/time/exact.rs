@@ -144,34 +144,55 @@ fn integrate_panel(
         let number = of_tile[0].pixel / tile_pixels;
         let first = number * tile_pixels;
         let tile = tiles[number as usize];
-        let wanted = of_tile.iter().map(|request| request.pixel - first);
-        let around = around(tile, wanted.clone());
-        let count = around.count() as usize;
-        pixels.clear();
-        costs.clear();
-        costs.resize(count, 0);
-        for integrator in integrators {
-            work += integrator.integrate(around, room, &mut pixels);
-            for (place, cost) in costs.iter_mut().enumerate() {
-                *cost += room.cost_of(place);
+        let place = |request: &Request| request.pixel - first;
+        for (around, requests) in rectangles(tile, of_tile, place) {
+            let count = around.count() as usize;
+            pixels.clear();
+            costs.clear();
+            costs.resize(count, 0);
+            for integrator in integrators {
+                work += integrator.integrate(around, room, &mut pixels);
+                for (place, cost) in costs.iter_mut().enumerate() {
+                    *cost += room.cost_of(place);
+                }
             }
-        }
-        for (request, pixel) in of_tile.iter().zip(wanted) {
-            let (col, row) = (tile.col + pixel % tile.width, tile.row + pixel / tile.width);
-            let place = (row - around.row) * around.width + col - around.col;
-            let moments: [Pixel; MOMENTS] =
-                std::array::from_fn(|moment| pixels[moment * count + place as usize]);
-            let part = Part {
-                units: costs[place as usize],
-                ..Part::new(request.panel, &moments)
-            };
-            add(request.pixel, part);
+            for request in requests {
+                let pixel = place(request);
+                let (col, row) = (tile.col + pixel % tile.width, tile.row + pixel / tile.width);
+                let place = (row - around.row) * around.width + col - around.col;
+                let moments: [Pixel; MOMENTS] =
+                    std::array::from_fn(|moment| pixels[moment * count + place as usize]);
+                let part = Part {
+                    units: costs[place as usize],
+                    ..Part::new(request.panel, &moments)
+                };
+                add(request.pixel, part);
+            }
         }
         if progress(0).is_break() {
             return Err(Cancelled);
         }
     }
     Ok(work)
+}
+
+/// The rectangles that are integrated for some pixels of a tile, in order, and the requests of each: one around
+/// all, or, where these are few of it, one around each run of them in a row.
+fn rectangles(
+    tile: Tile,
+    requests: &[Request],
+    place: impl Fn(&Request) -> u32 + Copy,
+) -> Vec<(Tile, &[Request])> {
+    let all = around(tile, requests.iter().map(place));
+    if 2 * requests.len() as u64 >= all.count() {
+        return vec![(all, requests)];
+    }
+    let is_next = |one: &Request, other: &Request| {
+        place(other) == place(one) + 1 && !place(other).is_multiple_of(tile.width)
+    };
+    let runs = requests.chunk_by(is_next);
+    runs.map(|run| (around(tile, run.iter().map(place)), run))
+        .collect()
 }
 
 /// The rectangle around some pixels of a tile.
