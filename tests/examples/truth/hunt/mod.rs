@@ -5,6 +5,7 @@
 
 mod draft;
 mod families;
+mod page;
 mod random;
 mod reduce;
 
@@ -82,6 +83,7 @@ struct Options {
     seed: u64,
     family: String,
     folder: Option<String>,
+    page: Option<String>,
 }
 
 impl Options {
@@ -91,6 +93,7 @@ impl Options {
             seed: 1,
             family: String::new(),
             folder: None,
+            page: None,
         };
         for pair in arguments.chunks(2) {
             let [name, value] = pair else {
@@ -106,6 +109,7 @@ impl Options {
                 "--seed" => options.seed = number()?,
                 "--family" => options.family = (*value).to_owned(),
                 "--write" => options.folder = Some((*value).to_owned()),
+                "--page" => options.page = Some((*value).to_owned()),
                 _ => return Err(format!("unknown option {name}")),
             }
         }
@@ -113,7 +117,7 @@ impl Options {
     }
 }
 
-/// Hunts, and reports by families.
+/// Hunts, and reports by families; an error, with the report, if a pixel is broken.
 pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let families: Vec<&Family> = FAMILIES
@@ -123,7 +127,8 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     if families.is_empty() {
         return Err(format!("no family is called {}", options.family));
     }
-    let each = options.scenes.div_ceil(families.len() as u64);
+    let shares = families.iter().map(|family| 1.0 / family.rarity as f64);
+    let most = (options.scenes as f64 / shares.sum::<f64>()).ceil() as u64;
     let mut text = String::from(
         "| family | scenes | pixels | 1e-2 | 1e-3 | 1e-4 | 1e-5 | 1e-6 | beyond claim |\n",
     );
@@ -131,6 +136,7 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let mut examples = String::new();
     let mut unjudged = 0;
     for family in families {
+        let each = most.div_ceil(family.rarity);
         let found: Vec<(u64, Draft, Found)> = (0..each)
             .into_par_iter()
             .map(|index| {
@@ -180,7 +186,14 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
             "\n{unjudged} pixels of fine bumps could not be judged."
         );
     }
-    Ok(text + "\n" + &examples)
+    if let Some(page) = &options.page {
+        page::write(Path::new(page), &options, &text)?;
+    }
+    if examples.is_empty() {
+        Ok(text)
+    } else {
+        Err(format!("pixels are broken\n{text}\n{examples}"))
+    }
 }
 
 /// A scene, and the same with many frames for one, where its shutter is open.

@@ -9,7 +9,11 @@ use crate::edges::cell::Cell;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::model::color::Color;
 use crate::numeric::vectors::Vectors;
+
+/// Highlights that are no brighter than white.
+const ORDINARY: f64 = 1.0;
 
 /// More than an angle, up to 1, over the length of its chord.
 const OF_CHORD: f64 = 1.05;
@@ -20,15 +24,22 @@ impl Contents {
     #[inline(always)]
     pub(crate) fn excess<S: Simd>(&self, simd: S, scene: &InCamera<'_>, cell: &Cell) -> f64 {
         let lights = scene.lights.iter().map(|light| light.intensity);
-        let white = lights.fold(scene.ambient, |sum, light| sum + light);
+        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
+        let (white, lights_together) = (scene.ambient + lights, lights.max_element());
         let mut highest = 0.0_f64;
         for (position, active) in self.active.iter().enumerate() {
             let albedo = scene.world.albedo(active.sphere).max_element();
             let mut excess = (albedo - 1.0).max(0.0) * white.max_element();
             let material = scene.world.material(active.sphere);
-            if material.highlight.is_some() {
-                let finish = Finish::new(scene, active.sphere, self.pixel);
-                excess += self.highlight(simd, &finish, (scene, cell), position);
+            if let Some(highlight) = &material.highlight {
+                // The tops of ordinary highlights are no reason to look closer.
+                let top = highlight.strength * lights_together;
+                excess += if top <= ORDINARY {
+                    top
+                } else {
+                    let finish = Finish::new(scene, active.sphere, self.pixel);
+                    self.highlight(simd, &finish, (scene, cell), position)
+                };
             }
             highest = highest.max(excess);
         }

@@ -106,8 +106,10 @@ fn processors_and_tiles_do_not_change_a_bit() {
         let expected = pixels(Level::new(), tolerance, Tile::SIDE);
         let partly = |pixel: &&Pixel| 0.0 < pixel.alpha && pixel.alpha < 1.0;
         assert!(expected.iter().filter(partly).count() > 50);
-        let is_met = |pixel: &Pixel| pixel.status == Status::Met;
-        assert!(expected.iter().all(is_met), "nothing falls back on samples");
+        // Some pixels with bumps end at their budget, which must not depend on tiles either.
+        let is_over = |pixel: &&Pixel| pixel.status != Status::Met;
+        let over = expected.iter().filter(is_over).count();
+        assert!(over < 5, "{over} fall back on samples");
         for level in levels().into_iter().chain([Level::baseline()]) {
             let found = pixels(level, tolerance, Tile::SIDE);
             assert!(expected == found, "{level:?}");

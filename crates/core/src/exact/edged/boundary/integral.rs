@@ -64,7 +64,8 @@ impl Boundary {
         }
         // Between lines on bumps more may happen than their errors tell.
         let is_bumpy = |active: &Active| active.terminators == Terminators::Anywhere;
-        let share = if actives.iter().any(is_bumpy) {
+        let has_bumps = actives.iter().any(is_bumpy);
+        let share = if has_bumps {
             LEAST_SHARE
         } else {
             let curves = contents.conics.len() + contents.occluders.len();
@@ -80,6 +81,7 @@ impl Boundary {
             goal,
             surfaces: &surfaces,
             share,
+            has_bumps,
         };
         let zero = f64x8::splat(simd, 0.0);
         let mut sum = Sum {

@@ -78,7 +78,8 @@ impl Boundary {
                     }
                 }
                 let middle = (arc.start + length * shares[MIDDLE], places.y[MIDDLE]);
-                if depth < DEEPEST && spans_bumps(simd, setting, arc, &places) {
+                if depth < DEEPEST && setting.has_bumps && spans_bumps(simd, setting, arc, &places)
+                {
                     self.add_halves(simd, setting, path, (arc, middle), depth, sum);
                     return;
                 }

@@ -142,6 +142,8 @@ pub(super) struct Setting<'a, 'scene> {
     pub(super) surfaces: &'a [Surface],
     /// The share of the tolerance that an arc may take before it is halved.
     pub(super) share: f64,
+    /// Whether some of the active spheres have bumps.
+    pub(super) has_bumps: bool,
 }
 
 impl Setting<'_, '_> {
