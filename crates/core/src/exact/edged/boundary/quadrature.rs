@@ -23,9 +23,12 @@ const DEEPEST: u32 = 12;
 /// Arcs that are not worth it, in pieces.
 const SHORTEST: f64 = 1e-12;
 
-/// The share of the square of an arc's rise that may be lit between its lines, where none is: that of a square
-/// as high as four of their distances.
-const OF_TIP: f64 = 0.5;
+/// The share of the square of an arc's rise that may be lit between its lines, where none is. Lines are less than
+/// 0.22 of the rise apart; what lies between them is about as wide as it is high, and ends in between.
+const OF_TIP: f64 = 0.05;
+
+/// The share of the tolerance that this may take on an arc before it is halved: few arcs have any.
+const SHARE_OF_TIP: f64 = 0.1;
 
 /// The node of the rule that is in the middle of an arc.
 const MIDDLE: usize = NODES / 2;
@@ -123,16 +126,17 @@ impl Boundary {
                     }
                     error = error.max(estimate + slip * highest);
                 }
-                // What lies between lines is about as wide as it is high, which is less than a sixth of the rise.
-                error += OF_TIP * sides.tip * rise * rise;
+                let tip = OF_TIP * sides.tip * rise * rise;
                 let is_over = self.work.units() > goal.units;
-                if error > setting.share * goal.tolerance && depth < DEEPEST && !is_over {
+                let is_coarse =
+                    error > setting.share * goal.tolerance || tip > SHARE_OF_TIP * goal.tolerance;
+                if is_coarse && depth < DEEPEST && !is_over {
                     *sum = kept;
                     self.add_halves(simd, setting, path, (arc, middle), depth, sum);
                     return;
                 }
                 let of_sums = total(sides.doubt * all.abs());
-                sum.error += CAUTION * (error + of_sums);
+                sum.error += CAUTION * (error + of_sums) + tip;
                 self.note_sides(curve, arc, rise);
             },
         );
