@@ -247,7 +247,7 @@ impl Sender<'_, '_> {
             }
         }
         let mut counts = stops.counts[..NODES].iter();
-        let is_even = beyond == 0.0 && counts.all(|&count| count == stops.counts[0]);
+        let is_even = counts.all(|&count| count == stops.counts[0]);
         (is_even, beyond)
     }
 
