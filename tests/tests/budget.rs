@@ -61,7 +61,7 @@ fn hard_pixels_cost_no_more_than_allowed() {
     let bright = |strength: &str| format!("highlight: (strength: {strength}, shininess: 40)");
     let cases = [
         (scene(&bumps(0.1), 1, NEAR, ""), 1e-5, 9000.0),
-        (scene(&bumps(1e-6), 1, NEAR, ""), 1e-5, 50.0),
+        (scene(&bumps(1e-6), 1, NEAR, ""), 1e-5, 1200.0),
         (scene(&bumps(0.1), 17, NEAR, ""), 1e-5, 30_000.0),
         (scene(&bright("65537"), 1, NEAR, ""), 1e-5, 1500.0),
         (scene(&bright("1e300"), 1, NEAR, ""), 1e-5, 500.0),

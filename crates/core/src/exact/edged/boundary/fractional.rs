@@ -19,37 +19,6 @@ use super::plain::{normal_times, ray_times};
 use super::primitive::{EIGHT, Lines, Noise, SIX, Sender, Summed};
 use crate::exact::scene::Light;
 use crate::numeric::bits::set_bits;
-use crate::numeric::jacobi::JacobiRule;
-
-/// The rules for a power.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PowerRules {
-    exponent: f64,
-    fine: JacobiRule<8>,
-    coarse: JacobiRule<6>,
-}
-
-impl PowerRules {
-    pub(super) const ZERO: Self = Self {
-        exponent: 0.0,
-        fine: JacobiRule::ZERO,
-        coarse: JacobiRule::ZERO,
-    };
-
-    /// The rules for an exponent, from among those known so far.
-    pub(super) fn of(exponent: f64, known: &mut Vec<Self>) -> Self {
-        if let Some(rules) = known.iter().find(|rules| rules.exponent == exponent) {
-            return *rules;
-        }
-        let rules = Self {
-            exponent,
-            fine: JacobiRule::new(exponent),
-            coarse: JacobiRule::new(exponent),
-        };
-        known.push(rules);
-        rules
-    }
-}
 
 /// What is integrated: the diffuse light of a light, for an intensity and an albedo of 1.
 #[derive(Clone, Copy)]

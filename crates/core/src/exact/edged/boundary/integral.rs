@@ -8,7 +8,7 @@ use super::chord::Reference;
 use super::clip;
 use super::curve::{Circle, Piece, Shape};
 use super::events::Stretch;
-use super::fractional::PowerRules;
+use super::power_rules::PowerRules;
 use super::quadrature::total;
 
 use crate::edges::cell::Cell;

@@ -16,6 +16,7 @@ mod kinks;
 mod levels;
 mod lit;
 mod plain;
+mod power_rules;
 mod primitive;
 mod quadrature;
 mod setting;

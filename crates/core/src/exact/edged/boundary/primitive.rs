@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::chord::{Chord, Reference};
-use super::fractional::PowerRules;
+use super::power_rules::PowerRules;
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::points::Points;

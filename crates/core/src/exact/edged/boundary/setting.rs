@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 
 use super::chord::Reference;
 use super::curve::{Piece, Shape};
-use super::fractional::PowerRules;
+use super::power_rules::PowerRules;
 use super::primitive::Noise;
 
 use crate::edges::cell::Cell;

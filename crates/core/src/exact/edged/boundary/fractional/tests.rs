@@ -9,6 +9,7 @@ use crate::edges::silhouette::silhouette;
 use crate::edges::tests::{ball_in_front, cell_at, direction, first_hit, magnitude, ray, value};
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::edged::boundary::chord::Reference;
+use crate::exact::edged::boundary::power_rules::PowerRules;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::camera::{Camera, Lens};
