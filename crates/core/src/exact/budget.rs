@@ -48,24 +48,24 @@ pub(crate) struct Doubt {
 }
 
 /// The units that a pixel may cost: a few thousand times a pixel with ordinary edges, which costs about 200.
-pub(crate) const MOST: u64 = 500_000;
+pub(crate) const MOST: u64 = 1_500_000;
 
 /// The units that a pixel may cost at each of the moments of an open shutter, which are seven at least.
-pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 8;
+pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 24;
 
 /// The units that a pixel may cost over all moments together, before it ends: the last panels are finished.
-pub(crate) const MOST_OVER_TIME: u64 = MOST / 8;
+pub(crate) const MOST_OVER_TIME: u64 = MOST / 24;
 
-/// Bumps side by side in a pixel up to which all of the budget is theirs, and from which on nothing is: a
+/// Bumps side by side in a pixel up to which two thirds of the budget are theirs, and from which on nothing is: a
 /// hundred and more bumps are not followed one by one.
 const FEW_GRAINS: f64 = 0.5;
 const MANY_GRAINS: f64 = 12.0;
 
 /// The share of the budget that pixels with bumps may need, on average, to be worth it; and the shares that they
 /// have at least if they are, and if they are not.
-const MOST_NEED: f64 = 0.04;
-const HOPEFUL: f64 = 0.06;
-const HOPELESS: f64 = 0.01;
+const MOST_NEED: f64 = 0.02;
+const HOPEFUL: f64 = 0.03;
+const HOPELESS: f64 = 0.005;
 
 /// The share of the budget that a single part of a pixel may take.
 const OF_PART: u64 = 8;
@@ -80,6 +80,7 @@ impl Budget {
     /// The finer bumps are, the less is to be had for the same work, and the more pixels of a picture are alike:
     /// what most of them would need tells whether a pixel has much, or little.
     pub(crate) fn new(most: u64, grains: f64, tolerance: f64) -> Self {
+        let most = if grains > 0.0 { most / 3 * 2 } else { most };
         let share = if grains > MANY_GRAINS {
             0.0
         } else {
@@ -219,7 +220,7 @@ mod tests {
     #[test]
     fn no_pixel_costs_more_than_its_budget_and_one_part() {
         for most in [3000, 30_000, MOST] {
-            let spent = end(Budget::new(most, 0.4, TOLERANCE), 300, |_| 0.1, 0.0);
+            let spent = end(Budget::new(most, 0.0, TOLERANCE), 300, |_| 0.1, 0.0);
             assert!((most..=most + 350).contains(&spent), "{spent}");
         }
     }
@@ -227,8 +228,8 @@ mod tests {
     #[test]
     fn finer_bumps_have_less() {
         let most = |grains: f64, tolerance: f64| Budget::new(MOST, grains, tolerance).most;
-        assert_eq!(most(0.5, 1e-5), MOST);
-        assert_eq!(most(1.0, 1e-5), MOST / 4);
+        assert_eq!(most(0.5, 1e-5), MOST / 3 * 2);
+        assert_eq!(most(1.0, 1e-5), MOST / 6);
         assert_eq!(most(7.0, 1e-3), 30_000);
         assert_eq!(most(7.0, 1e-5), 5000);
         assert!(Budget::new(MOST, 12.1, 1e-2).is_nothing());

@@ -57,7 +57,7 @@ pub(crate) static RULE: Rule = {
 pub(crate) fn doubt(difference: f64, odd: f64) -> f64 {
     /// The odd parts of integrands are a few times as large as the even ones of the next degree; chosen by
     /// `cargo truth hunt`, which finds no broken pixel from 0.05 on.
-    const OF_ODD: f64 = 0.2;
+    const OF_ODD: f64 = 0.1;
     let odd = OF_ODD * odd;
     (difference * difference + odd * odd).sqrt()
 }
