@@ -204,7 +204,14 @@ impl Workspace {
         let is_coarse = self.contrast * contents.rounding > *tolerance;
         let units = if is_coarse { 0 } else { self.budget.of_part() };
         let negligible = 0.01 * tolerance;
-        let bumpy = of_bumpy_cell(simd, scene, cell, contents, *tolerance, &mut self.noise);
+        let bumpy = of_bumpy_cell(
+            simd,
+            scene,
+            cell,
+            contents,
+            (*tolerance, pixel.context.budget),
+            &mut self.noise,
+        );
         if let Some(found) = bumpy {
             self.work.samples += found.samples;
             work.samples += found.samples;

@@ -7,6 +7,7 @@ use super::filled::Filled;
 use super::parts::{ALL, Average};
 use super::terminators::SMALL;
 use crate::edges::cell::Cell;
+use crate::exact::budget::MOST;
 use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::points::Points;
@@ -23,7 +24,12 @@ const MOST_DIVISIONS: usize = 512;
 const FEW_DIVISIONS: usize = 8;
 const FINE: f64 = 3e-5;
 
-/// Strata on a side of a cell: those of a first look, and those by which a tolerance may be met.
+/// The units of a pixel's budget for each division that it is worth.
+const UNITS_OF_DIVISION: u64 = MOST / MOST_DIVISIONS as u64;
+
+/// Strata on a side of a cell: those of one of many moments, those of a first look, and those by which a tolerance
+/// may be met.
+const FEW_STRATA: u32 = 4;
 const FIRST_STRATA: u32 = 32;
 const MOST_STRATA: u32 = 64;
 
@@ -46,7 +52,12 @@ impl<S: Simd> Filled<'_, S> {
             } else {
                 MOST_DIVISIONS
             };
+            let most = most.min((self.budget / UNITS_OF_DIVISION) as usize);
             return Some(self.in_parts(simd, lane, most, noise));
+        }
+        // At a moment of many a look must do.
+        if self.budget < MOST {
+            return Some(self.by_strata(simd, lane, FEW_STRATA, noise));
         }
         let first = self.by_strata(simd, lane, FIRST_STRATA, noise);
         // With so many more samples the claim falls by that at most.
@@ -69,7 +80,7 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
     scene: &InCamera<'_>,
     cell: &Cell,
     contents: &Contents,
-    tolerance: f64,
+    (tolerance, budget): (f64, u64),
     noise: &mut Option<Box<NoiseCells>>,
 ) -> Option<Average> {
     let [active] = contents.active.as_slice() else {
@@ -114,6 +125,7 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
                 nearness: zero + 2.0 * turn / grazing.max(0.0),
                 which: ALL,
                 tolerance,
+                budget,
                 is_proved: false,
             };
             filled.of_bumps(simd, 0, noise)

@@ -115,6 +115,7 @@ fn fill_lit<S: Simd>(
         nearness: reached.nearness,
         which,
         tolerance: context.tolerance,
+        budget: context.budget,
         is_proved: context.is_proved,
     };
     let averages = simd.vectorize(

@@ -51,6 +51,8 @@ pub(crate) struct Filled<'a, S: Simd> {
     /// The pixels that count, bit by bit, and the error that is allowed in them.
     pub(super) which: u64,
     pub(super) tolerance: f64,
+    /// The units that a pixel may cost, of `exact::budget`.
+    pub(super) budget: u64,
     /// Whether bounds of the errors are asked for.
     pub(super) is_proved: bool,
 }
