@@ -5,6 +5,9 @@ use crate::numeric::kronrod::{self, ABSCISSAS, WEIGHTS};
 /// Nodes of the rule.
 pub(crate) const NODES: usize = kronrod::POINTS;
 
+/// The node in the middle.
+pub(crate) const MIDDLE: usize = NODES / 2;
+
 /// Nodes on 0 to 1 with the weights of Kronrod's rule and of Gauss's with three points, which is
 /// held against it.
 #[derive(Clone, Copy, Debug)]

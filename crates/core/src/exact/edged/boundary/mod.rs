@@ -11,6 +11,7 @@ mod clip;
 mod curve;
 mod events;
 mod fractional;
+mod hard_arcs;
 mod integral;
 mod kinks;
 mod levels;
