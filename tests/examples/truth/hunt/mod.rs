@@ -8,6 +8,7 @@ mod families;
 mod page;
 mod random;
 mod reduce;
+mod scenes;
 
 use std::fmt::{self, Write};
 use std::ops::ControlFlow;

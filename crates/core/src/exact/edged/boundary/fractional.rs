@@ -2,7 +2,8 @@
 //!
 //! Along a chord n·l is P / Q with polynomials of degree 2 of its parameter, and Q has no zero near it. So a
 //! power of n·l begins at the roots of P, at most two, and is analytic but for them. Chords are divided there;
-//! each part has the nearest root at one end, or beyond it.
+//! each part has the nearest root at one end, or beyond it. Factors of `grain: Pixel` move the roots, with the axis
+//! of the terminator, and divide n·l by a length that has no zero.
 //!
 //! The rules are those of Gauss and Jacobi where a part begins at a root, else Gauss's: 8 nodes, and 6 whose
 //! difference to them is the doubt. Parts are so short that no root is nearer to them, or to what is between
