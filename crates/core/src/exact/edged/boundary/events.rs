@@ -164,27 +164,27 @@ impl Stretch<'_> {
                     let ends = [values[lane], values[lane + 1]];
                     breaks.push(self.root(simd, setting, function, bracket, ends));
                 }
-                let mut touches = touches(simd, values) & (intervals | intervals << 1);
-                while touches != 0 {
-                    let lane = touches.trailing_zeros() as usize;
-                    touches &= touches - 1;
-                    let bracket = [self.at(STEPS[lane - 1]), self.at(STEPS[lane + 1])];
-                    let ends = [values[lane - 1], values[lane + 1]];
-                    self.dip(simd, setting, function, (bracket, ends), CLOSER, breaks);
+                let mut dips = dips(simd, values) & intervals;
+                while dips != 0 {
+                    let lane = dips.trailing_zeros() as usize;
+                    dips &= dips - 1;
+                    let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
+                    let four = around(&values.into(), lane);
+                    self.dip(simd, setting, function, (bracket, four), CLOSER, breaks);
                 }
             },
         )
     }
 
-    /// Appends where a function vanishes in a bracket at whose ends its values have one sign, and between
-    /// which it comes near zero, looking closer some times.
+    /// Appends where a function vanishes in a bracket at whose ends its values have one sign, looking closer some
+    /// times. Its four values are one bracket before it, at its ends, and one bracket after it.
     #[inline(never)]
     fn dip<S: Simd>(
         &self,
         simd: S,
         setting: &Setting<'_, '_>,
         function: Function,
-        (bracket, ends): ([f64; 2], [f64; 2]),
+        (bracket, [before, one, other, after]): ([f64; 2], [f64; 4]),
         closer: u32,
         breaks: &mut Vec<f64>,
     ) {
@@ -200,26 +200,35 @@ impl Stretch<'_> {
                 inner.copy_from_slice(&places[1..9]);
                 let points = self.trace(simd, setting, inner.simd_into(simd));
                 let found: [f64; 8] = value(simd, setting, function, &points).into();
-                let mut values = [ends[1]; 10];
-                values[0] = ends[0];
-                values[1..9].copy_from_slice(&found);
-                let mut lowest = 1;
+                // Outside, it falls to the bracket at least as steeply as on the way there.
+                let mut values = [0.0; 12];
+                values[0] = one + (before - one) / 9.0;
+                values[1] = one;
+                values[2..10].copy_from_slice(&found);
+                values[10] = other;
+                values[11] = other + (after - other) / 9.0;
                 let known = breaks.len();
                 for index in 0..9 {
-                    let (one, other) = (values[index], values[index + 1]);
+                    let (one, other) = (values[index + 1], values[index + 2]);
                     if (one < 0.0) != (other < 0.0) {
                         let bracket = [places[index], places[index + 1]];
                         breaks.push(self.root(simd, setting, function, bracket, [one, other]));
                     }
-                    if index > 0 && one.abs() < values[lowest].abs() {
-                        lowest = index;
-                    }
                 }
-                let three = [values[lowest - 1], values[lowest], values[lowest + 1]];
-                if breaks.len() == known && closer > 0 && comes_near(three) {
-                    let bracket = [places[lowest - 1], places[lowest + 1]];
-                    let ends = [three[0], three[2]];
-                    self.dip(simd, setting, function, (bracket, ends), closer - 1, breaks);
+                if breaks.len() > known || closer == 0 {
+                    return;
+                }
+                for index in 0..9 {
+                    let four = [
+                        values[index],
+                        values[index + 1],
+                        values[index + 2],
+                        values[index + 3],
+                    ];
+                    if may_dip(four) {
+                        let bracket = [places[index], places[index + 1]];
+                        self.dip(simd, setting, function, (bracket, four), closer - 1, breaks);
+                    }
                 }
             },
         )
@@ -306,38 +315,75 @@ fn share_of_root(values: &[f64; 2]) -> f64 {
 /// How often a dip is looked at closer.
 const CLOSER: u32 = 2;
 
+/// Whether a function that is convex toward zero, with such values of one sign at four places in a row, may
+/// vanish between the two in the middle: it lies on their side of both straight lines that go on from outside.
+///
+/// What could fool it is a function that bends twice within a step. It holds for one that turns sharply, such as
+/// a shadow that grazes a terminator, where a parabola does not.
+fn may_dip([before, one, other, after]: [f64; 4]) -> bool {
+    let (fall, rise) = (before - one, after - other);
+    fall * one > 0.0 && rise * one > 0.0 && (one * rise + other * fall).abs() < fall * rise
+}
+
+/// The values at the ends of an interval between eight places, and one place before and after it; beyond the first
+/// and the last place, those of a parabola.
+fn around(values: &[f64; 8], interval: usize) -> [f64; 4] {
+    let beyond = |first: f64, second: f64, third: f64| 3.0 * (first - second) + third;
+    match interval {
+        0 => [
+            beyond(values[0], values[1], values[2]),
+            values[0],
+            values[1],
+            values[2],
+        ],
+        6 => [
+            values[5],
+            values[6],
+            values[7],
+            beyond(values[7], values[6], values[5]),
+        ],
+        inner => [
+            values[inner - 1],
+            values[inner],
+            values[inner + 1],
+            values[inner + 2],
+        ],
+    }
+}
+
+/// The intervals between eight places in which a function with these values may vanish though it has one sign at
+/// their ends: those inside by [`may_dip`], those at the ends by parabolas.
+#[inline(always)]
+fn dips<S: Simd>(simd: S, values: f64x8<S>) -> u64 {
+    let v: [f64; 8] = values.into();
+    let before = [v[0], v[0], v[1], v[2], v[3], v[4], v[5], v[6]];
+    let other = [v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[7]];
+    let after = [v[2], v[3], v[4], v[5], v[6], v[7], v[7], v[7]];
+    let before: f64x8<S> = before.simd_into(simd);
+    let other: f64x8<S> = other.simd_into(simd);
+    let after: f64x8<S> = after.simd_into(simd);
+    let (fall, rise) = (before - values, after - other);
+    let inside = (fall * values).simd_gt(0.0)
+        & (rise * values).simd_gt(0.0)
+        & (values * other).simd_gt(0.0)
+        & (values * rise + other * fall).abs().simd_lt(fall * rise);
+    let ends =
+        u64::from(comes_near([v[0], v[1], v[2]])) | u64::from(comes_near([v[7], v[6], v[5]])) << 6;
+    inside.to_bitmask() | ends
+}
+
 /// How much farther than a parabola values may go, in what it falls by and in what it bends by: found by
 /// limbs of balls that dip below a horizon.
 const FARTHER: f64 = 1.5;
 const BENT: f64 = 0.1;
 
-/// Whether the parabola through three values of one sign comes near zero between them.
-fn comes_near([before, here, after]: [f64; 3]) -> bool {
-    let (bend, rise) = (before - 2.0 * here + after, after - before);
-    let is_bent = before * here > 0.0
-        && after * here > 0.0
-        && bend * here > 0.0
+/// Whether the parabola through three values of one sign comes near zero between the first two.
+fn comes_near([first, second, third]: [f64; 3]) -> bool {
+    let (bend, rise) = (first - 2.0 * second + third, third - first);
+    let is_bent = first * second > 0.0
+        && second * third > 0.0
+        && bend * second > 0.0
+        && rise * bend > 0.0
         && rise.abs() < 2.0 * bend.abs();
-    is_bent && (here * bend).abs() < (rise * rise * FARTHER + bend * bend * BENT) * 0.125
-}
-
-/// The lanes beside which parabolas through neighboring values, all of one sign, come near zero.
-#[inline(always)]
-fn touches<S: Simd>(simd: S, values: f64x8<S>) -> u64 {
-    const INNER: u64 = 0x7e;
-    let v: [f64; 8] = values.into();
-    let before = [v[0], v[0], v[1], v[2], v[3], v[4], v[5], v[6]];
-    let after = [v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[7]];
-    let before: f64x8<S> = before.simd_into(simd);
-    let after: f64x8<S> = after.simd_into(simd);
-    let bend = before - values * 2.0 + after;
-    let rise = after - before;
-    // Of one sign, bent toward zero, with the vertex between them.
-    let is_bent = (before * values).simd_gt(0.0)
-        & (after * values).simd_gt(0.0)
-        & (bend * values).simd_gt(0.0)
-        & rise.abs().simd_lt(bend.abs() * 2.0);
-    let depth = rise * rise * FARTHER + bend * bend * BENT;
-    let comes_near = (values * bend).abs().simd_lt(depth * 0.125);
-    (is_bent & comes_near).to_bitmask() & INNER
+    is_bent && (second * bend).abs() < (rise * rise * FARTHER + bend * bend * BENT) * 0.125
 }
