@@ -51,10 +51,46 @@ pub(crate) struct Doubt {
 pub(crate) const MOST: u64 = 1_500_000;
 
 /// The units that a pixel may cost at each of the moments of an open shutter, which are seven at least.
-pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 24;
+const MOST_AT_A_MOMENT: u64 = MOST / 24;
 
 /// The units that a pixel may cost over all moments together, before it ends: the last panels are finished.
 pub(crate) const MOST_OVER_TIME: u64 = MOST / 24;
+
+/// The units that a pixel may cost.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Allowance {
+    /// Where it sees no bumps.
+    ordinary: u64,
+    /// Where it sees bumps.
+    pub(crate) bumpy: u64,
+}
+
+impl Allowance {
+    /// Of a pixel whose lights are integrated in so many groups, one after the other.
+    pub(crate) fn still(groups: usize) -> Self {
+        Self {
+            ordinary: MOST,
+            bumpy: MOST / groups as u64,
+        }
+    }
+
+    /// The same at one of the moments of a panel of time that is 2⁻ˡ of the whole, l being its level. The shorter
+    /// a panel is, the more of them share what a pixel with bumps may cost.
+    pub(crate) fn at_a_moment(self, level: u32) -> Self {
+        /// The level from which on all moments have the same.
+        const MOST_SHARED: u32 = 4;
+        let share = MOST / MOST_AT_A_MOMENT;
+        Self {
+            ordinary: self.ordinary / share,
+            bumpy: (self.bumpy / share) >> level.min(MOST_SHARED),
+        }
+    }
+
+    /// Returns whether it is that of one of many moments.
+    pub(crate) fn is_of_moment(self) -> bool {
+        self.ordinary < MOST
+    }
+}
 
 /// Bumps side by side in a pixel up to which two thirds of the budget are theirs, and from which on nothing is: a
 /// hundred and more bumps are not followed one by one.
@@ -75,12 +111,16 @@ const OF_PART: u64 = 8;
 const FIRST_LOOK: u64 = 512;
 
 impl Budget {
-    /// The budget of a pixel that may cost `most` where it is ordinary, with so many bumps side by side.
+    /// The budget of a pixel with so many bumps side by side.
     ///
     /// The finer bumps are, the less is to be had for the same work, and the more pixels of a picture are alike:
     /// what most of them would need tells whether a pixel has much, or little.
-    pub(crate) fn new(most: u64, grains: f64, tolerance: f64) -> Self {
-        let most = if grains > 0.0 { most / 3 * 2 } else { most };
+    pub(crate) fn new(allowance: Allowance, grains: f64, tolerance: f64) -> Self {
+        let most = if grains > 0.0 {
+            allowance.bumpy / 3 * 2
+        } else {
+            allowance.ordinary
+        };
         let share = if grains > MANY_GRAINS {
             0.0
         } else {
@@ -161,8 +201,15 @@ impl TileCosts {
     }
 }
 
-/// The units that a pixel without edges costs, about: where it is smooth, and on bumps.
-pub(crate) const FILLED: [u64; 2] = [10, 60];
+/// The units that a pixel without edges has cost, about.
+pub(crate) fn units_of_filled(samples: u64, is_rough: bool) -> u64 {
+    const OF_PIXEL: u64 = 10;
+    if is_rough {
+        OF_PIXEL + samples
+    } else {
+        OF_PIXEL
+    }
+}
 
 /// The units that pixels with so many bumps side by side take on average, as measured with amplitudes from
 /// 0.5 to 0.9: an estimate, which only decides how much is tried.
@@ -202,14 +249,19 @@ mod tests {
 
     #[test]
     fn edges_are_followed_to_the_tolerance() {
-        let spent = end(Budget::new(MOST, 0.0, TOLERANCE), 300, halving, 0.0);
+        let spent = end(
+            Budget::new(Allowance::still(1), 0.0, TOLERANCE),
+            300,
+            halving,
+            0.0,
+        );
         assert!((200_000..201_000).contains(&spent), "{spent}");
     }
 
     #[test]
     fn rounding_that_stays_ends_at_once() {
         let spent = end(
-            Budget::new(MOST, 0.0, TOLERANCE),
+            Budget::new(Allowance::still(1), 0.0, TOLERANCE),
             100,
             halving,
             10.0 * TOLERANCE,
@@ -220,18 +272,24 @@ mod tests {
     #[test]
     fn no_pixel_costs_more_than_its_budget_and_one_part() {
         for most in [3000, 30_000, MOST] {
-            let spent = end(Budget::new(most, 0.0, TOLERANCE), 300, |_| 0.1, 0.0);
+            let allowance = Allowance {
+                ordinary: most,
+                bumpy: 0,
+            };
+            let budget = Budget::new(allowance, 0.0, TOLERANCE);
+            let spent = end(budget, 300, |_| 0.1, 0.0);
             assert!((most..=most + 350).contains(&spent), "{spent}");
         }
     }
 
     #[test]
     fn finer_bumps_have_less() {
-        let most = |grains: f64, tolerance: f64| Budget::new(MOST, grains, tolerance).most;
+        let still = Allowance::still(1);
+        let most = |grains: f64, tolerance: f64| Budget::new(still, grains, tolerance).most;
         assert_eq!(most(0.5, 1e-5), MOST / 3 * 2);
         assert_eq!(most(1.0, 1e-5), MOST / 6);
         assert_eq!(most(7.0, 1e-3), 30_000);
         assert_eq!(most(7.0, 1e-5), 5102);
-        assert!(Budget::new(MOST, 12.1, 1e-2).is_nothing());
+        assert!(Budget::new(still, 12.1, 1e-2).is_nothing());
     }
 }

@@ -2,6 +2,7 @@
 
 use fearless_simd::prelude::*;
 
+use super::budget::Allowance;
 use super::part::Part;
 use super::scene::InCamera;
 use crate::edges::cell::Cell;
@@ -29,8 +30,7 @@ pub(crate) struct Context<'scene> {
     pub(crate) background: Color,
     /// About the largest difference of light that an edge may make, highlights left out.
     pub(crate) contrast: f64,
-    /// The units that a pixel may cost, of `exact::budget`.
-    pub(crate) budget: u64,
+    pub(crate) allowance: Allowance,
 }
 
 impl Context<'_> {

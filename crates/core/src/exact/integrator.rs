@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
-use super::budget::MOST;
+use super::budget::Allowance;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::scene::{InCamera, MOST_LIGHTS};
@@ -91,7 +91,7 @@ impl<'scene> Exact<'scene> {
                 world.background
             },
             contrast,
-            budget: MOST,
+            allowance: Allowance::still(count),
         };
         Self {
             is_moderate: is_view_moderate(view),
@@ -106,10 +106,10 @@ impl<'scene> Exact<'scene> {
         }
     }
 
-    /// The same with so many units, of `exact::budget`, for a pixel.
-    pub(crate) fn with_budget(mut self, units: u64) -> Self {
+    /// The same for one of the moments of a panel of time of a level, which many others share a pixel's budget with.
+    pub(crate) fn at_a_moment(mut self, level: u32) -> Self {
         for context in &mut self.groups {
-            context.budget = units;
+            context.allowance = context.allowance.at_a_moment(level);
         }
         self
     }

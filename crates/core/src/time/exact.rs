@@ -10,7 +10,6 @@ use super::instants::{Instant, Instants};
 use super::panel::{MOMENTS, Panel, Part};
 use super::panel_levels::PanelLevels;
 use super::pixel_sum::{PixelSum, SHARE_OF_AREA};
-use crate::exact::budget::MOST_AT_A_MOMENT;
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::world::World;
 use crate::picture::band::Band;
@@ -97,7 +96,7 @@ impl<'scene> ExactOverTime<'scene> {
                 let panel = of_panel[0].panel;
                 let add = |pixel: u32, part| sums[pixel as usize].add(part);
                 let integrate = |instants: &[Instant<'scene>]| {
-                    let integrators = self.integrators(instants);
+                    let integrators = self.integrators(instants, panel);
                     integrate_panel(&integrators, &tiles, of_panel, (room, progress), add)
                 };
                 let (number, times) = (panel.number(), panel.times());
@@ -114,12 +113,12 @@ impl<'scene> ExactOverTime<'scene> {
         Ok((pixels.collect(), work))
     }
 
-    /// The integrators over area at some moments.
-    fn integrators(&self, instants: &[Instant<'scene>]) -> Vec<Exact<'scene>> {
+    /// The integrators over area at the moments of a panel.
+    fn integrators(&self, instants: &[Instant<'scene>], panel: Panel) -> Vec<Exact<'scene>> {
         let tolerance = SHARE_OF_AREA * self.tolerance;
         let at = |Instant { view, index }: &Instant<'scene>| {
             Exact::new(self.world, view, index, tolerance, self.alpha)
-                .with_budget(MOST_AT_A_MOMENT)
+                .at_a_moment(panel.level)
                 .without_proofs()
         };
         instants.iter().map(at).collect()

@@ -93,7 +93,7 @@ impl Workspace {
     ) -> Result<Part, GiveUp> {
         let Context {
             scene,
-            budget,
+            allowance,
             tolerance,
             ..
         } = pixel.context;
@@ -103,7 +103,7 @@ impl Workspace {
         self.work.candidate_tests += pixel.spheres.len() as u64;
         let contents = &self.contents;
         self.contrast = pixel.context.contrast + contents.excess(simd, scene, &cell);
-        self.budget = Budget::new(*budget, contents.grains_across(scene, &cell), *tolerance);
+        self.budget = Budget::new(*allowance, contents.grains_across(scene, &cell), *tolerance);
         self.is_random = false;
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);
@@ -209,7 +209,7 @@ impl Workspace {
             scene,
             cell,
             contents,
-            (*tolerance, pixel.context.budget),
+            (*tolerance, pixel.context.allowance),
             &mut self.noise,
         );
         if let Some(found) = bumpy {

@@ -7,7 +7,7 @@ use super::filled::Filled;
 use super::parts::{ALL, Average};
 use super::terminators::SMALL;
 use crate::edges::cell::Cell;
-use crate::exact::budget::MOST;
+use crate::exact::budget::{Allowance, MOST};
 use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::points::Points;
@@ -18,7 +18,7 @@ use crate::numeric::vectors::Vectors;
 
 /// Divisions that a cell is worth; each takes forty samples. Bumps that are so small that their parts would be more
 /// are left to random samples.
-const MOST_DIVISIONS: usize = 512;
+const MOST_DIVISIONS: usize = 128;
 
 /// The same to tolerances for which rules along lines are better than rules of five samples.
 const FEW_DIVISIONS: usize = 8;
@@ -30,8 +30,8 @@ const UNITS_OF_DIVISION: u64 = MOST / MOST_DIVISIONS as u64;
 /// Strata on a side of a cell: those of one of many moments, those of a first look, and those by which a tolerance
 /// may be met.
 const FEW_STRATA: u32 = 4;
-const FIRST_STRATA: u32 = 32;
-const MOST_STRATA: u32 = 64;
+const FIRST_STRATA: u32 = 16;
+const MOST_STRATA: u32 = 32;
 
 impl<S: Simd> Filled<'_, S> {
     /// The average over one of the cells, if it has bumps: in parts, or by strata where bumps are too many.
@@ -52,11 +52,11 @@ impl<S: Simd> Filled<'_, S> {
             } else {
                 MOST_DIVISIONS
             };
-            let most = most.min((self.budget / UNITS_OF_DIVISION) as usize);
+            let most = most.min((self.allowance.bumpy / UNITS_OF_DIVISION) as usize);
             return Some(self.in_parts(simd, lane, most, noise));
         }
         // At a moment of many a look must do.
-        if self.budget < MOST {
+        if self.allowance.is_of_moment() {
             return Some(self.by_strata(simd, lane, FEW_STRATA, noise));
         }
         let first = self.by_strata(simd, lane, FIRST_STRATA, noise);
@@ -80,7 +80,7 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
     scene: &InCamera<'_>,
     cell: &Cell,
     contents: &Contents,
-    (tolerance, budget): (f64, u64),
+    (tolerance, allowance): (f64, Allowance),
     noise: &mut Option<Box<NoiseCells>>,
 ) -> Option<Average> {
     let [active] = contents.active.as_slice() else {
@@ -125,7 +125,7 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
                 nearness: zero + 2.0 * turn / grazing.max(0.0),
                 which: ALL,
                 tolerance,
-                budget,
+                allowance,
                 is_proved: false,
             };
             filled.of_bumps(simd, 0, noise)

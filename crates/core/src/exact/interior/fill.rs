@@ -22,7 +22,8 @@ pub(crate) struct FilledPixels {
     /// The pixels, bit by bit, that have edges or other light that is too hard for rules: they were left
     /// alone.
     pub(crate) hard: u64,
-    pub(crate) samples: u64,
+    /// The samples of each of them.
+    pub(crate) samples: [u64; 8],
 }
 
 /// Writes the pixels of a row that are not too hard.
@@ -48,7 +49,7 @@ pub(crate) fn fill<S: Simd>(
     }
     let mut filled = FilledPixels {
         hard: reached.hard,
-        samples: 0,
+        samples: [0; 8],
     };
     let easy = row.which & !reached.hard;
     let lit = reached.lit.iter().fold(0, |any, lit| any | lit) & easy;
@@ -83,7 +84,9 @@ pub(crate) fn fill<S: Simd>(
         let lit = (&reached, &finish);
         let of_group = fill_lit(simd, context, row, lit, group, noise, pixels);
         filled.hard |= of_group.hard;
-        filled.samples += of_group.samples;
+        for lane in set_bits(group) {
+            filled.samples[lane] = of_group.samples[lane];
+        }
     }
     filled
 }
@@ -115,14 +118,14 @@ fn fill_lit<S: Simd>(
         nearness: reached.nearness,
         which,
         tolerance: context.tolerance,
-        budget: context.budget,
+        allowance: context.allowance,
         is_proved: context.is_proved,
     };
     let averages = simd.vectorize(
         #[inline(always)]
         || filled.averages(simd, noise),
     );
-    let mut samples = averages.samples as u64 * u64::from(which.count_ones());
+    let mut samples = [averages.samples as u64; 8];
     let mut hard = 0;
     let is_met = |error: f64| error <= context.tolerance;
     for lane in set_bits(which) {
@@ -131,7 +134,7 @@ fn fill_lit<S: Simd>(
         if !is_met(error)
             && let Some(found) = filled.of_bumps(simd, lane, noise)
         {
-            samples += found.samples;
+            samples[lane] += found.samples;
             (value, error, is_last) = (found.value, found.error, found.is_random);
         }
         if is_met(error) || is_last {

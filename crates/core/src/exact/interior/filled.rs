@@ -6,6 +6,7 @@ use fearless_simd::prelude::*;
 use super::light_cosines::LightCosines;
 use super::samples::{POINTS, STAR_SAMPLES};
 use crate::edges::cell::Ball;
+use crate::exact::budget::Allowance;
 use crate::exact::classify::row::Coverage;
 use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
@@ -51,8 +52,7 @@ pub(crate) struct Filled<'a, S: Simd> {
     /// The pixels that count, bit by bit, and the error that is allowed in them.
     pub(super) which: u64,
     pub(super) tolerance: f64,
-    /// The units that a pixel may cost, of `exact::budget`.
-    pub(super) budget: u64,
+    pub(super) allowance: Allowance,
     /// Whether bounds of the errors are asked for.
     pub(super) is_proved: bool,
 }

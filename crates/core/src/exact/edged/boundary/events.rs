@@ -155,6 +155,14 @@ impl Stretch<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
+                // Where values differ by so little from each other, none changes its sign, and none dips:
+                // a dip is at most 1.6 times as deep as they differ.
+                const ALIKE: f64 = 0.23;
+                let first = values[0];
+                let is_alike = (values - first).abs().simd_lt(ALIKE * first.abs());
+                if is_alike.all_true() {
+                    return;
+                }
                 let below = values.simd_lt(0.0).to_bitmask();
                 let mut changes = (below ^ (below >> 1)) & intervals;
                 while changes != 0 {
@@ -164,7 +172,7 @@ impl Stretch<'_> {
                     let ends = [values[lane], values[lane + 1]];
                     breaks.push(self.root(simd, setting, function, bracket, ends));
                 }
-                let mut dips = dips(simd, values) & intervals;
+                let mut dips = dips(values) & intervals;
                 while dips != 0 {
                     let lane = dips.trailing_zeros() as usize;
                     dips &= dips - 1;
@@ -219,12 +227,7 @@ impl Stretch<'_> {
                     return;
                 }
                 for index in 0..9 {
-                    let four = [
-                        values[index],
-                        values[index + 1],
-                        values[index + 2],
-                        values[index + 3],
-                    ];
+                    let four = std::array::from_fn(|offset| values[index + offset]);
                     if may_dip(four) {
                         let bracket = [places[index], places[index + 1]];
                         self.dip(simd, setting, function, (bracket, four), closer - 1, breaks);
@@ -329,47 +332,15 @@ fn may_dip([before, one, other, after]: [f64; 4]) -> bool {
 /// and the last place, those of a parabola.
 fn around(values: &[f64; 8], interval: usize) -> [f64; 4] {
     let beyond = |first: f64, second: f64, third: f64| 3.0 * (first - second) + third;
-    match interval {
-        0 => [
-            beyond(values[0], values[1], values[2]),
-            values[0],
-            values[1],
-            values[2],
-        ],
-        6 => [
-            values[5],
-            values[6],
-            values[7],
-            beyond(values[7], values[6], values[5]),
-        ],
-        inner => [
-            values[inner - 1],
-            values[inner],
-            values[inner + 1],
-            values[inner + 2],
-        ],
-    }
-}
-
-/// The intervals between eight places in which a function with these values may vanish though it has one sign at
-/// their ends: those inside by [`may_dip`], those at the ends by parabolas.
-#[inline(always)]
-fn dips<S: Simd>(simd: S, values: f64x8<S>) -> u64 {
-    let v: [f64; 8] = values.into();
-    let before = [v[0], v[0], v[1], v[2], v[3], v[4], v[5], v[6]];
-    let other = [v[1], v[2], v[3], v[4], v[5], v[6], v[7], v[7]];
-    let after = [v[2], v[3], v[4], v[5], v[6], v[7], v[7], v[7]];
-    let before: f64x8<S> = before.simd_into(simd);
-    let other: f64x8<S> = other.simd_into(simd);
-    let after: f64x8<S> = after.simd_into(simd);
-    let (fall, rise) = (before - values, after - other);
-    let inside = (fall * values).simd_gt(0.0)
-        & (rise * values).simd_gt(0.0)
-        & (values * other).simd_gt(0.0)
-        & (values * rise + other * fall).abs().simd_lt(fall * rise);
-    let ends =
-        u64::from(comes_near([v[0], v[1], v[2]])) | u64::from(comes_near([v[7], v[6], v[5]])) << 6;
-    inside.to_bitmask() | ends
+    let before = match interval {
+        0 => beyond(values[0], values[1], values[2]),
+        _ => values[interval - 1],
+    };
+    let after = match interval {
+        6 => beyond(values[7], values[6], values[5]),
+        _ => values[interval + 2],
+    };
+    [before, values[interval], values[interval + 1], after]
 }
 
 /// How much farther than a parabola values may go, in what it falls by and in what it bends by: found by
@@ -378,12 +349,32 @@ const FARTHER: f64 = 1.5;
 const BENT: f64 = 0.1;
 
 /// Whether the parabola through three values of one sign comes near zero between the first two.
-fn comes_near([first, second, third]: [f64; 3]) -> bool {
+#[inline(always)]
+fn comes_near(first: f64, second: f64, third: f64) -> bool {
     let (bend, rise) = (first - 2.0 * second + third, third - first);
-    let is_bent = first * second > 0.0
-        && second * third > 0.0
-        && bend * second > 0.0
-        && rise * bend > 0.0
-        && rise.abs() < 2.0 * bend.abs();
-    is_bent && (second * bend).abs() < (rise * rise * FARTHER + bend * bend * BENT) * 0.125
+    // All of it without branches: none of them could be foretold.
+    (bend * second > 0.0)
+        & (rise * bend > 0.0)
+        & (rise.abs() < 2.0 * bend.abs())
+        & (first * second > 0.0)
+        & (second * third > 0.0)
+        & ((second * bend).abs() < (rise * rise * FARTHER + bend * bend * BENT) * 0.125)
+}
+
+/// The intervals between eight places in which a function with these values may vanish though it has one sign at
+/// their ends: those inside by [`may_dip`], the first and the last one where a parabola comes near zero.
+#[inline(always)]
+fn dips<S: Simd>(values: f64x8<S>) -> u64 {
+    const INNER: u64 = 0x3e;
+    // Slides go around: lanes that see both ends are left out.
+    let before = values.slide::<7>(values);
+    let other = values.slide::<1>(values);
+    let after = values.slide::<2>(values);
+    let (fall, rise) = (before - values, after - other);
+    let is_low = (values * rise + other * fall).abs().simd_lt(fall * rise);
+    let goes_down = (fall * values).simd_gt(0.0) & (rise * values).simd_gt(0.0);
+    let inside = goes_down & is_low & (values * other).simd_gt(0.0);
+    let first = u64::from(comes_near(values[0], values[1], values[2]));
+    let last = u64::from(comes_near(values[7], values[6], values[5]));
+    inside.to_bitmask() & INNER | first | last << 6
 }
