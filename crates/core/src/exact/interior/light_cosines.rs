@@ -14,7 +14,7 @@ use crate::numeric::vectors::Vectors;
 pub(crate) struct LightCosines<S: Simd> {
     pub(super) lowest: [f64x8<S>; MOST_LIGHTS],
     pub(super) highest: [f64x8<S>; MOST_LIGHTS],
-    /// At the samples of the star.
+    /// At the samples of the star; NaN where they are not taken yet.
     star: [[f64x8<S>; STAR_SAMPLES]; MOST_LIGHTS],
     pub(super) halves: HalfCosines<S>,
     /// The number of samples so far.
@@ -51,7 +51,7 @@ impl<S: Simd> LightCosines<S> {
         Self {
             lowest: [f64x8::splat(simd, f64::INFINITY); MOST_LIGHTS],
             highest: [f64x8::splat(simd, f64::NEG_INFINITY); MOST_LIGHTS],
-            star: [[f64x8::splat(simd, 0.0); STAR_SAMPLES]; MOST_LIGHTS],
+            star: [[f64x8::splat(simd, f64::NAN); STAR_SAMPLES]; MOST_LIGHTS],
             halves: HalfCosines::new(simd),
             taken: 0,
         }
