@@ -22,7 +22,7 @@ const MOST_DIVISIONS: usize = 128;
 
 /// The same to tolerances for which rules along lines are better than rules of five samples.
 const FEW_DIVISIONS: usize = 8;
-const FINE: f64 = 3e-5;
+const FINE: f64 = 5e-6;
 
 /// The units of a pixel's budget for each division that it is worth.
 const UNITS_OF_DIVISION: u64 = MOST / MOST_DIVISIONS as u64;
