@@ -59,7 +59,8 @@ fn beyond_zero(values: &[f64; 8]) -> f64 {
 /// Into how many parts a chord on bumps is divided at most.
 const MOST_PARTS: usize = 16;
 
-/// Tolerances that are small enough for a search in earnest, and for tips of light between lines to count.
+/// Tolerances that are small enough for a search in earnest, and for what lies between lines to count: tips of light,
+/// and where chords cease to begin in the dark.
 const FINE: f64 = 9e-5;
 const WARY: f64 = 9e-4;
 
@@ -179,7 +180,7 @@ impl Sender<'_, '_> {
         light
     }
 
-    /// Finds where the chords are to be divided; whether all of them are so at like places, and how far n·l may
+    /// Finds where the chords are to be divided; whether all of them begin alike and are so at like places, and how far n·l may
     /// go beyond zero between them.
     #[inline(always)]
     fn find<S: Simd>(
@@ -209,6 +210,7 @@ impl Sender<'_, '_> {
         };
         let mut looks = [[[nothing; 2]; MOST_LIGHTS]; 2];
         let mut beyond = 0.0_f64;
+        let mut is_alike = true;
         stops.samples += 8 * (count + 1) as u64;
         for index in 0..=count {
             let at = 2.0 * index as f64 / count as f64 - 1.0;
@@ -225,6 +227,10 @@ impl Sender<'_, '_> {
                     };
                     let value = turn.value(&normal, &points);
                     let here = Look { sigma, value };
+                    if index == 0 && self.tolerance < WARY {
+                        let below = value.simd_lt(0.0).to_bitmask();
+                        is_alike &= below == 0 || below == 0xff;
+                    }
                     if self.tolerance < WARY {
                         beyond = beyond.max(beyond_zero(&value.into()));
                     }
@@ -247,7 +253,7 @@ impl Sender<'_, '_> {
             }
         }
         let mut counts = stops.counts[..NODES].iter();
-        let is_even = counts.all(|&count| count == stops.counts[0]);
+        let is_even = is_alike && counts.all(|&count| count == stops.counts[0]);
         (is_even, beyond)
     }
 
