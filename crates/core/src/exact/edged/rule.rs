@@ -54,13 +54,15 @@ pub(crate) static RULE: Rule = {
     rule.nodes[7] = rule.nodes[6];
     rule
 };
+
+/// The share of [`Rule::odd`] that counts. The odd parts of integrands are a few times as large as the even ones of
+/// the next degree; chosen by `cargo truth hunt`, which finds no broken pixel from 0.05 on.
+pub(crate) const OF_ODD: f64 = 0.1;
+
 /// What tells how far an integrand is from what both rules integrate alike: the difference of the rules, and a
 /// share of the sum that is blind where that is not. A difference alone vanishes by chance in one integral of
 /// some hundred thousand, and its power with it; both together do not.
 pub(crate) fn doubt(difference: f64, odd: f64) -> f64 {
-    /// The odd parts of integrands are a few times as large as the even ones of the next degree; chosen by
-    /// `cargo truth hunt`, which finds no broken pixel from 0.05 on.
-    const OF_ODD: f64 = 0.1;
     let odd = OF_ODD * odd;
     (difference * difference + odd * odd).sqrt()
 }

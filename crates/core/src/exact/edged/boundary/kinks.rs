@@ -10,7 +10,7 @@ use super::chord::Chord;
 use super::primitive::{Lines, NEGLIGIBLE, Noise, Sender, Summed, greatest, ray};
 use super::turns::{Look, Seeker, Stops, Turn};
 use crate::exact::classify::active::Terminators;
-use crate::exact::edged::rule::{CAUTION, NODES, RULE};
+use crate::exact::edged::rule::{CAUTION, NODES, OF_ODD, RULE};
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::numeric::bits::set_bits;
@@ -322,7 +322,7 @@ impl Sender<'_, '_> {
                     points.normal = *normal;
                 }
                 sum.samples += 8 * NODES as u64;
-                let (mut apart, mut whole) = ([zero; 3], [zero; 3]);
+                let (mut apart, mut odd, mut whole) = ([zero; 3], [zero; 3], [zero; 3]);
                 let (mut lowest, mut highest) = (zero + f64::INFINITY, zero - f64::INFINITY);
                 for node in 0..NODES {
                     let (finish, points) = (self.finish, &points[node]);
@@ -339,6 +339,7 @@ impl Sender<'_, '_> {
                         let light = light[channel] * shares[node];
                         whole[channel] += light * fine;
                         apart[channel] += light * (fine - coarse);
+                        odd[channel] += light * RULE.odd[node];
                         gauge += light;
                     }
                     lowest = lowest.min(gauge);
@@ -349,7 +350,8 @@ impl Sender<'_, '_> {
                 let mut largest = zero;
                 for channel in 0..self.scene.channels {
                     sum.light[channel] += whole[channel];
-                    let difference = apart[channel].abs();
+                    let odd = odd[channel] * OF_ODD;
+                    let difference = (apart[channel] * apart[channel] + odd * odd).sqrt();
                     let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);
                     let estimate = (spread * ratio * ratio.sqrt()).min(difference);
                     // The noise has no third derivative where its cells meet.
