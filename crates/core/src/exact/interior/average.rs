@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::estimate::{Estimate, ROUNDING, Rule, bend_of_grid};
+use super::estimate::{Estimate, ROUNDING, Rule, apart_on_bumps, bend_of_grid};
 use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
 use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
@@ -187,6 +187,9 @@ impl<S: Simd> Filled<'_, S> {
             let difference = falling[channel].abs() + rising[channel].abs();
             // Where a number is not finite, the estimate tells.
             error = error.max(difference * caution + natural + by_grid.abs() * ROUNDING);
+            if self.is_wary() {
+                error = error.max(apart_on_bumps(&sampled.lights, channel));
+            }
             let average = star.is_met.select(by_star, by_grid);
             for (value, average) in values.iter_mut().zip(average.iter()) {
                 value[channel] = *average;

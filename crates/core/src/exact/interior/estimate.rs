@@ -67,6 +67,12 @@ impl Rule {
 }
 
 impl<S: Simd> Filled<'_, S> {
+    /// Returns whether second differences of light may be small by chance, at a tolerance at which that matters.
+    #[inline(always)]
+    pub(super) fn is_wary(&self) -> bool {
+        self.finish.is_rough() && self.tolerance < WARY
+    }
+
     /// An estimate of a rule's error by how much light bends, where it is smooth.
     ///
     /// It is small where light is linear, and compares with how much light changes rather than with
@@ -89,12 +95,10 @@ impl<S: Simd> Filled<'_, S> {
         /// The largest share of the bend that a kink of the second derivative costs, where cells of the
         /// noise meet. Not tuned.
         const OF_KINK: f64 = 0.1;
-        /// Of the difference of both rules, to tolerances that are small.
-        const OF_DIFFERENCE: f64 = 0.3;
         let is_star = rule == Rule::Star;
         let zero = f64x8::splat(simd, 0.0);
         let is_rough = self.finish.is_rough();
-        let is_wary = is_rough && self.tolerance < WARY;
+        let is_wary = self.is_wary();
         let nearness_sq = self.nearness * self.nearness;
         let mut of_root = nearness_sq * nearness_sq * nearness_sq * OF_ROOT[1];
         if is_star {
@@ -126,7 +130,7 @@ impl<S: Simd> Filled<'_, S> {
             }
             error = error.max(estimate * bend + highest * (of_root + ROUNDING));
             if is_wary && !is_star {
-                error = error.max(star_to_grid(lights, channel) * OF_DIFFERENCE);
+                error = error.max(apart_on_bumps(lights, channel));
             }
         }
         if self.finish.needs_cosines() {
@@ -254,14 +258,18 @@ pub(super) fn bend_of_grid<S: Simd>(
     bend
 }
 
-/// How far apart the averages by five and by nine samples are.
+/// The error of nine samples on bumps, by how far they are from five: at least a part of that.
 #[inline(always)]
-fn star_to_grid<S: Simd>(lights: &[Radiance<S>; GAUSS_SAMPLES], channel: usize) -> f64x8<S> {
+pub(super) fn apart_on_bumps<S: Simd>(
+    lights: &[Radiance<S>; GAUSS_SAMPLES],
+    channel: usize,
+) -> f64x8<S> {
+    const OF_DIFFERENCE: f64 = 0.3;
     let mut difference = lights[0][channel] * 0.0;
     for (light, sample) in lights.iter().zip(&POINTS) {
         difference += light[channel] * (sample.star - sample.gauss);
     }
-    difference.abs()
+    difference.abs() * OF_DIFFERENCE
 }
 
 /// The sum of second differences of light along both diagonals.
