@@ -1,10 +1,12 @@
 //! What pixels claim where it is hard to claim anything.
 
 use glam::DVec3;
-use marbles_core::{Color, DirectionalLight, Evidence, Highlight, Material, Sphere, Status};
+use marbles_core::{
+    Color, DirectionalLight, Evidence, Grain, Highlight, Material, Roughness, Sphere, Status, World,
+};
 use marbles_tests::reference::Reference;
 
-use crate::studio::{GREY_HALF, exact_picture, looking_forward, pixels, world_of};
+use crate::studio::{GREY_HALF, exact_picture, looking_forward, matte, picture, pixels, world_of};
 
 /// Numbers beyond what edges can be found with: samples tell the value, and the claim is that all is possible
 /// that the spheres and the background show.
@@ -189,5 +191,41 @@ fn bounds_hold_among_other_balls() {
             lit += u32::from(found > 0.0);
         }
         assert!(lit > least, "{tolerance:e}: {lit}");
+    }
+}
+
+/// Where bumps are so fine that samples are random, claims hold against many more samples, and are not all that
+/// light may be.
+#[test]
+fn random_samples_of_fine_bumps_are_within_their_claims() {
+    const SIDE: u32 = 300;
+    let mut world = World::new();
+    world.ambient = Color::splat(0.1);
+    let material = world.add_material(Material {
+        roughness: Some(Roughness {
+            amplitude: 0.5,
+            grain: Grain::Surface(0.004),
+            seed: 3,
+        }),
+        ..matte(Color::ONE)
+    });
+    let ball = Sphere::new(DVec3::new(0.0, 0.0, 40.0), 9.0).unwrap();
+    world.add_sphere(ball, material);
+    let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+    world.lights.extend(light);
+    let view = looking_forward(6, 6, 60.0);
+    let truth = picture(&world, &view, SIDE, false);
+    // The deviation of a mean of so many samples between 0 and 1, six times.
+    let doubt = 6.0 * 0.5 / f64::from(SIDE);
+    for tolerance in [0.25, 1e-3] {
+        let image = exact_picture(&world, &view, tolerance, false);
+        for (col, row) in pixels(&image) {
+            let off = (image.rgba(col, row)[0] - truth.rgba(col, row)[0]).abs();
+            let claimed = image.error(col, row);
+            assert!(off <= claimed + doubt, "{col} {row}: {off} {claimed}");
+            assert!((0.01..0.25).contains(&claimed), "{col} {row}: {claimed}");
+            assert_eq!(image.evidence(col, row), Evidence::Estimate);
+            assert_eq!(image.status(col, row) == Status::Met, claimed <= tolerance);
+        }
     }
 }

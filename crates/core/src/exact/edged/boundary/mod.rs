@@ -9,6 +9,7 @@ mod breaks;
 mod chord;
 mod clip;
 mod curve;
+mod dips;
 mod events;
 mod fractional;
 mod hard_arcs;
