@@ -78,19 +78,12 @@ impl Sender<'_, '_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let zero = f64x8::splat(simd, 0.0);
                 let apart = lines.lights & self.terminators;
                 let rest = Lines {
                     diffuse: lines.lights & !apart,
                     ..*lines
                 };
-                let mut sum = Summed {
-                    light: [zero; 3],
-                    doubt: zero,
-                    samples: 0,
-                    unevenness: 0.0,
-                    tip: 0.0,
-                };
+                let mut sum = Summed::nothing(simd);
                 if rest.diffuse != 0 || self.finish.reflectance.highlight.is_some() {
                     sum = self.smooth(simd, chord, &rest, noise);
                 }

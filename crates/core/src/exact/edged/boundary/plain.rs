@@ -59,8 +59,7 @@ impl Sender<'_, '_> {
             light,
             doubt: power * OFF[index],
             samples: 8 * RULES[index].len() as u64,
-            unevenness: 0.0,
-            tip: 0.0,
+            ..Summed::nothing(simd)
         }
     }
 }

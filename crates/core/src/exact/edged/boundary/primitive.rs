@@ -89,6 +89,21 @@ pub(super) struct Summed<S: Simd> {
     pub(super) tip: f64,
 }
 
+impl<S: Simd> Summed<S> {
+    /// No light, without a doubt.
+    #[inline(always)]
+    pub(super) fn nothing(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        Self {
+            light: [zero; 3],
+            doubt: zero,
+            samples: 0,
+            unevenness: 0.0,
+            tip: 0.0,
+        }
+    }
+}
+
 /// Memory of the noise.
 pub(super) type Noise = Option<Box<NoiseCells>>;
 
@@ -105,17 +120,10 @@ impl Sender<'_, '_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let zero = f64x8::splat(simd, 0.0);
                 let q = &self.active.discriminant;
                 let chord = Chord::new(simd, q, self.reference, lines.x, lines.y);
                 if chord.is_empty() {
-                    return Summed {
-                        light: [zero; 3],
-                        doubt: zero,
-                        samples: 0,
-                        unevenness: 0.0,
-                        tip: 0.0,
-                    };
+                    return Summed::nothing(simd);
                 }
                 if self.has_kinks() {
                     return self.kinked(simd, &chord, lines, noise);
@@ -171,8 +179,7 @@ impl Sender<'_, '_> {
             light: coarse,
             doubt,
             samples,
-            unevenness: 0.0,
-            tip: 0.0,
+            ..Summed::nothing(simd)
         }
     }
 
