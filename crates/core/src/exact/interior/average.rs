@@ -1,4 +1,4 @@
-//! The averages over eight pixels that one sphere fills, by 5, 9 or 17 samples.
+//! The averages over eight pixels that one sphere fills, by 1, 5, 9 or 17 samples.
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
@@ -6,8 +6,10 @@ use fearless_simd::{f64x8, mask64x8};
 use super::estimate::{Estimate, ROUNDING, Rule, apart_on_bumps, bend_of_grid};
 use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
+use super::remainder::Rules;
 use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
 use super::terminators::MEDIUM;
+use crate::exact::points::Points;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 
@@ -35,6 +37,9 @@ struct Sampled<S: Simd> {
     samples: usize,
 }
 
+/// Tolerances from which on one sample may suffice: at lower ones hardly any pixel is smooth enough.
+const LOOSE: f64 = 1e-4;
+
 /// Kronrod's samples on each diagonal.
 const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
 
@@ -55,17 +60,29 @@ impl<S: Simd> Sampled<S> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The averages: where light is smooth by a rule with five points, elsewhere by Gauss's with three
-    /// points a side.
+    /// The averages: by one sample where a bound tells that it suffices; where light is smooth by a rule with five
+    /// points, elsewhere by Gauss's with three points a side.
     ///
     /// # Accuracy
-    /// An estimate. Where light is smooth, how much it bends tells what to expect: the error of an
+    /// A bound where there is one, and else an estimate. Where light is smooth, how much it bends tells what to expect: the error of an
     /// exponential function that bends so. Elsewhere Gauss's rule is held against Kronrod's along both
     /// diagonals, which reach where an edge may be near. A rough surface has terminators inside its
     /// bumps: what they may cost is estimated where it may avert itself from a light between samples
     /// that face it, or face it between those that do not.
     #[inline(always)]
     pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
+        let mut domain = None;
+        if !self.finish.is_rough() && self.is_proved {
+            let of_pixels = self.domain(simd);
+            // What is smooth enough for one sample is known before any is taken.
+            if self.tolerance >= LOOSE {
+                let bounds = self.bound(simd, &of_pixels, Rules::Middle);
+                if self.which & !bounds.simd_le(self.tolerance).to_bitmask() == 0 {
+                    return self.by_middle(simd, bounds);
+                }
+            }
+            domain = Some(of_pixels);
+        }
         // In place: it takes several kilobytes.
         let mut sampled = Sampled::new(simd);
         self.sample(simd, &mut sampled, noise);
@@ -84,10 +101,31 @@ impl<S: Simd> Filled<'_, S> {
         for (lane, of_lane) in averages.errors.iter_mut().enumerate() {
             *of_lane = error[lane];
         }
-        if !self.finish.is_rough() && self.is_proved {
-            averages.bounds = self.bound(simd, sampled.star.is_met).into();
+        if let Some(domain) = &domain {
+            let rules = Rules::StarOrGrid(sampled.star.is_met);
+            averages.bounds = self.bound(simd, domain, rules).into();
         }
         averages
+    }
+
+    /// The averages by one sample in the middle, with these bounds of their errors.
+    #[inline(always)]
+    fn by_middle(&self, simd: S, bounds: f64x8<S>) -> Averages {
+        let points = Points::new(simd, self.ball, self.middle);
+        let (scene, finish) = (self.scene, self.finish);
+        let light = finish.radiance(simd, scene, &points, &points.normal, self.lit, None);
+        let mut values = [Color::ZERO; 8];
+        for (channel, light) in light.iter().enumerate().take(scene.channels) {
+            for (value, light) in values.iter_mut().zip(light.iter()) {
+                value[channel] = *light;
+            }
+        }
+        Averages {
+            values,
+            errors: bounds.into(),
+            bounds: bounds.into(),
+            samples: 1,
+        }
     }
 
     /// Takes samples, until a rule is good enough or all are taken.

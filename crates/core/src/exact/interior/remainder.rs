@@ -1,10 +1,10 @@
-//! Bounds of what rules with five and nine samples miss of smooth light.
+//! Bounds of what rules with one, five and nine samples miss of smooth light.
 //!
 //! Let x, y be the coordinates of a pixel, from −½ to ½. Where light is analytic for all complex |x|, |y| ≤ R and
 //! differs there from some number by M at most, |a_jk| ≤ M R^−(j+k) bounds the coefficients of its power series
 //! (Cauchy's estimates: L. Hörmander, An Introduction to Complex Analysis in Several Variables, 1990, theorem
 //! 2.2.7). A rule is off by Σ a_jk e_jk where e_jk is its error for x^j y^k: 0 for odd j or k, and below the degree
-//! 4 or 6. With p = (2R)⁻² all terms of degree 2m are M p^m Σ 2^2m |e_jk| or less; [`Remainder`] has these
+//! 2, 4 or 6. With p = (2R)⁻² all terms of degree 2m are M p^m Σ 2^2m |e_jk| or less; [`Remainder`] has these
 //! sums, and the test `rules_miss_no_more_of_monomials` computes them.
 //!
 //! [`Domain`] finds R, and bounds the change of cosines; of that of n·l itself, only what is no polynomial of
@@ -36,6 +36,12 @@ pub(super) struct Remainder {
     more: f64,
 }
 
+pub(super) const MIDDLE: Remainder = Remainder {
+    order: 1,
+    first: 2.0 / 3.0,
+    more: 0.512,
+};
+
 pub(super) const STAR: Remainder = Remainder {
     order: 2,
     first: 4.0 / 45.0,
@@ -55,8 +61,8 @@ impl Remainder {
     /// What it misses, over M, by p: the first term, and a geometric series of others.
     #[inline(always)]
     fn of<S: Simd>(&self, p: f64x8<S>) -> f64x8<S> {
-        let mut power = p * p;
-        if self.order == 3 {
+        let mut power = p;
+        for _ in 1..self.order {
             power *= p;
         }
         power * (p * (2.0 * self.more) + self.first)
@@ -74,15 +80,63 @@ impl Remainder {
     }
 }
 
-impl<S: Simd> Filled<'_, S> {
-    /// Bounds of the errors of the averages by five samples in some of the pixels, and by nine in the others;
-    /// infinite where nothing is proved.
+/// The rules that eight pixels are averaged by.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Rules<S: Simd> {
+    /// One sample in the middle.
+    Middle,
+    /// Five samples in these pixels, and nine in the others.
+    StarOrGrid(mask64x8<S>),
+}
+
+impl<S: Simd> Rules<S> {
+    /// What they miss, over M, by p.
+    #[inline(always)]
+    fn remainder(&self, p: f64x8<S>) -> f64x8<S> {
+        match self {
+            Self::Middle => MIDDLE.of(p),
+            Self::StarOrGrid(is_star) => is_star.select(STAR.of(p), GRID.of(p)),
+        }
+    }
+
+    /// As [`Remainder::best_part`] has it.
+    #[inline(always)]
+    fn best_part(&self, exponent: f64, one: f64x8<S>) -> f64x8<S> {
+        match self {
+            Self::Middle => one * MIDDLE.best_part(exponent),
+            Self::StarOrGrid(is_star) => is_star.select(
+                one * STAR.best_part(exponent),
+                one * GRID.best_part(exponent),
+            ),
+        }
+    }
+
+    /// The exponent up to which the whole domain is best.
+    #[inline(always)]
+    fn least_degree(&self) -> f64 {
+        let least = match self {
+            Self::Middle => MIDDLE,
+            Self::StarOrGrid(_) => STAR,
+        };
+        f64::from(2 * least.order)
+    }
+}
+
+impl<'a, S: Simd> Filled<'a, S> {
+    /// The domains in which [`Self::bound`] knows the light.
+    #[inline(always)]
+    pub(super) fn domain(&self, simd: S) -> Domain<'a, S> {
+        let [width, height] = self.size;
+        Domain::new(simd, self.ball, &self.middle, width.max(height))
+    }
+
+    /// Bounds of the errors of the averages by these rules; infinite where nothing is proved.
     ///
     /// # Accuracy
     /// A bound, with rounding. `tests::nothing_is_farther_from_its_average_than_is_proved` holds it against 256-bit
     /// arithmetic.
     #[inline(always)]
-    pub(super) fn bound(&self, simd: S, is_star: mask64x8<S>) -> f64x8<S> {
+    pub(super) fn bound(&self, simd: S, domain: &Domain<'_, S>, rules: Rules<S>) -> f64x8<S> {
         /// More than powers, products and sums of light make wrong, relatively.
         const ROUNDING: f64 = 1024.0 * UNIT_ROUNDOFF;
         /// More than the rounding of domains makes wrong in M.
@@ -93,9 +147,7 @@ impl<S: Simd> Filled<'_, S> {
             return unknown;
         }
         let reflectance = &self.finish.reflectance;
-        let [width, height] = self.size;
-        let domain = Domain::new(simd, self.ball, &self.middle, width.max(height));
-        let pixels = Pixels::new(domain.share, is_star);
+        let pixels = Pixels::new(domain.share, rules);
         let eye = domain.toward_eye();
         let ambient = (reflectance.albedo * self.scene.ambient).max_element();
         let mut sum = zero + ambient * ROUNDING;
@@ -106,7 +158,11 @@ impl<S: Simd> Filled<'_, S> {
             let [diffuse, specular] = reflectance.brightest(light.intensity);
             let cosine = domain.cosine(light.toward);
             let missed = if reflectance.diffuse.exponent == 1.0 {
-                let change = domain.bend(light.toward, &eye).min(cosine.change);
+                let change = match rules {
+                    // It is not exact for polynomials of degree 3.
+                    Rules::Middle => cosine.change,
+                    Rules::StarOrGrid(_) => domain.bend(light.toward, &eye).min(cosine.change),
+                };
                 change * pixels.remainder + cosine.rounding * 2.0
             } else {
                 pixels.missed(&reflectance.diffuse, &cosine)
@@ -140,18 +196,18 @@ struct Pixels<S: Simd> {
     /// The square of that, and what the rules miss, over M.
     p: f64x8<S>,
     remainder: f64x8<S>,
-    is_star: mask64x8<S>,
+    rules: Rules<S>,
 }
 
 impl<S: Simd> Pixels<S> {
     #[inline(always)]
-    fn new(share: f64x8<S>, is_star: mask64x8<S>) -> Self {
+    fn new(share: f64x8<S>, rules: Rules<S>) -> Self {
         let p = share * share;
         Self {
             share,
             p,
-            remainder: is_star.select(STAR.of(p), GRID.of(p)),
-            is_star,
+            remainder: rules.remainder(p),
+            rules,
         }
     }
 
@@ -187,23 +243,21 @@ impl<S: Simd> Pixels<S> {
         let change = cosine.change;
         let one = change * 0.0 + 1.0;
         let is_whole = exponent.fract() == 0.0;
-        if cosine.limit.is_none() && is_whole && exponent <= f64::from(2 * STAR.order) {
+        if cosine.limit.is_none() && is_whole && exponent <= self.rules.least_degree() {
             return (change, self.remainder, one.simd_gt(0.0));
         }
         let mut part = one;
         if let Some(limit) = cosine.limit {
             part = part.min(0.5 / limit);
         }
-        let (by_star, by_grid) = (STAR.best_part(exponent), GRID.best_part(exponent));
-        let mut most = self.is_star.select(one * by_star, one * by_grid);
+        let mut most = self.rules.best_part(exponent, one);
         if !is_whole {
             most = most.min(one * 0.5);
         }
         part = part.min(cosine.value * most / change);
         let ratio = self.share / part;
         let p = ratio * ratio;
-        let remainder = self.is_star.select(STAR.of(p), GRID.of(p));
-        (change * part, remainder, p.simd_le(MOST))
+        (change * part, self.rules.remainder(p), p.simd_le(MOST))
     }
 
     /// A bound of the power of a cosine all over the pixels: neither averages nor rules are higher.

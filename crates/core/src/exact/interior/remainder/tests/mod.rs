@@ -25,9 +25,10 @@ fn missed_of_degree(degree: i32, weight: impl Fn(&Sample) -> f64) -> f64 {
 /// both of which fall.
 #[test]
 fn rules_miss_no_more_of_monomials() {
-    for (rule, is_star) in [(STAR, true), (GRID, false)] {
-        let missed =
-            |degree| missed_of_degree(degree, |at| if is_star { at.star } else { at.gauss });
+    let middle = |at: &Sample| f64::from(at.u == 0.0 && at.v == 0.0);
+    let weights: [&dyn Fn(&Sample) -> f64; 3] = [&middle, &|at| at.star, &|at| at.gauss];
+    for (rule, weight) in [MIDDLE, STAR, GRID].iter().zip(weights) {
+        let missed = |degree| missed_of_degree(degree, weight);
         for order in 0..rule.order {
             assert!(missed(2 * order) < 1e-15);
         }
@@ -43,29 +44,33 @@ fn rules_miss_no_more_of_monomials() {
 }
 
 /// Balls near and far, small and large, seen straight and grazing, under all kinds of light: what is proved of a
-/// pixel against its average in 256-bit arithmetic.
+/// pixel against its average in 256-bit arithmetic, by five samples and more, and at loose tolerances by one.
 #[test]
 fn nothing_is_farther_from_its_average_than_is_proved() {
     const PLACES: usize = 1500;
     let nodes = fixed::gauss(20);
     let mut random = Random(15);
-    let (mut proved, mut asked, mut largest) = (0, 0, 0.0_f64);
-    while proved < PLACES {
-        let place = Place::new(&mut random);
-        let pixel = place.pixel();
-        if pixel.alpha < 1.0 || !place.is_lit() {
-            continue;
+    let mut asked = 0;
+    for (tolerances, tight) in [([-8.0, -4.0], 0.1), ([-4.0, -1.0], 0.05)] {
+        let (mut proved, mut largest) = (0, 0.0_f64);
+        while proved < PLACES {
+            let place = Place::new(&mut random, tolerances);
+            let pixel = place.pixel();
+            if pixel.alpha < 1.0 || !place.is_lit() {
+                continue;
+            }
+            asked += 1;
+            if pixel.evidence == Evidence::Estimate {
+                continue;
+            }
+            proved += 1;
+            let off = place.distance_from_average(&nodes, pixel.value.x);
+            assert!(off <= pixel.error, "{off:e} {:e}: {place:?}", pixel.error);
+            largest = largest.max(off / pixel.error);
         }
-        asked += 1;
-        if pixel.evidence == Evidence::Estimate {
-            continue;
-        }
-        proved += 1;
-        let off = place.distance_from_average(&nodes, pixel.value.x);
-        assert!(off <= pixel.error, "{off:e} {:e}: {place:?}", pixel.error);
-        largest = largest.max(off / pixel.error);
+        // Not by claiming much more than is wrong.
+        assert!(largest > tight, "{largest}");
     }
-    // Most are proved, and not by claiming much more than is wrong.
-    assert!(asked < PLACES * 4 / 3, "{asked}");
-    assert!(largest > 0.1, "{largest}");
+    // Most are proved.
+    assert!(asked < 2 * PLACES * 4 / 3, "{asked}");
 }
