@@ -40,6 +40,8 @@ pub(super) enum Function {
     Inside(usize),
     /// How far from the plane through the eye and a side of the cell, across an axis, points lie.
     Across(usize, f64),
+    /// How fast the curve itself rises in the cell.
+    Rise,
     /// How far what is seen of an active sphere faces a light.
     Lit(usize, usize),
     /// How far that lies in the disc of a caster.
@@ -91,6 +93,7 @@ pub(super) fn value<S: Simd>(
                     let edge = setting.cell.middle[axis] + side * setting.cell.size[axis];
                     places.point.along(axis) - places.point.z * edge
                 }
+                Function::Rise => places.dy,
                 Function::Lit(sphere, light) => {
                     let ball = &contents.active[sphere].ball;
                     let points =

@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 use super::arcs::Lanes;
 use super::chord::Reference;
 use super::events::{Function, INTERVALS, Stretch, value};
-use super::setting::{Arc, Boundary, Setting};
+use super::setting::{Arc, Boundary, Edge, Setting};
 use crate::numeric::polynomial::Quadratic;
 
 impl Boundary {
@@ -57,6 +57,11 @@ impl Boundary {
                         ..*whole
                     };
                     let places = stretch.places(simd, setting);
+                    if let Edge::Terminator(_) = whole.curve.edge {
+                        // It touches the level of its own highest place, which no change of sign tells.
+                        let (level, breaks) = (Function::Rise, &mut self.breaks);
+                        stretch.roots(simd, setting, level, places.dy, INTERVALS, breaks);
+                    }
                     for &(sphere, y) in &self.levels {
                         if sphere == arc.inner || sphere == arc.outer {
                             let level = Function::Across(1, y);
