@@ -7,6 +7,7 @@ mod claims;
 mod closed_forms;
 mod examples;
 mod floors;
+mod found;
 mod hits;
 mod invariance;
 mod layers;

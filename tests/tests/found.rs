@@ -1,0 +1,55 @@
+//! Pixels that a hunt found over their tolerance without saying so.
+//!
+//! `cargo truth hunt --write` wrote the scenes of `tests/truth/found`: their first lines name the pixels, and what
+//! these were off by then.
+
+use std::path::Path;
+
+use marbles_core::Status;
+use marbles_scene::Scene;
+use marbles_tests::reference::Reference;
+
+use crate::studio::{exact_picture, single_pixel};
+
+const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// The column and the row in a line such as `// column 9, row 10 at 1e-6: ...`.
+fn place(line: &str) -> (u32, u32) {
+    let mut words = line.split([' ', ',']);
+    let mut after = |name: &str| {
+        words.find(|&word| word == name);
+        let number = words.next().and_then(|word| word.parse().ok());
+        number.unwrap_or_else(|| panic!("no {name} in `{line}`"))
+    };
+    (after("column"), after("row"))
+}
+
+#[test]
+fn found_pixels_are_within_their_tolerance_or_say_so() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/found");
+    let mut count = 0;
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        let (col, row) = place(text.lines().next().unwrap_or_default());
+        let scene = Scene::parse(&text, &path).unwrap_or_else(|error| panic!("{error}"));
+        let view = scene.view(1).unwrap();
+        let world = scene.world();
+        let truth = Reference::new(world, &view).pixel(col, row);
+        let exact = truth.value.truncate() + world.background * (1.0 - truth.value.w);
+        let view = single_pixel(&view, col, row);
+        for tolerance in TOLERANCES {
+            let image = exact_picture(world, &view, tolerance, false);
+            let claimed = image.error(0, 0);
+            let is_met = image.status(0, 0) == Status::Met;
+            let most = if is_met { tolerance } else { claimed };
+            let rgba = image.rgba(0, 0);
+            for (channel, value) in exact.to_array().into_iter().enumerate() {
+                let off = (rgba[channel] - value).abs() - truth.error;
+                assert!(off <= most, "{path:?} {tolerance:e}: {off:e} {claimed:e}");
+            }
+        }
+        count += 1;
+    }
+    assert!(count >= 7, "{count}");
+}
