@@ -12,7 +12,7 @@ use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
-use crate::exact::interior::cell::of_bumpy_cell;
+use crate::exact::interior::cell::of_filled_cell;
 use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
@@ -204,7 +204,7 @@ impl Workspace {
         let is_coarse = self.contrast * contents.rounding > *tolerance;
         let units = if is_coarse { 0 } else { self.budget.of_part() };
         let negligible = 0.01 * tolerance;
-        let bumpy = of_bumpy_cell(
+        let filled = of_filled_cell(
             simd,
             scene,
             cell,
@@ -212,7 +212,7 @@ impl Workspace {
             (*tolerance, pixel.context.allowance),
             &mut self.noise,
         );
-        if let Some(found) = bumpy {
+        if let Some(found) = filled {
             self.work.samples += found.samples;
             work.samples += found.samples;
             self.is_random |= found.is_random;

@@ -1,15 +1,17 @@
-//! A cell that one rough sphere fills, and that lights reach all over, or nowhere.
+//! A cell that one sphere fills, and that lights reach all over, or nowhere.
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::filled::Filled;
 use super::parts::{ALL, Average};
+use super::reached::SHARPEST;
 use super::terminators::SMALL;
 use crate::edges::cell::Cell;
 use crate::exact::budget::{Allowance, MOST};
 use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::classify::patch::Patch;
+use crate::exact::context::NEGLIGIBLE;
 use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
 use crate::exact::surface::Finish;
@@ -73,9 +75,38 @@ impl<S: Simd> Filled<'_, S> {
     }
 }
 
-/// The average over a cell, if one sphere with bumps is all that is seen in it, and no edge of a shadow.
+impl<S: Simd> Filled<'_, S> {
+    /// The average over the first of the cells, with these points in the middles, if its light is smooth enough.
+    #[inline(always)]
+    fn of_smooth(
+        &self,
+        simd: S,
+        points: &Points<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Option<Average> {
+        let negligible = NEGLIGIBLE * self.tolerance;
+        let turn = self.turn + self.size[0].max(self.size[1]);
+        for (lit, light) in self.lit.iter().zip(&self.scene.lights) {
+            let finish = self.finish;
+            if *lit != 0 && finish.too_sharp(simd, points, light, turn, SHARPEST, negligible) != 0 {
+                return None;
+            }
+        }
+        let averages = self.averages(simd, noise);
+        let error = averages.errors[0];
+        (error <= self.tolerance).then(|| Average {
+            value: averages.values[0],
+            error,
+            samples: averages.samples as u64,
+            is_random: false,
+        })
+    }
+}
+
+/// The average over a cell, if one sphere is all that is seen in it, and no edge of a shadow: with bumps, or with
+/// smooth light that rules follow to the tolerance.
 #[inline(never)]
-pub(crate) fn of_bumpy_cell<S: Simd>(
+pub(crate) fn of_filled_cell<S: Simd>(
     simd: S,
     scene: &InCamera<'_>,
     cell: &Cell,
@@ -88,7 +119,8 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
     };
     let finish = &Finish::new(scene, active.sphere, contents.pixel);
     let ball = &active.ball;
-    if !contents.conics.is_empty() || ball.outside <= 0.0 || !finish.is_bumpy() {
+    let is_smooth = !finish.is_rough() && finish.has_whole_exponent();
+    if !contents.conics.is_empty() || ball.outside <= 0.0 || !(is_smooth || finish.is_bumpy()) {
         return None;
     }
     if active.discriminant.one <= 0.0 {
@@ -123,12 +155,15 @@ pub(crate) fn of_bumpy_cell<S: Simd>(
                 lit: &lit,
                 turn: zero + turn,
                 nearness: zero + 2.0 * turn / grazing.max(0.0),
-                which: ALL,
+                which: 1,
                 tolerance,
                 allowance,
                 is_proved: false,
             };
-            filled.of_bumps(simd, 0, noise)
+            if !is_smooth {
+                return filled.of_bumps(simd, 0, noise);
+            }
+            filled.of_smooth(simd, &points, noise)
         },
     )
 }

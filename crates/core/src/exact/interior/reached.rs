@@ -15,7 +15,7 @@ use crate::numeric::vectors::Vectors;
 
 /// The fall of a highlight over half a pixel, in powers of e, that a pixel's one rule still follows. Less
 /// sends more pixels to the integrator of edges, more makes the estimates of rules unsure; not tuned.
-const SHARPEST: f64 = 0.25;
+pub(super) const SHARPEST: f64 = 0.25;
 
 /// The lights that reach eight pixels, and how fast their light changes: see
 /// [`Filled`](super::filled::Filled).

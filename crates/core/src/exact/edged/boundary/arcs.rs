@@ -17,6 +17,8 @@ pub(super) struct Front<S: Simd> {
     pub(super) first: f64x8<S>,
     /// Whether one sphere hides all of the places.
     pub(super) is_hidden: bool,
+    /// Which.
+    pub(super) hider: usize,
 }
 
 impl<S: Simd> Front<S> {
@@ -60,6 +62,7 @@ pub(super) fn front<S: Simd>(
                 nearest: f64x8::splat(simd, f64::INFINITY),
                 first: zero,
                 is_hidden: false,
+                hider: NONE,
             };
             let (x, y) = (places.x, places.y);
             for (position, active) in contents.active.iter().enumerate() {
@@ -87,6 +90,7 @@ pub(super) fn front<S: Simd>(
                 let is_hidden = lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff;
                 if is_hidden && own[0] != NONE {
                     front.is_hidden = true;
+                    front.hider = position;
                     return front;
                 }
             }

@@ -31,6 +31,7 @@ impl Boundary {
                 let front = front(simd, contents, stretch.curve.own, places);
                 let is_side = stretch.curve.is_side();
                 if front.is_hidden && !is_side {
+                    self.find_gaps(simd, setting, stretch, places, (front.hider, INTERVALS));
                     return front;
                 }
                 let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
@@ -46,6 +47,15 @@ impl Boundary {
                 } else {
                     INTERVALS & !(between(hidden) & alike)
                 };
+                if !is_side {
+                    let mut closed = INTERVALS & !open;
+                    while closed != 0 {
+                        let hider = firsts[closed.trailing_zeros() as usize] as usize - 1;
+                        let by_this = closed & front.is(hider);
+                        closed &= !by_this;
+                        self.find_gaps(simd, setting, stretch, places, (hider, by_this));
+                    }
+                }
                 for (position, active) in contents.active.iter().enumerate() {
                     if stretch.curve.own.contains(&position) {
                         continue;
@@ -104,6 +114,42 @@ impl Boundary {
                 front
             },
         )
+    }
+
+    /// Finds where a stretch comes out of the sphere that hides both ends of some intervals: beside its outline, or
+    /// before it, where its own sphere meets that one.
+    #[inline(always)]
+    fn find_gaps<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        places: &Trace<S>,
+        (hider, intervals): (usize, u64),
+    ) {
+        let contents = setting.contents;
+        let breaks = &mut self.breaks;
+        let values = polynomial(&contents.active[hider].discriminant, places.x, places.y);
+        stretch.find_dips(
+            simd,
+            setting,
+            Function::Outline(hider),
+            values,
+            intervals,
+            breaks,
+        );
+        let meets = contents.conics.iter().any(|(kind, _)| match *kind {
+            Kind::Seam(one, other) => {
+                let own = stretch.curve.own;
+                one == hider && own.contains(&other) || other == hider && own.contains(&one)
+            }
+            _ => false,
+        });
+        if meets {
+            let function = Function::Inside(hider);
+            let values = value(simd, setting, function, places);
+            stretch.find_dips(simd, setting, function, values, intervals, breaks);
+        }
     }
 
     /// Finds where a piece leaves the outer sides of its own spheres, the cell or the lower side of a

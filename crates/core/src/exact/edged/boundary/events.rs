@@ -176,16 +176,31 @@ impl Stretch<'_> {
                     let ends = [values[lane], values[lane + 1]];
                     breaks.push(self.root(simd, setting, function, bracket, ends));
                 }
-                let mut dips = dips(values) & intervals;
-                while dips != 0 {
-                    let lane = dips.trailing_zeros() as usize;
-                    dips &= dips - 1;
-                    let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
-                    let four = around(&values.into(), lane);
-                    self.dip(simd, setting, function, (bracket, four), CLOSER, breaks);
-                }
+                self.find_dips(simd, setting, function, values, intervals, breaks);
             },
         )
+    }
+
+    /// Appends where a function with these values at the eight places, of one sign at both ends of some intervals
+    /// between them, may vanish within these.
+    #[inline(always)]
+    pub(super) fn find_dips<S: Simd>(
+        &self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        function: Function,
+        values: f64x8<S>,
+        intervals: u64,
+        breaks: &mut Vec<f64>,
+    ) {
+        let mut dips = dips(values) & intervals;
+        while dips != 0 {
+            let lane = dips.trailing_zeros() as usize;
+            dips &= dips - 1;
+            let bracket = [self.at(STEPS[lane]), self.at(STEPS[lane + 1])];
+            let four = around(&values.into(), lane);
+            self.dip(simd, setting, function, (bracket, four), CLOSER, breaks);
+        }
     }
 
     /// Appends where a function vanishes in a bracket at whose ends its values have one sign, looking closer some

@@ -29,11 +29,12 @@ const OF_TIP: f64 = 0.05;
 /// The share of the tolerance that this may take on an arc before it is halved: few arcs have any.
 const SHARE_OF_TIP: f64 = 0.1;
 
-/// On bumps sums along lines are not analytic: their second derivatives jump, or those of the next order. There
-/// Kronrod's rule is off by a tenth of the difference of both rules, as a median, and seldom by more than this part
-/// of it; a power of the difference would claim less. At larger tolerances the power claims as much.
-const OF_KINKS: f64 = 0.4;
-const KINKED: f64 = 5e-6;
+/// The part of what the rules differ by that they are taken to be off by at least, at tolerances that are so fine.
+/// Sums along lines are not analytic everywhere: over bumps their second derivatives jump, and near corners of what
+/// is seen they are nearly singular. There Kronrod's rule is off by a tenth of the difference, as a median, seldom
+/// by all of it; a power of the difference claims a fiftieth, which one pixel in ten million found out.
+const LEAST_OF_DIFFERENCE: f64 = 0.4;
+const FINE: f64 = 5e-6;
 
 /// What lies on both sides of an arc, at the nodes of the rule: light summed up from references.
 struct Sides<S: Simd> {
@@ -110,6 +111,9 @@ impl Boundary {
                     let of_odd = total(places.x * dy * odd);
                     let difference = doubt(total(one - other), of_odd);
                     error = error_estimate(difference, spread) + slip;
+                    if goal.tolerance < FINE {
+                        error = error.max(LEAST_OF_DIFFERENCE * difference);
+                    }
                 }
                 for (channel, light) in sides.light.into_iter().enumerate().take(scene.channels) {
                     let part = light * dy;
@@ -121,8 +125,8 @@ impl Boundary {
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
                     let mut estimate = error_estimate(difference, spread);
-                    if setting.has_bumps && goal.tolerance < KINKED {
-                        estimate = estimate.max(OF_KINKS * difference);
+                    if goal.tolerance < FINE {
+                        estimate = estimate.max(LEAST_OF_DIFFERENCE * difference);
                     }
                     if is_singular {
                         // Of a power at an end both rules are off by a fixed ratio.
