@@ -12,6 +12,7 @@ use super::terminators::MEDIUM;
 use crate::exact::points::Points;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::bits::set_bits;
 
 /// The averages over eight pixels, and their errors.
 #[derive(Clone, Copy, Debug)]
@@ -71,15 +72,17 @@ impl<S: Simd> Filled<'_, S> {
     /// that face it, or face it between those that do not.
     #[inline(always)]
     pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
-        let mut domain = None;
+        let (mut domain, mut in_middle) = (None, None);
         if !self.finish.is_rough() && self.is_proved {
             let of_pixels = self.domain(simd);
             // What is smooth enough for one sample is known before any is taken.
             if self.tolerance >= LOOSE {
                 let bounds = self.bound(simd, &of_pixels, Rules::Middle);
-                if self.which & !bounds.simd_le(self.tolerance).to_bitmask() == 0 {
+                let met = bounds.simd_le(self.tolerance).to_bitmask();
+                if self.which & !met == 0 {
                     return self.by_middle(simd, bounds);
                 }
+                in_middle = Some((bounds, met));
             }
             domain = Some(of_pixels);
         }
@@ -104,6 +107,16 @@ impl<S: Simd> Filled<'_, S> {
         if let Some(domain) = &domain {
             let rules = Rules::StarOrGrid(sampled.star.is_met);
             averages.bounds = self.bound(simd, domain, rules).into();
+        }
+        if let Some((bounds, met)) = in_middle {
+            // A pixel does not depend on those beside it: the first sample is the middle's.
+            for lane in set_bits(met) {
+                for channel in 0..self.scene.channels {
+                    averages.values[lane][channel] = sampled.lights[0][channel][lane];
+                }
+                averages.errors[lane] = bounds[lane];
+                averages.bounds[lane] = bounds[lane];
+            }
         }
         averages
     }
