@@ -39,14 +39,14 @@ const fn at_most(
 /// About a quarter more than was counted, 150 pixels wide.
 const ALLOWANCES: [Allowance; 11] = [
     at_most("tests/truth/pixels/seed1", 1e-2, 1.8, 0.21, 0.24),
-    at_most("tests/truth/pixels/seed1", 1e-6, 2.5, 0.34, 0.25),
+    at_most("tests/truth/pixels/seed1", 1e-6, 2.9, 0.46, 0.25),
     at_most("tests/truth/pixels/cloud1k", 1e-2, 19.6, 5.4, 29.1),
     at_most("tests/truth/pixels/cloud1k", 1e-4, 23.6, 5.8, 29.2),
-    at_most("tests/truth/pixels/cloud1k", 1e-6, 48.5, 10.0, 29.4),
+    at_most("tests/truth/pixels/cloud1k", 1e-6, 67.0, 14.2, 29.4),
     at_most("scenes/c60", 1e-3, 37.5, 5.3, 9.8),
     at_most("scenes/c60", 1e-6, 69.1, 8.4, 10.7),
     at_most("scenes/floor", 1e-3, 37.3, 4.3, 4.5),
-    at_most("scenes/floor", 1e-6, 56.3, 5.5, 4.5),
+    at_most("scenes/floor", 1e-6, 73.0, 7.0, 5.2),
     at_most(
         "scenes/original/sphere1-rough-surface",
         1e-3,
@@ -124,23 +124,26 @@ fn small_tolerances_cost_little_more_than_large_ones() {
         let [samples, lines, _] = per_pixel(&exact_picture(scene.world(), &view, tolerance, false));
         samples + lines
     };
-    let (large, small) = (cost(1e-2), cost(1e-6));
+    // At larger ones, one sample is enough for most pixels.
+    let (large, small) = (cost(1e-4), cost(1e-6));
     assert!(small < 2.0 * large, "{small} instead of {large}");
 }
 
-/// One rule with five points does, and its own points tell how good it is.
+/// One sample does where a bound tells so; else one rule with five points, which tell how good it is.
 #[test]
-fn calm_pixels_take_five_samples() {
+fn calm_pixels_take_one_sample_or_five() {
     let world = world_of(
         &[(DVec3::Z * 400.0, 300.0, Color::ONE)],
         &[DVec3::new(0.1, 0.2, -1.0)],
     );
-    let image = exact_picture(&world, &looking_forward(16, 8, 1000.0), 1e-3, false);
-    let pixels = 16 * 8;
-    assert_eq!(image.work().samples, 5 * pixels);
-    assert_eq!(image.work().lines, 0);
-    // And in either tile the ball might keep the light from itself.
-    assert_eq!(image.work().candidate_tests, pixels + 2);
+    for (tolerance, samples) in [(1e-3, 1), (1e-5, 5)] {
+        let image = exact_picture(&world, &looking_forward(16, 8, 1000.0), tolerance, false);
+        let pixels = 16 * 8;
+        assert_eq!(image.work().samples, samples * pixels);
+        assert_eq!(image.work().lines, 0);
+        // And in either tile the ball might keep the light from itself.
+        assert_eq!(image.work().candidate_tests, pixels + 2);
+    }
 }
 
 #[test]
