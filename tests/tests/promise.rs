@@ -32,11 +32,18 @@ enum Shortfall {
     Unmet,
 }
 
-const ALLOWANCES: [Allowance; 1] = [Allowance {
-    scene: "rough_shiny",
-    what: Shortfall::Unmet,
-    pixels: [0, 0, 0, 2, 5],
-}];
+const ALLOWANCES: [Allowance; 2] = [
+    Allowance {
+        scene: "eye_near",
+        what: Shortfall::Unmet,
+        pixels: [0, 0, 0, 0, 1],
+    },
+    Allowance {
+        scene: "rough_shiny",
+        what: Shortfall::Unmet,
+        pixels: [0, 0, 0, 2, 5],
+    },
+];
 
 /// Of all pixels of all scenes at a tolerance, so many may be off by more than they claim while
 /// within the tolerance, in parts; broken ones are counted above.
