@@ -29,7 +29,7 @@ mod surface;
 
 use fearless_simd::prelude::*;
 
-use self::budget::{TileCosts, units_of_filled};
+use self::budget::{FILLED, TileCosts};
 use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::row::{Coverage, Sight, classify_row, sight};
@@ -191,11 +191,13 @@ fn row_pixels<S: Simd>(
             coverage,
         };
         let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
+        edged.work.samples += done.samples;
         let is_rough = context.scene.world.material(sphere).roughness.is_some();
         for lane in set_bits(which) {
-            let samples = done.samples[lane];
-            edged.work.samples += samples;
-            costs.add(place + lane, units_of_filled(samples, is_rough));
+            costs.add(
+                place + lane,
+                FILLED[usize::from(is_rough)] + done.of_bumps[lane],
+            );
         }
         for lane in set_bits(done.hard) {
             let spheres = [(sphere, coverage.ball)];

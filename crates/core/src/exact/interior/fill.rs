@@ -22,8 +22,10 @@ pub(crate) struct FilledPixels {
     /// The pixels, bit by bit, that have edges or other light that is too hard for rules: they were left
     /// alone.
     pub(crate) hard: u64,
-    /// The samples of each of them.
-    pub(crate) samples: [u64; 8],
+    /// All samples.
+    pub(crate) samples: u64,
+    /// Those of each pixel that do not depend on the pixels beside it: of bumps in parts, or in strata.
+    pub(crate) of_bumps: [u64; 8],
 }
 
 /// Writes the pixels of a row that are not too hard.
@@ -49,7 +51,8 @@ pub(crate) fn fill<S: Simd>(
     }
     let mut filled = FilledPixels {
         hard: reached.hard,
-        samples: [0; 8],
+        samples: 0,
+        of_bumps: [0; 8],
     };
     let easy = row.which & !reached.hard;
     let lit = reached.lit.iter().fold(0, |any, lit| any | lit) & easy;
@@ -84,8 +87,9 @@ pub(crate) fn fill<S: Simd>(
         let lit = (&reached, &finish);
         let of_group = fill_lit(simd, context, row, lit, group, noise, pixels);
         filled.hard |= of_group.hard;
+        filled.samples += of_group.samples;
         for lane in set_bits(group) {
-            filled.samples[lane] = of_group.samples[lane];
+            filled.of_bumps[lane] = of_group.of_bumps[lane];
         }
     }
     filled
@@ -125,7 +129,8 @@ fn fill_lit<S: Simd>(
         #[inline(always)]
         || filled.averages(simd, noise),
     );
-    let mut samples = [averages.samples as u64; 8];
+    let mut samples = averages.samples as u64 * u64::from(which.count_ones());
+    let mut of_bumps = [0; 8];
     let mut hard = 0;
     let is_met = |error: f64| error <= context.tolerance;
     for lane in set_bits(which) {
@@ -134,7 +139,8 @@ fn fill_lit<S: Simd>(
         if !is_met(error)
             && let Some(found) = filled.of_bumps(simd, lane, noise)
         {
-            samples[lane] += found.samples;
+            samples += found.samples;
+            of_bumps[lane] = found.samples;
             (value, error, is_last) = (found.value, found.error, found.is_random);
         }
         if is_met(error) || is_last {
@@ -154,7 +160,11 @@ fn fill_lit<S: Simd>(
             hard |= 1 << lane;
         }
     }
-    FilledPixels { hard, samples }
+    FilledPixels {
+        hard,
+        samples,
+        of_bumps,
+    }
 }
 
 /// A pixel that meets its tolerance.
