@@ -73,9 +73,7 @@ impl<S: Simd> Filled<'_, S> {
             ..more
         })
     }
-}
 
-impl<S: Simd> Filled<'_, S> {
     /// The average over the first of the cells, with these points in the middles, if its light is smooth enough.
     #[inline(always)]
     fn of_smooth(

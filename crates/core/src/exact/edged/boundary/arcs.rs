@@ -15,10 +15,8 @@ pub(super) struct Front<S: Simd> {
     pub(super) nearest: f64x8<S>,
     /// The position of the sphere and one more, or zero.
     pub(super) first: f64x8<S>,
-    /// Whether one sphere hides all of the places.
-    pub(super) is_hidden: bool,
-    /// Which.
-    pub(super) hider: usize,
+    /// The active sphere that hides all of the places, if one does. What else is in front is not known then.
+    pub(super) hider: Option<usize>,
 }
 
 impl<S: Simd> Front<S> {
@@ -33,7 +31,7 @@ impl<S: Simd> Front<S> {
     fn hidden(&self, curve: &Curve, places: &Trace<S>) -> u64 {
         if curve.is_side() {
             0
-        } else if self.is_hidden {
+        } else if self.hider.is_some() {
             0xff
         } else {
             self.nearest.simd_lt(places.point.z).to_bitmask()
@@ -61,8 +59,7 @@ pub(super) fn front<S: Simd>(
             let mut front = Front {
                 nearest: f64x8::splat(simd, f64::INFINITY),
                 first: zero,
-                is_hidden: false,
-                hider: NONE,
+                hider: None,
             };
             let (x, y) = (places.x, places.y);
             for (position, active) in contents.active.iter().enumerate() {
@@ -89,8 +86,7 @@ pub(super) fn front<S: Simd>(
                     is_nearer.select(f64x8::splat(simd, (position + 1) as f64), front.first);
                 let is_hidden = lanes == 0xff && t.simd_lt(places.point.z).to_bitmask() == 0xff;
                 if is_hidden && own[0] != NONE {
-                    front.is_hidden = true;
-                    front.hider = position;
+                    front.hider = Some(position);
                     return front;
                 }
             }

@@ -30,8 +30,11 @@ impl Boundary {
                 let contents = setting.contents;
                 let front = front(simd, contents, stretch.curve.own, places);
                 let is_side = stretch.curve.is_side();
-                if front.is_hidden && !is_side {
-                    self.find_gaps(simd, setting, stretch, places, (front.hider, INTERVALS));
+                if let Some(hider) = front.hider
+                    && !is_side
+                {
+                    // It may come out between two places: parts there are looked at once more.
+                    self.find_gaps(simd, setting, stretch, places, (hider, INTERVALS));
                     return front;
                 }
                 let hidden = front.nearest.simd_lt(places.point.z).to_bitmask();
