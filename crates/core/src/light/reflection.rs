@@ -197,4 +197,13 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         let length_sq = (along * 2.0 + 2.0).max(least);
         (cosine + self.view_cosine) / length_sq.sqrt()
     }
+
+    /// The change of [`Self::half_cosine`] where the normals change by this, and the view does not.
+    #[inline(always)]
+    pub(crate) fn change_of_half_cosine(&self, toward: DVec3, change: &Vectors<S>) -> f64x8<S> {
+        let along = self.ray.dot_one(toward) * self.scale;
+        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
+        let length_sq = (along * 2.0 + 2.0).max(least);
+        (change.dot_one(toward) + change.dot(self.ray) * self.scale) / length_sq.sqrt()
+    }
 }

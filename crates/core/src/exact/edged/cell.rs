@@ -7,6 +7,7 @@ use std::collections::BinaryHeap;
 use fearless_simd::prelude::*;
 
 use super::boundary::{Boundary, Goal};
+use super::boxes::Boxes;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
@@ -23,6 +24,7 @@ use crate::picture::pixel::Work;
 pub(crate) struct Workspace {
     pub(crate) contents: Contents,
     boundary: Boundary,
+    boxes: Boxes,
     pub(crate) noise: Option<Box<NoiseCells>>,
     pub(crate) work: Work,
     /// The largest difference of light that something in the pixel may make.
@@ -108,6 +110,9 @@ impl Workspace {
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);
         }
+        if let Some(part) = self.by_boxes(simd, pixel, &cell) {
+            return Ok(part);
+        }
         let mut part = self.part(simd, pixel, &cell, 0)?;
         part.error += pixel.moved(self.contrast);
         if part.error <= pixel.context.tolerance || self.is_random {
@@ -115,6 +120,32 @@ impl Workspace {
         } else {
             Err(GiveUp::Claims(part))
         }
+    }
+
+    /// The average of the whole pixel by boxes, if they meet the tolerance.
+    fn by_boxes<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: &EdgedPixel<'_, '_>,
+        cell: &Cell,
+    ) -> Option<Part> {
+        let Context {
+            scene,
+            tolerance,
+            background,
+            ..
+        } = pixel.context;
+        let known = pixel.moved(self.contrast) + self.contrast * self.contents.rounding;
+        let goal = (tolerance - known, *background);
+        let found = self
+            .boxes
+            .integrate(simd, scene, cell, &self.contents, goal);
+        let work = std::mem::take(&mut self.boxes.work);
+        self.work.samples += work.samples;
+        self.budget.spend(work);
+        let mut part = found?;
+        part.error += known;
+        Some(part)
     }
 
     /// The average by parts, each the quarter of another that claims too much, those first that cost most,

@@ -1,0 +1,349 @@
+//! The shares of boxes in which spheres are seen.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::eight::EightBoxes;
+use super::half_plane::HalfPlane;
+use crate::edges::cell::Cell;
+use crate::exact::classify::active::Active;
+use crate::numeric::rounding::GEOMETRY_SLACK;
+
+/// Eight numbers in memory.
+pub(super) type Eight = [f64; 8];
+
+/// A sphere as eight boxes see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Outline {
+    /// Its position among the active spheres.
+    pub(super) position: usize,
+    /// The share of each box inside its silhouette, and the integrals over it of the coordinates from the middle of
+    /// the box, in sides of the box.
+    share: Eight,
+    moments: [Eight; 2],
+    /// How far the silhouette is from deciding the whole box.
+    ambiguity: Eight,
+    /// How much the share may be off because the silhouette is no line.
+    doubt: Eight,
+    /// How far a point must be moved along both axes, in sides, from the middle of what is seen to where the root of
+    /// the discriminant is the average.
+    inward: [Eight; 2],
+    depth: Depth,
+}
+
+/// The distances of a sphere along rays, in multiples of these, as linear functions on boxes.
+#[derive(Clone, Copy, Debug)]
+struct Depth {
+    middle: Eight,
+    across: [Eight; 2],
+    bend: Eight,
+}
+
+/// The order of a sphere and another along all rays of a cell that meet both.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Order {
+    Front,
+    Behind,
+    /// The spheres intersect: their depths tell.
+    ByDepth,
+}
+
+/// The orders of all pairs of active spheres.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Orders {
+    count: usize,
+    orders: Vec<Order>,
+}
+
+impl Orders {
+    /// For an eye outside of all spheres. Of two that are apart the nearer has the smaller K.
+    pub(super) fn find(&mut self, active: &[Active]) {
+        self.count = active.len();
+        self.orders.clear();
+        for one in active {
+            for other in active {
+                let apart = (one.ball.center - other.ball.center).length();
+                let sum = one.ball.radius + other.ball.radius;
+                self.orders.push(if apart <= sum * (1.0 + GEOMETRY_SLACK) {
+                    Order::ByDepth
+                } else if one.ball.outside < other.ball.outside {
+                    Order::Front
+                } else {
+                    Order::Behind
+                });
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn of(&self, one: usize, other: usize) -> Order {
+        self.orders[one * self.count + other]
+    }
+
+    /// Returns whether a sphere intersects another.
+    #[inline(always)]
+    pub(super) fn needs_depth(&self, one: usize) -> bool {
+        let row = &self.orders[one * self.count..][..self.count];
+        let by_depth = row.iter().filter(|order| **order == Order::ByDepth);
+        // It intersects itself.
+        by_depth.count() > 1
+    }
+}
+
+/// What is seen of a sphere in eight boxes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Visible<S: Simd> {
+    pub(super) position: usize,
+    /// Its share of each box.
+    pub(super) share: f64x8<S>,
+    /// The point, in sides from the middle of a box, whose light is about the average.
+    pub(super) place: [f64x8<S>; 2],
+    /// The boxes that the silhouette cuts.
+    pub(super) is_cut: mask64x8<S>,
+}
+
+/// Edges in boxes: the sum and the largest of what they may hide from the others.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Edges<S: Simd> {
+    pub(super) sum: f64x8<S>,
+    pub(super) most: f64x8<S>,
+    /// What edges that are no lines make wrong.
+    pub(super) doubt: f64x8<S>,
+}
+
+impl<S: Simd> Edges<S> {
+    #[inline(always)]
+    pub(super) fn none(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        Self {
+            sum: zero,
+            most: zero,
+            doubt: zero,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn add(&mut self, ambiguity: f64x8<S>, doubt: f64x8<S>) {
+        self.sum += ambiguity;
+        self.most = self.most.max(ambiguity);
+        self.doubt += doubt;
+    }
+}
+
+/// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
+const OF_ROOT: f64 = 8.0 / 9.0;
+
+impl Outline {
+    /// The sphere, if any of the boxes see it.
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(
+        simd: S,
+        cell: &Cell,
+        boxes: &EightBoxes<S>,
+        (position, active): (usize, &Active),
+        has_depth: bool,
+    ) -> Option<Self> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let q = &active.discriminant;
+        let [width, height] = boxes.size;
+        let (x, y) = (boxes.x, boxes.y);
+        let slope_x = x * (2.0 * q.xx) + y * q.xy + q.x;
+        let slope_y = y * (2.0 * q.yy) + x * q.xy + q.y;
+        let value = (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one;
+        let bend = 0.25
+            * (q.xx.abs() * width * width
+                + q.xy.abs() * width * height
+                + q.yy.abs() * height * height);
+        // Along the normal the function is followed to the second degree.
+        let steep =
+            (slope_x * slope_x + slope_y * slope_y).max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let along =
+            (slope_x * slope_x * q.xx + slope_x * slope_y * q.xy + slope_y * slope_y * q.yy)
+                / steep;
+        let step_sq = value * value / steep;
+        let bends = f64x8::splat(simd, bend);
+        let moved = (along * step_sq).max(-bends).min(bends);
+        let across = [slope_x * width, slope_y * height];
+        // What remains is half of it.
+        let part = HalfPlane::new(simd, value + moved, across, bends * 0.5);
+        if part.share.simd_gt(zero).to_bitmask() == 0 && part.doubt.simd_gt(zero).to_bitmask() == 0
+        {
+            return None;
+        }
+        let inner = part.share * value + part.moments[0] * across[0] + part.moments[1] * across[1];
+        let mean = inner / part.share.max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let is_cut = part.share.simd_lt(one) & part.share.simd_gt(zero);
+        let steepness = (across[0] * across[0] + across[1] * across[1])
+            .max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let back = is_cut.select(mean * (OF_ROOT - 1.0) / steepness, zero);
+        let inward = [back * across[0], back * across[1]];
+        let depth = if has_depth {
+            Depth::new(simd, cell, boxes, active, value.max(zero), across)
+        } else {
+            Depth::NONE
+        };
+        Some(Self {
+            position,
+            share: part.share.into(),
+            moments: [part.moments[0].into(), part.moments[1].into()],
+            ambiguity: part.ambiguity(simd).into(),
+            doubt: part.doubt.into(),
+            inward: [inward[0].into(), inward[1].into()],
+            depth,
+        })
+    }
+
+    /// What is seen of it behind others, whose edges are added to `edges` with its own.
+    #[inline(always)]
+    pub(super) fn visible<S: Simd>(
+        &self,
+        simd: S,
+        all: &[Self],
+        orders: &Orders,
+        edges: &mut Edges<S>,
+    ) -> Visible<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let share: f64x8<S> = self.share.simd_into(simd);
+        // What is not hidden by spheres in front, of all, and of those that do not intersect it.
+        let mut open = one;
+        let mut unhidden = one;
+        let mut hidden = [zero; 2];
+        let mut seams = Edges::none(simd);
+        for other in all {
+            if other.position == self.position {
+                continue;
+            }
+            let order = orders.of(self.position, other.position);
+            if order == Order::Front {
+                continue;
+            }
+            let theirs: f64x8<S> = other.share.simd_into(simd);
+            let mut front = theirs;
+            if order == Order::ByDepth {
+                let before = self.depth.behind(simd, &other.depth);
+                front = theirs * before.share;
+                // Both meet this edge; it counts once.
+                if self.position < other.position {
+                    let both = share * theirs;
+                    seams.add(before.ambiguity(simd) * both, before.doubt * both);
+                }
+                for (hidden, moment) in hidden.iter_mut().zip(before.moments) {
+                    *hidden += moment * theirs;
+                }
+            }
+            for (axis, hidden) in hidden.iter_mut().enumerate() {
+                let moment: f64x8<S> = other.moments[axis].simd_into(simd);
+                let is_front = front.simd_ge(theirs);
+                *hidden += is_front.select(moment, zero);
+            }
+            open = open * (one - front);
+            if order == Order::Behind {
+                unhidden = unhidden * (one - front);
+            }
+        }
+        let ambiguity: f64x8<S> = self.ambiguity.simd_into(simd);
+        let doubt: f64x8<S> = self.doubt.simd_into(simd);
+        // However little is open of a box, edges may all lie in it.
+        let is_open = open.simd_gt(zero);
+        edges.add(is_open.select(ambiguity, zero), doubt * open);
+        let is_unhidden = unhidden.simd_gt(zero);
+        edges.sum += is_unhidden.select(seams.sum, zero);
+        edges.most = edges.most.max(is_unhidden.select(seams.most, zero));
+        edges.doubt += seams.doubt * unhidden;
+        let seen = share * open;
+        let by_seen = one / seen.max(f64x8::splat(simd, LEAST_SHARE));
+        let half = f64x8::splat(simd, 0.5);
+        let mut place = [zero; 2];
+        for (axis, place) in place.iter_mut().enumerate() {
+            let moment: f64x8<S> = self.moments[axis].simd_into(simd);
+            let inward: f64x8<S> = self.inward[axis].simd_into(simd);
+            let middle = (moment * open - hidden[axis] * share) * by_seen + inward;
+            *place = middle.max(-half).min(half);
+        }
+        Visible {
+            position: self.position,
+            share: seen,
+            place,
+            is_cut: share.simd_lt(one),
+        }
+    }
+
+    /// The shares of boxes outside of the sphere.
+    #[inline(always)]
+    pub(super) fn outside<S: Simd>(&self, simd: S) -> f64x8<S> {
+        let share: f64x8<S> = self.share.simd_into(simd);
+        f64x8::splat(simd, 1.0) - share
+    }
+}
+
+/// Shares below this have no place of their own.
+const LEAST_SHARE: f64 = 1e-6;
+
+impl Depth {
+    const NONE: Self = Self {
+        middle: [0.0; 8],
+        across: [[0.0; 8]; 2],
+        bend: [0.0; 8],
+    };
+
+    /// t = K / (B + √Q), where rays miss as if they grazed.
+    #[inline(always)]
+    fn new<S: Simd>(
+        simd: S,
+        cell: &Cell,
+        boxes: &EightBoxes<S>,
+        active: &Active,
+        discriminant: f64x8<S>,
+        across: [f64x8<S>; 2],
+    ) -> Self {
+        let [width, height] = boxes.size;
+        let along = &active.along;
+        // Nearer to the silhouette than this the depth of a box is no linear function.
+        let least = (across[0].abs() + across[1].abs()) * 0.125;
+        let q = discriminant
+            .max(least)
+            .max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let root = q.sqrt();
+        let sum = boxes.x * along.x + boxes.y * along.y + along.one + root;
+        let t = f64x8::splat(simd, active.ball.outside) / sum;
+        let by_root = f64x8::splat(simd, 0.5) / root;
+        let fall = t * -1.0 / sum;
+        let radius = active.ball.radius;
+        let wide = [cell.size[0] * width, cell.size[1] * height];
+        let span_sq = wide[0] * wide[0] + wide[1] * wide[1];
+        // Half of z'' = R² / z³ times the square of half the diagonal, where it recedes most.
+        let nearest = (q - (across[0].abs() + across[1].abs()) * 0.5).max(least);
+        let grazing = nearest.max(f64x8::splat(simd, f64::MIN_POSITIVE)).sqrt() * (1.0 / radius);
+        let bend = t * t * (0.125 * span_sq / radius) / (grazing * grazing * grazing);
+        Self {
+            middle: t.into(),
+            across: [
+                ((across[0] * by_root + along.x * width) * fall).into(),
+                ((across[1] * by_root + along.y * height) * fall).into(),
+            ],
+            bend: bend.into(),
+        }
+    }
+
+    /// The parts of boxes in which this lies behind another.
+    #[inline(always)]
+    fn behind<S: Simd>(&self, simd: S, other: &Self) -> HalfPlane<S> {
+        let value = difference(simd, &self.middle, &other.middle);
+        let across = [
+            difference(simd, &self.across[0], &other.across[0]),
+            difference(simd, &self.across[1], &other.across[1]),
+        ];
+        let bend: f64x8<S> = self.bend.simd_into(simd);
+        let more: f64x8<S> = other.bend.simd_into(simd);
+        HalfPlane::new(simd, value, across, bend + more)
+    }
+}
+
+#[inline(always)]
+fn difference<S: Simd>(simd: S, one: &Eight, other: &Eight) -> f64x8<S> {
+    let one: f64x8<S> = (*one).simd_into(simd);
+    let other: f64x8<S> = (*other).simd_into(simd);
+    one - other
+}
