@@ -229,7 +229,8 @@ pub fn by_samples(
     render(renderer, view, Method::Samples(samples), spent)
 }
 
-fn render(renderer: &Renderer<'_>, view: &View, method: Method, spent: Option<Image>) -> Image {
+/// The picture by a method, in the memory of another one.
+pub fn render(renderer: &Renderer<'_>, view: &View, method: Method, spent: Option<Image>) -> Image {
     let settings = Settings {
         method,
         alpha: false,
@@ -253,7 +254,8 @@ pub fn largest_difference(one: &Image, other: &Image) -> f64 {
     places(one).map(difference).fold(0.0, f64::max)
 }
 
-fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
+/// The columns and rows of all pixels, row by row.
+pub fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
     let width = image.width();
     (0..image.height()).flat_map(move |row| (0..width).map(move |col| (col, row)))
 }

@@ -20,9 +20,11 @@ cargo truth doubt SCENE [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT]
     compares the truth of random pixels with that of their quarters
 cargo truth pixel SCENE COL ROW [--size WIDTHxHEIGHT]
     what is known of one pixel
-cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--write FOLDER]
-    renders random scenes of every family to all tolerances, and counts pixels that are over them without
-    saying so, and pixels that are over what they say; --write reduces their scenes and writes them
+cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--tolerances 1e-2,1e-3,1e-4,1e-5,1e-6]
+                 [--write FOLDER] [--page docs/hunt.md]
+    renders random scenes of every family to all tolerances, counts pixels that are over them without
+    saying so, and pixels that are over what they say, and tells the medians of true over claimed errors;
+    --write reduces scenes of such pixels and writes them, --page writes the tables into a page
 cargo truth write [NAME]
 cargo truth check [NAME]
     write, or compute again, the exact pixels of the scenes in tests/truth/promise, or of those

@@ -4,21 +4,30 @@ use std::path::Path;
 
 use super::Options;
 
-/// The part of the page that hunts write.
-const HEAD: &str = "<!-- measured: hunt -->\n";
+/// The line after a part of the page.
 const END: &str = "<!-- end -->\n";
 
-/// Writes a table into a page, in place of the last one.
-pub(super) fn write(path: &Path, options: &Options, table: &str) -> Result<(), String> {
+/// Writes tables into a page, in place of the last ones: each list of tolerances has a part of its own.
+pub(super) fn write(path: &Path, options: &Options, tables: &str) -> Result<(), String> {
     let at = |error| format!("{}: {error}", path.display());
     let text = std::fs::read_to_string(path).map_err(at)?;
-    let parts = text.split_once(HEAD);
-    let parts = parts.and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
-    let (before, after) = parts.ok_or_else(|| format!("{} has no part for it", path.display()))?;
-    let command = format!(
-        "`cargo truth hunt --scenes {} --seed {}`",
+    let mut part = "hunt".to_owned();
+    let mut command = format!(
+        "cargo truth hunt --scenes {} --seed {}",
         options.scenes, options.seed
     );
-    let text = format!("{before}{HEAD}{command}\n\n{table}{END}{after}");
+    if let Some(tolerances) = options.unusual_tolerances() {
+        part += &format!(" {tolerances}");
+        command += &format!(" --tolerances {tolerances}");
+    }
+    if !options.family.is_empty() {
+        command += &format!(" --family '{}'", options.family);
+    }
+    let head = format!("<!-- measured: {part} -->\n");
+    let parts = text.split_once(&head);
+    let parts = parts.and_then(|(before, rest)| Some((before, rest.split_once(END)?.1)));
+    let (before, after) =
+        parts.ok_or_else(|| format!("{} has no part \"{part}\"", path.display()))?;
+    let text = format!("{before}{head}`{command}`\n\n{tables}{END}{after}");
     std::fs::write(path, text).map_err(at)
 }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use super::Broken;
 use super::draft::Draft;
-use super::{Broken, Subject};
+use super::subject::Subject;
 
 /// Leaves out what is not needed for a pixel to fall short.
 fn reduced(draft: &Draft, broken: &Broken) -> Draft {

@@ -1,0 +1,63 @@
+//! What is asked of a hunt.
+
+/// The tolerances of a hunt that names no others.
+const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+
+/// What is asked of a hunt.
+#[derive(Clone, Debug)]
+pub(super) struct Options {
+    pub(super) scenes: u64,
+    pub(super) seed: u64,
+    pub(super) family: String,
+    pub(super) tolerances: Vec<f64>,
+    pub(super) folder: Option<String>,
+    pub(super) page: Option<String>,
+}
+
+impl Options {
+    pub(super) fn parse(arguments: &[&str]) -> Result<Self, String> {
+        let mut options = Self {
+            scenes: 160,
+            seed: 1,
+            family: String::new(),
+            tolerances: TOLERANCES.to_vec(),
+            folder: None,
+            page: None,
+        };
+        for pair in arguments.chunks(2) {
+            let [name, value] = pair else {
+                return Err(format!("{} needs a value", pair[0]));
+            };
+            let number = || {
+                value
+                    .parse()
+                    .map_err(|_| format!("{value} is not a number"))
+            };
+            match *name {
+                "--scenes" => options.scenes = number()?,
+                "--seed" => options.seed = number()?,
+                "--family" => options.family = (*value).to_owned(),
+                "--tolerances" => options.tolerances = tolerances(value)?,
+                "--write" => options.folder = Some((*value).to_owned()),
+                "--page" => options.page = Some((*value).to_owned()),
+                _ => return Err(format!("unknown option {name}")),
+            }
+        }
+        Ok(options)
+    }
+
+    /// The tolerances as they were asked for, if they are not the usual ones.
+    pub(super) fn unusual_tolerances(&self) -> Option<String> {
+        let names: Vec<_> = self.tolerances.iter().map(|it| format!("{it:e}")).collect();
+        (self.tolerances != TOLERANCES).then(|| names.join(","))
+    }
+}
+
+fn tolerances(list: &str) -> Result<Vec<f64>, String> {
+    let tolerance = |text: &str| {
+        let tolerance = text.parse().ok();
+        let tolerance = tolerance.filter(|it: &f64| it.is_finite() && *it > 0.0);
+        tolerance.ok_or_else(|| format!("{text} is not a tolerance"))
+    };
+    list.split(',').map(tolerance).collect()
+}

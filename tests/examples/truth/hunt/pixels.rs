@@ -1,0 +1,167 @@
+//! The pixels of a scene, held against the same picture with more pixels.
+
+use glam::DVec4;
+use marbles_core::{Image, View};
+
+use super::draft::SIDE;
+use super::subject::{Subject, render};
+use super::{Broken, Found, random};
+use crate::numbers::Numbers;
+
+/// The division of pixels that finds suspects, and its tolerance.
+const FINER: u32 = 3;
+const FINEST: f64 = 1e-6;
+
+/// How many times its tolerance a pixel of the finer picture may seem off before the truth is asked: what
+/// both pictures claim is below that.
+const SUSPECT: f64 = 0.9;
+
+/// A pixel of the finer picture that claims more, a hundred times its tolerance, gave up: it may be off as the
+/// pixel is, so it clears the pixel only with what it claims.
+const GIVEN_UP: f64 = 1e-4;
+
+/// A claim below this part of the tolerance is negligible.
+pub(super) const NEGLIGIBLE: f64 = 0.01;
+
+/// A difference tells the true error if it is so many times what the finer picture claims.
+const TELLING: f64 = 10.0;
+/// It tells the ratio to a claim, too, if the claim is so many times that: the ratio is off by less than a tenth.
+const TELLING_OF_CLAIMS: f64 = 10.0;
+
+/// Where the difference does not tell, the truth is asked of one of so many pixels.
+const SHARE: u32 = 256;
+
+/// The pixels of a scene that fall short, and how far its pixels are off.
+pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
+    let mut found = Found::new(tolerances);
+    let scene = &subject.scene;
+    let Some(view) = subject.view() else {
+        return found;
+    };
+    if random::is_fine(scene) {
+        return random::judge(scene, &view, tolerances);
+    }
+    let finer = View {
+        width: view.width * FINER,
+        height: view.height * FINER,
+        ..view
+    };
+    let Some(finer) = render(scene, &finer, FINEST) else {
+        return found;
+    };
+    for (index, &tolerance) in tolerances.iter().enumerate() {
+        let Some(image) = render(scene, &view, tolerance) else {
+            continue;
+        };
+        for place in 0..SIDE * SIDE {
+            let pixel = Pixel::of(&image, &finer, place, tolerance);
+            found.pixels += 1;
+            if pixel.is_suspect() {
+                found.broken.extend(pixel.shortfall(subject));
+            }
+            if let Some((ratio, pixels)) = pixel.honesty(subject) {
+                found.honesty[index].count(ratio, pixels);
+            }
+        }
+    }
+    found
+}
+
+/// A pixel at a tolerance, and what the finer picture knows of it.
+struct Pixel {
+    place: u32,
+    tolerance: f64,
+    value: DVec4,
+    claimed: f64,
+    /// True if it says that it is over.
+    is_confessed: bool,
+    /// The distance from the mean of its parts.
+    apart: f64,
+    /// What that mean claims to be off by.
+    uncertain: f64,
+}
+
+impl Pixel {
+    fn of(image: &Image, finer: &Image, place: u32, tolerance: f64) -> Self {
+        let (col, row) = (place % SIDE, place / SIDE);
+        let (mut mean, mut uncertain) = (DVec4::ZERO, 0.0);
+        let parts = FINER * FINER;
+        for part in 0..parts {
+            let (col, row) = (col * FINER + part % FINER, row * FINER + part / FINER);
+            mean += DVec4::from_array(finer.rgba(col, row)) / f64::from(parts);
+            uncertain += finer.error(col, row) / f64::from(parts);
+        }
+        let value = DVec4::from_array(image.rgba(col, row));
+        Self {
+            place,
+            tolerance,
+            value,
+            claimed: image.error(col, row),
+            is_confessed: image.status(col, row).is_over_tolerance(),
+            apart: (value - mean).abs().max_element(),
+            uncertain,
+        }
+    }
+
+    fn place(&self) -> (u32, u32) {
+        (self.place % SIDE, self.place / SIDE)
+    }
+
+    /// What the pixel may be off by.
+    fn allowed(&self) -> f64 {
+        if self.is_confessed {
+            self.claimed
+        } else {
+            self.tolerance
+        }
+    }
+
+    /// True unless the finer picture clears the pixel.
+    fn is_suspect(&self) -> bool {
+        let gave_up = self.uncertain > GIVEN_UP;
+        self.apart > SUSPECT * self.allowed()
+            || gave_up && self.apart + self.uncertain > self.allowed()
+    }
+
+    /// The pixel as a broken one, if the truth says that it is.
+    fn shortfall(&self, subject: &Subject) -> Option<Broken> {
+        let (col, row) = self.place();
+        let allowed = self.allowed();
+        let (error, uncertain) = subject.error_of(col, row, self.value, allowed)?;
+        (error > allowed + uncertain).then_some(Broken {
+            col,
+            row,
+            tolerance: self.tolerance,
+            error,
+            claimed: self.claimed,
+            is_confessed: self.is_confessed,
+        })
+    }
+
+    /// The true error over the claimed one, and for how many pixels it stands; none of negligible claims. The
+    /// truth is asked where the finer picture is too close to tell.
+    fn honesty(&self, subject: &Subject) -> Option<(f64, u32)> {
+        let Self { claimed, apart, .. } = *self;
+        if !claims_something(claimed, self.tolerance) {
+            return None;
+        }
+        let tells = |error: f64, uncertain: f64| {
+            error >= TELLING * uncertain || claimed >= TELLING_OF_CLAIMS * uncertain
+        };
+        if tells(apart, self.uncertain) {
+            return Some((apart / claimed, 1));
+        }
+        let mut chance = Numbers(claimed.to_bits() ^ u64::from(self.place));
+        if subject.is_slow() || chance.below(SHARE as usize) != 0 {
+            return None;
+        }
+        let (col, row) = self.place();
+        let (error, uncertain) = subject.error_of(col, row, self.value, claimed)?;
+        tells(error, uncertain).then_some((error / claimed, SHARE))
+    }
+}
+
+/// True for claims that are finite and not negligible.
+pub(super) fn claims_something(claimed: f64, tolerance: f64) -> bool {
+    claimed.is_finite() && claimed >= NEGLIGIBLE * tolerance
+}
