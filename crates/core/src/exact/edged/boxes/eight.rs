@@ -1,7 +1,7 @@
 //! The average light of eight boxes of a cell.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
 use super::lights::{Lit, Surroundings};
 use super::outlines::{Edges, Eight, Orders, Outline, Visible};
@@ -65,8 +65,7 @@ struct Range<S: Simd> {
 
 impl<S: Simd> Range<S> {
     #[inline(always)]
-    fn add(&mut self, channel: usize, [least, most]: [f64x8<S>; 2], is_seen: f64x8<S>) {
-        let is_seen = is_seen.simd_gt(0.0);
+    fn add(&mut self, channel: usize, [least, most]: [f64x8<S>; 2], is_seen: mask64x8<S>) {
         let low = &mut self.least[channel];
         *low = is_seen.select(low.min(least), *low);
         let high = &mut self.most[channel];
@@ -122,7 +121,7 @@ impl Setting<'_, '_> {
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
-            if let Some(outline) = Outline::new(simd, self.cell, &boxes, of, has_depth) {
+            if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
                 open = open * outline.outside(simd);
                 outlines.push(outline);
             }
@@ -139,26 +138,27 @@ impl Setting<'_, '_> {
         let mut lit = 0;
         for index in 0..outlines.len() {
             let visible = outlines[index].visible(simd, outlines, self.orders, &mut edges);
-            if visible.share.simd_gt(zero).to_bitmask() == 0 {
+            if visible.is_possible.to_bitmask() == 0 {
                 continue;
             }
             lit += 1;
             let light = self.light(simd, &boxes, &visible);
             error += light.error * visible.share;
             // However little is seen of it, edges may all lie in that.
-            let is_seen = visible.share.simd_gt(zero);
+            let is_seen = visible.is_possible;
             shadows.sum += is_seen.select(light.edges.sum, zero);
             shadows.most = shadows.most.max(is_seen.select(light.edges.most, zero));
             shadows.doubt += light.edges.doubt * visible.share;
             for channel in 0..channels {
                 value[channel] += light.value[channel] * visible.share;
-                range.add(channel, light.range[channel], visible.share);
+                range.add(channel, light.range[channel], visible.is_possible);
             }
         }
+        let is_open = (open + edges.doubt).simd_gt(zero);
         for channel in 0..channels {
             let background = f64x8::splat(simd, self.background[channel]);
             value[channel] += background * open;
-            range.add(channel, [background; 2], open);
+            range.add(channel, [background; 2], is_open);
         }
         let contrast = range.contrast(simd, channels);
         let most = (contrast * edges.most).max(shadows.most);

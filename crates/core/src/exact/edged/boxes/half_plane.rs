@@ -101,6 +101,30 @@ impl<S: Simd> HalfPlane<S> {
         }
     }
 
+    /// The same of functions that are not linear: `second` is what their second derivative adds where linear ones vanish,
+    /// straight along their gradients.
+    ///
+    /// Along the gradient a function is g + g' s + a s², with a s² = `second` at s = −g / g'. Its root is known, and its
+    /// slope there is g' √(1 − 4 a g / g'²). The edge bends to the sides alone, more where the slope is less.
+    #[inline(always)]
+    pub(super) fn of_second_degree(
+        simd: S,
+        value: f64x8<S>,
+        across: [f64x8<S>; 2],
+        (second, bend): (f64x8<S>, f64x8<S>),
+    ) -> Self {
+        /// What is left of the bend when the edge is followed along the gradient.
+        const TO_THE_SIDES: f64 = 0.5;
+        let one = f64x8::splat(simd, 1.0);
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let is_known = value.abs().simd_gt(tiny);
+        let ratio = is_known.select(second / value, tiny);
+        let slope = (one - ratio * 4.0).max(tiny).sqrt();
+        let straight = value * 2.0 / (slope + 1.0);
+        let bend = bend * TO_THE_SIDES / slope.min(one);
+        Self::new(simd, straight, across, bend)
+    }
+
     /// Where the edge is in doubt or divides the box: the share of the smaller part.
     #[inline(always)]
     pub(super) fn ambiguity(&self, simd: S) -> f64x8<S> {

@@ -11,7 +11,6 @@ use crate::edges::shadow::Caster;
 use crate::exact::points::Points;
 use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
-use crate::light::reflection::ViewedPoints;
 use crate::model::color::Color;
 use crate::numeric::vectors::Vectors;
 
@@ -81,7 +80,9 @@ impl<S: Simd> Surroundings<S> {
         ray.x += (boxes.x + offset[0] * width) * cell.size[0];
         ray.y += (boxes.y + offset[1] * height) * cell.size[1];
         let points = Points::new(simd, ball, ray);
-        let least = f64x8::splat(simd, LEAST_GRAZING);
+        // At a silhouette normals turn fast; but not by more than about 1 across a box.
+        let side = (cell.size[0] * width).max(cell.size[1] * height) / ball.radius;
+        let least = points.t * side + LEAST_GRAZING;
         let toward_eye = (-points.normal.dot(&ray)).max(least);
         // P = t d stays on the sphere: n · dP = 0.
         let by_eye = one / toward_eye;
@@ -108,6 +109,7 @@ impl<S: Simd> Surroundings<S> {
         let across = [along_x.times(wide[0]), along_y.times(wide[1])];
         let moved_sq = across[0].length_squared() + across[1].length_squared();
         let turn_sq = moved_sq * (1.0 / (ball.radius * ball.radius));
+        let slide = slide_x.abs() * half[0] + slide_y.abs() * half[1];
         let grazing = toward_eye / points.ray_sq.sqrt();
         let steepest = (grazing - turn_sq.sqrt() * RECEDING).max(grazing * LEAST_OF_GRAZING);
         Self {
@@ -117,8 +119,8 @@ impl<S: Simd> Surroundings<S> {
             radius: ball.radius,
             turn_sq,
             grazing,
-            second: Self::second(simd, turn_sq, (grazing, steepest), is_cut),
-            slide: slide_x.abs() * half[0] + slide_y.abs() * half[1],
+            second: Self::second(simd, (turn_sq, slide), (grazing, steepest), is_cut),
+            slide,
             slides: [slide_x * sides[0], slide_y * sides[1]],
             sides,
             by_toward_eye: by_eye,
@@ -134,17 +136,19 @@ impl<S: Simd> Surroundings<S> {
     #[inline(always)]
     fn second(
         simd: S,
-        turn_sq: f64x8<S>,
+        (turn_sq, slide): (f64x8<S>, f64x8<S>),
         (grazing, steepest): (f64x8<S>, f64x8<S>),
         is_cut: mask64x8<S>,
     ) -> f64x8<S> {
         const OF_TOUCHED: f64 = 0.06;
         const OF_CUT: f64 = 0.025;
         let steeper = grazing / steepest;
-        let smooth = turn_sq * grazing * grazing * OF_SECOND;
+        // By the perspective, twice the slide across the whole box.
+        let aside = turn_sq.sqrt() * slide * (4.0 * OF_SECOND);
+        let smooth = turn_sq * grazing * grazing * OF_SECOND + aside;
         let bent = turn_sq * steeper * steeper / steepest * OF_SECOND;
         let share = is_cut.select(f64x8::splat(simd, OF_CUT), f64x8::splat(simd, OF_TOUCHED));
-        bent.min(grazing * share + smooth)
+        (bent + aside).min(grazing * share + smooth)
     }
 
     /// The share of each box that casters leave to a light, and the integrals of the coordinates over what they take.
@@ -171,6 +175,10 @@ impl<S: Simd> Surroundings<S> {
             self.across[0].dot_one(light.up),
             self.across[1].dot_one(light.up),
         ];
+        let height_across = [
+            self.across[0].dot_one(light.toward),
+            self.across[1].dot_one(light.toward),
+        ];
         // From the middle of a box to its corner a point moves by P', and by half of P'' more, which is |P'|² over the
         // radius and the cosine for the sphere, and twice the slide for the perspective.
         let moved_sq = self.turn_sq * (0.5 * self.radius * self.radius);
@@ -179,7 +187,6 @@ impl<S: Simd> Surroundings<S> {
             let center = caster.center;
             let u = right - center.dot(light.right);
             let v = up - center.dot(light.up);
-            let above = height.simd_lt(center.dot(light.toward));
             let inside = (u * u + v * v) * -1.0 + caster.radius * caster.radius;
             let across = [
                 (u * right_across[0] + v * up_across[0]) * -2.0,
@@ -187,6 +194,13 @@ impl<S: Simd> Surroundings<S> {
             ];
             let bend = more * caster.radius + moved_sq;
             let middle = inside - across[0] * self.offset[0] - across[1] * self.offset[1];
+            let foot = foot(simd, middle, across);
+            // The caster is above the points, or above those at the edge where these are outside of its disc.
+            let at_foot = height + height_across[0] * foot[0] + height_across[1] * foot[1];
+            let is_inside = middle.simd_gt(zero);
+            let above = is_inside
+                .select(height, at_foot)
+                .simd_lt(center.dot(light.toward));
             let width = across[0].abs() + across[1].abs();
             if (middle.abs() - bend * 2.0)
                 .simd_lt(width * 0.5)
@@ -194,12 +208,11 @@ impl<S: Simd> Surroundings<S> {
                 == 0
             {
                 // No edge is near.
-                left = (above & middle.simd_gt(zero)).select(zero, left);
+                left = (above & is_inside).select(zero, left);
                 continue;
             }
-            let moved = self.moved(simd, light, (inside, across), (u, v));
-            let moved = moved.max(-bend).min(bend);
-            let part = HalfPlane::new(simd, middle + moved, across, bend * 0.5);
+            let second = self.second_of(light, foot, (u, v));
+            let part = HalfPlane::of_second_degree(simd, middle, across, (second, bend));
             let share = above.select(part.share, zero);
             edges.add(
                 above.select(part.ambiguity(simd), zero),
@@ -221,21 +234,12 @@ impl<S: Simd> Surroundings<S> {
     /// With the point P = t d of a sphere with the normal n moving by P' and d by d', t' is t times the slide, and
     /// P'' = d (|P'|² / (r (−n · d)) + 2 t'² / t) + 2 t' d'.
     #[inline(always)]
-    fn moved(
+    fn second_of(
         &self,
-        simd: S,
         light: &Light,
-        (inside, across): (f64x8<S>, [f64x8<S>; 2]),
+        [x, y]: [f64x8<S>; 2],
         (u, v): (f64x8<S>, f64x8<S>),
     ) -> f64x8<S> {
-        let least = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let steep = (across[0] * across[0] + across[1] * across[1]).max(least);
-        let step = inside * -1.0 / steep;
-        let half = f64x8::splat(simd, 0.5);
-        let [x, y] = [
-            (across[0] * step).max(-half).min(half),
-            (across[1] * step).max(-half).min(half),
-        ];
         let place = self.across[0].times(x).plus(&self.across[1].times(y));
         let slide = self.slides[0] * x + self.slides[1] * y;
         let along = place.length_squared() * self.by_toward_eye * (1.0 / self.radius)
@@ -303,41 +307,162 @@ impl<S: Simd> Lit<S> {
             (dark[0] * by_left).max(-half).min(half),
             (dark[1] * by_left).max(-half).min(half),
         ];
-        let lit_cosine = cosine - across[0] * aside[0] - across[1] * aside[1];
-        let viewed = around.viewed(finish);
-        let (diffuse, doubt) = averages(simd, finish, lit_cosine, across, around);
-        // Of a terminator in the box more may be hidden, or seen, than its share.
-        let width = (across[0].abs() + across[1].abs()) * 0.5;
-        let is_cut = lit_cosine.abs().simd_lt(width);
-        let ends = is_cut.select((lit_cosine + width).max(zero), zero);
-        let reflectance = &finish.reflectance;
+        let faced = Faced {
+            cosine: cosine - across[0] * aside[0] - across[1] * aside[1],
+            across,
+            width: (across[0].abs() + across[1].abs()) * 0.5,
+        };
+        let diffuse = faced.diffuse(simd, finish, around);
+        let viewed = finish.viewed(&around.points, &around.points.normal);
+        let [x, y] = &around.across;
+        let aside = x
+            .times(aside[0] * by_radius)
+            .plus(&y.times(aside[1] * by_radius));
         let mut half_cosine = viewed.half_cosine(toward, cosine);
-        if reflectance.highlight.is_some() {
-            let [x, y] = &around.across;
-            let aside = x.times(aside[0]).plus(&y.times(aside[1]));
-            half_cosine -= viewed.change_of_half_cosine(toward, &aside) * by_radius;
+        if finish.reflectance.highlight.is_some() {
+            half_cosine -= viewed.change_of_half_cosine(toward, &aside);
         }
-        let faces = lit_cosine.simd_gt(zero);
-        let (shine, shine_doubt) = highlight(simd, finish, half_cosine, faces, around);
-        let [most_diffuse, most_shine] = reflectance.brightest(light.intensity);
-        let brightness = diffuse * most_diffuse + shine * most_shine;
-        self.error += left * (doubt * most_diffuse + shine_doubt * most_shine);
-        let ends = ends * most_diffuse;
-        self.edges.sum += ends;
-        self.edges.most = self.edges.most.max(ends);
+        let shine = faced.shine(simd, finish, half_cosine, around);
+        let weights = finish.reflectance.brightest(light.intensity);
+        self.error += left * (diffuse.doubt * weights[0] + shine.doubt * weights[1]);
+        // A terminator in the box is an edge as those of shadows are.
+        let ends = diffuse.ambiguity * weights[0] + shine.ambiguity * weights[1];
+        let brightness = diffuse.most * weights[0] + shine.most * weights[1];
+        self.edges.add(ends, zero);
         self.edges.sum += edges.sum * brightness;
         self.edges.most = self.edges.most.max(edges.most * brightness);
         self.edges.doubt += edges.doubt * brightness;
-        let is_open = left.simd_ge(one) & edges.sum.simd_le(zero);
+        let is_open = left.simd_ge(one) & (edges.sum + ends).simd_le(zero);
         let is_dark = left.simd_le(zero) & edges.sum.simd_le(zero);
-        let color = reflectance.albedo * light.intensity;
-        let strength = reflectance.highlight.map_or(0.0, |(strength, _)| strength);
+        let color = finish.reflectance.albedo * light.intensity;
+        let highlight = finish.reflectance.highlight.as_ref();
+        let strength = light.intensity * highlight.map_or(0.0, |(strength, _)| *strength);
         for channel in 0..channels {
-            let whole = diffuse * color[channel] + shine * (light.intensity[channel] * strength);
+            let whole = diffuse.value * color[channel] + shine.value * strength[channel];
+            let highest = diffuse.most * color[channel] + shine.most * strength[channel];
             self.value[channel] += whole * left;
             let [least, most] = &mut self.range[channel];
             *least += is_open.select(whole, zero);
-            *most += is_dark.select(zero, whole);
+            *most += is_dark.select(zero, highest);
+        }
+    }
+}
+
+/// The cosines toward a light in boxes: in the middles of what is lit, and how they change across.
+#[derive(Clone, Copy, Debug)]
+struct Faced<S: Simd> {
+    cosine: f64x8<S>,
+    across: [f64x8<S>; 2],
+    /// Half of the most that they change.
+    width: f64x8<S>,
+}
+
+/// A power of cosines, over boxes.
+#[derive(Clone, Copy, Debug)]
+struct Power<S: Simd> {
+    /// The average, about the highest value, and the error of the average.
+    value: f64x8<S>,
+    most: f64x8<S>,
+    doubt: f64x8<S>,
+    /// What may be hidden or seen of it together, where the light ends in the box.
+    ambiguity: f64x8<S>,
+}
+
+impl<S: Simd> Faced<S> {
+    /// The boxes in which the surface turns from the light.
+    #[inline(always)]
+    fn is_cut(&self) -> mask64x8<S> {
+        self.cosine.abs().simd_lt(self.width)
+    }
+
+    /// The diffuse falloff.
+    #[inline(always)]
+    fn diffuse(&self, simd: S, finish: &Finish, around: &Surroundings<S>) -> Power<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let falloff = &finish.reflectance.diffuse;
+        let exponent = falloff.exponent;
+        let is_cut = self.is_cut();
+        let highest = is_cut.select(self.cosine + self.width, self.cosine);
+        if exponent == 1.0 {
+            let mut value = self.cosine.max(zero);
+            if is_cut.to_bitmask() != 0 {
+                value = is_cut.select(ramp(simd, self.cosine, self.across), value);
+            }
+            // Normals of rays that miss may be longer than 1.
+            let most = highest.max(zero).min(one);
+            return Power {
+                value: value.min(one),
+                most,
+                doubt: around.second.min(one),
+                ambiguity: is_cut.select(most, zero),
+            };
+        }
+        // e cⁿ⁻¹ c'' + e (e − 1) cⁿ⁻² c'².
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let least = self.cosine.max(self.width).max(tiny);
+        let by_least = one / least;
+        let bends = around.second * by_least
+            + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
+        let most = falloff.of(self.cosine + self.width);
+        let smooth = (falloff.of(least) * bends * exponent).min(most);
+        Power {
+            value: falloff.of(self.cosine),
+            most,
+            doubt: is_cut.select(most, smooth),
+            ambiguity: is_cut.select(most, zero),
+        }
+    }
+
+    /// The falloff of the highlight, which ends where the surface turns from the light.
+    #[inline(always)]
+    fn shine(
+        &self,
+        simd: S,
+        finish: &Finish,
+        half_cosine: f64x8<S>,
+        around: &Surroundings<S>,
+    ) -> Power<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let nothing = Power {
+            value: zero,
+            most: zero,
+            doubt: zero,
+            ambiguity: zero,
+        };
+        let Some((_, falloff)) = &finish.reflectance.highlight else {
+            return nothing;
+        };
+        let shininess = falloff.exponent;
+        // The highest cosine in the box, by half of what normals turn across it, and a little more as rays turn.
+        let turn = around.turn_sq.sqrt() * HALF_TURN;
+        let sine = (one - half_cosine * half_cosine).max(zero).sqrt();
+        let nearest = (half_cosine + turn * sine + turn * turn).min(one);
+        let most = falloff.of(nearest);
+        let bends = around.second * shininess
+            + around.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
+        let doubt = (most * bends).min(most);
+        let power = falloff.of(half_cosine);
+        let is_cut = self.is_cut();
+        if is_cut.to_bitmask() == 0 {
+            let faces = self.cosine.simd_gt(zero);
+            return Power {
+                value: faces.select(power, zero),
+                most: faces.select(most, zero),
+                doubt: faces.select(doubt, zero),
+                ambiguity: zero,
+            };
+        }
+        // Half of the second derivative of normals, along half the diagonal.
+        let bend = around.second * (0.25 / OF_SECOND);
+        let facing = HalfPlane::new(simd, self.cosine, self.across, bend);
+        let is_faced = facing.share + facing.doubt;
+        Power {
+            value: power * facing.share,
+            most: is_faced.simd_gt(zero).select(most, zero),
+            doubt: doubt * is_faced.min(one) + most * facing.doubt,
+            ambiguity: facing.ambiguity(simd) * most,
         }
     }
 }
@@ -345,79 +470,18 @@ impl<S: Simd> Lit<S> {
 /// Less of a light than this has no place of its own.
 const LEAST_LEFT: f64 = 1e-6;
 
-impl<S: Simd> Surroundings<S> {
-    #[inline(always)]
-    fn viewed(&self, finish: &Finish) -> ViewedPoints<'_, S> {
-        finish.viewed(&self.points, &self.points.normal)
-    }
-}
-
-/// The averages over boxes of the diffuse falloff, and their errors.
+/// The way in sides of a box from its middle along the gradient to where a linear function vanishes, as far as that
+/// lies in the box.
 #[inline(always)]
-fn averages<S: Simd>(
-    simd: S,
-    finish: &Finish,
-    cosine: f64x8<S>,
-    across: [f64x8<S>; 2],
-    around: &Surroundings<S>,
-) -> (f64x8<S>, f64x8<S>) {
-    let zero = f64x8::splat(simd, 0.0);
-    let one = f64x8::splat(simd, 1.0);
-    let falloff = &finish.reflectance.diffuse;
-    let exponent = falloff.exponent;
-    let second = around.second;
-    let width = (across[0].abs() + across[1].abs()) * 0.5;
-    let is_cut = cosine.abs().simd_lt(width);
-    if exponent == 1.0 {
-        let mut average = cosine.max(zero);
-        if is_cut.to_bitmask() != 0 {
-            average = is_cut.select(ramp(simd, cosine, across), average);
-        }
-        return (average, second);
-    }
-    let average = falloff.of(cosine);
-    // e cⁿ⁻¹ c'' + e (e − 1) cⁿ⁻² c'².
-    let least = cosine.max(width).max(f64x8::splat(simd, f64::MIN_POSITIVE));
-    let power = falloff.of(least);
-    let by_least = one / least;
-    let bends = second * by_least
-        + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
-    let most = falloff.of((cosine + width).max(zero));
-    let smooth = (power * bends * exponent).min(most);
-    (
-        average,
-        is_cut.select(most - falloff.of(cosine - width), smooth),
-    )
-}
-
-/// The averages of a highlight's power where the surface faces the light, and their errors.
-#[inline(always)]
-fn highlight<S: Simd>(
-    simd: S,
-    finish: &Finish,
-    half_cosine: f64x8<S>,
-    faces: mask64x8<S>,
-    around: &Surroundings<S>,
-) -> (f64x8<S>, f64x8<S>) {
-    let zero = f64x8::splat(simd, 0.0);
-    let one = f64x8::splat(simd, 1.0);
-    let Some((_, falloff)) = &finish.reflectance.highlight else {
-        return (zero, zero);
-    };
-    let shininess = falloff.exponent;
-    let power = falloff.of(half_cosine);
-    // The highest cosine in the box, by half of what normals turn across it, and a little more as rays turn.
-    let turn = around.turn_sq.sqrt() * HALF_TURN;
-    let sine = (one - half_cosine * half_cosine).max(zero).sqrt();
-    let nearest = (half_cosine + turn * sine + turn * turn).min(one);
-    let most = falloff.of(nearest);
-    let bends = around.second * shininess
-        + around.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
-    let error = (most * bends).min(most);
-    // Where it ends at the terminator.
-    let error = faces.select(error, most);
-    let reach = nearest.simd_gt(zero);
-    (faces.select(power, zero), reach.select(error, zero))
+fn foot<S: Simd>(simd: S, value: f64x8<S>, across: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
+    let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+    let half = f64x8::splat(simd, 0.5);
+    let steep = (across[0] * across[0] + across[1] * across[1]).max(tiny);
+    let step = value * -1.0 / steep;
+    [
+        (across[0] * step).max(-half).min(half),
+        (across[1] * step).max(-half).min(half),
+    ]
 }
 
 /// Half of the turn across a box, and a quarter more for the turn of rays.

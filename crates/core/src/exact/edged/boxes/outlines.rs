@@ -5,7 +5,6 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::eight::EightBoxes;
 use super::half_plane::HalfPlane;
-use crate::edges::cell::Cell;
 use crate::exact::classify::active::Active;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
@@ -31,7 +30,8 @@ pub(super) struct Outline {
     depth: Depth,
 }
 
-/// The distances of a sphere along rays, in multiples of these, as linear functions on boxes.
+/// The reciprocals of the distances of a sphere along rays, in multiples of these, as linear functions on boxes. Those
+/// of a plane are linear.
 #[derive(Clone, Copy, Debug)]
 struct Depth {
     middle: Eight,
@@ -98,8 +98,9 @@ pub(super) struct Visible<S: Simd> {
     pub(super) share: f64x8<S>,
     /// The point, in sides from the middle of a box, whose light is about the average.
     pub(super) place: [f64x8<S>; 2],
-    /// The boxes that the silhouette cuts.
+    /// The boxes that the silhouette cuts, and those in which some of the sphere may be seen.
     pub(super) is_cut: mask64x8<S>,
+    pub(super) is_possible: mask64x8<S>,
 }
 
 /// Edges in boxes: the sum and the largest of what they may hide from the others.
@@ -138,7 +139,6 @@ impl Outline {
     #[inline(always)]
     pub(super) fn new<S: Simd>(
         simd: S,
-        cell: &Cell,
         boxes: &EightBoxes<S>,
         (position, active): (usize, &Active),
         has_depth: bool,
@@ -162,11 +162,10 @@ impl Outline {
             (slope_x * slope_x * q.xx + slope_x * slope_y * q.xy + slope_y * slope_y * q.yy)
                 / steep;
         let step_sq = value * value / steep;
-        let bends = f64x8::splat(simd, bend);
-        let moved = (along * step_sq).max(-bends).min(bends);
         let across = [slope_x * width, slope_y * height];
-        // What remains is half of it.
-        let part = HalfPlane::new(simd, value + moved, across, bends * 0.5);
+        let second = along * step_sq;
+        let bend = f64x8::splat(simd, bend);
+        let part = HalfPlane::of_second_degree(simd, value, across, (second, bend));
         if part.share.simd_gt(zero).to_bitmask() == 0 && part.doubt.simd_gt(zero).to_bitmask() == 0
         {
             return None;
@@ -179,7 +178,7 @@ impl Outline {
         let back = is_cut.select(mean * (OF_ROOT - 1.0) / steepness, zero);
         let inward = [back * across[0], back * across[1]];
         let depth = if has_depth {
-            Depth::new(simd, cell, boxes, active, value.max(zero), across)
+            Depth::new(simd, boxes, active, (value, bend), across)
         } else {
             Depth::NONE
         };
@@ -267,6 +266,7 @@ impl Outline {
             share: seen,
             place,
             is_cut: share.simd_lt(one),
+            is_possible: (seen + doubt * open).simd_gt(zero),
         }
     }
 
@@ -288,52 +288,45 @@ impl Depth {
         bend: [0.0; 8],
     };
 
-    /// t = K / (B + √Q), where rays miss as if they grazed.
+    /// 1 / t = (B + √Q) / K, where rays miss as if they grazed.
     #[inline(always)]
     fn new<S: Simd>(
         simd: S,
-        cell: &Cell,
         boxes: &EightBoxes<S>,
         active: &Active,
-        discriminant: f64x8<S>,
+        (discriminant, bend): (f64x8<S>, f64x8<S>),
         across: [f64x8<S>; 2],
     ) -> Self {
         let [width, height] = boxes.size;
         let along = &active.along;
         // Nearer to the silhouette than this the depth of a box is no linear function.
-        let least = (across[0].abs() + across[1].abs()) * 0.125;
-        let q = discriminant
-            .max(least)
-            .max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let root = q.sqrt();
-        let sum = boxes.x * along.x + boxes.y * along.y + along.one + root;
-        let t = f64x8::splat(simd, active.ball.outside) / sum;
+        let wide = (across[0].abs() + across[1].abs()) * 0.5;
+        let least = (wide * 0.25).max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let root = discriminant.max(least).sqrt();
         let by_root = f64x8::splat(simd, 0.5) / root;
-        let fall = t * -1.0 / sum;
-        let radius = active.ball.radius;
-        let wide = [cell.size[0] * width, cell.size[1] * height];
-        let span_sq = wide[0] * wide[0] + wide[1] * wide[1];
-        // Half of z'' = R² / z³ times the square of half the diagonal, where it recedes most.
-        let nearest = (q - (across[0].abs() + across[1].abs()) * 0.5).max(least);
-        let grazing = nearest.max(f64x8::splat(simd, f64::MIN_POSITIVE)).sqrt() * (1.0 / radius);
-        let bend = t * t * (0.125 * span_sq / radius) / (grazing * grazing * grazing);
+        let by_outside = 1.0 / active.ball.outside;
+        let sum = boxes.x * along.x + boxes.y * along.y + along.one + root;
+        // Half of (√Q)'' = Q'' / (2 √Q) − Q'² / (4 √Q³), where the sphere recedes.
+        let lowest = (discriminant - wide).max(least);
+        let by_lowest = f64x8::splat(simd, 0.5) / lowest.sqrt();
+        let bend = by_lowest * (bend + wide * wide * 0.25 / lowest);
         Self {
-            middle: t.into(),
+            middle: (sum * by_outside).into(),
             across: [
-                ((across[0] * by_root + along.x * width) * fall).into(),
-                ((across[1] * by_root + along.y * height) * fall).into(),
+                ((across[0] * by_root + along.x * width) * by_outside).into(),
+                ((across[1] * by_root + along.y * height) * by_outside).into(),
             ],
-            bend: bend.into(),
+            bend: (bend * by_outside).into(),
         }
     }
 
     /// The parts of boxes in which this lies behind another.
     #[inline(always)]
     fn behind<S: Simd>(&self, simd: S, other: &Self) -> HalfPlane<S> {
-        let value = difference(simd, &self.middle, &other.middle);
+        let value = difference(simd, &other.middle, &self.middle);
         let across = [
-            difference(simd, &self.across[0], &other.across[0]),
-            difference(simd, &self.across[1], &other.across[1]),
+            difference(simd, &other.across[0], &self.across[0]),
+            difference(simd, &other.across[1], &self.across[1]),
         ];
         let bend: f64x8<S> = self.bend.simd_into(simd);
         let more: f64x8<S> = other.bend.simd_into(simd);
