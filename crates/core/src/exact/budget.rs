@@ -116,11 +116,14 @@ impl Budget {
     /// The finer bumps are, the less is to be had for the same work, and the more pixels of a picture are alike:
     /// what most of them would need tells whether a pixel has much, or little.
     pub(crate) fn new(allowance: Allowance, grains: f64, tolerance: f64) -> Self {
-        let most = if grains > 0.0 {
-            allowance.bumpy / 3 * 2
-        } else {
-            allowance.ordinary
-        };
+        if grains <= 0.0 {
+            return Self {
+                most: allowance.ordinary,
+                next: FIRST_LOOK,
+                ..Self::default()
+            };
+        }
+        let most = allowance.bumpy / 3 * 2;
         let share = if grains > MANY_GRAINS {
             0.0
         } else {

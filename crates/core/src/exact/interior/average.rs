@@ -28,7 +28,8 @@ pub(super) struct Averages {
 /// Samples of eight pixels, and what their rules claim.
 struct Sampled<S: Simd> {
     lights: [Radiance<S>; GAUSS_SAMPLES],
-    cosines: LightCosines<S>,
+    /// Where the surface needs them.
+    cosines: Option<LightCosines<S>>,
     star: Estimate<S>,
     grid: Estimate<S>,
     /// Along both diagonals, Kronrod's rule less Gauss's.
@@ -46,11 +47,15 @@ const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
 
 impl<S: Simd> Sampled<S> {
     #[inline(always)]
-    fn new(simd: S) -> Self {
+    fn new(simd: S, needs_cosines: bool) -> Self {
         let zero = f64x8::splat(simd, 0.0);
         Self {
             lights: [[zero; 3]; GAUSS_SAMPLES],
-            cosines: LightCosines::new(simd),
+            cosines: if needs_cosines {
+                Some(LightCosines::new(simd))
+            } else {
+                None
+            },
             star: Estimate::unknown(simd),
             grid: Estimate::unknown(simd),
             excess: [[zero; 3]; 2],
@@ -87,7 +92,7 @@ impl<S: Simd> Filled<'_, S> {
             domain = Some(of_pixels);
         }
         // In place: it takes several kilobytes.
-        let mut sampled = Sampled::new(simd);
+        let mut sampled = Sampled::new(simd, self.finish.needs_cosines());
         self.sample(simd, &mut sampled, noise);
         let mut averages = Averages {
             values: [Color::ZERO; 8],
@@ -157,9 +162,11 @@ impl<S: Simd> Filled<'_, S> {
 
         // Five samples.
         self.light(simd, 0, cosines, noise, &mut lights[..STAR_SAMPLES]);
-        into.star = self.estimate(simd, Rule::Star, lights, cosines);
+        into.star = self.estimate(simd, Rule::Star, lights, cosines.as_ref());
         into.samples = STAR_SAMPLES;
-        if self.finish.is_rough() {
+        if self.finish.is_rough()
+            && let Some(cosines) = &*cosines
+        {
             let missed = self.missed(simd, cosines, FROM_GRID);
             into.is_out_of_reach = !into.star.is_met & missed.simd_gt(self.tolerance);
             into.is_out_of_reach |= !is_seen;
@@ -172,7 +179,7 @@ impl<S: Simd> Filled<'_, S> {
         // Nine.
         let rest = &mut lights[STAR_SAMPLES..];
         self.light(simd, into.samples, cosines, noise, rest);
-        into.grid = self.estimate(simd, Rule::Grid, lights, cosines);
+        into.grid = self.estimate(simd, Rule::Grid, lights, cosines.as_ref());
         into.samples = GAUSS_SAMPLES;
         let is_done = is_done | into.grid.is_met;
         if self.which & !is_done.to_bitmask() == 0 {
@@ -246,12 +253,12 @@ impl<S: Simd> Filled<'_, S> {
                 value[channel] = *average;
             }
         }
-        if self.finish.needs_cosines() {
+        if let Some(cosines) = &sampled.cosines {
             // Along diagonals, what lobes miss along both axes may cancel.
-            error = error.max(self.of_lobes(simd, Rule::Grid, &sampled.cosines));
-        }
-        if is_rough {
-            error += self.missed(simd, &sampled.cosines, FROM_GRID);
+            error = error.max(self.of_lobes(simd, Rule::Grid, cosines));
+            if is_rough {
+                error += self.missed(simd, cosines, FROM_GRID);
+            }
         }
         if is_rough {
             // Samples that are farther apart tell nothing of what lies between them, though they may agree.

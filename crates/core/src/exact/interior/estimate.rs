@@ -84,7 +84,7 @@ impl<S: Simd> Filled<'_, S> {
         simd: S,
         rule: Rule,
         lights: &[Radiance<S>; GAUSS_SAMPLES],
-        cosines: &LightCosines<S>,
+        cosines: Option<&LightCosines<S>>,
     ) -> Estimate<S> {
         /// The terms of the fourth and of the sixth derivative of a root at a nearness of 1.
         const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
@@ -133,14 +133,16 @@ impl<S: Simd> Filled<'_, S> {
                 error = error.max(apart_on_bumps(lights, channel));
             }
         }
-        if self.finish.needs_cosines() {
+        if let Some(cosines) = cosines {
             error = error.max(self.of_lobes(simd, rule, cosines));
         }
         let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
         if is_rough {
             is_known = self.nearness.simd_lt(MOST_NEARNESS_OF_BUMPS);
             let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
-            error += self.missed(simd, cosines, from_samples);
+            if let Some(cosines) = cosines {
+                error += self.missed(simd, cosines, from_samples);
+            }
             is_known &= self.is_within(if is_star { SMALL } else { MEDIUM });
         }
         let mut is_met = is_known & error.simd_le(self.tolerance);

@@ -4,7 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::light_cosines::LightCosines;
-use super::samples::{POINTS, STAR_SAMPLES};
+use super::samples::{POINTS, STAR_SAMPLES, Sample};
 use crate::edges::cell::Ball;
 use crate::exact::budget::Allowance;
 use crate::exact::classify::row::Coverage;
@@ -59,41 +59,84 @@ pub(crate) struct Filled<'a, S: Simd> {
 
 impl<S: Simd> Filled<'_, S> {
     /// Writes the light at some samples of each pixel, the first of them with the number `first`: no more
-    /// than [`STAR_SAMPLES`].
+    /// than [`STAR_SAMPLES`]. Takes in their cosines where these are asked for.
     #[inline(never)]
     pub(super) fn light(
         &self,
         simd: S,
         first: usize,
-        cosines: &mut LightCosines<S>,
+        cosines: &mut Option<LightCosines<S>>,
         noise: &mut Option<Box<NoiseCells>>,
         lights: &mut [Radiance<S>],
     ) {
         simd.vectorize(
             #[inline(always)]
             || {
-                let (scene, finish) = (self.scene, self.finish);
+                let samples = &POINTS[first..];
+                if self.finish.is_rough() {
+                    self.light_of_bumps(simd, samples, cosines, noise, lights);
+                    return;
+                }
+                for (light, sample) in lights.iter_mut().zip(samples) {
+                    let points = self.points(simd, sample);
+                    *light = self.light_at(simd, &points, &points.normal, cosines);
+                }
+            },
+        );
+    }
+
+    /// The points at a sample of each pixel.
+    #[inline(always)]
+    fn points(&self, simd: S, sample: &Sample) -> Points<S> {
+        let mut ray = self.middle;
+        ray.x += sample.u * self.size[0];
+        ray.y += sample.v * self.size[1];
+        Points::new(simd, self.ball, ray)
+    }
+
+    /// The light of points with these shading normals, whose cosines are taken in where they are asked for.
+    #[inline(always)]
+    fn light_at(
+        &self,
+        simd: S,
+        points: &Points<S>,
+        normal: &Vectors<S>,
+        cosines: &mut Option<LightCosines<S>>,
+    ) -> Radiance<S> {
+        let mut halves = None;
+        if let Some(cosines) = cosines {
+            cosines.add_sample(&self.scene.lights, normal);
+            halves = Some(&mut cosines.halves);
+        }
+        self.finish
+            .radiance(simd, self.scene, points, normal, self.lit, halves)
+    }
+
+    /// The same of a surface whose normals are perturbed, those of all samples together.
+    #[inline(never)]
+    fn light_of_bumps(
+        &self,
+        simd: S,
+        samples: &[Sample],
+        cosines: &mut Option<LightCosines<S>>,
+        noise: &mut Option<Box<NoiseCells>>,
+        lights: &mut [Radiance<S>],
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
                 let mut points = [Points::nowhere(simd); STAR_SAMPLES];
                 let mut normals = [points[0].normal; STAR_SAMPLES];
                 let count = lights.len();
-                let samples = &POINTS[first..];
-                for ((points, normal), sample) in
-                    points.iter_mut().zip(&mut normals).zip(samples).take(count)
-                {
-                    let mut ray = self.middle;
-                    ray.x += sample.u * self.size[0];
-                    ray.y += sample.v * self.size[1];
-                    *points = Points::new(simd, self.ball, ray);
+                let samples = samples.iter().take(count);
+                for ((points, normal), sample) in points.iter_mut().zip(&mut normals).zip(samples) {
+                    *points = self.points(simd, sample);
                     *normal = points.normal;
                 }
-                finish.perturb(simd, scene, &mut normals[..count], noise);
-                for ((light, points), normal) in lights.iter_mut().zip(&points).zip(&normals) {
-                    let mut halves = None;
-                    if finish.needs_cosines() {
-                        cosines.add_sample(&scene.lights, normal);
-                        halves = Some(&mut cosines.halves);
-                    }
-                    *light = finish.radiance(simd, scene, points, normal, self.lit, halves);
+                let normals = &mut normals[..count];
+                self.finish.perturb(simd, self.scene, normals, noise);
+                for ((light, points), normal) in lights.iter_mut().zip(&points).zip(&*normals) {
+                    *light = self.light_at(simd, points, normal, cosines);
                 }
             },
         );

@@ -165,10 +165,10 @@ impl<S: Simd> Filled<'_, S> {
                     which: ALL,
                     ..*self
                 };
-                let mut cosines = LightCosines::new(simd);
+                let mut cosines = Some(LightCosines::new(simd));
                 let mut lights = [[zero; 3]; GAUSS_SAMPLES];
                 parts.light(simd, 0, &mut cosines, noise, &mut lights[..STAR_SAMPLES]);
-                let estimate = parts.estimate(simd, Rule::Star, &lights, &cosines);
+                let estimate = parts.estimate(simd, Rule::Star, &lights, cosines.as_ref());
                 let known = estimate.is_known.to_bitmask();
                 for channel in 0..self.scene.channels {
                     let mut sum = zero;

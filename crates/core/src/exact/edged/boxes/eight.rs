@@ -30,6 +30,8 @@ pub(super) struct Setting<'a, 'scene> {
     pub(super) background: Color,
     pub(super) finishes: &'a [Finish],
     pub(super) orders: &'a Orders,
+    /// Whether the silhouettes of the active spheres lie in the cell: others fill it.
+    pub(super) has_silhouette: &'a [bool],
 }
 
 /// The averages of eight boxes.
@@ -44,6 +46,18 @@ pub(super) struct Averages {
 }
 
 impl Averages {
+    /// The integral over all boxes, which have this area.
+    pub(super) fn total(&self, area: f64) -> Part {
+        let sum = |lanes: &Eight| lanes.iter().sum::<f64>() * area;
+        let [x, y, z] = &self.value;
+        Part {
+            value: Color::new(sum(x), sum(y), sum(z)),
+            covered: sum(&self.covered),
+            error: sum(&self.error),
+            rounding: 0.0,
+        }
+    }
+
     /// The average of one box.
     pub(super) fn lane(&self, lane: usize) -> Part {
         let [x, y, z] = &self.value;
@@ -121,7 +135,10 @@ impl Setting<'_, '_> {
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
-            if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
+            if !self.has_silhouette[position] {
+                open = zero;
+                outlines.push(Outline::filling(simd, &boxes, of, has_depth));
+            } else if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
                 open = open * outline.outside(simd);
                 outlines.push(outline);
             }

@@ -398,9 +398,10 @@ impl<S: Simd> Faced<S> {
                 ambiguity: is_cut.select(most, zero),
             };
         }
-        // e cⁿ⁻¹ c'' + e (e − 1) cⁿ⁻² c'².
+        // e cⁿ⁻¹ c'' + e (e − 1) cⁿ⁻² c'², where c is less than in the middle.
         let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let least = self.cosine.max(self.width).max(tiny);
+        let half = self.width * 0.5;
+        let least = (self.cosine - half).max(half).max(tiny);
         let by_least = one / least;
         let bends = around.second * by_least
             + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);

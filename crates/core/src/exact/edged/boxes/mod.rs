@@ -17,11 +17,11 @@ mod outlines;
 use fearless_simd::Simd;
 
 use self::eight::Setting;
-use self::outlines::{Orders, Outline};
+use self::outlines::{Eight, Orders, Outline};
 use crate::edges::cell::Cell;
 use crate::exact::budget::CellWork;
 use crate::exact::classify::active::Terminators;
-use crate::exact::classify::contents::Contents;
+use crate::exact::classify::contents::{Contents, Kind};
 use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -32,6 +32,7 @@ use crate::model::color::Color;
 pub(crate) struct Boxes {
     orders: Orders,
     finishes: Vec<Finish>,
+    has_silhouette: Vec<bool>,
     outlines: Vec<Outline>,
     /// The middles of boxes that are left to do.
     now: Vec<[f64; 2]>,
@@ -46,8 +47,12 @@ const LEAST_TOLERANCE: f64 = 9e-4;
 /// The spheres in a cell from which on other ways are cheaper.
 const MOST_SPHERES: usize = 24;
 
-/// The boxes along both sides of a cell at first.
-const FIRST: [usize; 2] = [4, 2];
+/// The middles of the first boxes, four beside each other and two above each other, and their sides.
+const FIRST: [Eight; 2] = [
+    [-0.375, -0.125, 0.125, 0.375, -0.375, -0.125, 0.125, 0.375],
+    [-0.25, -0.25, -0.25, -0.25, 0.25, 0.25, 0.25, 0.25],
+];
+const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 
 /// Times that eight boxes are integrated before the cell is given up.
 const MOST_EIGHTS: usize = 40;
@@ -66,34 +71,63 @@ impl Boxes {
         contents: &Contents,
         (tolerance, background): (f64, Color),
     ) -> Option<Part> {
-        if tolerance < LEAST_TOLERANCE || !self.prepare(scene, cell, contents) {
+        if tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {
             return None;
         }
-        let mut part = Part::NOTHING;
-        let mut size = FIRST.map(|count| 1.0 / count as f64);
-        self.now.clear();
-        for row in 0..FIRST[1] {
-            for col in 0..FIRST[0] {
-                let middle = |index: usize, size: f64| (index as f64 + 0.5) * size - 0.5;
-                self.now.push([middle(col, size[0]), middle(row, size[1])]);
-            }
+        let setting = Setting {
+            scene,
+            cell,
+            contents,
+            background,
+            finishes: &self.finishes,
+            orders: &self.orders,
+            has_silhouette: &self.has_silhouette,
+        };
+        let mut size = FIRST_SIZE;
+        let first = setting.averages(simd, FIRST, size, &mut self.outlines);
+        self.work.samples += first.lit;
+        let mut part = first.total(size[0] * size[1]);
+        if part.error <= tolerance {
+            return part.value.is_finite().then_some(part);
         }
-        let mut eights = 0;
-        while !self.now.is_empty() {
+        part = Part::NOTHING;
+        self.known.clear();
+        for lane in 0..8 {
+            let middle = FIRST.map(|places| places[lane]);
+            self.known.push((middle, first.lane(lane)));
+        }
+        let mut eights = 1;
+        loop {
+            let area = size[0] * size[1];
+            let claims: f64 = self.known.iter().map(|(_, average)| average.error).sum();
+            let left = tolerance - part.error;
+            let limit = if claims * area <= left {
+                f64::INFINITY
+            } else {
+                SHARE * left / (self.known.len() as f64 * area)
+            };
+            let longer = usize::from(size[1] > size[0]);
+            self.now.clear();
+            for &(middle, average) in &self.known {
+                if average.error <= limit {
+                    part.add(&average, area);
+                    continue;
+                }
+                for side in [-0.25, 0.25] {
+                    let mut half = middle;
+                    half[longer] += side * size[longer];
+                    self.now.push(half);
+                }
+            }
+            if self.now.is_empty() {
+                return part.value.is_finite().then_some(part);
+            }
             eights += self.now.len().div_ceil(8);
             if eights > MOST_EIGHTS {
                 return None;
             }
-            let setting = Setting {
-                scene,
-                cell,
-                contents,
-                background,
-                finishes: &self.finishes,
-                orders: &self.orders,
-            };
+            size[longer] *= 0.5;
             self.known.clear();
-            let mut claims = 0.0;
             for group in self.now.chunks(8) {
                 let mut middles = [[0.0; 8]; 2];
                 for lane in 0..8 {
@@ -104,38 +138,14 @@ impl Boxes {
                 let found = setting.averages(simd, middles, size, &mut self.outlines);
                 self.work.samples += found.lit;
                 for (lane, &middle) in group.iter().enumerate() {
-                    let average = found.lane(lane);
-                    claims += average.error * size[0] * size[1];
-                    self.known.push((middle, average));
+                    self.known.push((middle, found.lane(lane)));
                 }
             }
-            let area = size[0] * size[1];
-            let left = tolerance - part.error;
-            let limit = if claims <= left {
-                f64::INFINITY
-            } else {
-                SHARE * left / self.now.len() as f64
-            };
-            self.now.clear();
-            let longer = usize::from(size[1] > size[0]);
-            for &(middle, average) in &self.known {
-                if average.error * area <= limit {
-                    part.add(&average, area);
-                    continue;
-                }
-                for side in [-0.25, 0.25] {
-                    let mut half = middle;
-                    half[longer] += side * size[longer];
-                    self.now.push(half);
-                }
-            }
-            size[longer] *= 0.5;
         }
-        part.value.is_finite().then_some(part)
     }
 
     /// Prepares what all boxes share; returns false if the cell is not one for boxes.
-    fn prepare(&mut self, scene: &InCamera<'_>, cell: &Cell, contents: &Contents) -> bool {
+    fn prepare(&mut self, scene: &InCamera<'_>, contents: &Contents) -> bool {
         let active = &contents.active;
         if active.len() > MOST_SPHERES {
             return false;
@@ -148,8 +158,14 @@ impl Boxes {
                 return false;
             }
         }
-        let _ = cell;
         self.orders.find(active);
+        self.has_silhouette.clear();
+        self.has_silhouette.resize(active.len(), false);
+        for (kind, _) in &contents.conics {
+            if let Kind::Silhouette(position) = kind {
+                self.has_silhouette[*position] = true;
+            }
+        }
         self.finishes.clear();
         let finishes = active
             .iter()

@@ -6,6 +6,7 @@ use fearless_simd::{f64x8, mask64x8};
 use super::eight::EightBoxes;
 use super::half_plane::HalfPlane;
 use crate::exact::classify::active::Active;
+use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
 /// Eight numbers in memory.
@@ -28,6 +29,48 @@ pub(super) struct Outline {
     /// the discriminant is the average.
     inward: [Eight; 2],
     depth: Depth,
+}
+
+/// A polynomial of degree 2 on boxes: its values in their middles, its changes across them, and how much it differs
+/// from a linear function in their corners at most.
+#[derive(Clone, Copy, Debug)]
+struct Function<S: Simd> {
+    value: f64x8<S>,
+    across: [f64x8<S>; 2],
+    bend: f64x8<S>,
+}
+
+impl<S: Simd> Function<S> {
+    #[inline(always)]
+    fn new(simd: S, boxes: &EightBoxes<S>, q: &Quadratic) -> Self {
+        let [width, height] = boxes.size;
+        let (x, y) = (boxes.x, boxes.y);
+        let slope_x = x * (2.0 * q.xx) + y * q.xy + q.x;
+        let slope_y = y * (2.0 * q.yy) + x * q.xy + q.y;
+        let bend = 0.25
+            * (q.xx.abs() * width * width
+                + q.xy.abs() * width * height
+                + q.yy.abs() * height * height);
+        Self {
+            value: (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one,
+            across: [slope_x * width, slope_y * height],
+            bend: f64x8::splat(simd, bend),
+        }
+    }
+
+    /// What its second derivative adds where it vanishes, as if it were linear, straight along the gradient.
+    #[inline(always)]
+    fn second(&self, simd: S, boxes: &EightBoxes<S>, q: &Quadratic) -> f64x8<S> {
+        let [width, height] = boxes.size;
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let (x, y) = (
+            self.across[0] * (1.0 / width),
+            self.across[1] * (1.0 / height),
+        );
+        let by_steep = f64x8::splat(simd, 1.0) / (x * x + y * y).max(tiny);
+        let step = self.value * by_steep;
+        (x * x * q.xx + x * y * q.xy + y * y * q.yy) * (step * step)
+    }
 }
 
 /// The reciprocals of the distances of a sphere along rays, in multiples of these, as linear functions on boxes. Those
@@ -135,6 +178,32 @@ impl<S: Simd> Edges<S> {
 const OF_ROOT: f64 = 8.0 / 9.0;
 
 impl Outline {
+    /// A sphere that fills all boxes.
+    #[inline(always)]
+    pub(super) fn filling<S: Simd>(
+        simd: S,
+        boxes: &EightBoxes<S>,
+        (position, active): (usize, &Active),
+        has_depth: bool,
+    ) -> Self {
+        let none = [0.0; 8];
+        let depth = if has_depth {
+            let function = Function::new(simd, boxes, &active.discriminant);
+            Depth::new(simd, boxes, active, &function)
+        } else {
+            Depth::NONE
+        };
+        Self {
+            position,
+            share: [1.0; 8],
+            moments: [none; 2],
+            ambiguity: none,
+            doubt: none,
+            inward: [none; 2],
+            depth,
+        }
+    }
+
     /// The sphere, if any of the boxes see it.
     #[inline(always)]
     pub(super) fn new<S: Simd>(
@@ -145,26 +214,13 @@ impl Outline {
     ) -> Option<Self> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let q = &active.discriminant;
-        let [width, height] = boxes.size;
-        let (x, y) = (boxes.x, boxes.y);
-        let slope_x = x * (2.0 * q.xx) + y * q.xy + q.x;
-        let slope_y = y * (2.0 * q.yy) + x * q.xy + q.y;
-        let value = (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one;
-        let bend = 0.25
-            * (q.xx.abs() * width * width
-                + q.xy.abs() * width * height
-                + q.yy.abs() * height * height);
-        // Along the normal the function is followed to the second degree.
-        let steep =
-            (slope_x * slope_x + slope_y * slope_y).max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let along =
-            (slope_x * slope_x * q.xx + slope_x * slope_y * q.xy + slope_y * slope_y * q.yy)
-                / steep;
-        let step_sq = value * value / steep;
-        let across = [slope_x * width, slope_y * height];
-        let second = along * step_sq;
-        let bend = f64x8::splat(simd, bend);
+        let function = Function::new(simd, boxes, &active.discriminant);
+        let Function {
+            value,
+            across,
+            bend,
+        } = function;
+        let second = function.second(simd, boxes, &active.discriminant);
         let part = HalfPlane::of_second_degree(simd, value, across, (second, bend));
         if part.share.simd_gt(zero).to_bitmask() == 0 && part.doubt.simd_gt(zero).to_bitmask() == 0
         {
@@ -178,7 +234,7 @@ impl Outline {
         let back = is_cut.select(mean * (OF_ROOT - 1.0) / steepness, zero);
         let inward = [back * across[0], back * across[1]];
         let depth = if has_depth {
-            Depth::new(simd, boxes, active, (value, bend), across)
+            Depth::new(simd, boxes, active, &function)
         } else {
             Depth::NONE
         };
@@ -294,8 +350,11 @@ impl Depth {
         simd: S,
         boxes: &EightBoxes<S>,
         active: &Active,
-        (discriminant, bend): (f64x8<S>, f64x8<S>),
-        across: [f64x8<S>; 2],
+        &Function {
+            value: discriminant,
+            across,
+            bend,
+        }: &Function<S>,
     ) -> Self {
         let [width, height] = boxes.size;
         let along = &active.along;
