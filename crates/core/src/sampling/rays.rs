@@ -77,7 +77,7 @@ impl Rays {
 
     /// The side of a tile at the distance of 1.
     pub(super) fn tile_side(&self) -> f64 {
-        8.0 * f64::from(Tile::SIDE) / self.rows_on_unit
+        f64::from(Tile::SIDE) / self.rows_on_unit
     }
 
     /// The places on the retina, to the right, of a sample of eight pixels; pixels after the first

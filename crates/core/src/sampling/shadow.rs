@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
+use super::tile_balls::TileBall;
 use super::trace::{DISTANCE_ERROR, Groups, Sight};
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
@@ -88,20 +89,17 @@ impl<'scene> Shadows<'scene> {
                 continue;
             }
             let sphere = group.ball.index();
-            let allowance = point_allowance(&self.visibility.spheres()[sphere]);
-            let precise = lit
-                .errors
-                .simd_le(f64x8::splat(simd, allowance))
-                .to_bitmask();
             let side_by_side = self.visibility.is_moderate()
                 && (group.ball.has_many_samples || self.visibility.light(index).knows(sphere));
-            let alone = if side_by_side {
-                lanes & !precise
-            } else {
-                lanes
-            };
+            let mut alone = lanes;
+            if side_by_side {
+                // Spheres lie far apart in memory: only here they are read.
+                let allowance = point_allowance(&self.visibility.spheres()[sphere]);
+                let allowance = f64x8::splat(simd, allowance);
+                alone &= !lit.errors.simd_le(allowance).to_bitmask();
+            }
             if alone != 0 {
-                reached &= !self.ask_all(simd, &lit, index, sphere, alone);
+                reached &= !self.ask_all(simd, &lit, index, group.ball, alone);
                 lanes &= !alone;
             }
             if lanes != 0 {
@@ -215,9 +213,10 @@ impl<'scene> Shadows<'scene> {
         simd: S,
         lit: &LitPoints<S>,
         light: usize,
-        sphere: usize,
+        ball: &TileBall,
         asked: u64,
     ) -> u64 {
+        let center = self.viewpoint + ball.ball.to_center * self.length;
         simd.vectorize(
             #[inline(always)]
             || {
@@ -228,7 +227,8 @@ impl<'scene> Shadows<'scene> {
                     let point = SurfacePoint {
                         point,
                         error: lit.errors[lane],
-                        sphere,
+                        sphere: ball.index(),
+                        center,
                         side: distance * self.tile_side,
                     };
                     let is_dark = self.cells.is_blocked(simd, self.visibility, light, &point);

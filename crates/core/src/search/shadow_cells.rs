@@ -24,14 +24,26 @@ const MOST_DISCS: usize = 2048;
 /// As much for columns: most points that come so far are not in the dark, and go through all of it.
 const MOST_IN_COLUMN: usize = 512;
 
+/// After a cell with so few discs, larger ones are tried: they hold some eight times as many. Not tuned.
+const FEW_DISCS: usize = 64;
+
+/// After so many cells of a layer, larger ones are tried all the same. Not tuned: it keeps long ways short.
+const MOST_PASSED: u32 = 4;
+
 /// How many layers a point's cell may lie below the layer that it should; points that find too much in all of
 /// them are looked up alone. Not tuned: in the last one cells are about a pixel.
 const MOST_HALVINGS: i32 = 6;
 
-/// Cells that are remembered.
+/// The binary logarithm of how many times a cell's side is that of the region of points that are going to be
+/// asked about, rounded down to a power of two. Not tuned: larger cells hold more that lies too far
+/// from their points, smaller ones are looked up more often.
+const LARGER_EXPONENT: i32 = 3;
+
+/// The binary logarithm of the number of cells that are remembered. Not tuned: a strip of a picture
+/// takes a few hundred.
 const SLOTS_EXPONENT: u32 = 12;
 
-/// Places for discs that are remembered in all cells: 36 MiB. Not tuned.
+/// Places for discs that are remembered in all cells: 20 MiB. Not tuned.
 const MOST_PLACES: usize = 1 << 20;
 
 /// Tops of a cell that has no end.
@@ -84,6 +96,8 @@ impl Key {
 struct Cell {
     key: Key,
     grid: DiscGrid,
+    /// The number of discs.
+    count: usize,
     /// True if there are too many discs to be listed.
     is_crowded: bool,
 }
@@ -106,6 +120,8 @@ pub(crate) struct SurfacePoint {
     pub(crate) error: f64,
     /// The sphere's index.
     pub(crate) sphere: usize,
+    /// The sphere's center, rounded as a sum with the viewpoint.
+    pub(crate) center: DVec3,
     /// About the side of the region of points that are going to be asked about.
     pub(crate) side: f64,
 }
@@ -128,9 +144,8 @@ impl ShadowCells {
         let around = asked.error + slack(asked.point, 0.0);
         let height = occluders.height(asked.point);
         // Neither its own sphere nor one that coincides with it is taken for an occluder without being
-        // asked: their center lies below.
-        let own = &visibility.spheres()[asked.sphere];
-        let center = occluders.height(own.center()) + slack(own.center(), 0.0);
+        // asked: their center lies below. The point's error is more than that of the viewpoint's part.
+        let center = occluders.height(asked.center) + slack(asked.center, 0.0) + 4.0 * asked.error;
         let point = PointBelow {
             place: occluders.project(asked.point),
             height,
@@ -160,8 +175,8 @@ impl ShadowCells {
     ) -> Option<bool> {
         let occluders = visibility.light(key.light as usize).occluders();
         let (least, highest) = (key.exponent - MOST_HALVINGS, occluders.highest());
-        // Whether larger cells are to be tried.
-        let mut rises = false;
+        // Whether larger cells are to be tried, and how many were passed that are as large as this one.
+        let (mut rises, mut passed) = (false, 0);
         loop {
             if rises && key.is_low() {
                 let above = key.parent();
@@ -176,6 +191,7 @@ impl ShadowCells {
                 if !self.cell(occluders, above).is_crowded {
                     key = above;
                 }
+                passed = 0;
             }
             let cell = self.cell(occluders, key);
             if cell.is_crowded {
@@ -183,9 +199,10 @@ impl ShadowCells {
                     return None;
                 }
                 key = smaller(&key, point)?;
-                rises = false;
+                (rises, passed) = (false, 0);
                 continue;
             }
+            let is_sparse = cell.count <= FEW_DISCS;
             if cell.grid.any(simd, point, &mut holds) {
                 return Some(true);
             }
@@ -193,7 +210,8 @@ impl ShadowCells {
             if key.place[2] as f64 * key.side() > highest {
                 return Some(false);
             }
-            rises = true;
+            passed += 1;
+            rises = is_sparse || passed >= MOST_PASSED;
         }
     }
 
@@ -221,6 +239,7 @@ impl ShadowCells {
             Box::new(Cell {
                 key,
                 grid: DiscGrid::default(),
+                count: 0,
                 is_crowded: false,
             })
         });
@@ -229,6 +248,7 @@ impl ShadowCells {
         let [x, y, z] = key.place.map(|place| place as f64 * side);
         let square = Square {
             low: DVec2::new(x, y),
+            bottom: z,
             side,
             margin: side * MARGIN,
         };
@@ -240,6 +260,7 @@ impl ShadowCells {
         cell.key = key;
         let found = occluders.find_high(&square, (z, end), most, &mut self.discs);
         cell.is_crowded = found.is_none();
+        cell.count = self.discs.len();
         match found {
             Some(excess) => cell.grid.fill(&square, &self.discs, excess),
             None => cell.grid.clear(),
@@ -254,12 +275,12 @@ fn power(exponent: i32) -> f64 {
     f64::from_bits(((f64::MAX_EXP - 1 + exponent) as u64) << (f64::MANTISSA_DIGITS - 1))
 }
 
-/// The cell that a point's way to the light begins in, if the point is known that well: about as large as
-/// `side`.
+/// The cell that a point's way to the light begins in, if the point is known that well, for a region with
+/// that side.
 #[inline(always)]
 fn key(light: usize, side: f64, point: &PointBelow) -> Option<Key> {
     const BIAS: i32 = f64::MAX_EXP - 1;
-    let exponent = (side.to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32 - BIAS;
+    let exponent = (side.to_bits() >> (f64::MANTISSA_DIGITS - 1)) as i32 - BIAS + LARGER_EXPONENT;
     // A sphere whose top is where the point is may reach above it.
     let height = point.height - 2.0 * point.around;
     key_at(light, exponent, &PointBelow { height, ..*point })
@@ -280,11 +301,11 @@ fn smaller(key: &Key, point: &PointBelow) -> Option<Key> {
 /// The cell of a layer that a point lies in, if the point is known that well.
 #[inline(always)]
 fn key_at(light: usize, exponent: i32, point: &PointBelow) -> Option<Key> {
-    /// Exponents that leave room for larger and smaller cells, whose sides and their inverses are normal.
-    const NORMAL: std::ops::RangeInclusive<i32> = -900..=900;
+    /// Exponents of cells whose numbers are squared in single precision.
+    const MODERATE: std::ops::RangeInclusive<i32> = -36..=36;
     /// Whole numbers below are doubles, with places for halves.
     const MOST: f64 = (1_u64 << 40) as f64;
-    if !NORMAL.contains(&exponent) {
+    if !MODERATE.contains(&exponent) {
         return None;
     }
     let scale = power(-exponent);

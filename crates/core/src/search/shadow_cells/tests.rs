@@ -60,6 +60,7 @@ fn point(random: &mut Random, spheres: &[(DVec3, f64)], side: f64) -> SurfacePoi
         point,
         error,
         sphere,
+        center,
         side,
     }
 }
@@ -178,6 +179,7 @@ fn cells_are_shared() {
                 point: center + radius * world.lights[1].toward(),
                 error: 1e-15,
                 sphere,
+                center,
                 side: 0.1,
             };
             agrees(&visibility, &mut cells, &asked);
