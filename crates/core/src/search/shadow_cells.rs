@@ -19,7 +19,7 @@ const MARGIN: f64 = 1.0 / 256.0;
 
 /// Cells with more discs are left to smaller ones. Not tuned: it bounds the memory of a cell, and what is in
 /// vain where points lie in few of its parts.
-const MOST_DISCS: usize = 2048;
+const MOST_DISCS: usize = 1024;
 
 /// As much for columns: most points that come so far are not in the dark, and go through all of it.
 const MOST_IN_COLUMN: usize = 512;

@@ -172,8 +172,7 @@ fn cells_are_shared() {
     let visibility = Visibility::new(&world);
     let mut cells = ShadowCells::default();
     let corner = DVec3::splat(0.9);
-    for sphere in 0..spheres.len() {
-        let (center, radius) = spheres[sphere];
+    for (sphere, &(center, radius)) in spheres.iter().enumerate() {
         if (center - corner).abs().max_element() < 0.1 {
             let asked = SurfacePoint {
                 point: center + radius * world.lights[1].toward(),
