@@ -89,8 +89,10 @@ impl<'scene> Shadows<'scene> {
                 continue;
             }
             let sphere = group.ball.index();
+            let discs = self.visibility.light(index);
             let side_by_side = self.visibility.is_moderate()
-                && (group.ball.has_many_samples || self.visibility.light(index).knows(sphere));
+                && discs.keeps()
+                && (group.ball.has_many_samples || discs.knows(sphere));
             let mut alone = lanes;
             if side_by_side {
                 // Spheres lie far apart in memory: only here they are read.
