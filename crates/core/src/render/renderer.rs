@@ -1,6 +1,7 @@
 //! A picture in one piece.
 
 use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
@@ -78,8 +79,15 @@ impl<'world> Renderer<'world> {
         // One by one: bands differ in what they cost, and threads that wait for the last take longer than
         // all handing over.
         let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
-        let bands = bands
-            .map(|mut band| integrator.paint_band(&mut band, &mut Scratch::default(), progress));
+        // What a band found out may serve the next one.
+        let spare = Mutex::new(Vec::new());
+        let bands = bands.map(|mut band| {
+            let lock = || spare.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut scratch: Scratch = lock().pop().unwrap_or_default();
+            let work = integrator.paint_band(&mut band, &mut scratch, progress);
+            lock().push(scratch);
+            work
+        });
         let add = |mut sum: Work, work| {
             sum += work;
             Ok(sum)

@@ -75,6 +75,11 @@ impl Rays {
         self.distance / (2.0 * self.half_cell)
     }
 
+    /// The side of a tile at the distance of 1.
+    pub(super) fn tile_side(&self) -> f64 {
+        f64::from(Tile::SIDE) / self.rows_on_unit
+    }
+
     /// The places on the retina, to the right, of a sample of eight pixels; pixels after the first
     /// `width` repeat the last of them.
     #[inline(always)]
@@ -137,7 +142,7 @@ impl Rays {
         let (center_length, reach) = (center.length(), half.length());
         let (shortest, longest) = (center_length - reach, center_length + reach);
         Bundle {
-            cone: self.cone(center, half),
+            cone: self.cone(center, center_length, reach),
             rows: self.rows(tile),
             shortest: shortest.max(center.z) * (1.0 / WIDER),
             longest: longest * WIDER,
@@ -160,33 +165,21 @@ impl Rays {
         }
     }
 
-    /// A circular cone around the rays through a rectangle on the retina, given in camera axes.
-    fn cone(&self, center: DVec3, half: DVec2) -> Option<Cone> {
-        /// Far above the few units in the last place that rounding costs relative to h² / p².
-        const ROUNDING: f64 = 1e-12;
+    /// A circular cone around the rays through what is no farther than `reach` from a point in camera
+    /// axes, whose length is given.
+    ///
+    /// No point of a ball is seen from outside at a larger angle than that whose sine is the radius over
+    /// the center's distance.
+    fn cone(&self, center: DVec3, center_length: f64, reach: f64) -> Option<Cone> {
         /// Wider cones hold so much beside the tile that they leave out little. Not tuned.
         const WIDEST_SINE: f64 = 0.7;
-        // The corner p with the largest angle a: with c the center and h = p − c,
-        // sin² a = (c² h² − (c·h)²) / (c² p²), which rounding makes wrong by a few u h² / p².
-        let (center_sq, half_sq) = (center.length_squared(), half.length_squared());
-        let (mut sine_sq, mut is_ahead) = (0.0_f64, true);
-        for along in [
-            center.x * half.x + center.y * half.y,
-            center.x * half.x - center.y * half.y,
-        ] {
-            // Both corners of a diagonal: the nearer one is seen at the larger angle.
-            let along = along.abs();
-            // Of more than a right angle the sine tells nothing.
-            is_ahead &= along < center_sq;
-            let corner_sq = center_sq + half_sq - 2.0 * along;
-            sine_sq = sine_sq.max((center_sq * half_sq - along * along) / (center_sq * corner_sq));
-        }
-        let sine_sq = sine_sq * WIDER + ROUNDING * half_sq / center_sq;
-        let is_sane = is_ahead && sine_sq < WIDEST_SINE * WIDEST_SINE && center_sq > LEAST_SQUARE;
+        let inverse = 1.0 / center_length;
+        let sine = reach * inverse * WIDER;
+        let is_sane = sine < WIDEST_SINE && center_length * center_length > LEAST_SQUARE;
         is_sane.then(|| Cone {
-            axis: self.view.camera.world_from_camera * (center * (1.0 / center_sq.sqrt())),
-            sine: sine_sq.sqrt(),
-            cosine: (1.0 - sine_sq).sqrt(),
+            axis: self.view.camera.world_from_camera * (center * inverse),
+            sine,
+            cosine: ((1.0 - sine) * (1.0 + sine)).sqrt(),
         })
     }
 }

@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
+use super::tile_balls::TileBall;
 use super::trace::{DISTANCE_ERROR, Groups, Sight};
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
@@ -12,6 +13,7 @@ use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 use crate::search::discs::{Disc, point_allowance};
+use crate::search::shadow_cells::{ShadowCells, SurfacePoint};
 use crate::search::visibility::Visibility;
 
 /// The shadows on what a tile sees.
@@ -20,8 +22,11 @@ pub(super) struct Shadows<'scene> {
     viewpoint: DVec3,
     /// Of the balls' unit of length, in those of the world.
     length: f64,
+    /// About the side of a tile at the distance of 1.
+    tile_side: f64,
     /// The regions of surfaces that were asked for.
     regions: Vec<Region>,
+    cells: &'scene mut ShadowCells,
 }
 
 /// A part of a sphere, and the discs that may darken it.
@@ -33,10 +38,6 @@ struct Region {
     high: DVec2,
     discs: Vec<Disc>,
 }
-
-/// For so few samples on a sphere it does not pay to find out what may darken it. Not tuned: finding
-/// out takes about as long as asking for a few dozen points.
-const FEW_SAMPLES: f64 = 32.0;
 
 /// Eight points that a light may reach.
 struct LitPoints<S: Simd> {
@@ -52,13 +53,16 @@ impl<'scene> Shadows<'scene> {
     pub(super) fn new(
         visibility: &'scene Visibility<'scene>,
         viewpoint: DVec3,
-        length: f64,
+        (length, tile_side): (f64, f64),
+        cells: &'scene mut ShadowCells,
     ) -> Self {
         Self {
             visibility,
             viewpoint,
             length,
+            tile_side,
             regions: Vec::new(),
+            cells,
         }
     }
 
@@ -85,20 +89,19 @@ impl<'scene> Shadows<'scene> {
                 continue;
             }
             let sphere = group.ball.index();
-            let allowance = point_allowance(&self.visibility.spheres()[sphere]);
-            let precise = lit
-                .errors
-                .simd_le(f64x8::splat(simd, allowance))
-                .to_bitmask();
+            let discs = self.visibility.light(index);
             let side_by_side = self.visibility.is_moderate()
-                && (group.ball.samples > FEW_SAMPLES || self.visibility.light(index).knows(sphere));
-            let alone = if side_by_side {
-                lanes & !precise
-            } else {
-                lanes
-            };
+                && discs.keeps()
+                && (group.ball.has_many_samples || discs.knows(sphere));
+            let mut alone = lanes;
+            if side_by_side {
+                // Spheres lie far apart in memory: only here they are read.
+                let allowance = point_allowance(&self.visibility.spheres()[sphere]);
+                let allowance = f64x8::splat(simd, allowance);
+                alone &= !lit.errors.simd_le(allowance).to_bitmask();
+            }
             if alone != 0 {
-                reached &= !self.ask_all(&lit, index, light, sphere, alone);
+                reached &= !self.ask_all(simd, &lit, index, group.ball, alone);
                 lanes &= !alone;
             }
             if lanes != 0 {
@@ -208,24 +211,34 @@ impl<'scene> Shadows<'scene> {
     /// Those of some points, as bits, that any other sphere darkens: one point after the other.
     #[inline(never)]
     fn ask_all<S: Simd>(
-        &self,
+        &mut self,
+        simd: S,
         lit: &LitPoints<S>,
-        index: usize,
-        light: &DirectionalLight,
-        sphere: usize,
+        light: usize,
+        ball: &TileBall,
         asked: u64,
     ) -> u64 {
-        let is_dark = |&lane: &usize| {
-            let to_light = Ray {
-                origin: lit.points.lane(lane),
-                direction: light.toward(),
-            };
-            self.visibility
-                .is_blocked(index, &to_light, lit.errors[lane], sphere)
-        };
-        set_bits(asked)
-            .filter(is_dark)
-            .fold(0, |dark, lane| dark | 1 << lane)
+        let center = self.viewpoint + ball.ball.to_center * self.length;
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let mut dark = 0;
+                for lane in set_bits(asked) {
+                    let point = lit.points.lane(lane);
+                    let distance = (point - self.viewpoint).abs().max_element();
+                    let point = SurfacePoint {
+                        point,
+                        error: lit.errors[lane],
+                        sphere: ball.index(),
+                        center,
+                        side: distance * self.tile_side,
+                    };
+                    let is_dark = self.cells.is_blocked(simd, self.visibility, light, &point);
+                    dark |= u64::from(is_dark) << lane;
+                }
+                dark
+            },
+        )
     }
 }
 

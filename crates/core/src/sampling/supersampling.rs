@@ -21,6 +21,7 @@ use crate::picture::band::Band;
 use crate::picture::image::{Channels, Uniform};
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::{Tile, TileLight};
+use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
 
 /// Rows of a tile.
@@ -162,13 +163,17 @@ impl<'scene> Supersampling<'scene> {
         &self,
         simd: S,
         tile: Tile,
-        Scratch { balls, light }: &mut Scratch,
+        Scratch {
+            balls,
+            light,
+            cells: shadow_cells,
+        }: &mut Scratch,
     ) -> Option<u64> {
         let bundle = self.rays.bundle(tile);
         let cells = self.rays.cells_on_unit();
         balls.gather(simd, cells, &bundle, self.index.balls(tile));
         let first = balls.list.first()?;
-        let mut sampler = self.sampler(tile, balls, first);
+        let mut sampler = self.sampler(tile, balls, first, shadow_cells);
         let nothing = Sample {
             light: splat(simd, self.background()),
             covered: 0,
@@ -212,6 +217,7 @@ impl<'scene> Supersampling<'scene> {
         tile: Tile,
         balls: &'tile TileBalls,
         first: &'tile TileBall,
+        cells: &'tile mut ShadowCells,
     ) -> Sampler<'tile> {
         Sampler {
             tracer: Tracer {
@@ -225,7 +231,9 @@ impl<'scene> Supersampling<'scene> {
             looks: Looks::new(&self.shading),
             shadows: self.shading.world.shadows.then(|| {
                 let length = libm::scalbn(1.0, self.index.length_exponent());
-                Shadows::new(self.index.visibility, self.view.camera.position, length)
+                let sizes = (length, self.rays.tile_side());
+                let viewpoint = self.view.camera.position;
+                Shadows::new(self.index.visibility, viewpoint, sizes, cells)
             }),
         }
     }
@@ -304,11 +312,12 @@ impl<'scene> Supersampling<'scene> {
     }
 }
 
-/// Memory to work in.
+/// Memory to work in, for one world.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     balls: TileBalls,
     light: TileLight,
+    cells: ShadowCells,
 }
 
 /// The search for what the rays of a tile see, and for its light.

@@ -24,8 +24,8 @@ pub(super) struct TileBall {
     pub(super) rim: f64,
     /// −1 where rays meet the outer side, at the near root; 1 where they start inside.
     pub(super) root_sign: f64,
-    /// About how many samples the ball covers, if nothing is in front of it.
-    pub(super) samples: f64,
+    /// True if the ball covers more than some [`FEW_SAMPLES`], if nothing is in front of it.
+    pub(super) has_many_samples: bool,
     /// The rows of the tile that the ball may be seen in, as bits.
     pub(super) rows: u8,
 }
@@ -34,6 +34,10 @@ pub(super) struct TileBall {
 /// which [`DISTANCE_ERROR`](super::trace::DISTANCE_ERROR) is derived. Not tuned: with less the bound
 /// grows, with more it is more rays.
 const RIM: f64 = 1.0 / 4096.0;
+
+/// For so few samples on a sphere it does not pay to find out what may darken it. Not tuned: finding
+/// out takes about as long as asking for a few dozen points.
+const FEW_SAMPLES: f64 = 32.0;
 
 impl TileBall {
     /// The index of the sphere in the world.
@@ -62,7 +66,7 @@ impl TileBall {
                 RIM * radius_sq
             },
             root_sign: if ball.outside < 0.0 { 1.0 } else { -1.0 },
-            samples: PI * (cells * cells) * (radius_sq / ball.outside.abs()),
+            has_many_samples: PI * (cells * cells) * radius_sq > FEW_SAMPLES * ball.outside.abs(),
             rows,
         }
     }

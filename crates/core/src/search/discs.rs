@@ -70,6 +70,11 @@ impl<'world> DiscCache<'world> {
         self.kept.get(sphere)?.get_or_init(find).as_deref()
     }
 
+    /// True in worlds that are small enough to keep anything.
+    pub(crate) fn keeps(&self) -> bool {
+        !self.kept.is_empty()
+    }
+
     /// True where [`DiscCache::of_sphere`] was asked for before.
     pub(crate) fn knows(&self, sphere: usize) -> bool {
         let kept = self.kept.get(sphere);

@@ -6,6 +6,7 @@
 
 mod block_search;
 mod blocks;
+mod disc_grid;
 pub(crate) mod discs;
 pub(crate) mod frustum;
 pub(crate) mod grid;
@@ -13,6 +14,7 @@ mod hierarchy;
 mod mask;
 mod occluders;
 mod screen_bounds;
+pub(crate) mod shadow_cells;
 mod tile_lists;
 pub(crate) mod view_index;
 pub(crate) mod visibility;

@@ -9,7 +9,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
+use super::disc_grid::{HighDisc, Square};
 use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::order::WIDTH;
 use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
@@ -25,6 +27,8 @@ pub(super) struct Occluders<'world> {
     up: DVec3,
     /// Unit vector toward the light.
     toward: DVec3,
+    /// A height that no top of [`Occluders::find_high`] exceeds.
+    highest: f64,
     /// The instructions that the processor has.
     level: Level,
 }
@@ -43,6 +47,7 @@ impl<'world> Occluders<'world> {
         let (right, up) = toward.any_orthonormal_pair();
         Self {
             spheres,
+            highest: highest(&hierarchy, toward),
             hierarchy,
             right,
             up,
@@ -132,6 +137,14 @@ impl<'world> Occluders<'world> {
     /// to.
     #[inline(always)]
     fn reaching_spheres<S: Simd>(&self, simd: S, group: &Group, shaft: &Shaft) -> u8 {
+        let ([x, y, z], radius) = self.along_light(simd, group);
+        !(beyond(shaft, [x, y, z], [radius; 3]).to_bitmask() as u8)
+    }
+
+    /// The centers of the spheres of a group across and along the light, and their radii, larger by
+    /// more than rounding moves anything of them.
+    #[inline(always)]
+    fn along_light<S: Simd>(&self, simd: S, group: &Group) -> ([f64x8<S>; 3], f64x8<S>) {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
         let radius = doubles(simd, &group.radius);
@@ -143,8 +156,82 @@ impl<'world> Occluders<'world> {
             z += center * self.toward[axis];
             size += center.abs();
         }
-        let radius = radius + (size * SLACK + f64::MIN_POSITIVE);
-        !(beyond(shaft, [x, y, z], [radius; 3]).to_bitmask() as u8)
+        ([x, y, z], radius + (size * SLACK + f64::MIN_POSITIVE))
+    }
+
+    /// Finds the discs of the spheres that may reach into a square across the light, and whose tops lie in
+    /// a section of its length, above its begin and up to its end; `None` if they are more than `most`.
+    ///
+    /// The discs contain the true ones; returns how much smaller they have to be, with centers that much
+    /// lower, to be contained in them. What single precision does not hold is in all sections.
+    pub(super) fn find_high(
+        &self,
+        square: &Square,
+        section: (f64, f64),
+        most: usize,
+        discs: &mut Vec<HighDisc>,
+    ) -> Option<f64> {
+        let (lowest, end) = section;
+        let shaft = Shaft {
+            low: square.low - square.margin,
+            high: square.low + (square.side + square.margin),
+            lowest,
+        };
+        discs.clear();
+        dispatch!(self.level, simd => self.find_high_lanes(simd, &shaft, end, most, discs))
+    }
+
+    #[inline(always)]
+    fn find_high_lanes<S: Simd>(
+        &self,
+        simd: S,
+        shaft: &Shaft,
+        end: f64,
+        most: usize,
+        discs: &mut Vec<HighDisc>,
+    ) -> Option<f64> {
+        let mut excess = 0.0_f64;
+        let lowest = f64x8::splat(simd, shaft.lowest);
+        let is_crowded = self.hierarchy.any(
+            |boxes| {
+                let mut tested = self.reaching_boxes(simd, boxes, shaft);
+                // A sphere's top lies above the bottom of any box around it.
+                let bottoms = f64x8::simd_from(simd, tested.keys);
+                tested.may &= !(bottoms.simd_gt(end).to_bitmask() as u8);
+                tested
+            },
+            |number| {
+                let group = self.hierarchy.group(number);
+                let ([x, y, z], radius) = self.along_light(simd, group);
+                let top = z + radius;
+                let is_outside =
+                    beyond(shaft, [x, y, z], [radius; 3]) | top.simd_gt(end) | top.simd_le(lowest);
+                let inside = !(is_outside.to_bitmask() as u8);
+                let indices = self.hierarchy.indices(number);
+                for place in set_bits(inside) {
+                    if is_sphere(indices[place]) {
+                        // What is no number leaves nothing for certain.
+                        let more = group.excess(place) + radius[place] * SLACK;
+                        if more > excess || more.is_nan() {
+                            excess = more;
+                        }
+                        discs.push(HighDisc {
+                            center: DVec2::new(x[place], y[place]),
+                            radius: radius[place],
+                            top: top[place],
+                            sphere: indices[place],
+                        });
+                    }
+                }
+                discs.len() > most
+            },
+        );
+        (!is_crowded).then_some(excess)
+    }
+
+    /// A height that no top of [`Occluders::find_high`] exceeds.
+    pub(super) fn highest(&self) -> f64 {
+        self.highest
     }
 
     /// The boxes that may reach into a shaft; those first that begin lowest.
@@ -199,6 +286,11 @@ impl<'world> Occluders<'world> {
         (self.right, self.up)
     }
 
+    /// The unit direction toward the light.
+    pub(super) fn toward(&self) -> DVec3 {
+        self.toward
+    }
+
     /// The place of a point along the light.
     pub(super) fn height(&self, point: DVec3) -> f64 {
         point.dot(self.toward)
@@ -208,6 +300,33 @@ impl<'world> Occluders<'world> {
     pub(super) fn project(&self, point: DVec3) -> DVec2 {
         DVec2::new(point.dot(self.right), point.dot(self.up))
     }
+}
+
+/// The height of the highest sphere, rounded up by far more than single precision makes spheres larger.
+fn highest(hierarchy: &Hierarchy, toward: DVec3) -> f64 {
+    /// Relatively.
+    const WIDER: f64 = 1e-5;
+    let Some(root) = hierarchy.root() else {
+        return f64::NEG_INFINITY;
+    };
+    let boxes = hierarchy.boxes(root);
+    let mut highest = f64::NEG_INFINITY;
+    for place in set_bits(boxes.filled()) {
+        let corner = |side: &[[f32; WIDTH]; 3]| {
+            DVec3::from_array([0, 1, 2].map(|axis| f64::from(side[axis][place])))
+        };
+        let (low, high) = (corner(&boxes.low), corner(&boxes.high));
+        let (center, half) = ((low + high) * 0.5, (high - low) * 0.5);
+        let size = center.abs().element_sum() + half.element_sum();
+        let top = center.dot(toward) + half.dot(toward.abs());
+        let top = top + size * WIDER + f64::from(f32::MIN_POSITIVE);
+        highest = if top.is_nan() {
+            f64::INFINITY
+        } else {
+            highest.max(top)
+        };
+    }
+    highest
 }
 
 /// Four times what rounding moves spheres by: also the projections of a box around them.

@@ -129,13 +129,26 @@ impl<'world> Visibility<'world> {
         point_error: f64,
         except: usize,
     ) -> bool {
-        let own = &self.spheres[except];
         let occluders = self.lights[light].occluders();
         occluders.any(to_light.origin, point_error, |index| {
-            let occluder = &self.spheres[index];
-            // A sphere that coincides with the point's own is settled by n·l as that one is.
-            index != except && occluder.is_met(to_light, point_error) && occluder != own
+            self.hides(index, to_light, point_error, except)
         })
+    }
+
+    /// Says whether a sphere stands there.
+    #[inline(always)]
+    pub(super) fn hides(
+        &self,
+        sphere: usize,
+        to_light: &Ray,
+        point_error: f64,
+        except: usize,
+    ) -> bool {
+        let occluder = &self.spheres[sphere];
+        // A sphere that coincides with the point's own is settled by n·l as that one is.
+        sphere != except
+            && occluder.is_met(to_light, point_error)
+            && *occluder != self.spheres[except]
     }
 
     /// Says whether something `holds` for any of the spheres that may keep the light with this index

@@ -34,7 +34,8 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
             right: vectors.dot_one(right),
             up: vectors.dot_one(up),
         };
-        let mut shadows = Shadows::new(&visibility, DVec3::ZERO, 1.0);
+        let mut cells = ShadowCells::default();
+        let mut shadows = Shadows::new(&visibility, DVec3::ZERO, (1.0, 0.1), &mut cells);
         shadows.darkened(simd, &lit, 0, light, 0, 0xff)
     });
     assert_eq!(found, expected);

@@ -57,7 +57,7 @@ impl Boxes {
     }
 
     /// The boxes that hold anything, as bits.
-    pub(super) fn filled(&self) -> u8 {
+    pub(crate) fn filled(&self) -> u8 {
         let mut filled = 0;
         for place in 0..WIDTH {
             filled |= u8::from(self.low[0][place] <= self.high[0][place]) << place;
