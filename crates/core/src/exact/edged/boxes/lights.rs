@@ -398,7 +398,7 @@ impl<S: Simd> Faced<S> {
                 ambiguity: is_cut.select(most, zero),
             };
         }
-        // e cⁿ⁻¹ c'' + e (e − 1) cⁿ⁻² c'², where c is less than in the middle.
+        // e cᵉ⁻¹ c'' + e (e − 1) cᵉ⁻² c'²: where c is least for e below 1, where it is highest above.
         let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
         let half = self.width * 0.5;
         let least = (self.cosine - half).max(half).max(tiny);
@@ -406,7 +406,12 @@ impl<S: Simd> Faced<S> {
         let bends = around.second * by_least
             + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
         let most = falloff.of(self.cosine + self.width);
-        let smooth = (falloff.of(least) * bends * exponent).min(most);
+        let power = if exponent < 1.0 {
+            falloff.of(least)
+        } else {
+            most
+        };
+        let smooth = (power * bends * exponent).min(most);
         Power {
             value: falloff.of(self.cosine),
             most,

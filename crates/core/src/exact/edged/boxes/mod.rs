@@ -54,8 +54,11 @@ const FIRST: [Eight; 2] = [
 ];
 const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 
-/// Times that eight boxes are integrated before the cell is given up.
-const MOST_EIGHTS: usize = 40;
+/// Times that eight boxes are integrated before the cell is given up: few where others follow its edges in less, more
+/// to a loose tolerance, which boxes meet soon. Not tuned finely.
+const FEWEST_EIGHTS: usize = 10;
+const MOST_EIGHTS: usize = 24;
+const LOOSE: f64 = 0.02;
 
 /// The share of what is left of the tolerance that the boxes of a size may claim together, if they are more than
 /// the tolerance allows.
@@ -96,6 +99,11 @@ impl Boxes {
             let middle = FIRST.map(|places| places[lane]);
             self.known.push((middle, first.lane(lane)));
         }
+        let most_eights = if tolerance < LOOSE {
+            FEWEST_EIGHTS
+        } else {
+            MOST_EIGHTS
+        };
         let mut eights = 1;
         loop {
             let area = size[0] * size[1];
@@ -122,10 +130,17 @@ impl Boxes {
             if self.now.is_empty() {
                 return part.value.is_finite().then_some(part);
             }
-            eights += self.now.len().div_ceil(8);
-            if eights > MOST_EIGHTS {
+            // Halving them all about halves their claims.
+            let of_halving = self.now.len().div_ceil(8);
+            let (mut claims, mut expected) = (claims * area, eights);
+            while claims > left && expected <= most_eights {
+                claims *= 0.5;
+                expected += of_halving;
+            }
+            if expected > most_eights {
                 return None;
             }
+            eights += of_halving;
             size[longer] *= 0.5;
             self.known.clear();
             for group in self.now.chunks(8) {
