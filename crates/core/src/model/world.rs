@@ -160,6 +160,25 @@ impl World {
         self.material_ids[sphere].0
     }
 
+    /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
+    /// lights and their highlights are at their highest.
+    pub(crate) fn range_of_light(&self, background: Color) -> [Color; 2] {
+        let [mut dark, mut bright] = [background; 2];
+        let lights = self.lights.iter().map(|light| light.intensity());
+        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
+        let highlights = self.materials.iter().filter_map(|one| one.highlight);
+        let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
+        let of_materials = self.materials.iter().map(|material| material.albedo);
+        let own = self.painted.iter();
+        let own = own
+            .flat_map(|some| (0..some.albedos.len()).filter_map(|index| some.albedos.get(index)));
+        for albedo in of_materials.chain(own) {
+            dark = dark.min(albedo * self.ambient);
+            bright = bright.max(albedo * (self.ambient + lights) + lights * strength);
+        }
+        [dark, bright]
+    }
+
     /// True where nothing that can be seen has a color, so that one channel tells all.
     pub fn is_grey(&self) -> bool {
         is_grey(self.background) && self.has_grey_spheres()

@@ -1,5 +1,6 @@
 //! The ways to average light over pixels, for a band of a picture at a time.
 
+use super::approach::Approach;
 use super::settings::Settings;
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::exposure::Exposure;
@@ -39,7 +40,8 @@ impl<'scene> Integrator<'scene> {
         exposure: &Exposure<'scene>,
         settings: &Settings,
     ) -> Self {
-        let Settings { method, alpha } = *settings;
+        let method = Approach::of(world, settings).method;
+        let alpha = settings.alpha;
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {
             let instants = Instants::new(visibility, view, motion, method);

@@ -1,5 +1,6 @@
 //! The loop over the tiles of a picture.
 
+mod approach;
 mod integrator;
 pub(crate) mod renderer;
 pub(crate) mod settings;

@@ -5,16 +5,16 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
+use super::approach::Approach;
 use super::integrator::{Integrator, Scratch};
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::picture::image::{Channels, Image, Layout, Uniform};
-use crate::picture::pixel::{Method, Work};
+use crate::picture::image::{Channels, Image, Layout};
+use crate::picture::pixel::Work;
 use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
-use crate::sampling::Supersampling;
 use crate::search::visibility::Visibility;
 
 /// A world that is ready to be rendered: what does not depend on the view is done once.
@@ -112,10 +112,7 @@ impl<'world> Renderer<'world> {
             size: (view.width, view.height),
             channels: Channels::of(self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: match settings.method {
-                Method::Samples(samples) => Supersampling::uniform(samples),
-                Method::Tolerance(_) => Uniform::default(),
-            },
+            uniform: Approach::of(self.world, settings).uniform,
         }
     }
 }
