@@ -26,6 +26,8 @@ pub(crate) struct Context<'scene> {
     /// Whether errors are to be proved where that is possible. A proof claims more than an estimate, which
     /// averages over time have to make up for.
     pub(crate) is_proved: bool,
+    /// Whether pixels have an alpha channel.
+    pub(crate) has_alpha: bool,
     /// The light of pixels that see no sphere.
     pub(crate) background: Color,
     /// About the largest difference of light that an edge may make, highlights left out.

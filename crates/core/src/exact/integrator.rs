@@ -85,6 +85,7 @@ impl<'scene> Exact<'scene> {
             view: *view,
             tolerance: tolerance / count as f64,
             is_proved: true,
+            has_alpha: alpha,
             background: if alpha || group > 0 {
                 Color::ZERO
             } else {

@@ -7,7 +7,7 @@ use std::collections::BinaryHeap;
 use fearless_simd::prelude::*;
 
 use super::boundary::{Boundary, Goal};
-use super::boxes::Boxes;
+use super::boxes::{self, Boxes};
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
@@ -133,13 +133,18 @@ impl Workspace {
             scene,
             tolerance,
             background,
+            has_alpha,
             ..
         } = pixel.context;
         let known = pixel.moved(self.contrast) + self.contrast * self.contents.rounding;
-        let goal = (tolerance - known, *background);
+        let goal = boxes::Goal {
+            tolerance: tolerance - known,
+            background: *background,
+            has_alpha: *has_alpha,
+        };
         let found = self
             .boxes
-            .integrate(simd, scene, cell, &self.contents, goal);
+            .integrate(simd, scene, cell, &self.contents, &goal);
         let work = std::mem::take(&mut self.boxes.work);
         self.work.samples += work.samples;
         self.budget.spend(work);

@@ -9,15 +9,24 @@
 //! could fool it are silhouettes or shadows far smaller than a box. Their functions bend by more than their values,
 //! so that their boxes claim the whole contrast.
 
-mod eight;
+mod average;
+mod depth;
+mod edges;
+mod eight_boxes;
+mod falloffs;
 mod half_plane;
 mod lights;
+mod orders;
 mod outlines;
+mod shadows;
+mod surroundings;
 
 use fearless_simd::Simd;
 
-use self::eight::Setting;
-use self::outlines::{Eight, Orders, Outline};
+use self::average::Setting;
+use self::eight_boxes::Eight;
+use self::orders::Orders;
+use self::outlines::Outline;
 use crate::edges::cell::Cell;
 use crate::exact::budget::CellWork;
 use crate::exact::classify::active::Terminators;
@@ -39,6 +48,15 @@ pub(crate) struct Boxes {
     /// The boxes that were just done.
     known: Vec<([f64; 2], Part)>,
     pub(crate) work: CellWork,
+}
+
+/// How much is asked of a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Goal {
+    pub(crate) tolerance: f64,
+    /// The light where no sphere is seen, and whether it is asked where that is.
+    pub(crate) background: Color,
+    pub(crate) has_alpha: bool,
 }
 
 /// The least tolerance for which boxes are worth a try.
@@ -65,15 +83,16 @@ const LOOSE: f64 = 0.02;
 const SHARE: f64 = 0.5;
 
 impl Boxes {
-    /// The average over a cell, if its claim is within the tolerance. The light without a sphere is `background`.
+    /// The average over a cell, if its claim is within the tolerance.
     pub(crate) fn integrate<S: Simd>(
         &mut self,
         simd: S,
         scene: &InCamera<'_>,
         cell: &Cell,
         contents: &Contents,
-        (tolerance, background): (f64, Color),
+        goal: &Goal,
     ) -> Option<Part> {
+        let tolerance = goal.tolerance;
         if tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {
             return None;
         }
@@ -81,7 +100,8 @@ impl Boxes {
             scene,
             cell,
             contents,
-            background,
+            background: goal.background,
+            has_alpha: goal.has_alpha,
             finishes: &self.finishes,
             orders: &self.orders,
             has_silhouette: &self.has_silhouette,

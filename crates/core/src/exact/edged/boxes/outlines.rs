@@ -3,14 +3,12 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::eight::EightBoxes;
+use super::depth::{Depth, Function};
+use super::edges::Edges;
+use super::eight_boxes::{Eight, EightBoxes};
 use super::half_plane::HalfPlane;
+use super::orders::{Order, Orders};
 use crate::exact::classify::active::Active;
-use crate::numeric::polynomial::Quadratic;
-use crate::numeric::rounding::GEOMETRY_SLACK;
-
-/// Eight numbers in memory.
-pub(super) type Eight = [f64; 8];
 
 /// A sphere as eight boxes see it.
 #[derive(Clone, Copy, Debug)]
@@ -31,108 +29,6 @@ pub(super) struct Outline {
     depth: Depth,
 }
 
-/// A polynomial of degree 2 on boxes: its values in their middles, its changes across them, and how much it differs
-/// from a linear function in their corners at most.
-#[derive(Clone, Copy, Debug)]
-struct Function<S: Simd> {
-    value: f64x8<S>,
-    across: [f64x8<S>; 2],
-    bend: f64x8<S>,
-}
-
-impl<S: Simd> Function<S> {
-    #[inline(always)]
-    fn new(simd: S, boxes: &EightBoxes<S>, q: &Quadratic) -> Self {
-        let [width, height] = boxes.size;
-        let (x, y) = (boxes.x, boxes.y);
-        let slope_x = x * (2.0 * q.xx) + y * q.xy + q.x;
-        let slope_y = y * (2.0 * q.yy) + x * q.xy + q.y;
-        let bend = 0.25
-            * (q.xx.abs() * width * width
-                + q.xy.abs() * width * height
-                + q.yy.abs() * height * height);
-        Self {
-            value: (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one,
-            across: [slope_x * width, slope_y * height],
-            bend: f64x8::splat(simd, bend),
-        }
-    }
-
-    /// What its second derivative adds where it vanishes, as if it were linear, straight along the gradient.
-    #[inline(always)]
-    fn second(&self, simd: S, boxes: &EightBoxes<S>, q: &Quadratic) -> f64x8<S> {
-        let [width, height] = boxes.size;
-        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let (x, y) = (
-            self.across[0] * (1.0 / width),
-            self.across[1] * (1.0 / height),
-        );
-        let by_steep = f64x8::splat(simd, 1.0) / (x * x + y * y).max(tiny);
-        let step = self.value * by_steep;
-        (x * x * q.xx + x * y * q.xy + y * y * q.yy) * (step * step)
-    }
-}
-
-/// The reciprocals of the distances of a sphere along rays, in multiples of these, as linear functions on boxes. Those
-/// of a plane are linear.
-#[derive(Clone, Copy, Debug)]
-struct Depth {
-    middle: Eight,
-    across: [Eight; 2],
-    bend: Eight,
-}
-
-/// The order of a sphere and another along all rays of a cell that meet both.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum Order {
-    Front,
-    Behind,
-    /// The spheres intersect: their depths tell.
-    ByDepth,
-}
-
-/// The orders of all pairs of active spheres.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Orders {
-    count: usize,
-    orders: Vec<Order>,
-}
-
-impl Orders {
-    /// For an eye outside of all spheres. Of two that are apart the nearer has the smaller K.
-    pub(super) fn find(&mut self, active: &[Active]) {
-        self.count = active.len();
-        self.orders.clear();
-        for one in active {
-            for other in active {
-                let apart = (one.ball.center - other.ball.center).length();
-                let sum = one.ball.radius + other.ball.radius;
-                self.orders.push(if apart <= sum * (1.0 + GEOMETRY_SLACK) {
-                    Order::ByDepth
-                } else if one.ball.outside < other.ball.outside {
-                    Order::Front
-                } else {
-                    Order::Behind
-                });
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn of(&self, one: usize, other: usize) -> Order {
-        self.orders[one * self.count + other]
-    }
-
-    /// Returns whether a sphere intersects another.
-    #[inline(always)]
-    pub(super) fn needs_depth(&self, one: usize) -> bool {
-        let row = &self.orders[one * self.count..][..self.count];
-        let by_depth = row.iter().filter(|order| **order == Order::ByDepth);
-        // It intersects itself.
-        by_depth.count() > 1
-    }
-}
-
 /// What is seen of a sphere in eight boxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visible<S: Simd> {
@@ -144,34 +40,6 @@ pub(super) struct Visible<S: Simd> {
     /// The boxes that the silhouette cuts, and those in which some of the sphere may be seen.
     pub(super) is_cut: mask64x8<S>,
     pub(super) is_possible: mask64x8<S>,
-}
-
-/// Edges in boxes: the sum and the largest of what they may hide from the others.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edges<S: Simd> {
-    pub(super) sum: f64x8<S>,
-    pub(super) most: f64x8<S>,
-    /// What edges that are no lines make wrong.
-    pub(super) doubt: f64x8<S>,
-}
-
-impl<S: Simd> Edges<S> {
-    #[inline(always)]
-    pub(super) fn none(simd: S) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        Self {
-            sum: zero,
-            most: zero,
-            doubt: zero,
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn add(&mut self, ambiguity: f64x8<S>, doubt: f64x8<S>) {
-        self.sum += ambiguity;
-        self.most = self.most.max(ambiguity);
-        self.doubt += doubt;
-    }
 }
 
 /// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
@@ -293,9 +161,9 @@ impl Outline {
                 let is_front = front.simd_ge(theirs);
                 *hidden += is_front.select(moment, zero);
             }
-            open = open * (one - front);
+            open *= one - front;
             if order == Order::Behind {
-                unhidden = unhidden * (one - front);
+                unhidden *= one - front;
             }
         }
         let ambiguity: f64x8<S> = self.ambiguity.simd_into(simd);
@@ -336,66 +204,3 @@ impl Outline {
 
 /// Shares below this have no place of their own.
 const LEAST_SHARE: f64 = 1e-6;
-
-impl Depth {
-    const NONE: Self = Self {
-        middle: [0.0; 8],
-        across: [[0.0; 8]; 2],
-        bend: [0.0; 8],
-    };
-
-    /// 1 / t = (B + √Q) / K, where rays miss as if they grazed.
-    #[inline(always)]
-    fn new<S: Simd>(
-        simd: S,
-        boxes: &EightBoxes<S>,
-        active: &Active,
-        &Function {
-            value: discriminant,
-            across,
-            bend,
-        }: &Function<S>,
-    ) -> Self {
-        let [width, height] = boxes.size;
-        let along = &active.along;
-        // Nearer to the silhouette than this the depth of a box is no linear function.
-        let wide = (across[0].abs() + across[1].abs()) * 0.5;
-        let least = (wide * 0.25).max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let root = discriminant.max(least).sqrt();
-        let by_root = f64x8::splat(simd, 0.5) / root;
-        let by_outside = 1.0 / active.ball.outside;
-        let sum = boxes.x * along.x + boxes.y * along.y + along.one + root;
-        // Half of (√Q)'' = Q'' / (2 √Q) − Q'² / (4 √Q³), where the sphere recedes.
-        let lowest = (discriminant - wide).max(least);
-        let by_lowest = f64x8::splat(simd, 0.5) / lowest.sqrt();
-        let bend = by_lowest * (bend + wide * wide * 0.25 / lowest);
-        Self {
-            middle: (sum * by_outside).into(),
-            across: [
-                ((across[0] * by_root + along.x * width) * by_outside).into(),
-                ((across[1] * by_root + along.y * height) * by_outside).into(),
-            ],
-            bend: (bend * by_outside).into(),
-        }
-    }
-
-    /// The parts of boxes in which this lies behind another.
-    #[inline(always)]
-    fn behind<S: Simd>(&self, simd: S, other: &Self) -> HalfPlane<S> {
-        let value = difference(simd, &other.middle, &self.middle);
-        let across = [
-            difference(simd, &other.across[0], &self.across[0]),
-            difference(simd, &other.across[1], &self.across[1]),
-        ];
-        let bend: f64x8<S> = self.bend.simd_into(simd);
-        let more: f64x8<S> = other.bend.simd_into(simd);
-        HalfPlane::new(simd, value, across, bend + more)
-    }
-}
-
-#[inline(always)]
-fn difference<S: Simd>(simd: S, one: &Eight, other: &Eight) -> f64x8<S> {
-    let one: f64x8<S> = (*one).simd_into(simd);
-    let other: f64x8<S> = (*other).simd_into(simd);
-    one - other
-}

@@ -3,23 +3,18 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::lights::{Lit, Surroundings};
-use super::outlines::{Edges, Eight, Orders, Outline, Visible};
+use super::edges::Edges;
+use super::eight_boxes::{Eight, EightBoxes};
+use super::lights::Lit;
+use super::orders::Orders;
+use super::outlines::{Outline, Visible};
+use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
 use crate::exact::classify::contents::{Contents, Reach};
 use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
-
-/// Eight boxes of one size, in the coordinates of their cell.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct EightBoxes<S: Simd> {
-    /// Their middles.
-    pub(super) x: f64x8<S>,
-    pub(super) y: f64x8<S>,
-    pub(super) size: [f64; 2],
-}
 
 /// What the boxes of a cell have in common.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +23,7 @@ pub(super) struct Setting<'a, 'scene> {
     pub(super) cell: &'a Cell,
     pub(super) contents: &'a Contents,
     pub(super) background: Color,
+    pub(super) has_alpha: bool,
     pub(super) finishes: &'a [Finish],
     pub(super) orders: &'a Orders,
     /// Whether the silhouettes of the active spheres lie in the cell: others fill it.
@@ -70,28 +66,80 @@ impl Averages {
     }
 }
 
-/// The least and the most light that parts of boxes send.
+/// What is seen in boxes, summed up sphere by sphere.
 #[derive(Clone, Copy, Debug)]
-struct Range<S: Simd> {
+struct Sum<S: Simd> {
+    channels: usize,
+    value: [f64x8<S>; 3],
+    error: f64x8<S>,
+    /// The least and the most light that parts of boxes send.
     least: [f64x8<S>; 3],
     most: [f64x8<S>; 3],
+    /// Edges of shadows, by the light that they take.
+    shadows: Edges<S>,
+    /// The boxes in which a sphere may be seen, and the spheres that are.
+    is_covered: mask64x8<S>,
+    lit: u64,
 }
 
-impl<S: Simd> Range<S> {
+impl<S: Simd> Sum<S> {
     #[inline(always)]
-    fn add(&mut self, channel: usize, [least, most]: [f64x8<S>; 2], is_seen: mask64x8<S>) {
-        let low = &mut self.least[channel];
-        *low = is_seen.select(low.min(least), *low);
-        let high = &mut self.most[channel];
-        *high = is_seen.select(high.max(most), *high);
+    fn nothing(simd: S, channels: usize) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let infinity = f64x8::splat(simd, f64::INFINITY);
+        Self {
+            channels,
+            value: [zero; 3],
+            error: zero,
+            least: [infinity; 3],
+            most: [-infinity; 3],
+            shadows: Edges::none(simd),
+            is_covered: mask64x8::splat(simd, false),
+            lit: 0,
+        }
+    }
+
+    /// Adds what is seen of a sphere.
+    #[inline(always)]
+    fn add(&mut self, simd: S, visible: &Visible<S>, light: &Lit<S>) {
+        let zero = f64x8::splat(simd, 0.0);
+        self.lit += 1;
+        self.is_covered |= visible.is_possible;
+        self.error += light.error * visible.share;
+        // However little is seen of it, edges may all lie in that.
+        let is_seen = visible.is_possible;
+        let Edges { sum, most, doubt } = light.edges;
+        self.shadows.sum += is_seen.select(sum, zero);
+        self.shadows.most = self.shadows.most.max(is_seen.select(most, zero));
+        self.shadows.doubt += doubt * visible.share;
+        self.add_light(&light.value, &light.range, visible.share, is_seen);
+    }
+
+    /// Adds light that fills these shares of boxes, and is somewhere in these ranges where it is seen.
+    #[inline(always)]
+    fn add_light(
+        &mut self,
+        value: &[f64x8<S>; 3],
+        range: &[[f64x8<S>; 2]; 3],
+        share: f64x8<S>,
+        is_seen: mask64x8<S>,
+    ) {
+        for channel in 0..self.channels {
+            self.value[channel] += value[channel] * share;
+            let [least, most] = range[channel];
+            let low = self.least[channel];
+            self.least[channel] = is_seen.select(low.min(least), low);
+            let high = self.most[channel];
+            self.most[channel] = is_seen.select(high.max(most), high);
+        }
     }
 
     /// The largest contrast of a channel.
     #[inline(always)]
-    fn contrast(&self, simd: S, channels: usize) -> f64x8<S> {
+    fn contrast(&self, simd: S) -> f64x8<S> {
         let mut contrast = f64x8::splat(simd, 0.0);
-        for channel in 0..channels {
-            contrast = contrast.max(self.most[channel] - self.least[channel]);
+        for (most, least) in self.most.iter().zip(&self.least).take(self.channels) {
+            contrast = contrast.max(*most - *least);
         }
         contrast
     }
@@ -126,66 +174,46 @@ impl Setting<'_, '_> {
             y: y.simd_into(simd),
             size,
         };
-        let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let infinity = f64x8::splat(simd, f64::INFINITY);
-        let channels = self.scene.channels;
         outlines.clear();
         let mut open = one;
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
             if !self.has_silhouette[position] {
-                open = zero;
+                open *= 0.0;
                 outlines.push(Outline::filling(simd, &boxes, of, has_depth));
             } else if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
-                open = open * outline.outside(simd);
+                open *= outline.outside(simd);
                 outlines.push(outline);
             }
         }
 
         let mut edges = Edges::none(simd);
-        let mut shadows = Edges::none(simd);
-        let mut value = [zero; 3];
-        let mut error = zero;
-        let mut range = Range {
-            least: [infinity; 3],
-            most: [-infinity; 3],
-        };
-        let mut lit = 0;
+        let mut sum = Sum::nothing(simd, self.scene.channels);
         for index in 0..outlines.len() {
             let visible = outlines[index].visible(simd, outlines, self.orders, &mut edges);
-            if visible.is_possible.to_bitmask() == 0 {
-                continue;
-            }
-            lit += 1;
-            let light = self.light(simd, &boxes, &visible);
-            error += light.error * visible.share;
-            // However little is seen of it, edges may all lie in that.
-            let is_seen = visible.is_possible;
-            shadows.sum += is_seen.select(light.edges.sum, zero);
-            shadows.most = shadows.most.max(is_seen.select(light.edges.most, zero));
-            shadows.doubt += light.edges.doubt * visible.share;
-            for channel in 0..channels {
-                value[channel] += light.value[channel] * visible.share;
-                range.add(channel, light.range[channel], visible.is_possible);
+            if visible.is_possible.to_bitmask() != 0 {
+                let light = self.light(simd, &boxes, &visible);
+                sum.add(simd, &visible, &light);
             }
         }
-        let is_open = (open + edges.doubt).simd_gt(zero);
-        for channel in 0..channels {
-            let background = f64x8::splat(simd, self.background[channel]);
-            value[channel] += background * open;
-            range.add(channel, [background; 2], is_open);
+        let is_open = (open + edges.doubt).simd_gt(0.0);
+        let background = Lit::ambient(simd, self.background);
+        sum.add_light(&background.value, &background.range, open, is_open);
+        let mut contrast = sum.contrast(simd);
+        if self.has_alpha {
+            contrast = (sum.is_covered & is_open).select(contrast.max(one), contrast);
         }
-        let contrast = range.contrast(simd, channels);
-        let most = (contrast * edges.most).max(shadows.most);
-        let ambiguous = contrast * edges.sum + shadows.sum - most;
-        error += ambiguous + contrast * edges.doubt + shadows.doubt;
+        let most = (contrast * edges.most).max(sum.shadows.most);
+        let ambiguous = contrast * edges.sum + sum.shadows.sum - most;
+        let error = sum.error + ambiguous + contrast * edges.doubt + sum.shadows.doubt;
+        let [x, y, z] = sum.value;
         Averages {
-            value: [value[0].into(), value[1].into(), value[2].into()],
+            value: [x.into(), y.into(), z.into()],
             covered: (one - open).into(),
             error: error.into(),
-            lit,
+            lit: sum.lit,
         }
     }
 

@@ -1,0 +1,16 @@
+//! Eight boxes of a cell, side by side.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+/// Eight numbers in memory.
+pub(super) type Eight = [f64; 8];
+
+/// Eight boxes of one size, in the coordinates of their cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct EightBoxes<S: Simd> {
+    /// Their middles.
+    pub(super) x: f64x8<S>,
+    pub(super) y: f64x8<S>,
+    pub(super) size: [f64; 2],
+}

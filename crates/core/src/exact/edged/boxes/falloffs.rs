@@ -1,0 +1,136 @@
+//! The averages of powers of cosines over boxes.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::half_plane::{HalfPlane, ramp};
+use super::surroundings::{OF_SECOND, Surroundings};
+use crate::exact::surface::Finish;
+
+/// The cosines toward a light in boxes: in the middles of what is lit, and how they change across.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Faced<S: Simd> {
+    pub(super) cosine: f64x8<S>,
+    pub(super) across: [f64x8<S>; 2],
+    /// Half of the most that they change.
+    pub(super) width: f64x8<S>,
+}
+
+/// A power of cosines, over boxes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Power<S: Simd> {
+    /// The average, about the highest value, and the error of the average.
+    pub(super) value: f64x8<S>,
+    pub(super) most: f64x8<S>,
+    pub(super) doubt: f64x8<S>,
+    /// What may be hidden or seen of it together, where the light ends in the box.
+    pub(super) ambiguity: f64x8<S>,
+}
+
+impl<S: Simd> Faced<S> {
+    /// The boxes in which the surface turns from the light.
+    #[inline(always)]
+    fn is_cut(&self) -> mask64x8<S> {
+        self.cosine.abs().simd_lt(self.width)
+    }
+
+    /// The diffuse falloff.
+    #[inline(always)]
+    pub(super) fn diffuse(&self, simd: S, finish: &Finish, around: &Surroundings<S>) -> Power<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let falloff = &finish.reflectance.diffuse;
+        let exponent = falloff.exponent;
+        let is_cut = self.is_cut();
+        let highest = is_cut.select(self.cosine + self.width, self.cosine);
+        if exponent == 1.0 {
+            let mut value = self.cosine.max(zero);
+            if is_cut.to_bitmask() != 0 {
+                value = is_cut.select(ramp(simd, self.cosine, self.across), value);
+            }
+            // Normals of rays that miss may be longer than 1.
+            let most = highest.max(zero).min(one);
+            return Power {
+                value: value.min(one),
+                most,
+                doubt: around.second.min(one),
+                ambiguity: is_cut.select(most, zero),
+            };
+        }
+        // e cᵉ⁻¹ c'' + e (e − 1) cᵉ⁻² c'²: where c is least for e below 1, where it is highest above.
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let half = self.width * 0.5;
+        let least = (self.cosine - half).max(half).max(tiny);
+        let by_least = one / least;
+        let bends = around.second * by_least
+            + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
+        let most = falloff.of(self.cosine + self.width);
+        let power = if exponent < 1.0 {
+            falloff.of(least)
+        } else {
+            most
+        };
+        let smooth = (power * bends * exponent).min(most);
+        Power {
+            value: falloff.of(self.cosine),
+            most,
+            doubt: is_cut.select(most, smooth),
+            ambiguity: is_cut.select(most, zero),
+        }
+    }
+
+    /// The falloff of the highlight, which ends where the surface turns from the light.
+    #[inline(always)]
+    pub(super) fn shine(
+        &self,
+        simd: S,
+        finish: &Finish,
+        half_cosine: f64x8<S>,
+        around: &Surroundings<S>,
+    ) -> Power<S> {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let nothing = Power {
+            value: zero,
+            most: zero,
+            doubt: zero,
+            ambiguity: zero,
+        };
+        let Some((_, falloff)) = &finish.reflectance.highlight else {
+            return nothing;
+        };
+        let shininess = falloff.exponent;
+        // The highest cosine in the box, by half of what normals turn across it, and a little more as rays turn.
+        let turn = around.turn_sq.sqrt() * HALF_TURN;
+        let sine = (one - half_cosine * half_cosine).max(zero).sqrt();
+        let nearest = (half_cosine + turn * sine + turn * turn).min(one);
+        let most = falloff.of(nearest);
+        let bends = around.second * shininess
+            + around.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
+        let doubt = (most * bends).min(most);
+        let power = falloff.of(half_cosine);
+        let is_cut = self.is_cut();
+        if is_cut.to_bitmask() == 0 {
+            let faces = self.cosine.simd_gt(zero);
+            return Power {
+                value: faces.select(power, zero),
+                most: faces.select(most, zero),
+                doubt: faces.select(doubt, zero),
+                ambiguity: zero,
+            };
+        }
+        // Half of the second derivative of normals, along half the diagonal.
+        let bend = around.second * (0.25 / OF_SECOND);
+        let facing = HalfPlane::new(simd, self.cosine, self.across, bend);
+        let is_faced = facing.share + facing.doubt;
+        Power {
+            value: power * facing.share,
+            most: is_faced.simd_gt(zero).select(most, zero),
+            doubt: doubt * is_faced.min(one) + most * facing.doubt,
+            ambiguity: facing.ambiguity(simd) * most,
+        }
+    }
+}
+
+/// Half of the turn across a box, and a quarter more for the turn of rays.
+const HALF_TURN: f64 = 0.625;
