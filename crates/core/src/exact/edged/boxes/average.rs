@@ -37,8 +37,8 @@ pub(super) struct Averages {
     pub(super) covered: Eight,
     /// Estimates.
     pub(super) error: Eight,
-    /// The spheres of which light was computed.
-    pub(super) lit: u64,
+    /// The points at which light was computed.
+    pub(super) samples: u64,
 }
 
 impl Averages {
@@ -77,9 +77,9 @@ struct Sum<S: Simd> {
     most: [f64x8<S>; 3],
     /// Edges of shadows, by the light that they take.
     shadows: Edges<S>,
-    /// The boxes in which a sphere may be seen, and the spheres that are.
+    /// The boxes in which a sphere may be seen, and the points whose light was summed up.
     is_covered: mask64x8<S>,
-    lit: u64,
+    samples: u64,
 }
 
 impl<S: Simd> Sum<S> {
@@ -95,7 +95,7 @@ impl<S: Simd> Sum<S> {
             most: [-infinity; 3],
             shadows: Edges::none(simd),
             is_covered: mask64x8::splat(simd, false),
-            lit: 0,
+            samples: 0,
         }
     }
 
@@ -103,7 +103,7 @@ impl<S: Simd> Sum<S> {
     #[inline(always)]
     fn add(&mut self, simd: S, visible: &Visible<S>, light: &Lit<S>) {
         let zero = f64x8::splat(simd, 0.0);
-        self.lit += 1;
+        self.samples += 8;
         self.is_covered |= visible.is_possible;
         self.error += light.error * visible.share;
         // However little is seen of it, edges may all lie in that.
@@ -213,7 +213,7 @@ impl Setting<'_, '_> {
             value: [x.into(), y.into(), z.into()],
             covered: (one - open).into(),
             error: error.into(),
-            lit: sum.lit,
+            samples: sum.samples,
         }
     }
 

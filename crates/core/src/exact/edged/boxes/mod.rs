@@ -108,7 +108,7 @@ impl Boxes {
         };
         let mut size = FIRST_SIZE;
         let first = setting.averages(simd, FIRST, size, &mut self.outlines);
-        self.work.samples += first.lit;
+        self.work.samples += first.samples;
         let mut part = first.total(size[0] * size[1]);
         if part.error <= tolerance {
             return part.value.is_finite().then_some(part);
@@ -171,7 +171,7 @@ impl Boxes {
                     middles[1][lane] = y;
                 }
                 let found = setting.averages(simd, middles, size, &mut self.outlines);
-                self.work.samples += found.lit;
+                self.work.samples += found.samples;
                 for (lane, &middle) in group.iter().enumerate() {
                     self.known.push((middle, found.lane(lane)));
                 }

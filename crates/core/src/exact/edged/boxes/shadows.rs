@@ -10,6 +10,9 @@ use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
 use crate::numeric::vectors::Vectors;
 
+/// The least of 1 − slide: boxes that see a plane up to its horizon are all in doubt.
+const LEAST_REST: f64 = 1e-6;
+
 impl<S: Simd> Surroundings<S> {
     /// The share of each box that casters leave to a light, and the integrals of the coordinates over what they take.
     #[inline(always)]
@@ -42,7 +45,12 @@ impl<S: Simd> Surroundings<S> {
         // From the middle of a box to its corner a point moves by P', and by half of P'' more, which is |P'|² over the
         // radius and the cosine for the sphere, and twice the slide for the perspective.
         let moved_sq = self.turn_sq * (0.5 * self.radius * self.radius);
+        // A plane is seen at t / (1 − slide) there: the series that ends with P'' converges as fast as that.
+        let rest = (one - self.slide).max(f64x8::splat(simd, LEAST_REST));
+        let further = one / (rest * rest);
         let more = moved_sq / (self.grazing * self.radius) + moved_sq.sqrt() * self.slide * 2.0;
+        // Heights in a box differ by no more from that in its middle.
+        let of_box = (height_across[0].abs() + height_across[1].abs()) * further * 0.5;
         for caster in casters {
             let center = caster.center;
             let u = right - center.dot(light.right);
@@ -52,15 +60,14 @@ impl<S: Simd> Surroundings<S> {
                 (u * right_across[0] + v * up_across[0]) * -2.0,
                 (u * right_across[1] + v * up_across[1]) * -2.0,
             ];
-            let bend = more * caster.radius + moved_sq;
+            let bend = (more * caster.radius + moved_sq) * further;
             let middle = inside - across[0] * self.offset[0] - across[1] * self.offset[1];
             let foot = foot(simd, middle, across);
             // The caster is above the points, or above those at the edge where these are outside of its disc.
             let at_foot = height + height_across[0] * foot[0] + height_across[1] * foot[1];
             let is_inside = middle.simd_gt(zero);
-            let above = is_inside
-                .select(height, at_foot)
-                .simd_lt(center.dot(light.toward));
+            let top = center.dot(light.toward);
+            let above = is_inside.select(height, at_foot).simd_lt(top);
             let width = across[0].abs() + across[1].abs();
             if (middle.abs() - bend * 2.0)
                 .simd_lt(width * 0.5)
@@ -74,10 +81,11 @@ impl<S: Simd> Surroundings<S> {
             let second = self.second_of(light, foot, (u, v));
             let part = HalfPlane::of_second_degree(simd, middle, across, (second, bend));
             let share = above.select(part.share, zero);
-            edges.add(
-                above.select(part.ambiguity(simd), zero),
-                above.select(part.doubt, zero),
-            );
+            // What is above elsewhere in the box may be dark.
+            let hidden = above.select(zero, part.share);
+            let (ambiguity, doubt) = (part.ambiguity(simd) + hidden, part.doubt + hidden);
+            let may_be = (height - of_box).simd_lt(top);
+            edges.add(may_be.select(ambiguity, zero), may_be.select(doubt, zero));
             for (dark, moment) in dark.iter_mut().zip(part.moments) {
                 *dark += above.select(moment, zero);
             }
