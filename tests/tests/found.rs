@@ -11,7 +11,7 @@ use marbles_tests::reference::Reference;
 
 use crate::studio::{exact_picture, single_pixel};
 
-const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// The column and the row in a line such as `// column 9, row 10 at 1e-6: ...`.
 fn place(line: &str) -> (u32, u32) {
@@ -51,5 +51,5 @@ fn found_pixels_are_within_their_tolerance_or_say_so() {
         }
         count += 1;
     }
-    assert!(count >= 11, "{count}");
+    assert!(count >= 19, "{count}");
 }

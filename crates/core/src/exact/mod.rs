@@ -9,6 +9,7 @@
 //! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
 //! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
 //! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
+//! | boxes with straight edges, to tolerances from about 1e-3 on: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
 //! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
 //! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
