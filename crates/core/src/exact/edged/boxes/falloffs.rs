@@ -59,12 +59,20 @@ impl<S: Simd> Faced<S> {
         }
         // e cᵉ⁻¹ c'' + e (e − 1) cᵉ⁻² c'²: where c is least for e below 1, where it is highest above.
         let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let half = self.width * 0.5;
+        let width = if exponent < 1.0 {
+            // Steep where it begins, which is to be known well: near silhouettes cosines are no linear functions.
+            let bend = (around.turn_sq / around.grazing * OF_BEND).min(around.grazing);
+            self.width + bend
+        } else {
+            self.width
+        };
+        let is_cut = self.cosine.abs().simd_lt(width);
+        let half = width * 0.5;
         let least = (self.cosine - half).max(half).max(tiny);
         let by_least = one / least;
         let bends = around.second * by_least
             + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
-        let most = falloff.of(self.cosine + self.width);
+        let most = falloff.of(self.cosine + width);
         let power = if exponent < 1.0 {
             falloff.of(least)
         } else {
@@ -131,6 +139,10 @@ impl<S: Simd> Faced<S> {
         }
     }
 }
+
+/// How much cosines may differ from linear functions near a silhouette, over the square of the turn of normals and the
+/// cosine toward the eye: twice what boxes need that touch it.
+const OF_BEND: f64 = 0.75;
 
 /// Half of the turn across a box, and a quarter more for the turn of rays.
 const HALF_TURN: f64 = 0.625;
