@@ -71,6 +71,8 @@ impl Averages {
 struct Sum<S: Simd> {
     channels: usize,
     value: [f64x8<S>; 3],
+    /// The shares of boxes that spheres were seen in.
+    seen: f64x8<S>,
     error: f64x8<S>,
     /// The least and the most light that parts of boxes send.
     least: [f64x8<S>; 3],
@@ -90,6 +92,7 @@ impl<S: Simd> Sum<S> {
         Self {
             channels,
             value: [zero; 3],
+            seen: zero,
             error: zero,
             least: [infinity; 3],
             most: [-infinity; 3],
@@ -106,6 +109,7 @@ impl<S: Simd> Sum<S> {
         self.samples += 8;
         self.is_covered |= visible.is_possible;
         self.error += light.error * visible.share;
+        self.seen += visible.share;
         // However little is seen of it, edges may all lie in that.
         let is_seen = visible.is_possible;
         let Edges { sum, most, doubt } = light.edges;
@@ -113,6 +117,17 @@ impl<S: Simd> Sum<S> {
         self.shadows.most = self.shadows.most.max(is_seen.select(most, zero));
         self.shadows.doubt += doubt * visible.share;
         self.add_light(&light.value, &light.range, visible.share, is_seen);
+    }
+
+    /// Makes what is seen fill these shares of boxes: of three spheres that meet in a box the products of shares do not.
+    #[inline(always)]
+    fn fill(&mut self, simd: S, covered: f64x8<S>) {
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let scale = covered / self.seen.max(tiny);
+        let is_seen = self.seen.simd_gt(0.0);
+        for value in self.value.iter_mut().take(self.channels) {
+            *value = is_seen.select(*value * scale, *value);
+        }
     }
 
     /// Adds light that fills these shares of boxes, and is somewhere in these ranges where it is seen.
@@ -198,6 +213,7 @@ impl Setting<'_, '_> {
                 sum.add(simd, &visible, &light);
             }
         }
+        sum.fill(simd, one - open);
         let is_open = (open + edges.doubt).simd_gt(0.0);
         let background = Lit::ambient(simd, self.background);
         sum.add_light(&background.value, &background.range, open, is_open);
