@@ -72,6 +72,9 @@ const FIRST: [Eight; 2] = [
 ];
 const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 
+/// The curves in a cell from which on boxes meet no tight tolerance soon. Not tuned finely.
+const MOST_CURVES: usize = 6;
+
 /// Times that eight boxes are integrated before the cell is given up: few where others follow its edges in less, more
 /// to a loose tolerance, which boxes meet soon. Not tuned finely.
 const FEWEST_EIGHTS: usize = 10;
@@ -93,7 +96,9 @@ impl Boxes {
         goal: &Goal,
     ) -> Option<Part> {
         let tolerance = goal.tolerance;
-        if tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {
+        let curves = contents.conics.len() + contents.occluders.len();
+        let is_crowd = curves > MOST_CURVES && tolerance < LOOSE;
+        if is_crowd || tolerance < LEAST_TOLERANCE || !self.prepare(scene, contents) {
             return None;
         }
         let setting = Setting {
