@@ -10,8 +10,9 @@ use marbles_core::{Image, Method, Renderer, View};
 use super::{GOALS, LISTED};
 
 /// The tolerances that are tried, the loosest first.
-pub(crate) const TOLERANCES: [f64; 16] = [
-    1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5,
+pub(crate) const TOLERANCES: [f64; 18] = [
+    5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5,
+    1e-5,
 ];
 
 /// The tolerance of references. Pixels in which a reference claims more are left out.
