@@ -134,6 +134,7 @@ impl Outline {
         let mut unhidden = one;
         let mut hidden = [zero; 2];
         let mut seams = Edges::none(simd);
+        let mut in_doubt = zero;
         for other in all {
             if other.position == self.position {
                 continue;
@@ -147,9 +148,10 @@ impl Outline {
             if order == Order::ByDepth {
                 let before = self.depth.behind(simd, &other.depth);
                 front = theirs * before.share;
+                let both = share * theirs;
+                in_doubt += before.doubt * both;
                 // Both meet this edge; it counts once.
                 if self.position < other.position {
-                    let both = share * theirs;
                     seams.add(before.ambiguity(simd) * both, before.doubt * both);
                 }
                 for (hidden, moment) in hidden.iter_mut().zip(before.moments) {
@@ -190,7 +192,7 @@ impl Outline {
             share: seen,
             place,
             is_cut: share.simd_lt(one),
-            is_possible: (seen + doubt * open).simd_gt(zero),
+            is_possible: (seen + doubt * open + in_doubt * unhidden).simd_gt(zero),
         }
     }
 
