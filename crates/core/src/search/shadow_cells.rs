@@ -17,7 +17,7 @@ use crate::model::ray::Ray;
 /// they cannot be told apart.
 const MARGIN: f64 = 1.0 / 256.0;
 
-/// Cells with more discs are left to smaller ones. Not tuned: it bounds the memory of a cell, and what is in
+/// Cells with more discs are left to smaller ones. Tuned for a million spheres alone: it bounds the memory of a cell, and what is in
 /// vain where points lie in few of its parts.
 const MOST_DISCS: usize = 1024;
 
@@ -35,7 +35,7 @@ const MOST_PASSED: u32 = 4;
 const MOST_HALVINGS: i32 = 6;
 
 /// The binary logarithm of how many times a cell's side is that of the region of points that are going to be
-/// asked about, rounded down to a power of two. Not tuned: larger cells hold more that lies too far
+/// asked about, rounded down to a power of two. Tuned for a million spheres alone: larger cells hold more that lies too far
 /// from their points, smaller ones are looked up more often.
 const LARGER_EXPONENT: i32 = 3;
 
