@@ -233,7 +233,7 @@ impl Boundary {
                     let places = whole.places(simd, setting);
                     self.find_arcs(simd, setting, &whole, &places);
                     self.light_arcs(simd, setting, &whole, &places);
-                    self.cut_at_levels(simd, setting, &whole);
+                    self.cut_at_levels(simd, setting, &whole, &places);
                     for index in 0..self.lit_arcs.len() {
                         let arc = self.lit_arcs[index];
                         let path = Path {

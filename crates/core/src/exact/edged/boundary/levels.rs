@@ -1,12 +1,18 @@
-//! Levels of y at which light summed up along lines is singular: what begins with a power that is not whole at
-//! a terminator begins there on the reference of the lines, or on no line beyond.
+//! Where light summed up along lines is singular on arcs.
 //!
-//! Arcs are cut at them, so that what is singular on an arc is so at its ends, where rules are made for it.
+//! What begins with a power that is not whole at a terminator begins at a level of y: there the terminator meets the
+//! reference of the lines, or no line beyond. The reference also leads to the highest and to the lowest point of an
+//! outline. Beside these the root of the discriminant on it goes with the distance along the outline, without a sign,
+//! and its third power is part of the sums.
+//!
+//! Arcs are cut there, so that what is singular on an arc is so at its ends, where rules are made for it, or is not
+//! singular on either part.
 
 use fearless_simd::prelude::*;
 
 use super::arcs::Lanes;
 use super::chord::Reference;
+use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, value};
 use super::setting::{Arc, Boundary, Edge, Setting};
 use crate::numeric::polynomial::Quadratic;
@@ -24,15 +30,19 @@ impl Boundary {
         }
     }
 
-    /// Cuts the arcs of a piece at the levels of what is seen beside them.
+    /// Cuts the arcs of a piece at the levels of what is seen beside them, those of an outline where it turns; these
+    /// are the piece's eight places.
     #[inline(always)]
     pub(super) fn cut_at_levels<S: Simd>(
         &mut self,
         simd: S,
         setting: &Setting<'_, '_>,
         whole: &Stretch<'_>,
+        places: &Trace<S>,
     ) {
-        if self.levels.is_empty() {
+        let falls = places.dy.simd_lt(0.0).to_bitmask();
+        let turns = whole.curve.edge == Edge::Limb && (falls ^ falls >> 1) & INTERVALS != 0;
+        if self.levels.is_empty() && !turns {
             return;
         }
         let count = self.lit_arcs.len();
@@ -50,20 +60,26 @@ impl Boundary {
             #[inline(always)]
             || {
                 self.breaks.clear();
-                if setting.is_singular(arc) {
+                let is_singular = setting.is_singular(arc);
+                let may_turn = match whole.curve.edge {
+                    Edge::Limb => arc.lit[0] != 0,
+                    // It touches the level of its own highest place, which no change of sign tells.
+                    Edge::Terminator(_) => is_singular,
+                    _ => false,
+                };
+                if is_singular || may_turn {
                     let stretch = Stretch {
                         start: arc.start,
                         end: arc.end,
                         ..*whole
                     };
                     let places = stretch.places(simd, setting);
-                    if let Edge::Terminator(_) = whole.curve.edge {
-                        // It touches the level of its own highest place, which no change of sign tells.
+                    if may_turn {
                         let (level, breaks) = (Function::Rise, &mut self.breaks);
                         stretch.roots(simd, setting, level, places.dy, INTERVALS, breaks);
                     }
                     for &(sphere, y) in &self.levels {
-                        if sphere == arc.inner || sphere == arc.outer {
+                        if is_singular && (sphere == arc.inner || sphere == arc.outer) {
                             let level = Function::Across(1, y);
                             let values = value(simd, setting, level, &places);
                             let breaks = &mut self.breaks;
