@@ -2,8 +2,9 @@
 //!
 //! What begins with a power that is not whole at a terminator begins at a level of y: there the terminator meets the
 //! reference of the lines, or no line beyond. The reference also leads to the highest and to the lowest point of an
-//! outline. Beside these the root of the discriminant on it goes with the distance along the outline, without a sign,
-//! and its third power is part of the sums.
+//! outline. Below the highest one sums have the power 3/2 of the depth, which is that of the root of the discriminant
+//! on the reference. The depth goes with the square of the way where the outline turns, or another arc close to it: the
+//! power is about the third one of the way, without its sign.
 //!
 //! Arcs are cut there, so that what is singular on an arc is so at its ends, where rules are made for it, or is not
 //! singular on either part.
@@ -30,8 +31,8 @@ impl Boundary {
         }
     }
 
-    /// Cuts the arcs of a piece at the levels of what is seen beside them, those of an outline where it turns; these
-    /// are the piece's eight places.
+    /// Cuts the arcs of a piece where they turn, and at the levels of what is seen beside them; these are the piece's
+    /// eight places.
     #[inline(always)]
     pub(super) fn cut_at_levels<S: Simd>(
         &mut self,
@@ -40,33 +41,36 @@ impl Boundary {
         whole: &Stretch<'_>,
         places: &Trace<S>,
     ) {
+        let rises = places.dy.simd_gt(0.0).to_bitmask();
         let falls = places.dy.simd_lt(0.0).to_bitmask();
-        let turns = whole.curve.edge == Edge::Limb && (falls ^ falls >> 1) & INTERVALS != 0;
+        let turns = !whole.curve.is_side() && rises != 0 && falls != 0;
         if self.levels.is_empty() && !turns {
             return;
         }
         let count = self.lit_arcs.len();
         for index in 0..count {
             let arc = self.lit_arcs[index];
-            self.cut(simd, setting, whole, &arc);
+            let is_lit = arc.lit != [0; 2];
+            self.cut(simd, setting, whole, &arc, turns && is_lit);
         }
         self.lit_arcs.drain(..count);
     }
 
-    /// Appends the parts of an arc between the levels.
+    /// Appends the parts of an arc, which may turn, between the levels.
     #[inline(never)]
-    fn cut<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, whole: &Stretch<'_>, arc: &Arc) {
+    fn cut<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        whole: &Stretch<'_>,
+        arc: &Arc,
+        may_turn: bool,
+    ) {
         simd.vectorize(
             #[inline(always)]
             || {
                 self.breaks.clear();
                 let is_singular = setting.is_singular(arc);
-                let may_turn = match whole.curve.edge {
-                    Edge::Limb => arc.lit[0] != 0,
-                    // It touches the level of its own highest place, which no change of sign tells.
-                    Edge::Terminator(_) => is_singular,
-                    _ => false,
-                };
                 if is_singular || may_turn {
                     let stretch = Stretch {
                         start: arc.start,
@@ -74,7 +78,8 @@ impl Boundary {
                         ..*whole
                     };
                     let places = stretch.places(simd, setting);
-                    if may_turn {
+                    // A terminator touches the level of its own highest place, which no change of sign tells.
+                    if may_turn || matches!(whole.curve.edge, Edge::Terminator(_)) {
                         let (level, breaks) = (Function::Rise, &mut self.breaks);
                         stretch.roots(simd, setting, level, places.dy, INTERVALS, breaks);
                     }
