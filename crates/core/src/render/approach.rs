@@ -15,8 +15,9 @@ pub(super) struct Approach {
     pub(super) uniform: Uniform,
 }
 
-/// Samples on a side of a pixel where any answer is good enough.
-const PREVIEW: NonZeroU32 = NonZeroU32::new(2).unwrap();
+/// Samples on a side of a pixel where any answer is good enough, from these multiples of the contrast on.
+const PREVIEWS: [(f64, NonZeroU32); 2] =
+    [(2.5, NonZeroU32::MIN), (1.0, NonZeroU32::new(2).unwrap())];
 
 impl Approach {
     /// The one that `settings` ask for. Where the tolerance is no less than the whole contrast of the world, samples
@@ -27,19 +28,25 @@ impl Approach {
                 method: settings.method,
                 uniform: Supersampling::uniform(samples),
             },
-            Method::Tolerance(tolerance) => match contrast(world, settings.alpha) {
-                contrast if contrast <= tolerance => Self {
-                    method: Method::Samples(PREVIEW),
-                    uniform: Uniform {
-                        error: Some(contrast),
-                        outcome: Some((Evidence::Bound, Status::Met)),
+            Method::Tolerance(tolerance) => {
+                let contrast = contrast(world, settings.alpha);
+                let preview = PREVIEWS
+                    .iter()
+                    .find(|(times, _)| times * contrast <= tolerance);
+                match preview {
+                    Some((_, samples)) => Self {
+                        method: Method::Samples(*samples),
+                        uniform: Uniform {
+                            error: Some(contrast),
+                            outcome: Some((Evidence::Bound, Status::Met)),
+                        },
                     },
-                },
-                _ => Self {
-                    method: settings.method,
-                    uniform: Uniform::default(),
-                },
-            },
+                    None => Self {
+                        method: settings.method,
+                        uniform: Uniform::default(),
+                    },
+                }
+            }
         }
     }
 }

@@ -24,11 +24,23 @@ fn approach(tolerance: f64, alpha: bool) -> Approach {
     Approach::of(&world(), &Settings { method, alpha })
 }
 
+fn samples(per_side: u32) -> Method {
+    Method::Samples(NonZeroU32::new(per_side).unwrap())
+}
+
+#[test]
+fn one_sample_suffices_for_more_than_twice_the_contrast() {
+    assert_eq!(approach(0.87, false).method, samples(2));
+    let found = approach(0.88, false);
+    assert_eq!(found.method, samples(1));
+    assert!((found.uniform.error.unwrap() - 0.35).abs() < 1e-12);
+}
+
 #[test]
 fn samples_suffice_for_the_whole_contrast() {
     // From the background, 0.05, to the ball, 0.5 (0.2 + 0.6).
     let found = approach(0.3501, false);
-    assert_eq!(found.method, Method::Samples(PREVIEW));
+    assert_eq!(found.method, samples(2));
     let error = found.uniform.error.unwrap();
     assert!((error - 0.35).abs() < 1e-12, "{error}");
     assert_eq!(found.uniform.outcome, Some((Evidence::Bound, Status::Met)));
@@ -39,5 +51,5 @@ fn less_than_the_contrast_is_integrated() {
     assert_eq!(approach(0.3499, false).method, Method::Tolerance(0.3499));
     // Alpha differs by 1.
     assert_eq!(approach(0.9, true).method, Method::Tolerance(0.9));
-    assert_eq!(approach(1.0, true).method, Method::Samples(PREVIEW));
+    assert_eq!(approach(1.0, true).method, samples(2));
 }
