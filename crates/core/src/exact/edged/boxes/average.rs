@@ -3,11 +3,11 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::edges::Edges;
 use super::eight_boxes::{Eight, EightBoxes};
 use super::lights::Lit;
 use super::orders::Orders;
 use super::outlines::{Outline, Visible};
+use super::region::Region;
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
 use crate::exact::classify::contents::{Contents, Reach};
@@ -77,8 +77,9 @@ struct Sum<S: Simd> {
     /// The least and the most light that parts of boxes send.
     least: [f64x8<S>; 3],
     most: [f64x8<S>; 3],
-    /// Edges of shadows, by the light that they take.
-    shadows: Edges<S>,
+    /// The sum of how much shares may be off because edges depend on each other, and because they are no lines.
+    ambiguity: f64x8<S>,
+    doubt: f64x8<S>,
     /// The boxes in which a sphere may be seen, and the points whose light was summed up.
     is_covered: mask64x8<S>,
     samples: u64,
@@ -96,7 +97,8 @@ impl<S: Simd> Sum<S> {
             error: zero,
             least: [infinity; 3],
             most: [-infinity; 3],
-            shadows: Edges::none(simd),
+            ambiguity: zero,
+            doubt: zero,
             is_covered: mask64x8::splat(simd, false),
             samples: 0,
         }
@@ -104,19 +106,23 @@ impl<S: Simd> Sum<S> {
 
     /// Adds what is seen of a sphere.
     #[inline(always)]
-    fn add(&mut self, simd: S, visible: &Visible<S>, light: &Lit<S>) {
-        let zero = f64x8::splat(simd, 0.0);
+    fn add(&mut self, visible: &Visible<S>, light: &Lit<S>) {
         self.samples += 8;
         self.is_covered |= visible.is_possible;
-        self.error += light.error * visible.share;
-        self.seen += visible.share;
-        // However little is seen of it, edges may all lie in that.
-        let is_seen = visible.is_possible;
-        let Edges { sum, most, doubt } = light.edges;
-        self.shadows.sum += is_seen.select(sum, zero);
-        self.shadows.most = self.shadows.most.max(is_seen.select(most, zero));
-        self.shadows.doubt += doubt * visible.share;
-        self.add_light(&light.value, &light.range, visible.share, is_seen);
+        self.error += light.error;
+        self.seen += visible.share.area;
+        self.doubt += visible.doubt;
+        self.add_region(&visible.region);
+        for (value, of_light) in self.value.iter_mut().zip(&light.value).take(self.channels) {
+            *value += *of_light;
+        }
+        self.add_range(light, visible.is_possible);
+    }
+
+    /// Adds what the share of a region may be off by.
+    #[inline(always)]
+    fn add_region(&mut self, region: &Region<S>) {
+        self.ambiguity += region.ambiguity.min(region.most);
     }
 
     /// Makes what is seen fill these shares of boxes: of three spheres that meet in a box the products of shares do not.
@@ -130,18 +136,11 @@ impl<S: Simd> Sum<S> {
         }
     }
 
-    /// Adds light that fills these shares of boxes, and is somewhere in these ranges where it is seen.
+    /// Adds a range of light where it is seen.
     #[inline(always)]
-    fn add_light(
-        &mut self,
-        value: &[f64x8<S>; 3],
-        range: &[[f64x8<S>; 2]; 3],
-        share: f64x8<S>,
-        is_seen: mask64x8<S>,
-    ) {
+    fn add_range(&mut self, light: &Lit<S>, is_seen: mask64x8<S>) {
         for channel in 0..self.channels {
-            self.value[channel] += value[channel] * share;
-            let [least, most] = range[channel];
+            let [least, most] = light.range[channel];
             let low = self.least[channel];
             self.least[channel] = is_seen.select(low.min(least), low);
             let high = self.most[channel];
@@ -159,6 +158,10 @@ impl<S: Simd> Sum<S> {
         contrast
     }
 }
+
+/// The share of what edges may hide of each other that counts, as a part of the contrast: what one region gains another
+/// loses, and products lie between the extremes.
+const OF_AMBIGUITY: f64 = 0.35;
 
 impl Setting<'_, '_> {
     /// The averages, with memory to work in.
@@ -191,39 +194,41 @@ impl Setting<'_, '_> {
         };
         let one = f64x8::splat(simd, 1.0);
         outlines.clear();
-        let mut open = one;
+        let mut outside = Region::whole(simd);
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
             if !self.has_silhouette[position] {
-                open *= 0.0;
+                outside.darken(simd, one.simd_gt(0.0));
                 outlines.push(Outline::filling(simd, &boxes, of, has_depth));
             } else if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
-                open *= outline.outside(simd);
+                outside.cut(simd, &outline.outside(simd));
                 outlines.push(outline);
             }
         }
 
-        let mut edges = Edges::none(simd);
         let mut sum = Sum::nothing(simd, self.scene.channels);
-        for index in 0..outlines.len() {
-            let visible = outlines[index].visible(simd, outlines, self.orders, &mut edges);
+        for outline in outlines.iter() {
+            let visible = outline.visible(simd, outlines, self.orders);
             if visible.is_possible.to_bitmask() != 0 {
                 let light = self.light(simd, &boxes, &visible);
-                sum.add(simd, &visible, &light);
+                sum.add(&visible, &light);
             }
         }
+        let open = outside.share(simd).area;
         sum.fill(simd, one - open);
-        let is_open = (open + edges.doubt).simd_gt(0.0);
-        let background = Lit::ambient(simd, self.background);
-        sum.add_light(&background.value, &background.range, open, is_open);
+        sum.add_region(&outside);
+        let background = Lit::ambient(simd, self.background, open);
+        for (value, of_light) in sum.value.iter_mut().zip(&background.value) {
+            *value += *of_light;
+        }
+        let is_open = outside.most.simd_gt(0.0);
+        sum.add_range(&background, is_open);
         let mut contrast = sum.contrast(simd);
         if self.has_alpha {
             contrast = (sum.is_covered & is_open).select(contrast.max(one), contrast);
         }
-        let most = (contrast * edges.most).max(sum.shadows.most);
-        let ambiguous = contrast * edges.sum + sum.shadows.sum - most;
-        let error = sum.error + ambiguous + contrast * edges.doubt + sum.shadows.doubt;
+        let error = sum.error + contrast * (sum.ambiguity * OF_AMBIGUITY + sum.doubt);
         let [x, y, z] = sum.value;
         Averages {
             value: [x.into(), y.into(), z.into()],
@@ -240,7 +245,11 @@ impl Setting<'_, '_> {
         let scene = self.scene;
         let active = &self.contents.active[position];
         let finish = &self.finishes[position];
-        let mut light = Lit::ambient(simd, finish.reflectance.albedo * scene.ambient);
+        let mut light = Lit::ambient(
+            simd,
+            finish.reflectance.albedo * scene.ambient,
+            visible.share.area,
+        );
         let lights = scene.lights.len();
         let reaches = &self.contents.reach[position * lights..][..lights];
         if reaches.iter().all(|reach| matches!(reach, Reach::Nowhere)) {
@@ -250,7 +259,8 @@ impl Setting<'_, '_> {
         for (of_light, reach) in scene.lights.iter().zip(reaches) {
             if let Reach::Past(casters) = reach {
                 let casters = &self.contents.occluders[casters.start..casters.end];
-                light.add(simd, (finish, of_light, scene.channels), &around, casters);
+                let of = (finish, of_light, scene.channels);
+                light.add(simd, of, (&around, visible), casters);
             }
         }
         light

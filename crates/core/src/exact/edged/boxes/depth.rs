@@ -1,20 +1,21 @@
 //! Functions on boxes, and the distances of spheres among them.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
+use super::bent::Bends;
 use super::eight_boxes::{Eight, EightBoxes};
 use super::half_plane::HalfPlane;
 use crate::exact::classify::active::Active;
 use crate::numeric::polynomial::Quadratic;
 
-/// A polynomial of degree 2 on boxes: its values in their middles, its changes across them, and how much it differs
-/// from a linear function in their corners at most.
+/// A polynomial of degree 2 on boxes: its values in their middles, its changes across them there, and its terms of the
+/// second degree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Function<S: Simd> {
     pub(super) value: f64x8<S>,
     pub(super) across: [f64x8<S>; 2],
-    pub(super) bend: f64x8<S>,
+    pub(super) bends: Bends<S>,
 }
 
 impl<S: Simd> Function<S> {
@@ -24,46 +25,37 @@ impl<S: Simd> Function<S> {
         let (x, y) = (boxes.x, boxes.y);
         let slope_x = x * (2.0 * q.xx) + y * q.xy + q.x;
         let slope_y = y * (2.0 * q.yy) + x * q.xy + q.y;
-        let bend = 0.25
-            * (q.xx.abs() * width * width
-                + q.xy.abs() * width * height
-                + q.yy.abs() * height * height);
         Self {
             value: (x * q.xx + y * q.xy + q.x) * x + (y * q.yy + q.y) * y + q.one,
             across: [slope_x * width, slope_y * height],
-            bend: f64x8::splat(simd, bend),
+            bends: Bends {
+                xx: f64x8::splat(simd, q.xx * width * width),
+                xy: f64x8::splat(simd, q.xy * width * height),
+                yy: f64x8::splat(simd, q.yy * height * height),
+            },
         }
-    }
-
-    /// What its second derivative adds where it vanishes, as if it were linear, straight along the gradient.
-    #[inline(always)]
-    pub(super) fn second(&self, simd: S, boxes: &EightBoxes<S>, q: &Quadratic) -> f64x8<S> {
-        let [width, height] = boxes.size;
-        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let (x, y) = (
-            self.across[0] * (1.0 / width),
-            self.across[1] * (1.0 / height),
-        );
-        let by_steep = f64x8::splat(simd, 1.0) / (x * x + y * y).max(tiny);
-        let step = self.value * by_steep;
-        (x * x * q.xx + x * y * q.xy + y * y * q.yy) * (step * step)
     }
 }
 
-/// The reciprocals of the distances of a sphere along rays, in multiples of these, as linear functions on boxes. Those
-/// of a plane are linear.
+/// The reciprocals of the distances of a sphere along rays, in multiples of these, on boxes. Those of a plane are linear.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     middle: Eight,
     across: [Eight; 2],
-    bend: Eight,
+    bends: [Eight; 3],
+    /// How much they differ from a polynomial of the second degree.
+    rest: Eight,
+    /// The least and the largest in the boxes.
+    range: [Eight; 2],
 }
 
 impl Depth {
     pub(super) const NONE: Self = Self {
         middle: [0.0; 8],
         across: [[0.0; 8]; 2],
-        bend: [0.0; 8],
+        bends: [[0.0; 8]; 3],
+        rest: [0.0; 8],
+        range: [[0.0; 8]; 2],
     };
 
     /// 1 / t = (B + √Q) / K, where rays miss as if they grazed.
@@ -74,44 +66,87 @@ impl Depth {
         active: &Active,
         &Function {
             value: discriminant,
-            across,
-            bend,
+            across: [x, y],
+            bends,
         }: &Function<S>,
     ) -> Self {
         let [width, height] = boxes.size;
         let along = &active.along;
-        // Nearer to the silhouette than this the depth of a box is no linear function.
-        let wide = (across[0].abs() + across[1].abs()) * 0.5;
+        // Nearer to the silhouette than this the depth of a box is no polynomial.
+        let wide = (x.abs() + y.abs()) * 0.5;
         let least = (wide * 0.25).max(f64x8::splat(simd, f64::MIN_POSITIVE));
-        let root = discriminant.max(least).sqrt();
+        let inside = discriminant.max(least);
+        let root = inside.sqrt();
         let by_root = f64x8::splat(simd, 0.5) / root;
         let by_outside = 1.0 / active.ball.outside;
-        let sum = boxes.x * along.x + boxes.y * along.y + along.one + root;
-        // Half of (√Q)'' = Q'' / (2 √Q) − Q'² / (4 √Q³), where the sphere recedes.
+        let zero = f64x8::splat(simd, 0.0);
+        let foot = boxes.x * along.x + boxes.y * along.y + along.one;
+        let turned = 0.5 * ((along.x * width).abs() + (along.y * height).abs());
+        let most = wide + bends.most();
+        // √(Q + q) is no more than √Q + q / 2√Q, and √(Q − q) no less than √Q − q / √Q.
+        let nearest = foot + turned + root + most * by_root;
+        let farthest = foot - turned + (root - most * by_root * 2.0).max(zero);
+        let sum = foot + root;
+        // √(Q + q) = √Q (1 + q/2Q − q²/8Q² + q³/16Q³ …).
+        let eighth = by_root * by_root * by_root;
+        let squares = Bends {
+            xx: bends.xx * by_root - x * x * eighth,
+            xy: bends.xy * by_root - x * y * eighth * 2.0,
+            yy: bends.yy * by_root - y * y * eighth,
+        };
         let lowest = (discriminant - wide).max(least);
-        let by_lowest = f64x8::splat(simd, 0.5) / lowest.sqrt();
-        let bend = by_lowest * (bend + wide * wide * 0.25 / lowest);
+        let by_lowest = f64x8::splat(simd, 1.0) / lowest;
+        let third = wide * by_lowest * (wide * wide * 0.0625 + bends.most() * lowest * 0.25);
+        let rest = third * by_lowest * by_lowest * root;
         Self {
             middle: (sum * by_outside).into(),
             across: [
-                ((across[0] * by_root + along.x * width) * by_outside).into(),
-                ((across[1] * by_root + along.y * height) * by_outside).into(),
+                ((x * by_root + along.x * width) * by_outside).into(),
+                ((y * by_root + along.y * height) * by_outside).into(),
             ],
-            bend: (bend * by_outside).into(),
+            bends: [
+                (squares.xx * by_outside).into(),
+                (squares.xy * by_outside).into(),
+                (squares.yy * by_outside).into(),
+            ],
+            rest: (rest * by_outside).into(),
+            range: [
+                (farthest * by_outside).into(),
+                (nearest * by_outside).into(),
+            ],
         }
     }
 
-    /// The parts of boxes in which this lies behind another.
+    /// The parts of boxes in which this lies behind another; where neither or one alone is seen, any.
     #[inline(always)]
-    pub(super) fn behind<S: Simd>(&self, simd: S, other: &Self) -> HalfPlane<S> {
+    pub(super) fn behind<S: Simd>(
+        &self,
+        simd: S,
+        other: &Self,
+        are_seen: mask64x8<S>,
+    ) -> HalfPlane<S> {
+        let is_behind = difference(simd, &other.range[0], &self.range[1]).simd_gt(0.0);
+        let is_before = difference(simd, &self.range[0], &other.range[1]).simd_gt(0.0);
+        let whole = HalfPlane::whole(simd);
+        let decided = whole.or(is_before, &whole.other_side(simd));
+        let is_open = are_seen & !(is_behind | is_before);
+        if is_open.to_bitmask() == 0 {
+            return decided;
+        }
         let value = difference(simd, &other.middle, &self.middle);
         let across = [
             difference(simd, &other.across[0], &self.across[0]),
             difference(simd, &other.across[1], &self.across[1]),
         ];
-        let bend: f64x8<S> = self.bend.simd_into(simd);
-        let more: f64x8<S> = other.bend.simd_into(simd);
-        HalfPlane::new(simd, value, across, bend + more)
+        let bends = Bends {
+            xx: difference(simd, &other.bends[0], &self.bends[0]),
+            xy: difference(simd, &other.bends[1], &self.bends[1]),
+            yy: difference(simd, &other.bends[2], &self.bends[2]),
+        };
+        let rest: f64x8<S> = self.rest.simd_into(simd);
+        let more: f64x8<S> = other.rest.simd_into(simd);
+        let part = HalfPlane::of_second_degree(simd, value, across, &bends, Some(rest + more));
+        decided.or(is_open, &part)
     }
 }
 

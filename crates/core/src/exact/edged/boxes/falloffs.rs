@@ -14,6 +14,9 @@ pub(super) struct Faced<S: Simd> {
     pub(super) across: [f64x8<S>; 2],
     /// Half of the most that they change.
     pub(super) width: f64x8<S>,
+    /// What their second derivatives add to their average over what is lit, and the error of the average with it.
+    pub(super) bend: f64x8<S>,
+    pub(super) error: f64x8<S>,
 }
 
 /// A power of cosines, over boxes.
@@ -44,17 +47,18 @@ impl<S: Simd> Faced<S> {
         let is_cut = self.is_cut();
         let highest = is_cut.select(self.cosine + self.width, self.cosine);
         if exponent == 1.0 {
-            let mut value = self.cosine.max(zero);
+            let mut value = (self.cosine + self.bend).max(zero);
             if is_cut.to_bitmask() != 0 {
                 value = is_cut.select(ramp(simd, self.cosine, self.across), value);
             }
             // Normals of rays that miss may be longer than 1.
+            let highest = highest + around.second * OF_HIGHEST;
             let most = highest.max(zero).min(one);
             return Power {
                 value: value.min(one),
                 most,
-                doubt: around.second.min(one),
-                ambiguity: is_cut.select(most, zero),
+                doubt: is_cut.select(around.second, self.error).min(one),
+                ambiguity: is_cut.select((value - self.cosine.max(zero)) * OF_RAMP, zero),
             };
         }
         // e cᵉ⁻¹ c'' + e (e − 1) cᵉ⁻² c'²: where c is least for e below 1, where it is highest above.
@@ -139,6 +143,14 @@ impl<S: Simd> Faced<S> {
         }
     }
 }
+
+/// How much of what a ramp adds to the light of its middle may depend on what is seen of the box: all of it, and as
+/// much again where the parts that are seen lie apart.
+const OF_RAMP: f64 = 2.0;
+
+/// How much higher a cosine may be than a linear function says, over the error of the average: near silhouettes it is
+/// the root of one.
+const OF_HIGHEST: f64 = 4.0;
 
 /// What the error of highlights is multiplied by, as half vectors turn with the view, too: one pixel in millions was off
 /// by more without it.

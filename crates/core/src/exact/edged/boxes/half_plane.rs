@@ -1,11 +1,16 @@
 //! The part of a box on one side of a line.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::eight_boxes::Eight;
 
 /// The parts of eight boxes in which linear functions are positive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HalfPlane<S: Simd> {
+    /// The functions in the middles of the boxes, and their changes across the boxes, the larger of which is ±1.
+    pub(super) value: f64x8<S>,
+    pub(super) across: [f64x8<S>; 2],
     /// Their shares of the boxes.
     pub(super) share: f64x8<S>,
     /// The integrals over them of the coordinates from the middle of a box, in its sides.
@@ -14,19 +19,64 @@ pub(super) struct HalfPlane<S: Simd> {
     pub(super) doubt: f64x8<S>,
 }
 
+/// Half-planes in memory.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct StoredHalfPlane {
+    value: Eight,
+    across: [Eight; 2],
+    share: Eight,
+    moments: [Eight; 2],
+    doubt: Eight,
+}
+
+impl StoredHalfPlane {
+    #[inline(always)]
+    pub(super) fn new<S: Simd>(part: &HalfPlane<S>) -> Self {
+        Self {
+            value: part.value.into(),
+            across: [part.across[0].into(), part.across[1].into()],
+            share: part.share.into(),
+            moments: [part.moments[0].into(), part.moments[1].into()],
+            doubt: part.doubt.into(),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S) -> HalfPlane<S> {
+        HalfPlane {
+            value: self.value.simd_into(simd),
+            across: [
+                self.across[0].simd_into(simd),
+                self.across[1].simd_into(simd),
+            ],
+            share: self.share.simd_into(simd),
+            moments: [
+                self.moments[0].simd_into(simd),
+                self.moments[1].simd_into(simd),
+            ],
+            doubt: self.doubt.simd_into(simd),
+        }
+    }
+}
+
 /// What does not change along the lines: the larger and the smaller change of the function across the box,
 /// and the reciprocals of both.
 #[derive(Clone, Copy, Debug)]
-struct Slopes<S: Simd> {
-    large: f64x8<S>,
-    small: f64x8<S>,
-    by_large: f64x8<S>,
-    by_small: f64x8<S>,
+pub(super) struct Slopes<S: Simd> {
+    pub(super) large: f64x8<S>,
+    pub(super) small: f64x8<S>,
+    pub(super) by_large: f64x8<S>,
+    pub(super) by_small: f64x8<S>,
+    /// The reciprocal of the sum of the squares of both.
+    pub(super) by_size_sq: f64x8<S>,
 }
 
 /// The smaller change across the box counts as no less than this share of the larger one, which moves the
 /// share by less than that.
 const LEAST_SLOPE: f64 = 1e-9;
+
+/// The larger change counts as no less than this, so that products of four have reciprocals.
+const LEAST_CHANGE: f64 = 1e-70;
 
 /// The average along an edge, over the largest in the corners, of what makes a function differ from a linear one. A
 /// parabola across the edge is two thirds of that on a line near the side of the box, and less elsewhere.
@@ -34,16 +84,22 @@ const ON_AVERAGE: f64 = 2.0 / 3.0;
 
 impl<S: Simd> Slopes<S> {
     #[inline(always)]
-    fn new(simd: S, [x, y]: [f64x8<S>; 2]) -> Self {
+    pub(super) fn new(simd: S, [x, y]: [f64x8<S>; 2]) -> Self {
         let one = f64x8::splat(simd, 1.0);
         let (x, y) = (x.abs(), y.abs());
-        let large = x.max(y).max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        let large = x.max(y).max(f64x8::splat(simd, LEAST_CHANGE));
         let small = x.min(y).max(large * LEAST_SLOPE);
+        let large_sq = large * large;
+        let size_sq = large_sq + small * small;
+        // One division for all.
+        let by_all = one / (large * small * size_sq);
+        let by_sides = by_all * size_sq;
         Self {
             large,
             small,
-            by_large: one / large,
-            by_small: one / small,
+            by_large: by_sides * small,
+            by_small: by_sides * large,
+            by_size_sq: by_all * large * small,
         }
     }
 }
@@ -57,16 +113,27 @@ impl<S: Simd> HalfPlane<S> {
     /// share e² / (2 a c), e = (a + c) / 2 − D, or a trapezoid with the share ½ − D / a where D < (a − c) / 2. The
     /// moments are the derivatives of the integral of the function over the part, by a and by c.
     #[inline(always)]
-    pub(super) fn new(simd: S, value: f64x8<S>, [x, y]: [f64x8<S>; 2], bend: f64x8<S>) -> Self {
-        let zero = f64x8::splat(simd, 0.0);
-        let one = f64x8::splat(simd, 1.0);
-        let slopes = Slopes::new(simd, [x, y]);
-        let Slopes {
+    pub(super) fn new(simd: S, value: f64x8<S>, across: [f64x8<S>; 2], bend: f64x8<S>) -> Self {
+        Self::of_slopes(simd, &Slopes::new(simd, across), value, across, bend)
+    }
+
+    /// The same, with what is known of the changes.
+    #[inline(always)]
+    pub(super) fn of_slopes(
+        simd: S,
+        &Slopes {
             large,
             small,
             by_large,
             by_small,
-        } = slopes;
+            ..
+        }: &Slopes<S>,
+        value: f64x8<S>,
+        [x, y]: [f64x8<S>; 2],
+        bend: f64x8<S>,
+    ) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
         let distance = value.abs();
         let rest = (large + small) * 0.5 - distance;
         let inside = rest.max(zero).min(small);
@@ -92,6 +159,8 @@ impl<S: Simd> HalfPlane<S> {
         let reach = (rest + bend).max(zero);
         let density = (reach * by_small).min(one) * by_large;
         Self {
+            value: value * by_large,
+            across: [x * by_large, y * by_large],
             share,
             moments: [
                 x.simd_lt(zero).select(-moment_x, moment_x),
@@ -101,35 +170,56 @@ impl<S: Simd> HalfPlane<S> {
         }
     }
 
-    /// The same of functions that are not linear: `second` is what their second derivative adds where linear ones vanish,
-    /// straight along their gradients.
-    ///
-    /// Along the gradient a function is g + g' s + a s², with a s² = `second` at s = −g / g'. Its root is known, and its
-    /// slope there is g' √(1 − 4 a g / g'²). The edge bends to the sides alone, more where the slope is less.
+    /// Whole boxes.
     #[inline(always)]
-    pub(super) fn of_second_degree(
-        simd: S,
-        value: f64x8<S>,
-        across: [f64x8<S>; 2],
-        (second, bend): (f64x8<S>, f64x8<S>),
-    ) -> Self {
-        /// What is left of the bend when the edge is followed along the gradient.
-        const TO_THE_SIDES: f64 = 0.5;
+    pub(super) fn whole(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let is_known = value.abs().simd_gt(tiny);
-        let ratio = is_known.select(second / value, tiny);
-        let slope = (one - ratio * 4.0).max(tiny).sqrt();
-        let straight = value * 2.0 / (slope + 1.0);
-        let bend = bend * TO_THE_SIDES / slope.min(one);
-        Self::new(simd, straight, across, bend)
+        Self {
+            value: one,
+            across: [zero; 2],
+            share: one,
+            moments: [zero; 2],
+            doubt: zero,
+        }
     }
 
-    /// Where the edge is in doubt or divides the box: the share of the smaller part.
+    /// The share of the smaller part.
     #[inline(always)]
     pub(super) fn ambiguity(&self, simd: S) -> f64x8<S> {
         let one = f64x8::splat(simd, 1.0);
-        self.share.min(one - self.share) + self.doubt
+        self.share.min(one - self.share)
+    }
+
+    /// The other side of the line.
+    #[inline(always)]
+    pub(super) fn other_side(&self, simd: S) -> Self {
+        let one = f64x8::splat(simd, 1.0);
+        Self {
+            value: -self.value,
+            across: [-self.across[0], -self.across[1]],
+            share: one - self.share,
+            moments: [-self.moments[0], -self.moments[1]],
+            doubt: self.doubt,
+        }
+    }
+
+    /// Another where the mask says so.
+    #[inline(always)]
+    pub(super) fn or(&self, mask: mask64x8<S>, other: &Self) -> Self {
+        Self {
+            value: mask.select(other.value, self.value),
+            across: [
+                mask.select(other.across[0], self.across[0]),
+                mask.select(other.across[1], self.across[1]),
+            ],
+            share: mask.select(other.share, self.share),
+            moments: [
+                mask.select(other.moments[0], self.moments[0]),
+                mask.select(other.moments[1], self.moments[1]),
+            ],
+            doubt: mask.select(other.doubt, self.doubt),
+        }
     }
 }
 
@@ -143,6 +233,7 @@ pub(super) fn ramp<S: Simd>(simd: S, value: f64x8<S>, across: [f64x8<S>; 2]) -> 
         small,
         by_large,
         by_small,
+        ..
     } = Slopes::new(simd, across);
     let distance = value.abs();
     let rest = (large + small) * 0.5 - distance;

@@ -3,9 +3,9 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::edges::Edges;
 use super::falloffs::Faced;
-use super::surroundings::Surroundings;
+use super::outlines::Visible;
+use super::surroundings::{OF_SECOND, Surroundings};
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
@@ -14,19 +14,18 @@ use crate::model::color::Color;
 /// The light of a sphere in eight boxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lit<S: Simd> {
-    /// In each channel: the average, and the least and the most that parts of a box may send.
+    /// In each channel: the integral over what is seen, and the least and the most that parts of a box may send.
     pub(super) value: [f64x8<S>; 3],
     pub(super) range: [[f64x8<S>; 2]; 3],
-    /// The error of taking one point's light for the average of its box.
+    /// The error of taking one point's light for the average of a part, of what shadows and ends of light hide of each
+    /// other, and of their edges that are no lines.
     pub(super) error: f64x8<S>,
-    /// Edges of shadows, weighted by the light that they take away.
-    pub(super) edges: Edges<S>,
 }
 
 impl<S: Simd> Lit<S> {
-    /// Ambient light alone.
+    /// Ambient light alone, of these shares of boxes.
     #[inline(always)]
-    pub(super) fn ambient(simd: S, color: Color) -> Self {
+    pub(super) fn ambient(simd: S, color: Color, share: f64x8<S>) -> Self {
         let zero = f64x8::splat(simd, 0.0);
         let [x, y, z] = [
             f64x8::splat(simd, color.x),
@@ -34,20 +33,19 @@ impl<S: Simd> Lit<S> {
             f64x8::splat(simd, color.z),
         ];
         Self {
-            value: [x, y, z],
+            value: [x * share, y * share, z * share],
             range: [[x; 2], [y; 2], [z; 2]],
             error: zero,
-            edges: Edges::none(simd),
         }
     }
 
-    /// Adds a light, past casters.
+    /// Adds a light, past casters, to what is seen.
     #[inline(always)]
     pub(super) fn add(
         &mut self,
         simd: S,
         of: (&Finish, &Light, usize),
-        around: &Surroundings<S>,
+        (around, visible): (&Surroundings<S>, &Visible<S>),
         casters: &[Caster],
     ) {
         let (finish, light, channels) = of;
@@ -64,17 +62,37 @@ impl<S: Simd> Lit<S> {
         if highest.simd_gt(zero).to_bitmask() == 0 {
             return;
         }
-        let mut edges = Edges::none(simd);
-        let (left, dark) = around.left_by(simd, light, casters, &mut edges);
-        // The middle of what is lit.
-        let by_left = one / left.max(f64x8::splat(simd, LEAST_LEFT));
+        let left = around.left_by(simd, light, casters, &visible.region);
+        let is_whole = left.is_free.to_bitmask() == u64::from(u8::MAX);
+        let (mut lit, mut middle) = (visible.share, visible.middle);
+        if !is_whole {
+            lit = left.region.share(simd);
+            // Of next to nothing the middle is not known, and what else may be lit is as bright as what is seen.
+            let is_known = lit.area.simd_gt(visible.share.area * LEAST_LIT);
+            let of_lit = lit.middle(simd);
+            for axis in 0..2 {
+                middle[axis] = is_known.select(of_lit[axis], middle[axis]);
+            }
+        }
+        // From the point to the middle of what is lit.
         let half = f64x8::splat(simd, 0.5);
-        let aside = [
-            (dark[0] * by_left).max(-half).min(half),
-            (dark[1] * by_left).max(-half).min(half),
-        ];
+        let mut aside = [zero; 2];
+        // A slab with its middle so far from that of the box has this share of the variance of the box.
+        let mut variances = [zero; 2];
+        for axis in 0..2 {
+            let extent = one - middle[axis].abs() * 2.0;
+            variances[axis] = extent * extent;
+            let place = (middle[axis] + visible.inward[axis]).max(-half).min(half);
+            aside[axis] = place - around.offset[axis];
+        }
+        let [xx, _, yy] = &around.seconds;
+        let bend = (xx.dot_one(toward) * variances[0] + yy.dot_one(toward) * variances[1])
+            * (by_radius * OF_SECOND);
+        let third = around.third * variances[0].max(variances[1]);
         let faced = Faced {
-            cosine: cosine - across[0] * aside[0] - across[1] * aside[1],
+            bend: around.is_cut.select(zero, bend),
+            error: around.is_cut.select(around.second, third),
+            cosine: cosine + across[0] * aside[0] + across[1] * aside[1],
             across,
             width: (across[0].abs() + across[1].abs()) * 0.5,
         };
@@ -84,29 +102,35 @@ impl<S: Simd> Lit<S> {
         let aside = x
             .times(aside[0] * by_radius)
             .plus(&y.times(aside[1] * by_radius));
-        let mut half_cosine = viewed.half_cosine(toward, cosine);
+        let mut half_cosine = zero;
         if finish.reflectance.highlight.is_some() {
-            half_cosine -= viewed.change_of_half_cosine(toward, &aside);
+            half_cosine = viewed.half_cosine(toward, cosine);
+            half_cosine += viewed.change_of_half_cosine(toward, &aside);
         }
         let shine = faced.shine(simd, finish, half_cosine, around);
         let weights = finish.reflectance.brightest(light.intensity);
-        self.error += left * (diffuse.doubt * weights[0] + shine.doubt * weights[1]);
-        // A terminator in the box is an edge as those of shadows are.
-        let ends = diffuse.ambiguity * weights[0] + shine.ambiguity * weights[1];
+        // Light that ends in a part of the box may end in what is hidden of it.
+        let cut = left.region.most.min(one - lit.area);
+        let is_cut = cut.simd_gt(zero);
+        let ramped = is_cut.select(diffuse.ambiguity * left.region.most, zero);
+        let ends = ramped.min(cut * diffuse.most) * weights[0]
+            + shine.ambiguity.min(cut * shine.most) * weights[1];
         let brightness = diffuse.most * weights[0] + shine.most * weights[1];
-        self.edges.add(ends, zero);
-        self.edges.sum += edges.sum * brightness;
-        self.edges.most = self.edges.most.max(edges.most * brightness);
-        self.edges.doubt += edges.doubt * brightness;
-        let is_open = left.simd_ge(one) & (edges.sum + ends).simd_le(zero);
-        let is_dark = left.simd_le(zero) & edges.sum.simd_le(zero);
+        let hidden =
+            (left.region.ambiguity - visible.region.ambiguity + left.doubt).min(left.region.most);
+        self.error += lit.area * (diffuse.doubt * weights[0] + shine.doubt * weights[1])
+            + ends
+            + hidden * brightness;
+        let has_ends = (diffuse.ambiguity + shine.ambiguity).simd_gt(zero);
+        let is_open = left.is_free & !has_ends;
+        let is_dark = left.region.most.simd_le(zero);
         let color = finish.reflectance.albedo * light.intensity;
         let highlight = finish.reflectance.highlight.as_ref();
         let strength = light.intensity * highlight.map_or(0.0, |(strength, _)| *strength);
         for channel in 0..channels {
             let whole = diffuse.value * color[channel] + shine.value * strength[channel];
             let highest = diffuse.most * color[channel] + shine.most * strength[channel];
-            self.value[channel] += whole * left;
+            self.value[channel] += whole * lit.area;
             let [least, most] = &mut self.range[channel];
             *least += is_open.select(whole, zero);
             *most += is_dark.select(zero, highest);
@@ -114,5 +138,5 @@ impl<S: Simd> Lit<S> {
     }
 }
 
-/// Less of a light than this has no place of its own.
-const LEAST_LEFT: f64 = 1e-6;
+/// The share of what is seen that must be lit for its middle to count.
+const LEAST_LIT: f64 = 0.05;

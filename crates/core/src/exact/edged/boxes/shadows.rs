@@ -1,32 +1,50 @@
-//! The shares of boxes that shadows leave.
+//! The parts of boxes that shadows leave.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
-use super::edges::Edges;
+use super::bent::Bends;
 use super::half_plane::HalfPlane;
+use super::region::Region;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
-use crate::numeric::vectors::Vectors;
 
 /// The least of 1 − slide: boxes that see a plane up to its horizon are all in doubt.
 const LEAST_REST: f64 = 1e-6;
 
+/// What casters leave to a light of a region.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Left<S: Simd> {
+    pub(super) region: Region<S>,
+    /// How much its share may be off because edges of shadows are no lines.
+    pub(super) doubt: f64x8<S>,
+    /// The boxes that no shadow touches.
+    pub(super) is_free: mask64x8<S>,
+}
+
 impl<S: Simd> Surroundings<S> {
-    /// The share of each box that casters leave to a light, and the integrals of the coordinates over what they take.
+    /// What casters leave to a light of a region.
     #[inline(always)]
     pub(super) fn left_by(
         &self,
         simd: S,
         light: &Light,
         casters: &[Caster],
-        edges: &mut Edges<S>,
-    ) -> (f64x8<S>, [f64x8<S>; 2]) {
+        region: &Region<S>,
+    ) -> Left<S> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
-        let mut left = one;
-        let mut dark = [zero; 2];
+        let half = f64x8::splat(simd, 0.5);
+        let whole = HalfPlane::whole(simd);
+        let mut left = Left {
+            region: *region,
+            doubt: zero,
+            is_free: one.simd_gt(zero),
+        };
+        if casters.is_empty() {
+            return left;
+        }
         let right = self.place.dot_one(light.right);
         let up = self.place.dot_one(light.up);
         let height = self.place.dot_one(light.toward);
@@ -51,6 +69,20 @@ impl<S: Simd> Surroundings<S> {
         let more = moved_sq / (self.grazing * self.radius) + moved_sq.sqrt() * self.slide * 2.0;
         // Heights in a box differ by no more from that in its middle.
         let of_box = (height_across[0].abs() + height_across[1].abs()) * further * 0.5;
+        let [xx, xy, yy] = &self.seconds;
+        let right_bends = [
+            xx.dot_one(light.right),
+            xy.dot_one(light.right),
+            yy.dot_one(light.right),
+        ];
+        let up_bends = [
+            xx.dot_one(light.up),
+            xy.dot_one(light.up),
+            yy.dot_one(light.up),
+        ];
+        // How far P'' is from that of the middle of the box in its corners, over itself.
+        let turned = self.turn_sq.sqrt() / self.grazing;
+        let third = (turned * 0.5 + self.slide).min(half);
         for caster in casters {
             let center = caster.center;
             let u = right - center.dot(light.right);
@@ -61,7 +93,15 @@ impl<S: Simd> Surroundings<S> {
                 (u * right_across[1] + v * up_across[1]) * -2.0,
             ];
             let bend = (more * caster.radius + moved_sq) * further;
-            let middle = inside - across[0] * self.offset[0] - across[1] * self.offset[1];
+            let bends = Bends {
+                xx: -(right_across[0] * right_across[0] + up_across[0] * up_across[0])
+                    - (u * right_bends[0] + v * up_bends[0]),
+                xy: (right_across[0] * right_across[1] + up_across[0] * up_across[1]) * -2.0
+                    - (u * right_bends[1] + v * up_bends[1]),
+                yy: -(right_across[1] * right_across[1] + up_across[1] * up_across[1])
+                    - (u * right_bends[2] + v * up_bends[2]),
+            };
+            let (middle, across) = bends.moved(inside, across, self.offset);
             let foot = foot(simd, middle, across);
             // The caster is above the points, or above those at the edge where these are outside of its disc.
             let at_foot = height + height_across[0] * foot[0] + height_across[1] * foot[1];
@@ -75,51 +115,25 @@ impl<S: Simd> Surroundings<S> {
                 == 0
             {
                 // No edge is near.
-                left = (above & is_inside).select(zero, left);
+                let is_dark = above & is_inside;
+                left.region.darken(simd, is_dark);
+                left.is_free &= !is_dark;
                 continue;
             }
-            let second = self.second_of(light, foot, (u, v));
-            let part = HalfPlane::of_second_degree(simd, middle, across, (second, bend));
-            let share = above.select(part.share, zero);
+            let part =
+                HalfPlane::of_second_degree(simd, middle, across, &bends, Some(bend * third));
             // What is above elsewhere in the box may be dark.
             let hidden = above.select(zero, part.share);
-            let (ambiguity, doubt) = (part.ambiguity(simd) + hidden, part.doubt + hidden);
             let may_be = (height - of_box).simd_lt(top);
-            edges.add(may_be.select(ambiguity, zero), may_be.select(doubt, zero));
-            for (dark, moment) in dark.iter_mut().zip(part.moments) {
-                *dark += above.select(moment, zero);
-            }
-            left *= one - share;
+            let doubt = may_be.select(part.doubt + hidden, zero);
+            let mut remaining = whole.or(above, &part.other_side(simd));
+            remaining.doubt = doubt;
+            left.is_free &= remaining.share.simd_ge(one) & doubt.simd_le(zero);
+            left.doubt += doubt;
+            left.region.cut(simd, &remaining);
         }
-        (left, dark)
-    }
-
-    /// What the second derivative of a caster's function adds to it from a point to the edge, straight along its
-    /// gradient.
-    ///
-    /// With the point P = t d of a sphere with the normal n moving by P' and d by d', t' is t times the slide, and
-    /// P'' = d (|P'|² / (r (−n · d)) + 2 t'² / t) + 2 t' d'.
-    #[inline(always)]
-    fn second_of(
-        &self,
-        light: &Light,
-        [x, y]: [f64x8<S>; 2],
-        (u, v): (f64x8<S>, f64x8<S>),
-    ) -> f64x8<S> {
-        let place = self.across[0].times(x).plus(&self.across[1].times(y));
-        let slide = self.slides[0] * x + self.slides[1] * y;
-        let along = place.length_squared() * self.by_toward_eye * (1.0 / self.radius)
-            + slide * slide * self.points.t * 2.0;
-        let turn = slide * self.points.t * 2.0;
-        let ray = &self.points.ray;
-        let second = Vectors {
-            x: ray.x * along + turn * x * self.sides[0],
-            y: ray.y * along + turn * y * self.sides[1],
-            z: ray.z * along,
-        };
-        let (right, up) = (place.dot_one(light.right), place.dot_one(light.up));
-        let bent = u * second.dot_one(light.right) + v * second.dot_one(light.up);
-        (right * right + up * up + bent) * -1.0
+        left.doubt = left.doubt.min(left.region.most);
+        left
     }
 }
 

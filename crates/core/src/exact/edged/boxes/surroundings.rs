@@ -22,14 +22,15 @@ pub(super) struct Surroundings<S: Simd> {
     /// The square of the angle by which normals turn across a box, and the cosine toward the eye.
     pub(super) turn_sq: f64x8<S>,
     pub(super) grazing: f64x8<S>,
-    /// The error of the normals: see [`Self::second`].
+    /// The second derivatives of the points, in boxes: by x twice, by x and y, twice, and by y twice.
+    pub(super) seconds: [Vectors<S>; 3],
+    /// The error of the normals: see [`Self::errors`]. And what is left of it when their second derivatives are
+    /// integrated, in boxes that the silhouette does not cut.
     pub(super) second: f64x8<S>,
-    /// The change of distances from the middle to the corner of a box, over themselves; across a box along both axes;
-    /// the sides of boxes on the retina at distance 1; and −1 / (n · d).
+    pub(super) third: f64x8<S>,
+    pub(super) is_cut: mask64x8<S>,
+    /// The change of distances from the middle to the corner of a box, over themselves.
     pub(super) slide: f64x8<S>,
-    pub(super) slides: [f64x8<S>; 2],
-    pub(super) sides: [f64; 2],
-    pub(super) by_toward_eye: f64x8<S>,
 }
 
 /// The share of the range of a quadratic function over a box by which the value in its middle is off: the average
@@ -51,14 +52,17 @@ impl<S: Simd> Surroundings<S> {
         cell: &Cell,
         boxes: &EightBoxes<S>,
         ball: &Ball,
-        &Visible {
-            place: offset,
-            is_cut,
-            ..
-        }: &Visible<S>,
+        visible: &Visible<S>,
     ) -> Self {
         let one = f64x8::splat(simd, 1.0);
         let [width, height] = boxes.size;
+        let half = f64x8::splat(simd, 0.5);
+        let middle = visible.middle;
+        let offset = [
+            (middle[0] + visible.inward[0]).max(-half).min(half),
+            (middle[1] + visible.inward[1]).max(-half).min(half),
+        ];
+        let is_cut = visible.is_cut;
         let mut ray = Vectors::splat(simd, cell.middle);
         ray.x += (boxes.x + offset[0] * width) * cell.size[0];
         ray.y += (boxes.y + offset[1] * height) * cell.size[1];
@@ -93,44 +97,85 @@ impl<S: Simd> Surroundings<S> {
         let moved_sq = across[0].length_squared() + across[1].length_squared();
         let turn_sq = moved_sq * (1.0 / (ball.radius * ball.radius));
         let slide = slide_x.abs() * half[0] + slide_y.abs() * half[1];
-        let grazing = toward_eye / points.ray_sq.sqrt();
+        let ray_length = points.ray_sq.sqrt();
+        let (grazing, by_grazing) = (toward_eye / ray_length, by_eye * ray_length);
         let steepest = (grazing - turn_sq.sqrt() * RECEDING).max(grazing * LEAST_OF_GRAZING);
+        let slides = [slide_x * sides[0], slide_y * sides[1]];
+        let (second, third) = Self::errors(
+            simd,
+            (turn_sq, slide),
+            (grazing, by_grazing, steepest),
+            is_cut,
+        );
         Self {
             place: ray.times(points.t),
+            seconds: Self::seconds(
+                &points,
+                (&across, slides),
+                (sides, by_eye * (1.0 / ball.radius)),
+            ),
             across,
             offset,
             radius: ball.radius,
             turn_sq,
             grazing,
-            second: Self::second(simd, (turn_sq, slide), (grazing, steepest), is_cut),
+            second,
+            third,
+            is_cut,
             slide,
-            slides: [slide_x * sides[0], slide_y * sides[1]],
-            sides,
-            by_toward_eye: by_eye,
             points,
         }
     }
 
-    /// The error of taking the normals of points for the average of their boxes.
+    /// The second derivatives.
+    ///
+    /// With the point P = t d of a sphere with the normal n moving by P' and d by d', t' is t times the slide, and
+    /// P'' = d (|P'|² / (r (−n · d)) + 2 t'² / t) + 2 t' d'.
+    #[inline(always)]
+    fn seconds(
+        points: &Points<S>,
+        ([x, y], [slide_x, slide_y]): (&[Vectors<S>; 2], [f64x8<S>; 2]),
+        ([width, height], by_depth): ([f64; 2], f64x8<S>),
+    ) -> [Vectors<S>; 3] {
+        let twice = points.t * 2.0;
+        let ray = &points.ray;
+        let mut by_x = ray.times(x.length_squared() * by_depth + slide_x * slide_x * twice);
+        by_x.x += slide_x * twice * width;
+        let mut by_both = ray.times((x.dot(y) * by_depth + slide_x * slide_y * twice) * 2.0);
+        by_both.x += slide_y * twice * width;
+        by_both.y += slide_x * twice * height;
+        let mut by_y = ray.times(y.length_squared() * by_depth + slide_y * slide_y * twice);
+        by_y.y += slide_y * twice * height;
+        [by_x, by_both, by_y]
+    }
+
+    /// The error of taking the normals of points for the average of their boxes, and what is left of it when their
+    /// second derivatives are integrated.
     ///
     /// The second derivative of normals is the square of their turn over the cosine toward the eye, in the direction
     /// of that. Near a silhouette the cosine is a root of the distance to it, of which a point knows the average to 6 %
     /// in a box that touches the silhouette, and to 2 % at the place that is chosen in a box that is cut by it.
     #[inline(always)]
-    fn second(
+    fn errors(
         simd: S,
         (turn_sq, slide): (f64x8<S>, f64x8<S>),
-        (grazing, steepest): (f64x8<S>, f64x8<S>),
+        (grazing, by_grazing, steepest): (f64x8<S>, f64x8<S>, f64x8<S>),
         is_cut: mask64x8<S>,
-    ) -> f64x8<S> {
+    ) -> (f64x8<S>, f64x8<S>) {
         const OF_TOUCHED: f64 = 0.06;
         const OF_CUT: f64 = 0.025;
-        let steeper = grazing / steepest;
+        /// What is left of second derivatives that are integrated over parts of boxes by the middles of the parts.
+        const OF_KNOWN: f64 = 0.3;
+        let by_steepest = f64x8::splat(simd, 1.0) / steepest;
+        let steeper = grazing * by_steepest;
         // By the perspective, twice the slide across the whole box.
         let aside = turn_sq.sqrt() * slide * (4.0 * OF_SECOND);
         let smooth = turn_sq * grazing * grazing * OF_SECOND + aside;
-        let bent = turn_sq * steeper * steeper / steepest * OF_SECOND;
+        let bent = turn_sq * steeper * steeper * by_steepest * OF_SECOND;
         let share = is_cut.select(f64x8::splat(simd, OF_CUT), f64x8::splat(simd, OF_TOUCHED));
-        (bent + aside).min(grazing * share + smooth)
+        let second = (bent + aside).min(grazing * share + smooth);
+        let known = turn_sq * by_grazing * OF_SECOND;
+        let unknown = (bent - known).max(f64x8::splat(simd, 0.0));
+        (second, second.min(unknown + (known + aside) * OF_KNOWN))
     }
 }

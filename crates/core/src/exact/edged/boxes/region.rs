@@ -1,0 +1,165 @@
+//! The parts of boxes inside of several half-planes.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
+
+use super::half_plane::HalfPlane;
+use super::wedge::intersection;
+
+/// Half-planes that leave less of a box, or take less from it, do not cut it.
+const LEAST_AMBIGUITY: f64 = 1e-9;
+
+/// What is inside of several half-planes. The two that cut a box most evenly are known by their lines, so that their
+/// intersection is; the shares of the others are multiplied.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region<S: Simd> {
+    first: HalfPlane<S>,
+    second: HalfPlane<S>,
+    /// The smaller of what is on both sides of the two lines; 0 without a line.
+    ambiguities: [f64x8<S>; 2],
+    /// The share that the others leave, as if they were independent of each other and of the lines.
+    rest: f64x8<S>,
+    /// How much the share may be off because of that.
+    pub(super) ambiguity: f64x8<S>,
+    /// The largest share that it may have.
+    pub(super) most: f64x8<S>,
+}
+
+/// A share of a box, and the integrals over it of the coordinates from the middle of the box, in sides.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Share<S: Simd> {
+    pub(super) area: f64x8<S>,
+    pub(super) moments: [f64x8<S>; 2],
+}
+
+impl<S: Simd> Region<S> {
+    /// Whole boxes.
+    #[inline(always)]
+    pub(super) fn whole(simd: S) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let whole = HalfPlane::whole(simd);
+        Self {
+            first: whole,
+            second: whole,
+            ambiguities: [zero; 2],
+            rest: one,
+            ambiguity: zero,
+            most: one,
+        }
+    }
+
+    /// Leaves only what is inside of a half-plane, too.
+    #[inline(always)]
+    pub(super) fn cut(&mut self, simd: S, part: &HalfPlane<S>) {
+        let one = f64x8::splat(simd, 1.0);
+        self.most = self.most.min(part.share + part.doubt);
+        let ambiguity = part.share.min(one - part.share);
+        let is_cut = ambiguity.simd_gt(LEAST_AMBIGUITY);
+        if is_cut.to_bitmask() == 0 {
+            self.rest *= part.share;
+            return;
+        }
+        let [first, second] = self.ambiguities;
+        let lesser = first.min(second);
+        let is_first = first.simd_le(second);
+        let is_new = is_cut & ambiguity.simd_gt(lesser);
+        let of_lesser = is_first.select(self.first.share, self.second.share);
+        // What was known by its line is multiplied from now on, or what is new is.
+        self.rest *= is_new.select(of_lesser, part.share);
+        let zero = f64x8::splat(simd, 0.0);
+        self.ambiguity += is_new.select(lesser, is_cut.select(ambiguity, zero));
+        let is_second = is_new & !is_first;
+        let is_first = is_new & is_first;
+        self.first = self.first.or(is_first, part);
+        self.second = self.second.or(is_second, part);
+        self.ambiguities = [
+            is_first.select(ambiguity, first),
+            is_second.select(ambiguity, second),
+        ];
+    }
+
+    /// Takes away what is inside of both of two half-planes.
+    #[inline(always)]
+    pub(super) fn cut_by_both(&mut self, simd: S, one: &HalfPlane<S>, other: &HalfPlane<S>) {
+        let whole = HalfPlane::whole(simd);
+        let ambiguities = [one.ambiguity(simd), other.ambiguity(simd)];
+        let [is_cut, is_cut_too] = ambiguities.map(|a| a.simd_gt(LEAST_AMBIGUITY));
+        // Where one line cuts a box, the other side is a half-plane, too.
+        let is_filled = one.share.simd_gt(0.5) & !is_cut;
+        let is_filled_too = other.share.simd_gt(0.5) & !is_cut_too;
+        let part = whole
+            .or(is_filled_too, &one.other_side(simd))
+            .or(is_filled, &other.other_side(simd));
+        self.cut(simd, &part);
+        let is_cut_twice = is_cut & is_cut_too;
+        if is_cut_twice.to_bitmask() != 0 {
+            let full = f64x8::splat(simd, 1.0);
+            let zero = f64x8::splat(simd, 0.0);
+            let left = full - one.share * other.share;
+            self.rest *= is_cut_twice.select(left, full);
+            let ambiguity = left.min(full - left) + ambiguities[0].min(ambiguities[1]);
+            self.ambiguity += is_cut_twice.select(ambiguity, zero);
+        }
+    }
+
+    /// Leaves nothing of some boxes.
+    #[inline(always)]
+    pub(super) fn darken(&mut self, simd: S, boxes: mask64x8<S>) {
+        let zero = f64x8::splat(simd, 0.0);
+        self.rest = boxes.select(zero, self.rest);
+        self.most = boxes.select(zero, self.most);
+    }
+
+    /// The boxes that two lines cut.
+    #[inline(always)]
+    fn has_both(&self) -> mask64x8<S> {
+        let [first, second] = self.ambiguities;
+        first.min(second).simd_gt(0.0)
+    }
+
+    /// Its share, as if no half-plane depended on another.
+    #[inline(always)]
+    pub(super) fn product(&self) -> f64x8<S> {
+        self.first.share * self.second.share * self.rest
+    }
+
+    /// Its share of the boxes.
+    #[inline(always)]
+    pub(super) fn share(&self, simd: S) -> Share<S> {
+        let mut area = self.first.share * self.second.share;
+        let mut moments = [
+            self.first.moments[0] + self.second.moments[0],
+            self.first.moments[1] + self.second.moments[1],
+        ];
+        let has_both = self.has_both();
+        if has_both.to_bitmask() != 0 {
+            let (both, of_both) = intersection(simd, &self.first, &self.second);
+            let least = self.first.share.min(self.second.share);
+            let both = both.min(least).max(f64x8::splat(simd, 0.0));
+            area = has_both.select(both, area);
+            for (moment, of_both) in moments.iter_mut().zip(of_both) {
+                *moment = has_both.select(of_both, *moment);
+            }
+        }
+        Share {
+            area: area * self.rest,
+            moments: [moments[0] * self.rest, moments[1] * self.rest],
+        }
+    }
+}
+
+impl<S: Simd> Share<S> {
+    /// The middle of what it is a share of, or of the box where that is next to nothing.
+    #[inline(always)]
+    pub(super) fn middle(&self, simd: S) -> [f64x8<S>; 2] {
+        /// Shares below this have no place of their own.
+        const LEAST_SHARE: f64 = 1e-6;
+        let half = f64x8::splat(simd, 0.5);
+        let by_area = f64x8::splat(simd, 1.0) / self.area.max(f64x8::splat(simd, LEAST_SHARE));
+        [
+            (self.moments[0] * by_area).max(-half).min(half),
+            (self.moments[1] * by_area).max(-half).min(half),
+        ]
+    }
+}

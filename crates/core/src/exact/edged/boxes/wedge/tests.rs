@@ -1,0 +1,85 @@
+use fearless_simd::{Level, dispatch};
+
+use super::*;
+
+type Plane = (f64, [f64; 2]);
+
+/// The share and the moments of the part of a box in which both functions are positive, by points.
+fn by_points(planes: [Plane; 2]) -> [f64; 3] {
+    const SIDE: usize = 2000;
+    let place = |index: usize| (index as f64 + 0.5) / SIDE as f64 - 0.5;
+    let mut sums = [0.0; 3];
+    for row in 0..SIDE {
+        for col in 0..SIDE {
+            let (u, v) = (place(col), place(row));
+            if planes
+                .iter()
+                .all(|(value, [x, y])| value + x * u + y * v > 0.0)
+            {
+                for (sum, term) in sums.iter_mut().zip([1.0, u, v]) {
+                    *sum += term;
+                }
+            }
+        }
+    }
+    sums.map(|sum| sum / (SIDE * SIDE) as f64)
+}
+
+fn found(planes: [Plane; 2]) -> [f64; 3] {
+    dispatch!(Level::new(), simd => {
+        let splat = |number| f64x8::splat(simd, number);
+        let [one, other] = planes.map(|(value, across)| {
+            HalfPlane::new(simd, splat(value), across.map(splat), splat(0.0))
+        });
+        let (area, [x, y]) = intersection(simd, &one, &other);
+        [area, x, y].map(|lanes| lanes[5])
+    })
+}
+
+#[test]
+fn two_half_planes_share_what_points_say() {
+    let values = [-0.45, -0.2, 0.03, 0.31, 0.48];
+    for (index, value) in values.into_iter().enumerate() {
+        for turn in 0..12 {
+            // Twelve pairs of directions, none along the sides.
+            let (one, other) = (0.3 + 0.53 * turn as f64, 1.1 + 0.37 * turn as f64);
+            let planes = [
+                (value, [one.cos(), one.sin()]),
+                (
+                    0.6 * values[(index + turn) % 5],
+                    [other.sin() * 1.7, other.cos() * 1.7],
+                ),
+            ];
+            let (found, truth) = (found(planes), by_points(planes));
+            for (found, truth) in found.iter().zip(truth) {
+                assert!(
+                    (found - truth).abs() < 4e-4,
+                    "{planes:?}: {found} for {truth}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn parallel_lines_and_those_along_sides_share_what_points_say() {
+    let cases = [
+        [(0.2, [1.0, 0.5]), (0.1, [1.0, 0.5])],
+        [(0.2, [1.0, 0.5]), (0.2, [1.0, 0.5])],
+        [(0.2, [1.0, 0.5]), (0.1, [-1.0, -0.5])],
+        [(-0.2, [1.0, 0.5]), (0.1, [-1.0, -0.5])],
+        [(0.2, [1.0, 0.0]), (0.1, [0.0, 1.0])],
+        [(0.2, [1.0, 0.0]), (-0.3, [0.0, -3.0])],
+        [(0.2, [1.0, 0.0]), (0.4, [2.0, 1e-14])],
+        [(0.2, [-1.0, 0.0]), (-0.1, [-1.0, 0.0])],
+    ];
+    for planes in cases {
+        let (found, truth) = (found(planes), by_points(planes));
+        for (found, truth) in found.iter().zip(truth) {
+            assert!(
+                (found - truth).abs() < 4e-4,
+                "{planes:?}: {found} for {truth}"
+            );
+        }
+    }
+}
