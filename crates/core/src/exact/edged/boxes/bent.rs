@@ -123,8 +123,8 @@ impl<S: Simd> Chord<S> {
 }
 
 impl<S: Simd> HalfPlane<S> {
-    /// Of functions of the second degree, or no more than `rest` from those, with these values in the middles and these changes
-    /// across the boxes in their middles.
+    /// Of functions of the second degree, or no more than `rest` from those, with these values and these changes across
+    /// the boxes in their middles.
     ///
     /// The line is tangent where the gradient from the middle meets the curve, and then moved to where it leaves the
     /// area that the parabola along it does.

@@ -2,6 +2,7 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
+use glam::DVec3;
 
 use super::half_plane::{HalfPlane, ramp};
 use super::surroundings::{OF_SECOND, Surroundings};
@@ -31,6 +32,42 @@ pub(super) struct Power<S: Simd> {
 }
 
 impl<S: Simd> Faced<S> {
+    /// The cosines of these at points and their changes across boxes, where the middles of what is lit are known; and
+    /// the ways from the points to those, in sides. `inward` leads from the middles to where the average is.
+    #[inline(always)]
+    pub(super) fn new(
+        simd: S,
+        around: &Surroundings<S>,
+        toward: DVec3,
+        (cosine, across): (f64x8<S>, [f64x8<S>; 2]),
+        (middle, inward): ([f64x8<S>; 2], [f64x8<S>; 2]),
+    ) -> (Self, [f64x8<S>; 2]) {
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let half = f64x8::splat(simd, 0.5);
+        let mut aside = [zero; 2];
+        // A slab with its middle so far from that of the box has this share of the variance of the box.
+        let mut variances = [zero; 2];
+        for axis in 0..2 {
+            let extent = one - middle[axis].abs() * 2.0;
+            variances[axis] = extent * extent;
+            let place = (middle[axis] + inward[axis]).max(-half).min(half);
+            aside[axis] = place - around.offset[axis];
+        }
+        let [xx, _, yy] = &around.seconds;
+        let bend = (xx.dot_one(toward) * variances[0] + yy.dot_one(toward) * variances[1])
+            * (1.0 / around.radius * OF_SECOND);
+        let third = around.third * variances[0].max(variances[1]);
+        let faced = Self {
+            cosine: cosine + across[0] * aside[0] + across[1] * aside[1],
+            across,
+            width: (across[0].abs() + across[1].abs()) * 0.5,
+            bend: around.is_cut.select(zero, bend),
+            error: around.is_cut.select(around.second, third),
+        };
+        (faced, aside)
+    }
+
     /// The boxes in which the surface turns from the light.
     #[inline(always)]
     fn is_cut(&self) -> mask64x8<S> {

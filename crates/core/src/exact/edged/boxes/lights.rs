@@ -1,11 +1,11 @@
 //! The light of what eight boxes see of a sphere.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
-use super::falloffs::Faced;
+use super::falloffs::{Faced, Power};
 use super::outlines::Visible;
-use super::surroundings::{OF_SECOND, Surroundings};
+use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
@@ -48,7 +48,7 @@ impl<S: Simd> Lit<S> {
         (around, visible): (&Surroundings<S>, &Visible<S>),
         casters: &[Caster],
     ) {
-        let (finish, light, channels) = of;
+        let (finish, light, _) = of;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let toward = light.toward;
@@ -74,38 +74,18 @@ impl<S: Simd> Lit<S> {
                 middle[axis] = is_known.select(of_lit[axis], middle[axis]);
             }
         }
-        // From the point to the middle of what is lit.
-        let half = f64x8::splat(simd, 0.5);
-        let mut aside = [zero; 2];
-        // A slab with its middle so far from that of the box has this share of the variance of the box.
-        let mut variances = [zero; 2];
-        for axis in 0..2 {
-            let extent = one - middle[axis].abs() * 2.0;
-            variances[axis] = extent * extent;
-            let place = (middle[axis] + visible.inward[axis]).max(-half).min(half);
-            aside[axis] = place - around.offset[axis];
-        }
-        let [xx, _, yy] = &around.seconds;
-        let bend = (xx.dot_one(toward) * variances[0] + yy.dot_one(toward) * variances[1])
-            * (by_radius * OF_SECOND);
-        let third = around.third * variances[0].max(variances[1]);
-        let faced = Faced {
-            bend: around.is_cut.select(zero, bend),
-            error: around.is_cut.select(around.second, third),
-            cosine: cosine + across[0] * aside[0] + across[1] * aside[1],
-            across,
-            width: (across[0].abs() + across[1].abs()) * 0.5,
-        };
+        let of_point = (cosine, across);
+        let (faced, aside) = Faced::new(simd, around, toward, of_point, (middle, visible.inward));
         let diffuse = faced.diffuse(simd, finish, around);
         let viewed = finish.viewed(&around.points, &around.points.normal);
-        let [x, y] = &around.across;
-        let aside = x
-            .times(aside[0] * by_radius)
-            .plus(&y.times(aside[1] * by_radius));
         let mut half_cosine = zero;
         if finish.reflectance.highlight.is_some() {
             half_cosine = viewed.half_cosine(toward, cosine);
-            half_cosine += viewed.change_of_half_cosine(toward, &aside);
+            let [x, y] = &around.across;
+            let turned = x
+                .times(aside[0] * by_radius)
+                .plus(&y.times(aside[1] * by_radius));
+            half_cosine += viewed.change_of_half_cosine(toward, &turned);
         }
         let shine = faced.shine(simd, finish, half_cosine, around);
         let weights = finish.reflectance.brightest(light.intensity);
@@ -124,13 +104,28 @@ impl<S: Simd> Lit<S> {
         let has_ends = (diffuse.ambiguity + shine.ambiguity).simd_gt(zero);
         let is_open = left.is_free & !has_ends;
         let is_dark = left.region.most.simd_le(zero);
+        self.add_channels(simd, of, (&diffuse, &shine), lit.area, (is_open, is_dark));
+    }
+
+    /// Adds the light of each channel over these shares of boxes, and its range: all of it where no edge of light or
+    /// shadow is, none where it is dark.
+    #[inline(always)]
+    fn add_channels(
+        &mut self,
+        simd: S,
+        (finish, light, channels): (&Finish, &Light, usize),
+        (diffuse, shine): (&Power<S>, &Power<S>),
+        share: f64x8<S>,
+        (is_open, is_dark): (mask64x8<S>, mask64x8<S>),
+    ) {
+        let zero = f64x8::splat(simd, 0.0);
         let color = finish.reflectance.albedo * light.intensity;
         let highlight = finish.reflectance.highlight.as_ref();
         let strength = light.intensity * highlight.map_or(0.0, |(strength, _)| *strength);
         for channel in 0..channels {
             let whole = diffuse.value * color[channel] + shine.value * strength[channel];
             let highest = diffuse.most * color[channel] + shine.most * strength[channel];
-            self.value[channel] += whole * lit.area;
+            self.value[channel] += whole * share;
             let [least, most] = &mut self.range[channel];
             *least += is_open.select(whole, zero);
             *most += is_dark.select(zero, highest);

@@ -20,6 +20,7 @@ mod half_plane;
 mod lights;
 mod orders;
 mod outlines;
+mod projected;
 mod region;
 mod shadows;
 mod surroundings;
@@ -141,3 +142,6 @@ impl Boxes {
         true
     }
 }
+
+#[cfg(test)]
+mod by_points;

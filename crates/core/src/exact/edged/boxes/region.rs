@@ -52,9 +52,8 @@ impl<S: Simd> Region<S> {
     /// Leaves only what is inside of a half-plane, too.
     #[inline(always)]
     pub(super) fn cut(&mut self, simd: S, part: &HalfPlane<S>) {
-        let one = f64x8::splat(simd, 1.0);
         self.most = self.most.min(part.share + part.doubt);
-        let ambiguity = part.share.min(one - part.share);
+        let ambiguity = part.ambiguity(simd);
         let is_cut = ambiguity.simd_gt(LEAST_AMBIGUITY);
         if is_cut.to_bitmask() == 0 {
             self.rest *= part.share;
@@ -163,3 +162,6 @@ impl<S: Simd> Share<S> {
         ]
     }
 }
+
+#[cfg(test)]
+mod tests;

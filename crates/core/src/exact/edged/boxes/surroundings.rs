@@ -57,46 +57,35 @@ impl<S: Simd> Surroundings<S> {
         let one = f64x8::splat(simd, 1.0);
         let [width, height] = boxes.size;
         let half = f64x8::splat(simd, 0.5);
-        let middle = visible.middle;
+        let (middle, inward) = (visible.middle, visible.inward);
         let offset = [
-            (middle[0] + visible.inward[0]).max(-half).min(half),
-            (middle[1] + visible.inward[1]).max(-half).min(half),
+            (middle[0] + inward[0]).max(-half).min(half),
+            (middle[1] + inward[1]).max(-half).min(half),
         ];
         let is_cut = visible.is_cut;
+        let sides = [cell.size[0] * width, cell.size[1] * height];
         let mut ray = Vectors::splat(simd, cell.middle);
         ray.x += (boxes.x + offset[0] * width) * cell.size[0];
         ray.y += (boxes.y + offset[1] * height) * cell.size[1];
         let points = Points::new(simd, ball, ray);
         // At a silhouette normals turn fast; but not by more than about 1 across a box.
-        let side = (cell.size[0] * width).max(cell.size[1] * height) / ball.radius;
+        let side = sides[0].max(sides[1]) / ball.radius;
         let least = points.t * side + LEAST_GRAZING;
         let toward_eye = (-points.normal.dot(&ray)).max(least);
         // P = t d stays on the sphere: n · dP = 0.
         let by_eye = one / toward_eye;
-        let zero = f64x8::splat(simd, 0.0);
-        let wide = [
-            points.t * (cell.size[0] * width),
-            points.t * (cell.size[1] * height),
-        ];
         let (slide_x, slide_y) = (points.normal.x * by_eye, points.normal.y * by_eye);
-        let sides = [cell.size[0] * width, cell.size[1] * height];
-        let half = [0.5 * sides[0], 0.5 * sides[1]];
-        let along_x = Vectors {
-            x: one,
-            y: zero,
-            z: zero,
-        }
-        .plus(&ray.times(slide_x));
-        let along_y = Vectors {
-            x: zero,
-            y: one,
-            z: zero,
-        }
-        .plus(&ray.times(slide_y));
-        let across = [along_x.times(wide[0]), along_y.times(wide[1])];
+        let mut along_x = ray.times(slide_x);
+        along_x.x += 1.0;
+        let mut along_y = ray.times(slide_y);
+        along_y.y += 1.0;
+        let across = [
+            along_x.times(points.t * sides[0]),
+            along_y.times(points.t * sides[1]),
+        ];
         let moved_sq = across[0].length_squared() + across[1].length_squared();
         let turn_sq = moved_sq * (1.0 / (ball.radius * ball.radius));
-        let slide = slide_x.abs() * half[0] + slide_y.abs() * half[1];
+        let slide = slide_x.abs() * (0.5 * sides[0]) + slide_y.abs() * (0.5 * sides[1]);
         let ray_length = points.ray_sq.sqrt();
         let (grazing, by_grazing) = (toward_eye / ray_length, by_eye * ray_length);
         let steepest = (grazing - turn_sq.sqrt() * RECEDING).max(grazing * LEAST_OF_GRAZING);

@@ -1,24 +1,12 @@
 use fearless_simd::{Level, dispatch};
 
+use super::super::by_points::by_points;
 use super::*;
 
-/// The share, the moments and the mean of the positive part of a linear function over a box, by points.
-fn by_points(value: f64, [x, y]: [f64; 2]) -> [f64; 4] {
-    const SIDE: usize = 2000;
-    let place = |index: usize| (index as f64 + 0.5) / SIDE as f64 - 0.5;
-    let mut sums = [0.0; 4];
-    for row in 0..SIDE {
-        for col in 0..SIDE {
-            let (u, v) = (place(col), place(row));
-            let height = value + x * u + y * v;
-            if height > 0.0 {
-                for (sum, term) in sums.iter_mut().zip([1.0, u, v, height]) {
-                    *sum += term;
-                }
-            }
-        }
-    }
-    sums.map(|sum| sum / (SIDE * SIDE) as f64)
+/// The share, the moments and the mean of the positive part of a linear function over a box.
+fn truth(value: f64, [x, y]: [f64; 2]) -> [f64; 4] {
+    let [area, along, across] = by_points(|u, v| value + x * u + y * v > 0.0);
+    [area, along, across, value * area + x * along + y * across]
 }
 
 #[inline(always)]
@@ -45,7 +33,7 @@ fn shares_are_those_of_points() {
         (0.0, [1.0, -0.4]),
     ];
     for (value, across) in cases {
-        let truth = by_points(value, across);
+        let truth = truth(value, across);
         let found = dispatch!(Level::new(), simd => formulas(simd, value, across));
         for (found, truth) in found.iter().zip(truth) {
             assert!(

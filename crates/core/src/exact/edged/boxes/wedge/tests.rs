@@ -1,28 +1,17 @@
 use fearless_simd::{Level, dispatch};
 
+use super::super::by_points::by_points;
 use super::*;
 
 type Plane = (f64, [f64; 2]);
 
-/// The share and the moments of the part of a box in which both functions are positive, by points.
-fn by_points(planes: [Plane; 2]) -> [f64; 3] {
-    const SIDE: usize = 2000;
-    let place = |index: usize| (index as f64 + 0.5) / SIDE as f64 - 0.5;
-    let mut sums = [0.0; 3];
-    for row in 0..SIDE {
-        for col in 0..SIDE {
-            let (u, v) = (place(col), place(row));
-            if planes
-                .iter()
-                .all(|(value, [x, y])| value + x * u + y * v > 0.0)
-            {
-                for (sum, term) in sums.iter_mut().zip([1.0, u, v]) {
-                    *sum += term;
-                }
-            }
-        }
-    }
-    sums.map(|sum| sum / (SIDE * SIDE) as f64)
+/// The share and the moments of the part of a box in which both functions are positive.
+fn truth(planes: [Plane; 2]) -> [f64; 3] {
+    by_points(|u, v| {
+        planes
+            .iter()
+            .all(|(value, [x, y])| value + x * u + y * v > 0.0)
+    })
 }
 
 fn found(planes: [Plane; 2]) -> [f64; 3] {
@@ -50,7 +39,7 @@ fn two_half_planes_share_what_points_say() {
                     [other.sin() * 1.7, other.cos() * 1.7],
                 ),
             ];
-            let (found, truth) = (found(planes), by_points(planes));
+            let (found, truth) = (found(planes), truth(planes));
             for (found, truth) in found.iter().zip(truth) {
                 assert!(
                     (found - truth).abs() < 4e-4,
@@ -74,7 +63,7 @@ fn parallel_lines_and_those_along_sides_share_what_points_say() {
         [(0.2, [-1.0, 0.0]), (-0.1, [-1.0, 0.0])],
     ];
     for planes in cases {
-        let (found, truth) = (found(planes), by_points(planes));
+        let (found, truth) = (found(planes), truth(planes));
         for (found, truth) in found.iter().zip(truth) {
             assert!(
                 (found - truth).abs() < 4e-4,
