@@ -154,9 +154,19 @@ impl Contents {
                 self.conics.push((kind, active.discriminant));
             }
             self.add_seams(cell, position);
+            let may_be_shaded = is_outside && !scene.is_enclosed && scene.world.shadows;
+            let patch = may_be_shaded.then(|| {
+                let Active {
+                    ball,
+                    discriminant,
+                    along,
+                    ..
+                } = &active;
+                Patch::new(cell, ball, discriminant, along)
+            });
             for light in 0..scene.lights.len() {
                 let reach = if is_outside && !scene.is_enclosed {
-                    self.reach_of(scene, cell, &active, light, cache)
+                    self.reach_of(scene, cell, (&active, patch.as_ref()), light, cache)
                 } else {
                     Reach::Nowhere
                 };
@@ -209,24 +219,24 @@ impl Contents {
         }
     }
 
-    /// The way of a light to a sphere that the eye is outside of.
+    /// The way of a light to a sphere that the eye is outside of, past others where there is a patch of it that they
+    /// may shade.
     fn reach_of(
         &mut self,
         scene: &InCamera<'_>,
         cell: &Cell,
-        active: &Active,
+        (active, patch): (&Active, Option<&Patch>),
         light: usize,
         cache: &mut OccluderCache,
     ) -> Reach {
         let first = self.occluders.len();
-        if scene.world.shadows {
-            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+        if let Some(patch) = patch {
             let in_camera = &scene.lights[light];
             let Some(range) = cache.occluders(scene, active.sphere, light) else {
                 return Reach::Nowhere;
             };
             cache.tests += range.len() as u64;
-            let found = match cache.shade(&patch, in_camera, range) {
+            let found = match cache.shade(patch, in_camera, range) {
                 Shade::Everything => return Reach::Nowhere,
                 Shade::Nothing => &[],
                 Shade::Edges(found) => found,
