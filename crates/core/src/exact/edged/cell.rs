@@ -65,6 +65,9 @@ const BROAD: f64 = 60.0;
 /// to see all bumps: rules that look less closely agree by chance.
 const MOST_CELLS: f64 = 4.0;
 
+/// The same up to which boxes are tried.
+const MOST_CELLS_OF_BOXES: f64 = 2.0;
+
 /// How far pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
 /// in the middle of a picture, must not coincide with sides of cells. It is far more than rounding, and
 /// costs an edge no more than the sum of both.
@@ -110,7 +113,10 @@ impl Workspace {
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);
         }
-        if let Some(part) = self.by_boxes(simd, pixel, &cell) {
+        let is_fine = self
+            .contents
+            .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
+        if !is_fine && let Some(part) = self.by_boxes(simd, pixel, &cell) {
             return Ok(part);
         }
         let mut part = self.part(simd, pixel, &cell, 0)?;
@@ -144,7 +150,7 @@ impl Workspace {
         };
         let found = self
             .boxes
-            .integrate(simd, scene, cell, &self.contents, &goal);
+            .integrate(simd, scene, cell, &self.contents, &goal, &mut self.noise);
         let work = std::mem::take(&mut self.boxes.work);
         self.work.samples += work.samples;
         self.budget.spend(work);

@@ -5,6 +5,7 @@ use fearless_simd::{f64x8, mask64x8};
 
 use super::eight_boxes::{Eight, EightBoxes};
 use super::lights::Lit;
+use super::normals::Normals;
 use super::orders::Orders;
 use super::outlines::{Outline, Visible};
 use super::region::Region;
@@ -15,6 +16,7 @@ use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::model::roughness::noise::NoiseCells;
 
 /// What the boxes of a cell have in common.
 #[derive(Clone, Copy, Debug)]
@@ -107,7 +109,7 @@ impl<S: Simd> Sum<S> {
     /// Adds what is seen of a sphere.
     #[inline(always)]
     fn add(&mut self, visible: &Visible<S>, light: &Lit<S>) {
-        self.samples += 8;
+        self.samples += light.samples;
         self.is_covered |= visible.is_possible;
         self.error += light.error;
         self.seen += visible.share.area;
@@ -171,11 +173,11 @@ impl Setting<'_, '_> {
         simd: S,
         boxes: [Eight; 2],
         size: [f64; 2],
-        outlines: &mut Vec<Outline>,
+        (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
     ) -> Averages {
         simd.vectorize(
             #[inline(always)]
-            || self.averages_of(simd, boxes, size, outlines),
+            || self.averages_of(simd, boxes, size, (outlines, noise)),
         )
     }
 
@@ -185,7 +187,7 @@ impl Setting<'_, '_> {
         simd: S,
         [x, y]: [Eight; 2],
         size: [f64; 2],
-        outlines: &mut Vec<Outline>,
+        (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
     ) -> Averages {
         let boxes = EightBoxes {
             x: x.simd_into(simd),
@@ -211,7 +213,7 @@ impl Setting<'_, '_> {
         for outline in outlines.iter() {
             let visible = outline.visible(simd, outlines, self.orders);
             if visible.is_possible.to_bitmask() != 0 {
-                let light = self.light(simd, &boxes, &visible);
+                let light = self.light(simd, &boxes, &visible, noise);
                 sum.add(&visible, &light);
             }
         }
@@ -240,7 +242,13 @@ impl Setting<'_, '_> {
 
     /// The light of a sphere at these places of the boxes.
     #[inline(always)]
-    fn light<S: Simd>(&self, simd: S, boxes: &EightBoxes<S>, visible: &Visible<S>) -> Lit<S> {
+    fn light<S: Simd>(
+        &self,
+        simd: S,
+        boxes: &EightBoxes<S>,
+        visible: &Visible<S>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) -> Lit<S> {
         let position = visible.position;
         let scene = self.scene;
         let active = &self.contents.active[position];
@@ -256,11 +264,13 @@ impl Setting<'_, '_> {
             return light;
         }
         let around = Surroundings::new(simd, self.cell, boxes, &active.ball, visible);
+        let normals = Normals::new(simd, scene, finish, (&around, visible), noise);
+        light.samples = 8 * normals.samples;
         for (of_light, reach) in scene.lights.iter().zip(reaches) {
             if let Reach::Past(casters) = reach {
                 let casters = &self.contents.occluders[casters.start..casters.end];
                 let of = (finish, of_light, scene.channels);
-                light.add(simd, of, (&around, visible), casters);
+                light.add(simd, of, (&around, &normals, visible), casters);
             }
         }
         light

@@ -6,6 +6,7 @@ use super::average::Setting;
 use super::eight_boxes::Eight;
 use super::outlines::Outline;
 use crate::exact::part::Part;
+use crate::model::roughness::noise::NoiseCells;
 
 /// Memory to divide cells in.
 #[derive(Clone, Debug, Default)]
@@ -50,9 +51,10 @@ impl Division {
         setting: &Setting<'_, '_>,
         tolerance: f64,
         most_eights: usize,
+        noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<Part> {
         self.size = FIRST_SIZE;
-        let first = setting.averages(simd, FIRST, self.size, &mut self.outlines);
+        let first = setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise));
         self.samples += first.samples;
         let whole = first.total(self.size[0] * self.size[1]);
         if whole.error <= tolerance {
@@ -85,7 +87,7 @@ impl Division {
                 return None;
             }
             eights += of_size;
-            self.average(simd, setting);
+            self.average(simd, setting, noise);
         }
     }
 
@@ -136,7 +138,12 @@ impl Division {
     }
 
     /// Averages the boxes that are left.
-    fn average<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>) {
+    fn average<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        noise: &mut Option<Box<NoiseCells>>,
+    ) {
         self.known.clear();
         for group in self.left.chunks(8) {
             let mut middles = [[0.0; 8]; 2];
@@ -145,7 +152,7 @@ impl Division {
                 middles[0][lane] = x;
                 middles[1][lane] = y;
             }
-            let found = setting.averages(simd, middles, self.size, &mut self.outlines);
+            let found = setting.averages(simd, middles, self.size, (&mut self.outlines, noise));
             self.samples += found.samples;
             for (lane, &middle) in group.iter().enumerate() {
                 self.known.push((middle, found.lane(lane)));

@@ -5,7 +5,8 @@ use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
 use super::half_plane::{HalfPlane, ramp};
-use super::surroundings::{OF_SECOND, Surroundings};
+use super::normals::Normals;
+use super::surroundings::OF_SECOND;
 use crate::exact::surface::Finish;
 
 /// The cosines toward a light in boxes: in the middles of what is lit, and how they change across.
@@ -37,10 +38,10 @@ impl<S: Simd> Faced<S> {
     #[inline(always)]
     pub(super) fn new(
         simd: S,
-        around: &Surroundings<S>,
+        normals: &Normals<S>,
         toward: DVec3,
         (cosine, across): (f64x8<S>, [f64x8<S>; 2]),
-        (middle, inward): ([f64x8<S>; 2], [f64x8<S>; 2]),
+        (offset, middle, inward): ([f64x8<S>; 2], [f64x8<S>; 2], [f64x8<S>; 2]),
     ) -> (Self, [f64x8<S>; 2]) {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
@@ -52,18 +53,22 @@ impl<S: Simd> Faced<S> {
             let extent = one - middle[axis].abs() * 2.0;
             variances[axis] = extent * extent;
             let place = (middle[axis] + inward[axis]).max(-half).min(half);
-            aside[axis] = place - around.offset[axis];
+            aside[axis] = place - offset[axis];
         }
-        let [xx, _, yy] = &around.seconds;
-        let bend = (xx.dot_one(toward) * variances[0] + yy.dot_one(toward) * variances[1])
-            * (1.0 / around.radius * OF_SECOND);
-        let third = around.third * variances[0].max(variances[1]);
+        let [xx, yy] = &normals.seconds;
+        let bend =
+            (xx.dot_one(toward) * variances[0] + yy.dot_one(toward) * variances[1]) * OF_SECOND;
+        let third = normals.third * variances[0].max(variances[1]);
+        let mut width = (across[0].abs() + across[1].abs()) * 0.5;
+        if normals.is_rough {
+            width += normals.bow;
+        }
         let faced = Self {
             cosine: cosine + across[0] * aside[0] + across[1] * aside[1],
             across,
-            width: (across[0].abs() + across[1].abs()) * 0.5,
-            bend: around.is_cut.select(zero, bend),
-            error: around.is_cut.select(around.second, third),
+            width,
+            bend: normals.is_bent.select(bend, zero),
+            error: normals.is_bent.select(third, normals.second),
         };
         (faced, aside)
     }
@@ -76,7 +81,7 @@ impl<S: Simd> Faced<S> {
 
     /// The diffuse falloff.
     #[inline(always)]
-    pub(super) fn diffuse(&self, simd: S, finish: &Finish, around: &Surroundings<S>) -> Power<S> {
+    pub(super) fn diffuse(&self, simd: S, finish: &Finish, normals: &Normals<S>) -> Power<S> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let falloff = &finish.reflectance.diffuse;
@@ -89,12 +94,12 @@ impl<S: Simd> Faced<S> {
                 value = is_cut.select(ramp(simd, self.cosine, self.across), value);
             }
             // Normals of rays that miss may be longer than 1.
-            let highest = highest + around.second * OF_HIGHEST;
+            let highest = highest + normals.second * OF_HIGHEST;
             let most = highest.max(zero).min(one);
             return Power {
                 value: value.min(one),
                 most,
-                doubt: is_cut.select(around.second, self.error).min(one),
+                doubt: is_cut.select(normals.second, self.error).min(one),
                 ambiguity: is_cut.select((value - self.cosine.max(zero)) * OF_RAMP, zero),
             };
         }
@@ -102,8 +107,7 @@ impl<S: Simd> Faced<S> {
         let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
         let width = if exponent < 1.0 {
             // Steep where it begins, which is to be known well: near silhouettes cosines are no linear functions.
-            let bend = (around.turn_sq / around.grazing * OF_BEND).min(around.grazing);
-            self.width + bend
+            self.width + normals.bow
         } else {
             self.width
         };
@@ -111,8 +115,8 @@ impl<S: Simd> Faced<S> {
         let half = width * 0.5;
         let least = (self.cosine - half).max(half).max(tiny);
         let by_least = one / least;
-        let bends = around.second * by_least
-            + around.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
+        let bends = normals.second * by_least
+            + normals.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
         let most = falloff.of(self.cosine + width);
         let power = if exponent < 1.0 {
             falloff.of(least)
@@ -135,7 +139,7 @@ impl<S: Simd> Faced<S> {
         simd: S,
         finish: &Finish,
         half_cosine: f64x8<S>,
-        around: &Surroundings<S>,
+        normals: &Normals<S>,
     ) -> Power<S> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
@@ -150,12 +154,12 @@ impl<S: Simd> Faced<S> {
         };
         let shininess = falloff.exponent;
         // The highest cosine in the box, by half of what normals turn across it, and a little more as rays turn.
-        let turn = around.turn_sq.sqrt() * HALF_TURN;
+        let turn = normals.turn_sq.sqrt() * HALF_TURN;
         let sine = (one - half_cosine * half_cosine).max(zero).sqrt();
         let nearest = (half_cosine + turn * sine + turn * turn).min(one);
         let most = falloff.of(nearest);
-        let bends = around.second * shininess
-            + around.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
+        let bends = normals.second * shininess
+            + normals.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
         let doubt = (most * bends * CAUTION).min(most);
         let power = falloff.of(half_cosine);
         let is_cut = self.is_cut();
@@ -169,7 +173,7 @@ impl<S: Simd> Faced<S> {
             };
         }
         // Half of the second derivative of normals, along half the diagonal.
-        let bend = around.second * (0.25 / OF_SECOND);
+        let bend = normals.second * (0.25 / OF_SECOND);
         let facing = HalfPlane::new(simd, self.cosine, self.across, bend);
         let is_faced = facing.share + facing.doubt;
         Power {
@@ -192,10 +196,6 @@ const OF_HIGHEST: f64 = 4.0;
 /// What the error of highlights is multiplied by, as half vectors turn with the view, too: one pixel in millions was off
 /// by more without it.
 const CAUTION: f64 = 1.5;
-
-/// How much cosines may differ from linear functions near a silhouette, over the square of the turn of normals and the
-/// cosine toward the eye: twice what boxes need that touch it.
-const OF_BEND: f64 = 0.75;
 
 /// Half of the turn across a box, and a quarter more for the turn of rays.
 const HALF_TURN: f64 = 0.625;

@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::falloffs::{Faced, Power};
+use super::normals::Normals;
 use super::outlines::Visible;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
@@ -20,6 +21,8 @@ pub(super) struct Lit<S: Simd> {
     /// The error of taking one point's light for the average of a part, of what shadows and ends of light hide of each
     /// other, and of their edges that are no lines.
     pub(super) error: f64x8<S>,
+    /// The points whose normals were computed.
+    pub(super) samples: u64,
 }
 
 impl<S: Simd> Lit<S> {
@@ -36,6 +39,7 @@ impl<S: Simd> Lit<S> {
             value: [x * share, y * share, z * share],
             range: [[x; 2], [y; 2], [z; 2]],
             error: zero,
+            samples: 0,
         }
     }
 
@@ -45,20 +49,22 @@ impl<S: Simd> Lit<S> {
         &mut self,
         simd: S,
         of: (&Finish, &Light, usize),
-        (around, visible): (&Surroundings<S>, &Visible<S>),
+        (around, normals, visible): (&Surroundings<S>, &Normals<S>, &Visible<S>),
         casters: &[Caster],
     ) {
         let (finish, light, _) = of;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let toward = light.toward;
-        let cosine = around.points.normal.dot_one(toward);
-        let by_radius = 1.0 / around.radius;
+        let cosine = normals.normal.dot_one(toward);
         let across = [
-            around.across[0].dot_one(toward) * by_radius,
-            around.across[1].dot_one(toward) * by_radius,
+            normals.across[0].dot_one(toward),
+            normals.across[1].dot_one(toward),
         ];
-        let highest = cosine + across[0].abs() + across[1].abs();
+        let mut highest = cosine + across[0].abs() + across[1].abs();
+        if normals.is_rough {
+            highest += normals.bow + normals.second;
+        }
         if highest.simd_gt(zero).to_bitmask() == 0 {
             return;
         }
@@ -75,19 +81,19 @@ impl<S: Simd> Lit<S> {
             }
         }
         let of_point = (cosine, across);
-        let (faced, aside) = Faced::new(simd, around, toward, of_point, (middle, visible.inward));
-        let diffuse = faced.diffuse(simd, finish, around);
-        let viewed = finish.viewed(&around.points, &around.points.normal);
+        let offset = around.offset;
+        let of_lit = (offset, middle, visible.inward);
+        let (faced, aside) = Faced::new(simd, normals, toward, of_point, of_lit);
+        let diffuse = faced.diffuse(simd, finish, normals);
+        let viewed = finish.viewed(&around.points, &normals.normal);
         let mut half_cosine = zero;
         if finish.reflectance.highlight.is_some() {
             half_cosine = viewed.half_cosine(toward, cosine);
-            let [x, y] = &around.across;
-            let turned = x
-                .times(aside[0] * by_radius)
-                .plus(&y.times(aside[1] * by_radius));
+            let [x, y] = &normals.across;
+            let turned = x.times(aside[0]).plus(&y.times(aside[1]));
             half_cosine += viewed.change_of_half_cosine(toward, &turned);
         }
-        let shine = faced.shine(simd, finish, half_cosine, around);
+        let shine = faced.shine(simd, finish, half_cosine, normals);
         let weights = finish.reflectance.brightest(light.intensity);
         // Light that ends in a part of the box may end in what is hidden of it.
         let cut = left.region.most.min(one - lit.area);

@@ -2,13 +2,14 @@
 //!
 //! In each box every silhouette, seam and shadow edge is taken for the straight line that leaves the area which its
 //! curve leaves, to the second degree. What is inside of two such lines has a closed form; the shares of more are
-//! multiplied. The light on their sides is that of one point, in the middle of what is seen, with its second derivative.
-//! The boxes that claim too much are divided.
+//! multiplied. The light on their sides is that of one point, in the middle of what is seen, with its second derivative;
+//! rough surfaces take five points. The boxes that claim too much are divided.
 //!
 //! The claim is an estimate, the sum over all boxes of: what a third edge in the box may hide or show, times the
 //! contrast there; a share of the area between an edge and its line; and what second derivatives do not know of the
-//! light. What could fool it are silhouettes or shadows far smaller than a box. Their functions bend by more than their
-//! values, so that their boxes claim the whole contrast.
+//! light. Silhouettes or shadows far smaller than a box could fool it; but their functions bend by more than their values,
+//! so that their boxes claim the whole contrast. So could bumps between the points; but boxes that are not small beside
+//! bumps claim all light that there may be.
 
 mod average;
 mod bent;
@@ -18,6 +19,7 @@ mod eight_boxes;
 mod falloffs;
 mod half_plane;
 mod lights;
+mod normals;
 mod orders;
 mod outlines;
 mod projected;
@@ -33,12 +35,12 @@ use self::division::Division;
 use self::orders::Orders;
 use crate::edges::cell::Cell;
 use crate::exact::budget::CellWork;
-use crate::exact::classify::active::Terminators;
 use crate::exact::classify::contents::{Contents, Kind};
 use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::model::roughness::noise::NoiseCells;
 
 /// Memory to work in.
 #[derive(Clone, Debug, Default)]
@@ -83,6 +85,7 @@ impl Boxes {
         cell: &Cell,
         contents: &Contents,
         goal: &Goal,
+        noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<Part> {
         let tolerance = goal.tolerance;
         let curves = contents.conics.len() + contents.occluders.len();
@@ -107,7 +110,7 @@ impl Boxes {
         };
         let part = self
             .division
-            .integrate(simd, &setting, tolerance, most_eights);
+            .integrate(simd, &setting, tolerance, most_eights, noise);
         self.work.samples += std::mem::take(&mut self.division.samples);
         part.filter(|part| part.value.is_finite())
     }
@@ -122,7 +125,7 @@ impl Boxes {
             let along = &active.along;
             let half = 0.5 * (along.x.abs() + along.y.abs());
             let is_ahead = active.ball.outside > 0.0 && along.one > half;
-            if !is_ahead || active.terminators != Terminators::Plain {
+            if !is_ahead {
                 return false;
             }
         }
