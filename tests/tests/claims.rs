@@ -229,6 +229,73 @@ fn bounds_hold_among_other_balls() {
     }
 }
 
+/// Bumps from far larger to a little smaller than pixels, with outlines, seams, shadows and highlights on them, at loose
+/// tolerances, against a grid of many samples.
+#[test]
+fn bumps_are_within_loose_claims() {
+    const SIDE: u32 = 60;
+    // What the grid is off by where an edge crosses a pixel, and some points beside it fall on the wrong side.
+    const DOUBT: f64 = 1.0 / 60.0 / 60.0 * 4.0;
+    for (grain, seed) in [(20.0, 4), (6.0, 1), (2.0, 2), (0.7, 3)] {
+        let mut world = World::new();
+        world.ambient = Color::splat(0.05);
+        let rough = |exponent, highlight| Material {
+            exponent,
+            highlight,
+            roughness: Some(Roughness {
+                amplitude: 0.5,
+                grain: Grain::Surface(grain),
+                seed,
+            }),
+            ..matte(Color::ONE)
+        };
+        let shiny = |strength, shininess| {
+            Some(Highlight {
+                strength,
+                shininess,
+            })
+        };
+        // A highlight that ends where the surface turns from the light, and is bright there.
+        let satin = world.add_material(rough(1.0, shiny(0.5, 1.5)));
+        let candy = world.add_material(rough(1.3, shiny(0.4, 30.0)));
+        for (center, radius, material) in [
+            (DVec3::new(-4.0, 0.0, 40.0), 7.0, candy),
+            (DVec3::new(6.0, 0.0, 40.0), 7.0, satin),
+            (DVec3::new(3.0, 3.0, 33.0), 3.5, satin),
+            (DVec3::new(-5.0, -3.0, 30.0), 1.5, candy),
+        ] {
+            world.add_sphere(Sphere::new(center, radius).unwrap(), material);
+        }
+        for toward in [DVec3::new(-1.0, 0.8, -1.0), DVec3::new(1.0, 0.3, -0.4)] {
+            let intensity = Color::splat(0.5);
+            world
+                .lights
+                .extend(DirectionalLight::new(toward, intensity));
+        }
+        let view = looking_forward(48, 48, 30.0);
+        let truth = picture(&world, &view, SIDE, false);
+        for tolerance in [1e-1, 1e-2] {
+            let image = exact_picture(&world, &view, tolerance, false);
+            let mut ratios = Vec::new();
+            for (col, row) in pixels(&image) {
+                let off = (image.rgba(col, row)[0] - truth.rgba(col, row)[0]).abs();
+                let claimed = image.error(col, row);
+                assert!(
+                    off <= claimed + DOUBT,
+                    "grain {grain}, {tolerance:e}, {col} {row}: {off} {claimed}"
+                );
+                assert_eq!(image.status(col, row), Status::Met);
+                if claimed > 0.01 * tolerance {
+                    ratios.push(off / claimed);
+                }
+            }
+            ratios.sort_by(f64::total_cmp);
+            let median = ratios[ratios.len() / 2];
+            assert!(ratios.len() > 100 && median > 0.002, "{median}");
+        }
+    }
+}
+
 /// Where bumps are so fine that samples are random, claims hold against many more samples, and are not all that
 /// light may be.
 #[test]

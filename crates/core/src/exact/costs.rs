@@ -229,7 +229,7 @@ fn cost_of_kink(power: f64) -> f64 {
 /// The largest cosine of an angle that is `turn` less at most than one with this cosine:
 /// cos(θ − δ) ≤ cos θ + δ sin θ where δ ≤ θ, and ≤ cos θ + δ anywhere. Not negative.
 #[inline(always)]
-pub(super) fn highest_cosine<S: Simd>(simd: S, cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
+pub(crate) fn highest_cosine<S: Simd>(simd: S, cosine: f64x8<S>, turn: f64x8<S>) -> f64x8<S> {
     let zero = f64x8::splat(simd, 0.0);
     let one = f64x8::splat(simd, 1.0);
     let cosine = cosine.min(one);

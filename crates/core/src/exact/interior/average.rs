@@ -30,6 +30,8 @@ struct Sampled<S: Simd> {
     lights: [Radiance<S>; GAUSS_SAMPLES],
     /// Where the surface needs them.
     cosines: Option<LightCosines<S>>,
+    /// Of one sample of bumps, of five and of nine.
+    middle: Estimate<S>,
     star: Estimate<S>,
     grid: Estimate<S>,
     /// Along both diagonals, Kronrod's rule less Gauss's.
@@ -56,6 +58,7 @@ impl<S: Simd> Sampled<S> {
             } else {
                 None
             },
+            middle: Estimate::unknown(simd),
             star: Estimate::unknown(simd),
             grid: Estimate::unknown(simd),
             excess: [[zero; 3]; 2],
@@ -66,7 +69,7 @@ impl<S: Simd> Sampled<S> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The averages: by one sample where a bound tells that it suffices; where light is smooth by a rule with five
+    /// The averages: by one sample where a bound, or an estimate on bumps, tells that it suffices; where light is smooth by a rule with five
     /// points, elsewhere by Gauss's with three points a side.
     ///
     /// # Accuracy
@@ -101,7 +104,9 @@ impl<S: Simd> Filled<'_, S> {
             samples: sampled.samples,
         };
         let is_star_enough = self.which & !sampled.star.is_met.to_bitmask() == 0;
-        let error = if is_star_enough {
+        let error = if sampled.samples == 1 {
+            sampled.middle.error
+        } else if is_star_enough {
             self.by_star(simd, &sampled, &mut averages.values)
         } else {
             self.weighted(simd, &sampled, &mut averages.values)
@@ -112,6 +117,12 @@ impl<S: Simd> Filled<'_, S> {
         if let Some(domain) = &domain {
             let rules = Rules::StarOrGrid(sampled.star.is_met);
             averages.bounds = self.bound(simd, domain, rules).into();
+        }
+        for lane in set_bits(sampled.middle.is_met.to_bitmask()) {
+            for channel in 0..self.scene.channels {
+                averages.values[lane][channel] = sampled.lights[0][channel][lane];
+            }
+            averages.errors[lane] = sampled.middle.error[lane];
         }
         if let Some((bounds, met)) = in_middle {
             // A pixel does not depend on those beside it: the first sample is the middle's.
@@ -160,8 +171,21 @@ impl<S: Simd> Filled<'_, S> {
             return;
         }
 
+        // One sample.
+        if self.is_worth_a_middle() {
+            self.light(simd, 0, cosines, noise, &mut lights[..1]);
+            into.samples = 1;
+            if let Some(cosines) = &*cosines {
+                into.middle = self.of_middle(simd, cosines);
+            }
+            if self.which & !into.middle.is_met.to_bitmask() == 0 {
+                return;
+            }
+        }
+
         // Five samples.
-        self.light(simd, 0, cosines, noise, &mut lights[..STAR_SAMPLES]);
+        let rest = &mut lights[into.samples..STAR_SAMPLES];
+        self.light(simd, into.samples, cosines, noise, rest);
         into.star = self.estimate(simd, Rule::Star, lights, cosines.as_ref());
         into.samples = STAR_SAMPLES;
         if self.finish.is_rough()

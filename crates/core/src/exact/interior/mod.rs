@@ -7,6 +7,7 @@ mod estimate;
 pub(crate) mod fill;
 pub(crate) mod filled;
 mod light_cosines;
+mod middle;
 pub(crate) mod parts;
 mod reached;
 mod remainder;

@@ -34,14 +34,15 @@ pub(super) struct Power<S: Simd> {
 
 impl<S: Simd> Faced<S> {
     /// The cosines of these at points and their changes across boxes, where the middles of what is lit are known; and
-    /// the ways from the points to those, in sides. `inward` leads from the middles to where the average is.
+    /// the ways from the points to those, in sides. `offset` leads from the middles of boxes to the points, `inward` from
+    /// the middles of what is lit to where the average is.
     #[inline(always)]
     pub(super) fn new(
         simd: S,
         normals: &Normals<S>,
         toward: DVec3,
         (cosine, across): (f64x8<S>, [f64x8<S>; 2]),
-        (offset, middle, inward): ([f64x8<S>; 2], [f64x8<S>; 2], [f64x8<S>; 2]),
+        [offset, middle, inward]: [[f64x8<S>; 2]; 3],
     ) -> (Self, [f64x8<S>; 2]) {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);

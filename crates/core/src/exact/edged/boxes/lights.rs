@@ -82,7 +82,7 @@ impl<S: Simd> Lit<S> {
         }
         let of_point = (cosine, across);
         let offset = around.offset;
-        let of_lit = (offset, middle, visible.inward);
+        let of_lit = [offset, middle, visible.inward];
         let (faced, aside) = Faced::new(simd, normals, toward, of_point, of_lit);
         let diffuse = faced.diffuse(simd, finish, normals);
         let viewed = finish.viewed(&around.points, &normals.normal);
