@@ -24,6 +24,7 @@ mod sampling;
 mod search;
 mod time;
 
+pub use exact::areas::VisibleArea;
 pub use hit::outcome::{Floor, Hit};
 pub use model::albedos::Albedos;
 pub use model::camera::{Camera, Lens};
@@ -31,6 +32,7 @@ pub use model::color::Color;
 pub use model::exposure::{Exposure, Motion, Pose};
 pub use model::light::DirectionalLight;
 pub use model::material::{Grain, Highlight, Material, Roughness};
+pub use model::outline::{Ellipse, Outline};
 pub use model::ray::Ray;
 pub use model::sphere::{Sphere, SphereError};
 pub use model::view::View;

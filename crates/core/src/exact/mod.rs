@@ -16,6 +16,7 @@
 //!
 //! [`budget`] limits what a pixel may cost. A pixel that ends over its tolerance says so.
 
+pub(crate) mod areas;
 pub(crate) mod budget;
 mod classify;
 mod context;

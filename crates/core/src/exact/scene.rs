@@ -127,6 +127,18 @@ impl<'scene> InCamera<'scene> {
         }
     }
 
+    /// The same without lights.
+    pub(crate) fn without_lights(
+        world: &'scene World,
+        visibility: &'scene Visibility<'scene>,
+        view: &View,
+        channels: Channels,
+    ) -> Self {
+        // A group after the last one.
+        let group = world.lights.len() / MOST_LIGHTS + 1;
+        Self::new(world, visibility, view, channels, group)
+    }
+
     /// A sphere in the camera's frame.
     pub(crate) fn ball(&self, sphere: usize) -> Ball {
         match self.balls.get(sphere) {

@@ -6,6 +6,7 @@ pub(crate) mod color;
 pub(crate) mod exposure;
 pub(crate) mod light;
 pub(crate) mod material;
+pub(crate) mod outline;
 pub(crate) mod ray;
 pub(crate) mod roughness;
 pub(crate) mod sphere;

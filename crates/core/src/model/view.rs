@@ -65,9 +65,14 @@ impl View {
             return None;
         }
         let scale = self.lens.distance * self.zoom / in_camera.z;
-        let on_retina = in_camera.truncate() * scale - self.lens.shift;
+        Some(self.pixel_of(in_camera.truncate() * scale))
+    }
+
+    /// The pixel coordinates of a point of the plane of the retina, from the axis of view.
+    pub(super) fn pixel_of(&self, point: DVec2) -> DVec2 {
+        let on_retina = point - self.lens.shift;
         let size = DVec2::new(f64::from(self.width), f64::from(self.height));
-        Some(0.5 * size + DVec2::new(on_retina.x, -on_retina.y) / self.pixel_size())
+        0.5 * size + DVec2::new(on_retina.x, -on_retina.y) / self.pixel_size()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The loop over the tiles of a picture.
 
 mod approach;
+mod areas;
 mod integrator;
 pub(crate) mod renderer;
 pub(crate) mod settings;

@@ -20,8 +20,8 @@ use crate::search::visibility::Visibility;
 /// A world that is ready to be rendered: what does not depend on the view is done once.
 #[derive(Clone, Debug)]
 pub struct Renderer<'world> {
-    world: &'world World,
-    visibility: Visibility<'world>,
+    pub(super) world: &'world World,
+    pub(super) visibility: Visibility<'world>,
 }
 
 impl<'world> Renderer<'world> {

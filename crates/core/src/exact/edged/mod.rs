@@ -1,6 +1,6 @@
 //! Pixels with edges.
 
 pub(crate) mod boundary;
-mod boxes;
+pub(crate) mod boxes;
 pub(crate) mod cell;
 pub(crate) mod rule;

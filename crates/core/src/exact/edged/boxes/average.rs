@@ -195,20 +195,7 @@ impl Setting<'_, '_> {
             size,
         };
         let one = f64x8::splat(simd, 1.0);
-        outlines.clear();
-        let mut outside = Region::whole(simd);
-        for (position, active) in self.contents.active.iter().enumerate() {
-            let has_depth = self.orders.needs_depth(position);
-            let of = (position, active);
-            if !self.has_silhouette[position] {
-                outside.darken(simd, one.simd_gt(0.0));
-                outlines.push(Outline::filling(simd, &boxes, of, has_depth));
-            } else if let Some(outline) = Outline::new(simd, &boxes, of, has_depth) {
-                outside.cut(simd, &outline.outside(simd));
-                outlines.push(outline);
-            }
-        }
-
+        let outside = self.outlines(simd, &boxes, outlines);
         let mut sum = Sum::nothing(simd, self.scene.channels);
         for outline in outlines.iter() {
             let visible = outline.visible(simd, outlines, self.orders);
@@ -238,6 +225,31 @@ impl Setting<'_, '_> {
             error: error.into(),
             samples: sum.samples,
         }
+    }
+
+    /// Finds the outlines of the spheres that boxes may see; what is outside of all of them.
+    #[inline(always)]
+    pub(super) fn outlines<S: Simd>(
+        &self,
+        simd: S,
+        boxes: &EightBoxes<S>,
+        outlines: &mut Vec<Outline>,
+    ) -> Region<S> {
+        let one = f64x8::splat(simd, 1.0);
+        outlines.clear();
+        let mut outside = Region::whole(simd);
+        for (position, active) in self.contents.active.iter().enumerate() {
+            let has_depth = self.orders.needs_depth(position);
+            let of = (position, active);
+            if !self.has_silhouette[position] {
+                outside.darken(simd, one.simd_gt(0.0));
+                outlines.push(Outline::filling(simd, boxes, of, has_depth));
+            } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
+                outside.cut(simd, &outline.outside(simd));
+                outlines.push(outline);
+            }
+        }
+        outside
     }
 
     /// The light of a sphere at these places of the boxes.

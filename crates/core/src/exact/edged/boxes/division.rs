@@ -25,19 +25,19 @@ pub(super) struct Division {
 
 /// The middles of the first boxes, four beside each other and two above each other, in an order in which neighbors follow
 /// each other, and their sides.
-const FIRST: [Eight; 2] = [
+pub(super) const FIRST: [Eight; 2] = [
     [-0.375, -0.375, -0.125, -0.125, 0.125, 0.125, 0.375, 0.375],
     [-0.25, 0.25, 0.25, -0.25, -0.25, 0.25, 0.25, -0.25],
 ];
-const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
+pub(super) const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 
 /// The middles of halves and quarters of a box, in its sides.
-const HALVES: [[f64; 2]; 2] = [[-0.25, 0.0], [0.25, 0.0]];
+pub(super) const HALVES: [[f64; 2]; 2] = [[-0.25, 0.0], [0.25, 0.0]];
 const QUARTERS: [[f64; 2]; 4] = [[-0.25, -0.25], [-0.25, 0.25], [0.25, 0.25], [0.25, -0.25]];
 
 /// The share of what is left of the tolerance that the boxes of a size may claim together, if they are more than
 /// the tolerance allows.
-const SHARE: f64 = 0.5;
+pub(super) const SHARE: f64 = 0.5;
 
 /// How many times more than what is left of the tolerance boxes claim that are quartered, not halved. Not tuned finely.
 const FAR: f64 = 2.5;

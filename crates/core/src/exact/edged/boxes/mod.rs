@@ -11,6 +11,7 @@
 //! so that their boxes claim the whole contrast. So could bumps between the points; but boxes that are not small beside
 //! bumps claim all light that there may be.
 
+pub(crate) mod areas;
 mod average;
 mod bent;
 mod depth;
@@ -30,6 +31,7 @@ mod wedge;
 
 use fearless_simd::Simd;
 
+use self::areas::Shares;
 use self::average::Setting;
 use self::division::Division;
 use self::orders::Orders;
@@ -113,6 +115,32 @@ impl Boxes {
             .integrate(simd, &setting, tolerance, most_eights, noise);
         self.work.samples += std::mem::take(&mut self.division.samples);
         part.filter(|part| part.value.is_finite())
+    }
+
+    /// Measures the shares of a cell in which its active spheres are seen, to an error that all of them together may
+    /// have; returns whether that succeeded.
+    pub(crate) fn shares<S: Simd>(
+        &mut self,
+        simd: S,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        contents: &Contents,
+        (tolerance, shares): (f64, &mut Shares),
+    ) -> bool {
+        if !self.prepare(scene, contents) {
+            return false;
+        }
+        let setting = Setting {
+            scene,
+            cell,
+            contents,
+            background: Color::ZERO,
+            has_alpha: false,
+            finishes: &self.finishes,
+            orders: &self.orders,
+            has_silhouette: &self.has_silhouette,
+        };
+        shares.measure(simd, &setting, tolerance)
     }
 
     /// Prepares what all boxes share; returns false if the cell is not one for boxes.

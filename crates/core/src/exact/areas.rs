@@ -1,0 +1,238 @@
+//! The areas of pictures in which spheres are seen.
+
+use fearless_simd::{Level, Simd, dispatch};
+
+use super::budget::Allowance;
+use super::classify::contents::Contents;
+use super::classify::magnitude::{is_ball_moderate, is_view_moderate};
+use super::classify::occluder_cache::OccluderCache;
+use super::classify::row::{Coverage, Sight, classify_row, sight};
+use super::context::Context;
+use super::edged::boxes::Boxes;
+use super::edged::boxes::areas::Shares;
+use super::scene::InCamera;
+use crate::edges::cell::{Ball, Cell};
+use crate::model::color::Color;
+use crate::model::view::View;
+use crate::model::world::World;
+use crate::picture::image::Channels;
+use crate::picture::tile::Tile;
+use crate::search::view_index::ViewIndex;
+use crate::search::visibility::Visibility;
+
+/// The area in which a sphere is seen, in pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VisibleArea {
+    /// The area.
+    pub area: f64,
+    /// An estimate of its error.
+    pub error: f64,
+}
+
+/// Measures visible areas, tile by tile.
+#[derive(Clone, Debug)]
+pub(crate) struct Areas<'scene> {
+    index: ViewIndex<'scene>,
+    is_moderate: bool,
+    context: Context<'scene>,
+    level: Level,
+}
+
+/// Memory for a thread.
+#[derive(Debug, Default)]
+pub(crate) struct Scratch {
+    balls: Vec<Ball>,
+    coverages: Vec<Coverage>,
+    spheres: Vec<(usize, Ball)>,
+    contents: Contents,
+    boxes: Boxes,
+    shares: Shares,
+}
+
+/// How deep pixels are quartered where boxes do not meet the tolerance: what is left of an edge is less than 1e-3 of a
+/// pixel.
+const DEEPEST: u32 = 10;
+
+/// Between which x and y the quarters of a cell lie.
+const QUARTERS: [[[f64; 2]; 2]; 4] = [
+    [[-0.5, 0.0], [-0.5, 0.0]],
+    [[0.0, 0.5], [-0.5, 0.0]],
+    [[-0.5, 0.0], [0.0, 0.5]],
+    [[0.0, 0.5], [0.0, 0.5]],
+];
+
+impl<'scene> Areas<'scene> {
+    /// Prepares a view, whose pixels may each be off by `tolerance`, all spheres together.
+    pub(crate) fn new(
+        world: &'scene World,
+        visibility: &'scene Visibility<'scene>,
+        view: &View,
+        index: ViewIndex<'scene>,
+        tolerance: f64,
+    ) -> Self {
+        // Without lights.
+        let scene = InCamera::without_lights(world, visibility, view, Channels::Grey);
+        Self {
+            index,
+            is_moderate: is_view_moderate(view),
+            context: Context {
+                scene,
+                view: *view,
+                tolerance,
+                is_proved: false,
+                has_alpha: false,
+                background: Color::ZERO,
+                contrast: 1.0,
+                allowance: Allowance::still(1),
+            },
+            level: Level::new(),
+        }
+    }
+
+    /// Adds what a tile sees of each sphere to a list, sphere by sphere in the order of their numbers.
+    pub(crate) fn add_tile(
+        &self,
+        tile: Tile,
+        scratch: &mut Scratch,
+        areas: &mut Vec<(usize, VisibleArea)>,
+    ) {
+        let candidates = self.index.indices(tile);
+        let Some(&first) = candidates.first() else {
+            return;
+        };
+        let mut sums = vec![(first, VisibleArea::default()); candidates.len()];
+        for (sum, &candidate) in sums.iter_mut().zip(&candidates) {
+            sum.0 = candidate;
+        }
+        sums.sort_unstable_by_key(|(sphere, _)| *sphere);
+        let balls = candidates
+            .iter()
+            .map(|&sphere| self.context.scene.ball(sphere));
+        scratch.balls.clear();
+        scratch.balls.extend(balls);
+        let mut sums = Sums(sums);
+        if self.is_moderate && scratch.balls.iter().all(is_ball_moderate) {
+            dispatch!(self.level, simd => self.measure(simd, tile, &candidates, scratch, &mut sums));
+        } else {
+            // Nothing is known.
+            for (_, sum) in &mut sums.0 {
+                sum.error = tile.count() as f64;
+            }
+        }
+        let Sums(sums) = sums;
+        areas.extend(
+            sums.into_iter()
+                .filter(|(_, sum)| sum.area > 0.0 || sum.error > 0.0),
+        );
+    }
+
+    /// Measures the pixels of a tile.
+    #[inline(always)]
+    fn measure<S: Simd>(
+        &self,
+        simd: S,
+        tile: Tile,
+        candidates: &[usize],
+        scratch: &mut Scratch,
+        sums: &mut Sums,
+    ) {
+        let context = &self.context;
+        let pixel = |col: u32, row: u32| Tile {
+            col: tile.col + col,
+            row: tile.row + row,
+            width: 1,
+            height: 1,
+        };
+        let side = context.cell(pixel(0, 0)).size[0];
+        let mut cache = OccluderCache::new(context.cell(tile), side);
+        for row in 0..tile.height {
+            for left in (0..tile.width).step_by(8) {
+                let start = Tile {
+                    width: (tile.width - left).min(8),
+                    ..pixel(left, row)
+                };
+                scratch.coverages.clear();
+                simd.vectorize(
+                    #[inline(always)]
+                    || {
+                        let known = (candidates, &scratch.balls[..]);
+                        classify_row(simd, context, start, known, &mut scratch.coverages);
+                    },
+                );
+                for lane in 0..start.width {
+                    let pixel = pixel(left + lane, row);
+                    let coverages = &scratch.coverages;
+                    let spheres = &mut scratch.spheres;
+                    match sight(context, pixel, lane as usize, coverages, spheres) {
+                        Sight::Nothing => {}
+                        Sight::Filled(sphere) => sums.add(sphere, 1.0, 0.0),
+                        Sight::Edges => {
+                            let cell = context.cell(pixel);
+                            self.divide(simd, (&cell, 0), (scratch, &mut cache), sums);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Measures a part of a pixel, which lies `depth` divisions deep, by boxes, or by its quarters.
+    fn divide<S: Simd>(
+        &self,
+        simd: S,
+        (cell, depth): (&Cell, u32),
+        (scratch, cache): (&mut Scratch, &mut OccluderCache),
+        sums: &mut Sums,
+    ) {
+        let scene = &self.context.scene;
+        let share = 0.25_f64.powi(depth as i32);
+        let Scratch {
+            spheres,
+            contents,
+            boxes,
+            shares,
+            ..
+        } = scratch;
+        contents.see(scene, cell, spheres, cache);
+        match &contents.active[..] {
+            [] => return,
+            [one] if contents.conics.is_empty() => {
+                sums.add(one.sphere, share, 0.0);
+                return;
+            }
+            _ => {}
+        }
+        let tolerance = self.context.tolerance;
+        if boxes.shares(simd, scene, cell, contents, (tolerance, shares)) {
+            for (active, [area, error]) in contents.active.iter().zip(&shares.of_spheres) {
+                let error = error + contents.rounding;
+                sums.add(active.sphere, area * share, error * share);
+            }
+            return;
+        }
+        if depth == DEEPEST {
+            for active in &contents.active {
+                sums.add(active.sphere, 0.5 * share, 0.5 * share);
+            }
+            return;
+        }
+        for [x, y] in QUARTERS {
+            let part = cell.part(x, y);
+            self.divide(simd, (&part, depth + 1), (scratch, cache), sums);
+        }
+    }
+}
+
+/// What is seen of the candidates of a tile, in the order of their numbers.
+#[derive(Debug)]
+struct Sums(Vec<(usize, VisibleArea)>);
+
+impl Sums {
+    fn add(&mut self, sphere: usize, area: f64, error: f64) {
+        if let Ok(place) = self.0.binary_search_by_key(&sphere, |(sphere, _)| *sphere) {
+            let sum = &mut self.0[place].1;
+            sum.area += area;
+            sum.error += error;
+        }
+    }
+}
