@@ -60,6 +60,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Compare(arguments) => commands::compare::run(&arguments, console),
         Command::Merge(arguments) => commands::merge::run(&arguments, console),
         Command::Report(arguments) => commands::report::run(&arguments, console),
+        Command::Spheres(arguments) => commands::spheres::run(&arguments, console),
         Command::Farm(arguments) => commands::farm::run(&arguments, console),
         Command::New(arguments) => commands::new::run(&arguments, console),
         Command::Completions(arguments) => commands::completions::run(&arguments, console),

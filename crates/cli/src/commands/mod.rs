@@ -12,3 +12,4 @@ pub(crate) mod preview;
 pub(crate) mod render;
 pub(crate) mod report;
 mod scene;
+pub(crate) mod spheres;

@@ -46,15 +46,19 @@ pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
 /// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where
 /// it names none.
 pub(super) fn view(scene: &Scene, frame: Option<i32>) -> Result<View, Failure> {
+    view_of(scene, frame.unwrap_or(*frames_of(scene).start()), "--frame")
+}
+
+/// The view of a frame that an option asks for, which has to be one of the scene's.
+pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, Failure> {
     let frames = frames_of(scene);
-    let frame = frame.unwrap_or(*frames.start());
     if !frames.contains(&frame) {
         let expected = match frames.into_inner() {
             (first, last) if first == last => format!("{first}, the only frame of the scene"),
             (first, last) => format!("a frame of the scene, from {first} to {last}"),
         };
         return Err(Failure::Usage(format!(
-            "--frame: expected {expected}, found {frame}"
+            "{option}: expected {expected}, found {frame}"
         )));
     }
     let view = scene.view(frame);

@@ -9,6 +9,7 @@ mod new;
 mod preview;
 mod render;
 mod report;
+mod spheres;
 mod values;
 
 use clap::{Parser, Subcommand};
@@ -22,6 +23,7 @@ pub(crate) use self::new::NewArguments;
 pub(crate) use self::preview::PreviewArguments;
 pub(crate) use self::render::RenderArguments;
 pub(crate) use self::report::ReportArguments;
+pub(crate) use self::spheres::SpheresArguments;
 
 /// Render scenes of spheres to pictures whose pixels are known
 #[derive(Debug, Parser)]
@@ -39,6 +41,7 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     Merge(MergeArguments),
     Report(ReportArguments),
+    Spheres(SpheresArguments),
     Farm(FarmArguments),
     New(NewArguments),
     Completions(CompletionsArguments),

@@ -1,0 +1,58 @@
+//! The rows of the table of spheres.
+
+use std::io::{self, Write};
+
+use marbles_core::{Sphere, View, VisibleArea};
+
+pub(super) const HEADER: &str = "frame,id,center_x,center_y,depth,ellipse_x,ellipse_y,semi_major,\
+    semi_minor,angle_degrees,left,top,right,bottom,area,visible_area,visible_area_error,\
+    visible_fraction\n";
+
+/// The pixel coordinates of the middle of the first pixel, where those of its corner are 0.
+const MIDDLE: f64 = 0.5;
+
+/// Writes the row of a sphere, with the number `id`, in a view. Numbers have as many digits as tell them from all others.
+pub(super) fn write_row(
+    to: &mut impl Write,
+    view: &View,
+    (id, sphere): (usize, &Sphere),
+    visible: &VisibleArea,
+) -> io::Result<()> {
+    let outline = view.outline(sphere);
+    write!(to, "{},{id}", view.frame)?;
+    let center = outline.center.map(|center| (center - MIDDLE).to_array());
+    write_numbers(to, center)?;
+    write!(to, ",{}", outline.depth)?;
+    let ellipse = outline.ellipse.as_ref();
+    write_numbers(
+        to,
+        ellipse.map(|ellipse| (ellipse.center - MIDDLE).to_array()),
+    )?;
+    write_numbers(to, ellipse.map(|ellipse| ellipse.semi_axes))?;
+    write_numbers(to, ellipse.map(|ellipse| [ellipse.angle_degrees()]))?;
+    for corner in [0, 1] {
+        let bounds = ellipse.map(|ellipse| (ellipse.bounds()[corner] - MIDDLE).to_array());
+        write_numbers(to, bounds)?;
+    }
+    let area = ellipse.map(|ellipse| view.area_of(ellipse));
+    write_numbers(to, area.map(|area| [area]))?;
+    write!(to, ",{},{}", visible.area, visible.error)?;
+    let fraction = area
+        .filter(|area| *area > 0.0)
+        .map(|area| [visible.area / area]);
+    write_numbers(to, fraction)?;
+    writeln!(to)
+}
+
+/// Writes some numbers, or leaves their fields empty.
+fn write_numbers<const COUNT: usize>(
+    to: &mut impl Write,
+    numbers: Option<[f64; COUNT]>,
+) -> io::Result<()> {
+    match numbers {
+        Some(numbers) => numbers
+            .iter()
+            .try_for_each(|number| write!(to, ",{number}")),
+        None => to.write_all(&[b','; COUNT]),
+    }
+}
