@@ -8,6 +8,7 @@ mod closed_forms;
 mod examples;
 mod floors;
 mod found;
+mod geometry;
 mod hits;
 mod invariance;
 mod layers;

@@ -38,6 +38,9 @@ pub use model::sphere::{Sphere, SphereError};
 pub use model::view::View;
 pub use model::world::{MaterialId, World};
 pub use numeric::angle::Angle;
+pub use picture::geometry::{
+    Axes, Depth, Geometry, GeometrySettings, Precision, Quantities, Quantity,
+};
 pub use picture::image::{Channels, Image, Summary};
 pub use picture::pixel::{Evidence, Method, Status, Work};
 pub use picture::progress::Cancelled;

@@ -6,6 +6,7 @@ use dashu_int::ops::{Abs, BitTest, SquareRoot};
 use dashu_int::{IBig, UBig};
 use glam::DVec3;
 
+use super::components::Components;
 use super::outcome::Hit;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -105,6 +106,73 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
         normal: DVec3::new(component(0), component(1), component(2)),
         inner_side,
     })
+}
+
+/// The hit of any ray, its normal along these axes, each number rounded once.
+pub(super) fn components(sphere: &Sphere, ray: &Ray, axes: &[DVec3; 3]) -> Option<Components> {
+    let Hit { t, inner_side, .. } = hit(sphere, ray)?;
+    let (direction, _) = integers(&ray.direction.to_array());
+    let ([numbers], exponent) = numbers([sphere], ray.origin, &direction);
+    let Numbers {
+        to_center,
+        radius,
+        direction_sq,
+        along,
+        discriminant,
+        ..
+    } = numbers;
+    let side = if inner_side { 1 } else { -1 };
+    let position = |axis: usize| {
+        let (mantissa, own) = mantissa_and_exponent(ray.origin[axis]);
+        let origin = match mantissa {
+            0 => IBig::ZERO,
+            _ => IBig::from(mantissa) << (own - exponent) as usize,
+        };
+        let whole = &direction_sq * origin + &along * &direction[axis];
+        let rooted = &direction[axis] * side;
+        surd(whole, &rooted, &discriminant, &direction_sq, exponent)
+    };
+    let length = &direction_sq * &radius;
+    let normal = |axis: &DVec3| {
+        let (axis, exponent) = integers(&axis.to_array());
+        let along_axis = dot(&axis, &direction);
+        let whole = &along * &along_axis - &direction_sq * dot(&axis, &to_center);
+        surd(
+            whole,
+            &(along_axis * side),
+            &discriminant,
+            &length,
+            exponent,
+        )
+    };
+    Some(Components {
+        t,
+        position: DVec3::new(position(0), position(1), position(2)),
+        normal: DVec3::from_array(axes.each_ref().map(normal)),
+    })
+}
+
+/// (a + b √q) / c · 2ᵉ for q ≥ 0 and c > 0, rounded once after a relative error of 2⁻¹⁵⁷ at most.
+///
+/// Where the terms would cancel, by way of (a² − b² q) / (a − b √q).
+fn surd(a: IBig, b: &IBig, q: &IBig, c: &IBig, exponent: i32) -> f64 {
+    let Ok(under_root) = UBig::try_from(q.clone()) else {
+        return f64::NAN;
+    };
+    let shift = BITS.saturating_sub(under_root.bit_len() / 2);
+    let root = IBig::from((under_root << (2 * shift)).sqrt()) * b;
+    let shifted = &a << shift;
+    let (mut numerator, mut denominator) = if signum(&a) * signum(b) >= 0 {
+        (shifted + root, c << shift)
+    } else {
+        let squares = &a * &a - b * b * q;
+        (squares << shift, (shifted - root) * c)
+    };
+    if denominator < IBig::ZERO {
+        (numerator, denominator) = (-numerator, -denominator);
+    }
+    let (value, own) = quotient(numerator, denominator);
+    libm::scalbn(value, own + exponent)
 }
 
 /// The order in which a ray hits two spheres; both must be hit, from inside or outside.

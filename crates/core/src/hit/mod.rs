@@ -13,6 +13,7 @@
 //! always answers.
 
 pub(crate) mod ball;
+pub(crate) mod components;
 mod double;
 mod exact;
 pub(crate) mod fast;

@@ -61,6 +61,16 @@ impl Scaled {
         libm::scalbn(length, self.length_exponent)
     }
 
+    /// A length in this scale as one of the world.
+    pub(super) fn world_length(&self, length: f64) -> f64 {
+        libm::scalbn(length, -self.length_exponent)
+    }
+
+    /// A distance along the scaled ray as one along the given.
+    pub(super) fn world_distance(&self, t: f64) -> f64 {
+        libm::scalbn(t, self.distance_exponent)
+    }
+
     /// The answer of the first floor for the given ray and sphere.
     pub(super) fn hit_fast(&self) -> Option<Option<Hit>> {
         match fast::hit(&self.sphere, &self.ray) {
@@ -79,7 +89,7 @@ impl Scaled {
     /// The hit of the given ray and sphere, from the one of the scaled.
     fn restore(&self, hit: Hit) -> Hit {
         Hit {
-            t: libm::scalbn(hit.t, self.distance_exponent),
+            t: self.world_distance(hit.t),
             ..hit
         }
     }

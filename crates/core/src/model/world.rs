@@ -143,6 +143,14 @@ impl World {
         !self.painted.is_empty()
     }
 
+    /// True where some sphere has bumps.
+    pub fn has_bumps(&self) -> bool {
+        let materials = self.materials.iter().zip(&self.is_used);
+        materials
+            .into_iter()
+            .any(|(material, used)| *used && material.roughness.is_some())
+    }
+
     fn own_albedo(&self, sphere: usize) -> Color {
         let after = self.painted.partition_point(|some| some.first <= sphere);
         let own = self.painted[..after].last();

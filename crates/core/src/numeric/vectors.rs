@@ -92,6 +92,16 @@ impl<S: Simd> Vectors<S> {
         }
     }
 
+    /// The sizes of the components.
+    #[inline(always)]
+    pub(crate) fn sizes(&self) -> Self {
+        Self {
+            x: self.x.abs(),
+            y: self.y.abs(),
+            z: self.z.abs(),
+        }
+    }
+
     /// The scalar products.
     #[inline(always)]
     pub(crate) fn dot(&self, other: &Self) -> f64x8<S> {

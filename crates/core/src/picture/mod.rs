@@ -1,6 +1,7 @@
 //! Pictures: pixels, tiles, windows, and how they are written.
 
 pub(crate) mod band;
+pub(crate) mod geometry;
 pub(crate) mod image;
 pub(crate) mod pixel;
 pub(crate) mod plane;

@@ -1,6 +1,7 @@
 //! The ways to average light over pixels, for a band of a picture at a time.
 
 use super::approach::Approach;
+use super::centers::Written;
 use super::settings::Settings;
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::exposure::Exposure;
@@ -29,7 +30,7 @@ pub(super) enum Integrator<'scene> {
 #[derive(Default)]
 pub(super) struct Scratch {
     exact: GroupScratch,
-    sampled: sampling::Scratch,
+    pub(super) sampled: sampling::Scratch,
 }
 
 impl<'scene> Integrator<'scene> {
@@ -69,12 +70,13 @@ impl<'scene> Integrator<'scene> {
         }
     }
 
-    /// Writes all pixels of a band; returns what they cost.
+    /// Writes all pixels of a band, and what samples see that tell it; returns what they cost.
     pub(super) fn paint_band(
         &self,
         band: &mut Band<'_>,
         scratch: &mut Scratch,
         progress: &Progress<'_>,
+        mut geometry: Option<Written<'_>>,
     ) -> Result<Work, Cancelled> {
         let Scratch { exact, sampled } = scratch;
         match self {
@@ -83,7 +85,13 @@ impl<'scene> Integrator<'scene> {
                 paint_tiles(band, progress, paint)
             }
             Self::Sampled(integrator) => {
-                let paint = |tile, band: &mut _| integrator.paint(tile, sampled, band);
+                let paint = |tile, band: &mut _| {
+                    let work = integrator.paint(tile, sampled, band);
+                    if let Some((first, geometry)) = &mut geometry {
+                        integrator.write_geometry(tile, sampled, (*first, geometry));
+                    }
+                    work
+                };
                 paint_tiles(band, progress, paint)
             }
             Self::ExactOverTime(integrator) => integrator.paint_band(band, exact, progress),

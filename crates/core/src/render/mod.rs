@@ -2,6 +2,7 @@
 
 mod approach;
 mod areas;
+mod centers;
 mod integrator;
 pub(crate) mod renderer;
 pub(crate) mod settings;

@@ -84,7 +84,7 @@ impl<'world> Renderer<'world> {
         let bands = bands.map(|mut band| {
             let lock = || spare.lock().unwrap_or_else(PoisonError::into_inner);
             let mut scratch: Scratch = lock().pop().unwrap_or_default();
-            let work = integrator.paint_band(&mut band, &mut scratch, progress);
+            let work = integrator.paint_band(&mut band, &mut scratch, progress, None);
             lock().push(scratch);
             work
         });
@@ -104,6 +104,11 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
     ) -> Integrator<'a> {
         Integrator::new(self.world, &self.visibility, exposure, settings)
+    }
+
+    /// The world, and what is known of it.
+    pub(super) fn parts(&self) -> (&World, &Visibility<'_>) {
+        (self.world, &self.visibility)
     }
 
     /// The picture of a view, without its pixels.

@@ -3,10 +3,12 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use super::centers::Centers;
 use super::integrator::{Integrator, Scratch};
 use super::renderer::Renderer;
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
+use crate::picture::geometry::{Geometry, GeometrySettings};
 use crate::picture::image::{Image, Layout};
 use crate::picture::pixel::Work;
 use crate::picture::progress::{Cancelled, Progress};
@@ -38,6 +40,10 @@ pub trait Strip {
     /// `part`.
     fn add(&mut self, col: u32, part: &Image);
 
+    /// What the rays through the centers of these columns' pixels see, where it was asked for; comes before
+    /// the columns are added.
+    fn add_geometry(&mut self, _col: u32, _part: &Geometry) {}
+
     /// All columns were added.
     fn end(self: Box<Self>);
 }
@@ -49,6 +55,8 @@ pub trait Strip {
 /// on the next picture while other threads end theirs.
 pub struct Rendering<'a> {
     integrator: Integrator<'a>,
+    /// The rays through the centers of pixels, where somebody asks for what they see.
+    centers: Option<Centers<'a>>,
     /// The whole picture.
     layout: Layout,
     window: Window,
@@ -73,6 +81,24 @@ impl Renderer<'_> {
         settings: &Settings,
         bands: u32,
     ) -> Rendering<'a> {
+        self.begin_with_geometry(exposure, window, settings, bands, None)
+    }
+
+    /// Prepares as [`Self::begin`] does; with `geometry` each strip gets what the rays through the centers of
+    /// its pixels see, as well.
+    ///
+    /// With one sample a pixel these are the same rays, which are traced once.
+    ///
+    /// # Panics
+    /// When the window is not inside the picture.
+    pub fn begin_with_geometry<'a>(
+        &'a self,
+        exposure: impl Into<Exposure<'a>>,
+        window: Window,
+        settings: &Settings,
+        bands: u32,
+        geometry: Option<&GeometrySettings>,
+    ) -> Rendering<'a> {
         let exposure = exposure.into();
         let view = exposure.view();
         let is_inside = |first: u32, length: u32, all: u32| {
@@ -83,8 +109,14 @@ impl Renderer<'_> {
                 && is_inside(window.row, window.height, view.height),
             "{window:?} is outside"
         );
+        let integrator = self.integrator(&exposure, settings);
+        let (integrator, centers) = match geometry {
+            Some(geometry) => Centers::with(self, &exposure, integrator, *geometry),
+            None => (integrator, None),
+        };
         Rendering {
-            integrator: self.integrator(&exposure, settings),
+            integrator,
+            centers,
             layout: self.layout(view, settings),
             window,
             rows: bands.max(1).saturating_mul(BAND_ROWS),
@@ -151,26 +183,25 @@ impl Rendering<'_> {
         let (picture_width, picture_height) = self.layout.size;
         let columns = whole_tiles(self.window.col, self.window.width, picture_width);
         let mut scratch = Scratch::default();
-        let mut image = None;
+        let mut spent = (None, None);
         let mut work = Work::default();
         while let Some((index, strip)) = self.next() {
             let rows = whole_tiles(strip.row, strip.height, picture_height);
             let mut sink = sink.begin(index).ok_or(Cancelled)?;
             for col in columns.clone().step_by(PART_COLUMNS as usize) {
                 let width = PART_COLUMNS.min(columns.end - col);
+                let size = (width, rows.end - rows.start);
                 let layout = Layout {
-                    size: (width, rows.end - rows.start),
+                    size,
                     ..self.layout
                 };
-                let mut part = Image::new(layout, image);
-                for first in rows.clone().step_by(BAND_ROWS as usize) {
-                    let end = rows.end.min(first + BAND_ROWS);
-                    let band = first - rows.start..end - rows.start;
-                    let mut band = part.band_mut((col, rows.start), band);
-                    work += self
-                        .integrator
-                        .paint_band(&mut band, &mut scratch, progress)?;
-                }
+                let mut part = Image::new(layout, spent.0);
+                let mut geometry = self.centers.as_ref().map(|centers| {
+                    Geometry::new(size, centers.settings.quantities, spent.1.take())
+                });
+                let first = (col, rows.start);
+                let parts = (&mut part, geometry.as_mut());
+                work += self.paint(first, parts, &mut scratch, progress)?;
                 let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);
                 let in_part = Window {
                     col: inside.start - col,
@@ -179,14 +210,47 @@ impl Rendering<'_> {
                     height: strip.height,
                 };
                 let first = inside.start - strip.col;
-                if (in_part.width, in_part.height) == (part.width(), part.height()) {
+                let is_whole = (in_part.width, in_part.height) == size;
+                match &geometry {
+                    Some(geometry) if is_whole => sink.add_geometry(first, geometry),
+                    Some(geometry) => sink.add_geometry(first, &geometry.cut(in_part)),
+                    None => {}
+                }
+                if is_whole {
                     sink.add(first, &part);
                 } else {
                     sink.add(first, &part.cut(in_part));
                 }
-                image = Some(part);
+                spent = (Some(part), geometry);
             }
             sink.end();
+        }
+        Ok(work)
+    }
+
+    /// Writes a part of a picture, whose first pixel is there, band by band; returns what it costs.
+    fn paint(
+        &self,
+        (col, row): (u32, u32),
+        (part, mut geometry): (&mut Image, Option<&mut Geometry>),
+        scratch: &mut Scratch,
+        progress: &Progress<'_>,
+    ) -> Result<Work, Cancelled> {
+        let mut work = Work::default();
+        let height = part.height();
+        for first in (0..height).step_by(BAND_ROWS as usize) {
+            let rows = first..height.min(first + BAND_ROWS);
+            let mut band = part.band_mut((col, row), rows);
+            let area = band.area;
+            let written = geometry
+                .as_deref_mut()
+                .map(|geometry| ((col, row), geometry));
+            work += self
+                .integrator
+                .paint_band(&mut band, scratch, progress, written)?;
+            if let (Some(centers), Some(geometry)) = (&self.centers, geometry.as_deref_mut()) {
+                work += centers.see(area, &mut scratch.sampled, ((col, row), geometry));
+            }
         }
         Ok(work)
     }

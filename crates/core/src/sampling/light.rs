@@ -25,7 +25,7 @@ pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     pub(super) frame: i64,
     /// True if no surface is rough.
-    is_smooth: bool,
+    pub(super) is_smooth: bool,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,
 }
@@ -131,7 +131,7 @@ impl<'scene> Shading<'scene> {
     /// The shading normals.
     #[cold]
     #[inline(never)]
-    fn shading_normals<S: Simd>(
+    pub(super) fn shading_normals<S: Simd>(
         &self,
         simd: S,
         sight: &Sight<S>,
@@ -185,7 +185,7 @@ pub(super) struct Looks<'scene> {
     count: usize,
     has_highlight: bool,
     /// Cells of the noise of rough surfaces.
-    noise: Option<Box<NoiseCells>>,
+    pub(super) noise: Option<Box<NoiseCells>>,
 }
 
 /// A material, and the rays that see it as bits.

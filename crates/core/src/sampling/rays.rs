@@ -99,12 +99,23 @@ impl Rays {
         (2 * index + 1 - i64::from(self.side) * i64::from(pixels)) as f64
     }
 
+    /// The place on the retina, upward, of a sample.
+    #[inline(always)]
+    pub(super) fn upward(&self, place: Place) -> f64 {
+        let twice = self.twice(place.row, place.cell_row, self.view.height);
+        -self.half_cell * twice + self.view.lens.shift.y
+    }
+
+    /// The distance of the retina.
+    pub(super) fn distance(&self) -> f64 {
+        self.distance
+    }
+
     /// The directions of a sample in eight pixels that lie so far to the right, divided by that
     /// power.
     #[inline(always)]
     pub(super) fn directions<S: Simd>(&self, u: f64x8<S>, place: Place) -> Vectors<S> {
-        let upward = self.twice(place.row, place.cell_row, self.view.height);
-        let v = -self.half_cell * upward + self.view.lens.shift.y;
+        let v = self.upward(place);
         let axes = &self.view.camera.world_from_camera;
         let (up, forward) = (axes.y_axis * v, axes.z_axis * self.distance);
         Vectors {

@@ -6,6 +6,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, mask64x8};
 use glam::DVec3;
 
+use super::centers::{Centers, Seen};
 use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
 use super::shadow::Shadows;
@@ -18,6 +19,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::vectors::Vectors;
 use crate::picture::band::Band;
+use crate::picture::geometry::{Geometry, GeometrySettings, TileGeometry};
 use crate::picture::image::{Channels, Uniform};
 use crate::picture::pixel::{Evidence, Pixel, Status, Work};
 use crate::picture::tile::{Tile, TileLight};
@@ -44,6 +46,10 @@ pub(crate) struct Supersampling<'scene> {
     rays: Rays,
     shading: Shading<'scene>,
     view: View,
+    /// Tells what the samples see, of which there is one a pixel.
+    centers: Option<Centers>,
+    /// True where nobody asks for light.
+    is_dark: bool,
     /// The instructions that the processor has.
     level: Level,
 }
@@ -66,8 +72,37 @@ impl<'scene> Supersampling<'scene> {
             rays: Rays::new(view, samples.get()),
             shading: Shading::new(world, view.frame),
             view: *view,
+            centers: None,
+            is_dark: false,
             level: Level::new(),
         }
+    }
+
+    /// The same that tells what it sees, as well; of more samples than one a pixel, that of the last.
+    pub(crate) fn with_geometry(self, settings: GeometrySettings) -> Self {
+        Self {
+            centers: Some(Centers::new(&self.view, settings)),
+            ..self
+        }
+    }
+
+    /// What the rays through the centers of pixels see, without its light.
+    pub(crate) fn of_centers(
+        world: &'scene World,
+        view: &View,
+        index: &ViewIndex<'scene>,
+        settings: GeometrySettings,
+    ) -> Self {
+        let samples = Self::new(world, view, index, NonZeroU32::MIN, false);
+        Self {
+            is_dark: true,
+            ..samples.with_geometry(settings)
+        }
+    }
+
+    /// True for one sample a pixel, in its center.
+    pub(crate) fn is_one(&self) -> bool {
+        self.samples.get() == 1
     }
 
     /// The numbers that are known of all pixels before they are sampled.
@@ -105,6 +140,9 @@ impl<'scene> Supersampling<'scene> {
     /// Averages the light of a tile; how many balls were asked whether eight rays meet them, or
     /// none, and no light, where all rays meet nothing.
     fn sample(&self, tile: Tile, scratch: &mut Scratch) -> Option<u64> {
+        if self.centers.is_some() {
+            scratch.geometry.clear();
+        }
         match self.channels {
             Channels::Grey => self.sample_channels::<1>(tile, scratch),
             Channels::Rgb => self.sample_channels::<3>(tile, scratch),
@@ -134,11 +172,7 @@ impl<'scene> Supersampling<'scene> {
 
     /// The error of a pixel whose samples are all the same.
     fn error_of_equal_samples(&self) -> f64 {
-        if self.samples.get() == 1 {
-            f64::INFINITY
-        } else {
-            0.0
-        }
+        if self.is_one() { f64::INFINITY } else { 0.0 }
     }
 
     /// One of the pixels of a tile's light.
@@ -166,6 +200,7 @@ impl<'scene> Supersampling<'scene> {
         Scratch {
             balls,
             light,
+            geometry,
             cells: shadow_cells,
         }: &mut Scratch,
     ) -> Option<u64> {
@@ -173,7 +208,7 @@ impl<'scene> Supersampling<'scene> {
         let cells = self.rays.cells_on_unit();
         balls.gather(simd, cells, &bundle, self.index.balls(tile));
         let first = balls.list.first()?;
-        let mut sampler = self.sampler(tile, balls, first, shadow_cells);
+        let mut sampler = self.sampler(tile, balls, first, (shadow_cells, geometry));
         let nothing = Sample {
             light: splat(simd, self.background()),
             covered: 0,
@@ -217,7 +252,7 @@ impl<'scene> Supersampling<'scene> {
         tile: Tile,
         balls: &'tile TileBalls,
         first: &'tile TileBall,
-        cells: &'tile mut ShadowCells,
+        (cells, geometry): (&'tile mut ShadowCells, &'tile mut TileGeometry),
     ) -> Sampler<'tile> {
         Sampler {
             tracer: Tracer {
@@ -229,7 +264,8 @@ impl<'scene> Supersampling<'scene> {
             },
             groups: Groups::new(first),
             looks: Looks::new(&self.shading),
-            shadows: self.shading.world.shadows.then(|| {
+            geometry,
+            shadows: (self.shading.world.shadows && !self.is_dark).then(|| {
                 let length = libm::scalbn(1.0, self.index.length_exponent());
                 let sizes = (length, self.rays.tile_side());
                 let viewpoint = self.view.camera.position;
@@ -252,6 +288,7 @@ impl<'scene> Supersampling<'scene> {
             tracer,
             groups,
             looks,
+            geometry,
             shadows,
         } = sampler;
         let height = tracer.tile.height as usize;
@@ -267,7 +304,19 @@ impl<'scene> Supersampling<'scene> {
         for (row, sample) in rows[..height].iter().zip(samples) {
             let sight = tracer.look(simd, place, row, groups);
             *sample = *nothing;
-            if sight.covered != 0 {
+            if let Some(centers) = &self.centers {
+                let row = &mut geometry.rows[(place.row - tracer.tile.row) as usize % ROWS];
+                if sight.covered != 0 {
+                    let seen = Seen {
+                        sight: &sight,
+                        groups,
+                        place,
+                        across,
+                    };
+                    centers.record(simd, &seen, tracer, &self.shading, looks, row);
+                }
+            }
+            if sight.covered != 0 && !self.is_dark {
                 looks.see(&self.shading, groups);
                 let seen = (&sight, &*groups, &mut *looks);
                 let light: Light<S, CHANNELS> = self.shading.light(simd, seen, place, shadows);
@@ -310,6 +359,31 @@ impl<'scene> Supersampling<'scene> {
         }
         self.work(tile, tests.unwrap_or(0))
     }
+
+    /// Writes what a tile sees, of a picture whose first pixel is in this column and row, after its light was
+    /// written with this memory.
+    pub(crate) fn write_geometry(
+        &self,
+        tile: Tile,
+        scratch: &Scratch,
+        (first, geometry): ((u32, u32), &mut Geometry),
+    ) {
+        if self.centers.is_some() {
+            geometry.write(tile, first, &scratch.geometry);
+        }
+    }
+
+    /// Writes what a tile sees, and no light; returns what it costs.
+    pub(crate) fn see(
+        &self,
+        tile: Tile,
+        scratch: &mut Scratch,
+        (first, geometry): ((u32, u32), &mut Geometry),
+    ) -> Work {
+        let tests = self.sample(tile, scratch);
+        geometry.write(tile, first, &scratch.geometry);
+        self.work(tile, tests.unwrap_or(0))
+    }
 }
 
 /// Memory to work in, for one world.
@@ -317,6 +391,7 @@ impl<'scene> Supersampling<'scene> {
 pub(crate) struct Scratch {
     balls: TileBalls,
     light: TileLight,
+    geometry: TileGeometry,
     cells: ShadowCells,
 }
 
@@ -325,6 +400,8 @@ struct Sampler<'tile> {
     tracer: Tracer<'tile>,
     groups: Groups<'tile>,
     looks: Looks<'tile>,
+    /// What is seen, where somebody asks.
+    geometry: &'tile mut TileGeometry,
     shadows: Option<Shadows<'tile>>,
 }
 

@@ -65,6 +65,9 @@ pub(super) struct Sight<S: Simd> {
     pub(super) covered: u64,
     /// The rays that see the inner side of a ball.
     pub(super) inner: u64,
+    /// The rays, as bits, that met their ball alone, and outer sides only: not by the formula whose error is
+    /// [`DISTANCE_ERROR`].
+    pub(super) alone: u64,
     /// From the viewpoint to what is seen, in the lengths of the balls.
     pub(super) point: Vectors<S>,
     /// The unit outward normal there.
@@ -255,6 +258,7 @@ impl<'tile> Tracer<'tile> {
             length_sq,
             covered,
             inner: 0,
+            alone: 0,
             point: Vectors::splat(simd, DVec3::ZERO),
             normal: Vectors::splat(simd, DVec3::ZERO),
         };
@@ -278,6 +282,7 @@ impl<'tile> Tracer<'tile> {
         // Only the ambient light reaches inner sides, wherever they are met.
         let alone = covered & !sound.to_bitmask() & !sight.inner;
         if alone != 0 {
+            sight.alone = alone;
             return self.meet_alone(place, alone, groups, sight);
         }
         sight

@@ -9,10 +9,13 @@
 //! formulas of discriminant, distance and normal, nor the rounding.
 
 mod integers;
+mod point;
 mod score;
 
 use marbles_core::{Ray, Sphere};
 use num_bigint::{BigInt, BigUint};
+
+pub use point::{Exact, ExactPoint};
 
 use integers::{cross, dot, integers, shifted, to_float};
 

@@ -1,0 +1,333 @@
+//! What the rays through the centers of pixels see, beside its light.
+
+use fearless_simd::prelude::*;
+use fearless_simd::{Simd, f64x8, mask64x8};
+use glam::DVec3;
+
+use super::light::{Looks, Shading};
+use super::rays::Place;
+use super::trace::{DISTANCE_ERROR, Group, Groups, Sight, Tracer};
+use crate::model::view::View;
+use crate::numeric::bits::set_bits;
+use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::lanes::LANES;
+use crate::numeric::vectors::Vectors;
+use crate::picture::geometry::{
+    Axes, Depth, Geometry, GeometrySettings, Precision, Quantity, RowGeometry,
+};
+
+/// The relative error of a number that is rounded to a float of 32 bits: with the rounding, one unit in the
+/// last place at most.
+const SINGLE: f64 = 1.0 / (1_u64 << 25) as f64;
+
+/// Tells what the center rays see.
+#[derive(Clone, Debug)]
+pub(super) struct Centers {
+    settings: GeometrySettings,
+    viewpoint: DVec3,
+    /// Unit vectors of the axes, in the world frame.
+    axes: [DVec3; 3],
+    /// The factors of retina points that make them points in the camera's axes; none for the world's.
+    signs: Option<DVec3>,
+}
+
+/// Eight rays, and what they see.
+pub(super) struct Seen<'a, 'tile, S: Simd> {
+    pub(super) sight: &'a Sight<S>,
+    pub(super) groups: &'a Groups<'tile>,
+    pub(super) place: Place,
+    /// Their places on the retina, to the right.
+    pub(super) across: f64x8<S>,
+}
+
+impl Centers {
+    pub(super) fn new(view: &View, settings: GeometrySettings) -> Self {
+        let signs = match settings.axes {
+            Axes::World => None,
+            Axes::CameraOpenCv => Some(DVec3::new(1.0, -1.0, 1.0)),
+            Axes::CameraOpenGl => Some(DVec3::new(1.0, 1.0, -1.0)),
+        };
+        let camera = &view.camera.world_from_camera;
+        let axes = signs.map_or([DVec3::X, DVec3::Y, DVec3::Z], |signs| {
+            [
+                camera.x_axis * signs.x,
+                camera.y_axis * signs.y,
+                camera.z_axis * signs.z,
+            ]
+        });
+        Self {
+            settings,
+            viewpoint: view.camera.position,
+            axes,
+            signs,
+        }
+    }
+
+    /// Writes down what eight rays see.
+    #[inline(never)]
+    pub(super) fn record<S: Simd>(
+        &self,
+        simd: S,
+        seen: &Seen<'_, '_, S>,
+        tracer: &Tracer<'_>,
+        shading: &Shading<'_>,
+        looks: &mut Looks<'_>,
+        row: &mut RowGeometry,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                row.sees_any = true;
+                row.ids = [Geometry::NOTHING; LANES];
+                for Group { ball, lanes } in seen.groups.as_slice() {
+                    for lane in set_bits(*lanes) {
+                        row.ids[lane] = ball.index() as u32;
+                    }
+                }
+                let doubtful = self.place(simd, seen, tracer, row);
+                if doubtful != 0 {
+                    self.place_alone(seen, tracer, doubtful, row);
+                }
+                if self.wants(Quantity::Normal) {
+                    self.tilt(simd, seen, shading, looks, row);
+                }
+                if self.wants(Quantity::Albedo) {
+                    paint(seen.groups, shading, row.of_mut(Quantity::Albedo));
+                }
+            },
+        );
+    }
+
+    #[inline(always)]
+    fn wants(&self, quantity: Quantity) -> bool {
+        self.settings.quantities.has(quantity)
+    }
+
+    /// Depths, positions and geometric normals; returns the lanes that have to be computed alone.
+    ///
+    /// # Accuracy
+    /// The point relative to the viewpoint is off by [`DISTANCE_ERROR`], each component by as much of itself;
+    /// the normal (p − f) / r by that of p / r and by some roundings of its own. Where these are less than
+    /// 2⁻²⁵ of a component, it serves a float. Doubles are all computed alone.
+    #[inline(always)]
+    fn place<S: Simd>(
+        &self,
+        simd: S,
+        seen: &Seen<'_, '_, S>,
+        tracer: &Tracer<'_>,
+        row: &mut RowGeometry,
+    ) -> u64 {
+        let &Seen {
+            sight,
+            groups,
+            place,
+            across,
+        } = seen;
+        let covered = mask64x8::from_bitmask(simd, sight.covered);
+        let zero = f64x8::splat(simd, 0.0);
+        if self.settings.precision == Precision::Double {
+            for quantity in [
+                Quantity::Depth,
+                Quantity::GeometricNormal,
+                Quantity::Position,
+            ] {
+                row.of_mut(quantity).fill([quantity.of_nothing(); LANES]);
+            }
+            return sight.covered;
+        }
+        let mut unproved = 0;
+        let length = libm::scalbn(1.0, tracer.index.length_exponent());
+        // p·d = t d·d, and no term is negative.
+        let t = sight.point.dot(&sight.direction) / sight.length_sq;
+        let scale = libm::scalbn(1.0, -tracer.rays.exponent());
+        if self.wants(Quantity::Depth) {
+            let depth = match self.settings.depth {
+                Depth::Axis => t * (tracer.rays.distance() * scale),
+                Depth::Ray => t * sight.length_sq.sqrt(),
+            };
+            let never = f64x8::splat(simd, f64::INFINITY);
+            put(
+                row,
+                Quantity::Depth,
+                0,
+                covered.select(depth * length, never),
+            );
+        }
+        if self.wants(Quantity::Position) {
+            let position = match self.signs {
+                None => {
+                    let way = sight.point.times(f64x8::splat(simd, length));
+                    let position = way.plus(&Vectors::splat(simd, self.viewpoint));
+                    let factor = f64x8::splat(simd, 2.0 * DISTANCE_ERROR);
+                    let proved = is_small(simd, way.times(factor), position);
+                    unproved |= !proved.to_bitmask();
+                    position
+                }
+                Some(signs) => {
+                    let upward = f64x8::splat(simd, tracer.rays.upward(place) * scale);
+                    let forward = f64x8::splat(simd, tracer.rays.distance() * scale);
+                    let retina = [
+                        across * scale * signs.x,
+                        upward * signs.y,
+                        forward * signs.z,
+                    ];
+                    Vectors::from_array(retina)
+                        .times(t)
+                        .times(f64x8::splat(simd, length))
+                }
+            };
+            for axis in 0..3 {
+                let component = covered.select(position.along(axis), zero);
+                put(row, Quantity::Position, axis, component);
+            }
+        }
+        if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
+            let (normal, proved) = self.normals(simd, sight, groups);
+            unproved |= !proved.to_bitmask();
+            for axis in 0..3 {
+                let component = covered.select(normal.along(axis), zero);
+                put(row, Quantity::GeometricNormal, axis, component);
+            }
+        }
+        (unproved & sight.covered) | sight.alone | sight.inner
+    }
+
+    /// The geometric normals along the axes, and where they are proved.
+    #[inline(always)]
+    fn normals<S: Simd>(
+        &self,
+        simd: S,
+        sight: &Sight<S>,
+        groups: &Groups<'_>,
+    ) -> (Vectors<S>, mask64x8<S>) {
+        let mut inverse_radius = f64x8::splat(simd, 0.0);
+        for Group { ball, lanes } in groups.as_slice() {
+            let own = f64x8::splat(simd, ball.inverse_radius);
+            inverse_radius = mask64x8::from_bitmask(simd, *lanes).select(own, inverse_radius);
+        }
+        let normal = sight.normal;
+        let factor = inverse_radius * (2.0 * DISTANCE_ERROR);
+        let error = sight.point.times(factor);
+        if self.signs.is_none() {
+            return (normal, is_small(simd, error, normal));
+        }
+        // Products and their sums add less than a half of DISTANCE_ERROR of the components.
+        let slack = f64x8::splat(simd, DISTANCE_ERROR);
+        let size = error.sizes().plus(&normal.sizes().times(slack));
+        let [x, y, z] = self.axes;
+        let turned = [normal.dot_one(x), normal.dot_one(y), normal.dot_one(z)];
+        let error = [
+            size.dot_one(x.abs()),
+            size.dot_one(y.abs()),
+            size.dot_one(z.abs()),
+        ];
+        let turned = Vectors::from_array(turned);
+        (turned, is_small(simd, Vectors::from_array(error), turned))
+    }
+
+    /// Computes single rays, each component to its own last places.
+    #[cold]
+    #[inline(never)]
+    fn place_alone<S: Simd>(
+        &self,
+        seen: &Seen<'_, '_, S>,
+        tracer: &Tracer<'_>,
+        lanes: u64,
+        row: &mut RowGeometry,
+    ) {
+        let spheres = tracer.index.visibility.spheres();
+        for lane in set_bits(lanes) {
+            let pixel = lane.min(tracer.tile.width as usize - 1);
+            let ray = tracer.rays.ray(seen.place, pixel);
+            let sphere = &spheres[row.ids[lane] as usize];
+            let Some(found) = sphere.hit_components(&ray, &self.axes) else {
+                continue;
+            };
+            let forward = tracer.rays.distance();
+            let depth = match self.settings.depth {
+                Depth::Axis => found.t * forward,
+                Depth::Ray => times_length(found.t, ray.direction),
+            };
+            let position = self.signs.map_or(found.position, |signs| {
+                let upward = tracer.rays.upward(seen.place);
+                DVec3::new(seen.across[lane], upward, forward) * found.t * signs
+            });
+            row.of_mut(Quantity::Depth)[0][lane] = depth;
+            for axis in 0..3 {
+                row.of_mut(Quantity::Position)[axis][lane] = position[axis];
+                row.of_mut(Quantity::GeometricNormal)[axis][lane] = found.normal[axis];
+            }
+        }
+    }
+
+    /// The shading normals: the geometric ones, tilted where there are bumps.
+    #[inline(always)]
+    fn tilt<S: Simd>(
+        &self,
+        simd: S,
+        seen: &Seen<'_, '_, S>,
+        shading: &Shading<'_>,
+        looks: &mut Looks<'_>,
+        row: &mut RowGeometry,
+    ) {
+        row.copy_geometric_normals();
+        if shading.is_smooth {
+            return;
+        }
+        let mut rough = 0;
+        for Group { ball, lanes } in seen.groups.as_slice() {
+            if shading.world.material(ball.index()).roughness.is_some() {
+                rough |= lanes & !seen.sight.inner;
+            }
+        }
+        if rough == 0 {
+            return;
+        }
+        let (sight, groups) = (seen.sight, seen.groups);
+        let normal = shading.shading_normals(simd, sight, groups, seen.place, &mut looks.noise);
+        for lane in set_bits(rough) {
+            let normal = normal.lane(lane);
+            for (axis, values) in row.of_mut(Quantity::Normal).iter_mut().enumerate() {
+                values[lane] = self.axes[axis].dot(normal);
+            }
+        }
+    }
+}
+
+/// The albedos of what is seen; nothing is black.
+#[inline(always)]
+fn paint(groups: &Groups<'_>, shading: &Shading<'_>, albedos: &mut [[f64; LANES]]) {
+    albedos.fill([0.0; LANES]);
+    for Group { ball, lanes } in groups.as_slice() {
+        let albedo = shading.world.albedo(ball.index());
+        for lane in set_bits(*lanes) {
+            for (axis, values) in albedos.iter_mut().enumerate() {
+                values[lane] = albedo[axis];
+            }
+        }
+    }
+}
+
+/// Where every component is known to [`SINGLE`], from errors of any sign.
+#[inline(always)]
+fn is_small<S: Simd>(simd: S, error: Vectors<S>, vector: Vectors<S>) -> mask64x8<S> {
+    let (error, size) = (error.sizes(), vector.sizes());
+    let most = size.times(f64x8::splat(simd, SINGLE));
+    error.x.simd_le(most.x) & error.y.simd_le(most.y) & error.z.simd_le(most.z)
+}
+
+#[inline(always)]
+fn put<S: Simd>(row: &mut RowGeometry, quantity: Quantity, component: usize, values: f64x8<S>) {
+    row.of_mut(quantity)[component] = values.into();
+}
+
+/// A number times the length of a vector, in twice the precision until it is rounded.
+fn times_length(number: f64, vector: DVec3) -> f64 {
+    let exponent = libm::ilogb(vector.abs().max_element()).clamp(-1000, 1000);
+    let part = |axis: usize| {
+        let part = libm::scalbn(vector[axis], -exponent);
+        DoubleDouble::<false>::product(part, part)
+    };
+    let length = (part(0) + part(1) + part(2)).sqrt();
+    libm::scalbn(number * length.high + number * length.low, exponent)
+}
