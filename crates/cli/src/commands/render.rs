@@ -10,6 +10,7 @@ use super::scene;
 use crate::base::failure::Failure;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
+use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
 use crate::formats::encoding::{Encoding, ExrOptions, Format, PngOptions};
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
 use crate::sequence::messages;
@@ -66,6 +67,14 @@ pub(super) fn request(
         Pattern::named_after(&arguments.scene, numbered)
     });
     check_names(&pattern, &frames, arguments.output.as_deref())?;
+    let centers = (!arguments.channels.is_empty()).then(|| {
+        CenterChannels::new(
+            &arguments.channels,
+            arguments.depth.unwrap_or(DepthForm::Axis),
+            arguments.axes.unwrap_or(AxesForm::World),
+            scene.world().has_bumps(),
+        )
+    });
     Ok(Request {
         size: arguments.size,
         window: arguments.region,
@@ -81,6 +90,7 @@ pub(super) fn request(
         frames,
         pattern,
         encoding,
+        centers,
         skip_existing: arguments.skip_existing,
         fail_fast: arguments.fail_fast,
     })
@@ -126,6 +136,9 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         Format::Png | Format::Apng if arguments.float => refused("--float", "EXR", "PNG"),
         Format::Png | Format::Apng if arguments.error_channel => {
             refused("--error-channel", "EXR", "PNG")
+        }
+        Format::Png | Format::Apng if !arguments.channels.is_empty() => {
+            refused("--channels", "EXR", "PNG")
         }
         Format::Apng if arguments.skip_existing => Err(Failure::Usage(
             "--skip-existing is for files of one frame each, and the output has all of them"

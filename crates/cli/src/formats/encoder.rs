@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use ::exr::block::chunk::Chunk;
-use marbles_core::{BAND_ROWS, Image};
+use marbles_core::{BAND_ROWS, Geometry, GeometrySettings, Image, Precision};
 
 use super::encoding::Encoding;
 use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
@@ -107,6 +107,21 @@ impl Encoder {
                 0
             }
             Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
+        }
+    }
+
+    /// What an image's pixels have to see for its file; the settings are those of the format's numbers.
+    pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
+        let centers = self.form.centers?;
+        Some(centers.settings(Precision::Single))
+    }
+
+    /// Puts what the pixels of a strip see where it belongs, from the column `col` on.
+    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+        match &self.layout {
+            // It has no such channels.
+            Layout::Png(_) => {}
+            Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
         }
     }
 

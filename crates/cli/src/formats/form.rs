@@ -2,6 +2,7 @@
 
 use marbles_core::{Channels, World};
 
+use super::center_channels::CenterChannels;
 use crate::base::region::Region;
 
 /// The form that all pictures of a sequence share.
@@ -11,15 +12,23 @@ pub(crate) struct Form {
     pub(crate) region: Region,
     pub(crate) channels: Channels,
     pub(crate) alpha: bool,
+    /// The channels besides the picture.
+    pub(crate) centers: Option<CenterChannels>,
 }
 
 impl Form {
     /// The form of a part of a world's pictures.
-    pub(crate) fn new(region: Region, world: &World, alpha: bool) -> Self {
+    pub(crate) fn new(
+        region: Region,
+        world: &World,
+        alpha: bool,
+        centers: Option<CenterChannels>,
+    ) -> Self {
         Self {
             region,
             channels: Channels::of(world, alpha),
             alpha,
+            centers,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Picture formats: PNG, alone and animated, and EXR, each with the writing and the reading of it.
 
+pub(crate) mod center_channels;
 pub(crate) mod encoder;
 pub(crate) mod encoding;
 pub(crate) mod exr;

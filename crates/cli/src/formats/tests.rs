@@ -54,6 +54,7 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
         region: Region::all(size(image)),
         channels: image.channels(),
         alpha: image.has_alpha(),
+        centers: None,
     };
     let encoder = Encoder::new(encoding, form);
     let mut clipped = 0;

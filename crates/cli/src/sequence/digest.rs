@@ -11,6 +11,7 @@ use marbles_core::{
 };
 use rayon::prelude::*;
 
+use crate::formats::center_channels::{CenterChannels, name_of};
 use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
 
 /// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
@@ -40,11 +41,20 @@ pub(super) struct Shot<'a> {
 
 impl Digests {
     /// The digests of pictures of a world, hashed on the threads of the current rayon pool.
-    pub(super) fn new(world: &World, settings: &Settings, encoding: Encoding) -> Self {
+    pub(super) fn new(
+        world: &World,
+        settings: &Settings,
+        encoding: Encoding,
+        centers: Option<&CenterChannels>,
+    ) -> Self {
         let mut shared = Feed(Hasher::new_derive_key(PURPOSE));
         shared.world(world);
         shared.settings(settings);
         shared.encoding(encoding);
+        // Files without them have the digests that they had before there were any.
+        if let Some(centers) = centers {
+            shared.centers(centers);
+        }
         Self { shared }
     }
 
@@ -182,6 +192,15 @@ impl Feed {
                 self.integer(float);
                 self.integer(error);
             }
+        }
+    }
+
+    fn centers(&mut self, centers: &CenterChannels) {
+        let [depth, axes] = [name_of(&centers.depth), name_of(&centers.axes)];
+        let names = centers.list().map(|(name, _)| name);
+        for name in names.chain([&*depth, &*axes]) {
+            self.count(name.len());
+            self.0.update(name.as_bytes());
         }
     }
 

@@ -64,6 +64,7 @@ impl<'a> Pipeline<'a> {
             }),
             channels: Channels::Grey,
             alpha: false,
+            centers: None,
         });
         let encoder = Encoder::new(request.encoding, form);
         let capacity = capacity(&encoder)?;

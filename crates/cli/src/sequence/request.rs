@@ -8,6 +8,7 @@ use super::pattern::Pattern;
 use crate::base::failure::Failure;
 use crate::base::region::{Region, shown};
 use crate::base::size::Size;
+use crate::formats::center_channels::CenterChannels;
 use crate::formats::encoding::Encoding;
 use crate::formats::form::Form;
 
@@ -23,6 +24,8 @@ pub(crate) struct Request {
     pub(crate) settings: Settings,
     pub(crate) pattern: Pattern,
     pub(crate) encoding: Encoding,
+    /// The channels of the files besides the pictures.
+    pub(crate) centers: Option<CenterChannels>,
     /// True where frames are left out whose files are there.
     pub(crate) skip_existing: bool,
     /// True where the first failure ends the work.
@@ -55,7 +58,12 @@ impl Request {
             return Ok(None);
         };
         let region = self.region(Size::of(&self.resized(view)))?;
-        let form = Form::new(region, self.scene.world(), self.settings.alpha);
+        let form = Form::new(
+            region,
+            self.scene.world(),
+            self.settings.alpha,
+            self.centers,
+        );
         Ok(Some(form))
     }
 

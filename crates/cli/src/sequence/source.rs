@@ -75,7 +75,12 @@ impl<'a> Source<'a> {
             writer,
             frames: Box::new(request.frames.iter()),
             postponed: VecDeque::new(),
-            digests: Digests::new(world, &request.settings, request.encoding),
+            digests: Digests::new(
+                world,
+                &request.settings,
+                request.encoding,
+                request.centers.as_ref(),
+            ),
             left_over: LeftOver::default(),
             begun: 0,
         }
@@ -201,7 +206,13 @@ impl<'a> Source<'a> {
         progress.begin(self.begun, region.size().pixels());
         self.begun += 1;
         Some(InFlight {
-            rendering: renderer.begin(exposure, region.window, &request.settings, encoder.bands()),
+            rendering: renderer.begin_with_geometry(
+                exposure,
+                region.window,
+                &request.settings,
+                encoder.bands(),
+                encoder.geometry().as_ref(),
+            ),
             picture: PictureEncoder::new(encoder, buffer, first_piece, clock, sender),
             pipeline,
         })

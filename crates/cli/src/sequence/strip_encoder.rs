@@ -5,7 +5,7 @@ use std::sync::mpsc::Sender;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use marbles_core::{Image, Sink, Strip};
+use marbles_core::{Geometry, Image, Sink, Strip};
 
 use super::clock::Clock;
 use super::reorder_buffer::{ReorderBuffer, Slot};
@@ -112,6 +112,12 @@ impl Strip for StripEncoder<'_> {
             let place = (window.col + col, first_row);
             self.results.add(&Results::of(part, place, clipped));
         });
+    }
+
+    fn add_geometry(&mut self, col: u32, part: &Geometry) {
+        let encoder = self.picture.encoder;
+        self.picture
+            .apart(|| encoder.encode_geometry(&mut self.samples, col, part));
     }
 
     fn end(self: Box<Self>) {

@@ -6,6 +6,7 @@
 )]
 
 mod animation;
+mod channels;
 mod compare;
 #[cfg(unix)]
 mod farm;
@@ -55,6 +56,15 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron --float", 2),
         ("render ball.ron -o a.exr --rgb", 2),
         ("render ball.ron -o a.apng --float", 2),
+        ("render ball.ron -o a.png --channels depth", 2),
+        ("render ball.ron -o a.apng --channels depth", 2),
+        ("render ball.ron -o a.exr --channels deep", 2),
+        ("render ball.ron -o a.exr --channels mean_normal", 2),
+        ("render ball.ron -o a.exr --channels depth,", 2),
+        ("render ball.ron -o a.exr --depth ray", 2),
+        ("render ball.ron -o a.exr --axes world", 2),
+        ("render ball.ron -o a.exr --channels depth --depth far", 2),
+        ("render ball.ron -o a.exr --channels depth --axes maya", 2),
         ("new ball.ron", 1),
         ("new ball", 2),
         ("completions fish", 0),

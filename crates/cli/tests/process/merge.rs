@@ -33,6 +33,11 @@ fn parts_are_merged_into_the_picture() {
         ("turn", "exr", ""),
         ("grey", "exr", "--float --alpha --error-channel"),
         ("turn", "exr", "--samples 2"),
+        (
+            "turn",
+            "exr",
+            "--samples 1 --channels depth,normal,position,id,albedo,mask --axes camera-opencv",
+        ),
     ] {
         let render = format!("render {scene}.ron --frames 7 --size 101x83 {more}");
         let output = folder.run(&format!("{render} -o whole.{ending}"));

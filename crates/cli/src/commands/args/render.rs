@@ -9,6 +9,7 @@ use marbles_core::Window;
 use super::values::{above_zero, bits, samples, threads, tolerance_above_zero};
 use crate::base::region::window_of;
 use crate::base::size::Size;
+use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
 use crate::sequence::frames::FrameList;
 use crate::terminal::progress::ProgressForm;
 
@@ -20,6 +21,7 @@ Examples:
   marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
+  marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
 
 Exit codes:
@@ -100,6 +102,25 @@ pub(crate) struct RenderArguments {
     /// Store each pixel's error in an EXR as well, in a channel `error` in single precision
     #[arg(long)]
     pub(crate) error_channel: bool,
+
+    /// Store what the rays through the centers of pixels see in an EXR as well, each value of one
+    /// ray and never an average: depth, normal, position, id, albedo, mask, and several of these
+    /// with commas; `docs/ground-truth.md` has the conventions
+    #[arg(
+        long,
+        value_name = "LIST",
+        value_delimiter = ',',
+        hide_possible_values = true
+    )]
+    pub(crate) channels: Vec<CenterChannel>,
+
+    /// Depth that --channels stores [default: axis]
+    #[arg(long, value_name = "KIND", requires = "channels")]
+    pub(crate) depth: Option<DepthForm>,
+
+    /// Axes of the normals and positions that --channels stores [default: world]
+    #[arg(long, value_name = "AXES", requires = "channels")]
+    pub(crate) axes: Option<AxesForm>,
 
     /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
     #[arg(long, value_name = "FORM")]

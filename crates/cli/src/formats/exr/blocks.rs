@@ -6,11 +6,12 @@ use exr::block::chunk::Chunk;
 use exr::block::{BlockIndex, UncompressedBlock};
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
-use exr::prelude::{IntegerBounds, Vec2};
-use marbles_core::{Channels, Image};
+use exr::prelude::{AttributeValue, IntegerBounds, Text, Vec2};
+use marbles_core::{Channels, Geometry, Image};
 
 use super::header::header_of;
 use crate::base::region::Region;
+use crate::formats::center_channels::{CenterChannel, CenterChannels, Source, name_of};
 use crate::formats::encoding::ExrOptions;
 use crate::formats::form::Form;
 use crate::formats::half;
@@ -35,10 +36,29 @@ pub(crate) struct Blocks {
 #[derive(Clone, Copy, Debug)]
 struct Channel {
     name: &'static str,
-    /// The number of red, green, blue or alpha; `None` for the error.
-    light: Option<usize>,
+    content: Content,
     /// Bytes of a sample.
     bytes: usize,
+}
+
+/// The numbers of a channel.
+#[derive(Clone, Copy, Debug)]
+enum Content {
+    /// Red, green, blue or alpha.
+    Light(usize),
+    Error,
+    /// What the rays through the centers of pixels see.
+    Center(Source),
+}
+
+impl Channel {
+    fn sample_type(&self) -> SampleType {
+        match self.content {
+            Content::Center(Source::Id) => SampleType::U32,
+            _ if self.bytes == 2 => SampleType::F16,
+            _ => SampleType::F32,
+        }
+    }
 }
 
 impl Blocks {
@@ -46,7 +66,7 @@ impl Blocks {
     pub(crate) fn new(form: &Form, options: ExrOptions) -> Self {
         let light = |(number, name)| Channel {
             name,
-            light: Some(number),
+            content: Content::Light(number),
             bytes: if options.float { 4 } else { 2 },
         };
         // In the order of their names.
@@ -56,22 +76,31 @@ impl Blocks {
         if options.error {
             channels.push(Channel {
                 name: ERROR_CHANNEL,
-                light: None,
+                content: Content::Error,
                 // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
                 bytes: 4,
             });
         }
-        let kind = |channel: &Channel| match channel.bytes {
-            2 => SampleType::F16,
-            _ => SampleType::F32,
-        };
-        let names = channels.iter().map(|channel| (channel.name, kind(channel)));
+        let centers = form.centers.iter().flat_map(CenterChannels::list);
+        channels.extend(centers.map(|(name, source)| Channel {
+            name,
+            content: Content::Center(source),
+            bytes: 4,
+        }));
+        channels.sort_unstable_by_key(|channel| channel.name);
+        let names = channels.iter();
+        let names = names.map(|channel| (channel.name, channel.sample_type()));
         let Region { window, whole } = form.region;
         let mut header = header_of(form.region.size(), names.collect());
         let position = Vec2(window.col as i32, window.row as i32);
         header.own_attributes.layer_position = position;
         let display = (whole.width as usize, whole.height as usize);
         header.shared_attributes.display_window = IntegerBounds::from_dimensions(display);
+        for (name, value) in form.centers.iter().flat_map(conventions) {
+            let value = AttributeValue::Text(Text::from(&*value));
+            let others = &mut header.own_attributes.other;
+            others.insert(Text::from(name), value);
+        }
         Self {
             options,
             channels,
@@ -105,15 +134,16 @@ impl Blocks {
                 let start = end + col as usize * channel.bytes;
                 let own = start..start + image.width() as usize * channel.bytes;
                 end += columns * channel.bytes;
-                clipped += match channel.light {
-                    None => {
+                clipped += match channel.content {
+                    Content::Center(_) => 0,
+                    Content::Error => {
                         let (floats, _) = samples[own].as_chunks_mut();
                         for (float, col) in floats.iter_mut().zip(0..) {
                             *float = float_above(image.error(col, row)).to_ne_bytes();
                         }
                         0
                     }
-                    Some(light) => match &grey {
+                    Content::Light(light) => match &grey {
                         Some((first, clipped)) if light < 3 => {
                             samples.copy_within(Range::clone(first), start);
                             *clipped
@@ -132,6 +162,24 @@ impl Blocks {
             }
         }
         clipped
+    }
+
+    /// Puts what some rows of pixels see where it belongs, as [`Self::encode`] does with their light.
+    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+        let columns = self.header.layer_size.x();
+        let rows = samples.chunks_exact_mut(self.row_bytes());
+        for (samples, row) in rows.zip(0..geometry.height()) {
+            let mut end = 0;
+            for channel in &self.channels {
+                let start = end + col as usize * channel.bytes;
+                end += columns * channel.bytes;
+                if let Content::Center(source) = channel.content {
+                    let own = start..start + geometry.width() as usize * channel.bytes;
+                    let (samples, _) = samples[own].as_chunks_mut();
+                    encode_center(samples, source, geometry, row);
+                }
+            }
+        }
     }
 
     /// The block with this index, counted from the top, compressed.
@@ -159,6 +207,43 @@ fn encode_light(samples: &mut [u8], is_float: bool, light: impl Iterator<Item = 
     }
     clipped
 }
+
+/// Puts a number of what each pixel of a row sees into the samples of a channel.
+fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &Geometry, row: u32) {
+    let ids = geometry.ids(row);
+    match source {
+        Source::Value(quantity, component) => {
+            let values = geometry.values(quantity, component, row);
+            for (sample, value) in samples.iter_mut().zip(values.unwrap_or_default()) {
+                *sample = float(*value).to_ne_bytes();
+            }
+        }
+        Source::Id => {
+            for (sample, id) in samples.iter_mut().zip(ids) {
+                *sample = id.to_ne_bytes();
+            }
+        }
+        Source::Mask => {
+            for (sample, id) in samples.iter_mut().zip(ids) {
+                let mask = f32::from(u8::from(*id != Geometry::NOTHING));
+                *sample = mask.to_ne_bytes();
+            }
+        }
+    }
+}
+
+/// The attributes that tell how the numbers of center rays are meant.
+fn conventions(centers: &CenterChannels) -> Vec<(&'static str, String)> {
+    let mut conventions = Vec::new();
+    if centers.has(CenterChannel::Depth) {
+        conventions.push(("depth", name_of(&centers.depth)));
+    }
+    if centers.has(CenterChannel::Normal) || centers.has(CenterChannel::Position) {
+        conventions.push(("axes", name_of(&centers.axes)));
+    }
+    conventions
+}
+
 /// The block with this index, whose samples are row by row, in each channel by channel.
 pub(super) fn compress(header: &Header, index: usize, samples: Vec<u8>) -> Result<Chunk, String> {
     let size = header.layer_size;

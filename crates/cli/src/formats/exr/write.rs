@@ -91,10 +91,11 @@ pub(crate) fn write_blocks(
     next: impl FnMut() -> Result<Chunk, Fault>,
 ) -> Result<(), Fault> {
     let header = blocks.header.clone();
-    let attributes = LayerAttributes {
+    let mut attributes = LayerAttributes {
         layer_position: header.own_attributes.layer_position,
         ..attributes(facts)
     };
+    attributes.other.extend(header.own_attributes.other.clone());
     write(file, header.with_attributes(attributes), next)
 }
 

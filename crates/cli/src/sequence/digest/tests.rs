@@ -4,6 +4,7 @@ use std::path::Path;
 use marbles_scene::Scene;
 
 use super::*;
+use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
 
 const SCENE: &str = "(
     image: (width: 60, height: 40),
@@ -32,9 +33,44 @@ const PNG: Encoding = Encoding::Png(PngOptions {
     rgb: false,
 });
 
+fn digest_with(centers: Option<&CenterChannels>) -> Hash {
+    let scene = Scene::parse(SCENE, Path::new("a.ron")).unwrap();
+    let digests = Digests::new(scene.world(), &SETTINGS, PNG, centers);
+    digests.of(&Shot {
+        exposure: &scene.exposure(&scene.view(2).unwrap()),
+        frame: 2,
+        frames_per_second: scene.frames_per_second(),
+    })
+}
+
+#[test]
+fn channels_change_the_digest() {
+    let centers = |groups: &[CenterChannel], depth, axes| {
+        let centers = CenterChannels::new(groups, depth, axes, true);
+        digest_with(Some(&centers))
+    };
+    let (axis, ray) = (DepthForm::Axis, DepthForm::Ray);
+    let (world, camera) = (AxesForm::World, AxesForm::CameraOpenCv);
+    let depth = &[CenterChannel::Depth][..];
+    let digests = [
+        digest_with(None),
+        centers(depth, axis, world),
+        centers(depth, ray, world),
+        centers(depth, axis, camera),
+        centers(&[CenterChannel::Id], axis, world),
+        centers(&[CenterChannel::Id, CenterChannel::Depth], axis, world),
+    ];
+    for (index, digest) in digests.iter().enumerate() {
+        assert!(!digests[..index].contains(digest), "{index}");
+    }
+    // The order of their names does not matter.
+    let turned = centers(&[CenterChannel::Depth, CenterChannel::Id], axis, world);
+    assert_eq!(digests[5], turned);
+}
+
 fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Hash {
     let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
-    let digests = Digests::new(scene.world(), settings, encoding);
+    let digests = Digests::new(scene.world(), settings, encoding, None);
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(frame).unwrap()),
         frame,

@@ -8,6 +8,7 @@ fn encoder(encoding: Encoding, width: u32, height: u32) -> Encoder {
         region: Region::all(Size { width, height }),
         channels: Channels::Rgb,
         alpha: true,
+        centers: None,
     };
     Encoder::new(encoding, form)
 }

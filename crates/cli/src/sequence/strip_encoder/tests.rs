@@ -17,6 +17,7 @@ fn a_strip_that_is_given_up_leaves_nobody_waiting() {
         region: Region::all(Size { width, height }),
         channels: Channels::Grey,
         alpha: false,
+        centers: None,
     };
     let (deep, rgb) = (false, false);
     let encoder = Encoder::new(Encoding::Png(PngOptions { deep, rgb }), form);

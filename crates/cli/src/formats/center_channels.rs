@@ -1,0 +1,170 @@
+//! The channels that tell what the rays through the centers of pixels see.
+
+use clap::ValueEnum;
+use marbles_core::{Axes, Depth, GeometrySettings, Precision, Quantity};
+
+/// A group of channels, as users name it.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum CenterChannel {
+    /// Distance
+    Depth,
+    /// Shading normal, and the geometric one besides where there are bumps
+    Normal,
+    /// Point that is seen
+    Position,
+    /// Index of the sphere, an unsigned integer
+    Id,
+    /// Albedo of the sphere
+    Albedo,
+    /// 1 where a sphere is seen
+    Mask,
+}
+
+/// The meaning of a depth, as users name it.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum DepthForm {
+    /// Distance along the axis of view
+    Axis,
+    /// Distance from the viewpoint
+    Ray,
+}
+
+/// The axes of normals and positions, as users name them.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum AxesForm {
+    /// Those of the scene: x right, y up, z forward, left-handed
+    World,
+    /// The camera's: x right, y down, z forward
+    #[value(name = "camera-opencv")]
+    CameraOpenCv,
+    /// The camera's: x right, y up, z toward the viewer
+    #[value(name = "camera-opengl")]
+    CameraOpenGl,
+}
+
+/// The channels that a file has besides its picture.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct CenterChannels {
+    /// The groups as bits.
+    wanted: u8,
+    pub(crate) depth: DepthForm,
+    pub(crate) axes: AxesForm,
+    /// True where shading normals differ from the geometric ones, which are then told besides.
+    has_bumps: bool,
+}
+
+/// The place where a channel's numbers come from.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Source {
+    /// A component of a quantity.
+    Value(Quantity, usize),
+    /// The index of the sphere.
+    Id,
+    /// 1 where a sphere is seen.
+    Mask,
+}
+
+/// A component of a quantity, by name.
+type Named = (&'static str, Source);
+
+/// The channels of every group, in the order of the file formats without names.
+const CHANNELS: [(CenterChannel, &[Named]); 7] = {
+    use Quantity::{Albedo, Depth, GeometricNormal, Normal, Position};
+    use Source::{Id, Mask, Value};
+    [
+        (CenterChannel::Depth, &[("depth.Z", Value(Depth, 0))]),
+        (
+            CenterChannel::Normal,
+            &[
+                ("normal.X", Value(Normal, 0)),
+                ("normal.Y", Value(Normal, 1)),
+                ("normal.Z", Value(Normal, 2)),
+            ],
+        ),
+        (
+            CenterChannel::Normal,
+            &[
+                ("geometric_normal.X", Value(GeometricNormal, 0)),
+                ("geometric_normal.Y", Value(GeometricNormal, 1)),
+                ("geometric_normal.Z", Value(GeometricNormal, 2)),
+            ],
+        ),
+        (
+            CenterChannel::Position,
+            &[
+                ("position.X", Value(Position, 0)),
+                ("position.Y", Value(Position, 1)),
+                ("position.Z", Value(Position, 2)),
+            ],
+        ),
+        (
+            CenterChannel::Albedo,
+            &[
+                ("albedo.R", Value(Albedo, 0)),
+                ("albedo.G", Value(Albedo, 1)),
+                ("albedo.B", Value(Albedo, 2)),
+            ],
+        ),
+        (CenterChannel::Id, &[("id", Id)]),
+        (CenterChannel::Mask, &[("mask", Mask)]),
+    ]
+};
+
+impl CenterChannels {
+    /// Some groups of channels of a world with or without bumps.
+    pub(crate) fn new(
+        groups: &[CenterChannel],
+        depth: DepthForm,
+        axes: AxesForm,
+        has_bumps: bool,
+    ) -> Self {
+        Self {
+            wanted: groups.iter().fold(0, |set, group| set | 1 << *group as u8),
+            depth,
+            axes,
+            has_bumps,
+        }
+    }
+
+    /// True if the group is wanted.
+    pub(crate) fn has(&self, group: CenterChannel) -> bool {
+        self.wanted >> group as u8 & 1 == 1
+    }
+
+    /// The channels and their names.
+    pub(crate) fn list(&self) -> impl Iterator<Item = Named> {
+        let wanted = CHANNELS.into_iter().filter(|(group, _)| self.has(*group));
+        let channels = wanted.flat_map(|(_, channels)| channels.iter().copied());
+        channels.filter(|(_, source)| {
+            let is_geometric = matches!(source, Source::Value(Quantity::GeometricNormal, _));
+            self.has_bumps || !is_geometric
+        })
+    }
+
+    /// The settings by which they are found, for numbers of this type.
+    pub(crate) fn settings(&self, precision: Precision) -> GeometrySettings {
+        let quantities = self.list().filter_map(|(_, source)| match source {
+            Source::Value(quantity, _) => Some(quantity),
+            Source::Id | Source::Mask => None,
+        });
+        GeometrySettings {
+            quantities: quantities.collect(),
+            depth: match self.depth {
+                DepthForm::Axis => Depth::Axis,
+                DepthForm::Ray => Depth::Ray,
+            },
+            axes: match self.axes {
+                AxesForm::World => Axes::World,
+                AxesForm::CameraOpenCv => Axes::CameraOpenCv,
+                AxesForm::CameraOpenGl => Axes::CameraOpenGl,
+            },
+            precision,
+        }
+    }
+}
+
+/// The name by which users choose it.
+pub(crate) fn name_of(value: &impl ValueEnum) -> String {
+    let name = value.to_possible_value();
+    name.map_or_else(String::new, |value| value.get_name().to_owned())
+}
