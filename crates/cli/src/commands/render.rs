@@ -11,7 +11,7 @@ use crate::base::failure::Failure;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
-use crate::formats::encoding::{Encoding, ExrOptions, Format, PngOptions};
+use crate::formats::encoding::{Encoding, ExrOptions, Format, NpyOptions, PngOptions};
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
@@ -121,38 +121,46 @@ fn check_names(
     Ok(())
 }
 
-/// The options of the format; those of the other one are refused.
+/// The options of the format; those of others are refused.
 fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
-    let refused = |option: &str, works: &str, is: &str| {
-        Err(Failure::Usage(format!(
-            "{option} is for {works} files, and the output is {is}"
-        )))
+    let output = match format {
+        Format::Png | Format::Apng => "PNG",
+        Format::Exr => "EXR",
+        Format::Npy => "NPY",
     };
+    for (is_given, option, formats) in [
+        (arguments.bits.is_some(), "--bits", &["PNG"][..]),
+        (arguments.rgb, "--rgb", &["PNG"]),
+        (arguments.float, "--float", &["EXR"]),
+        (arguments.error_channel, "--error-channel", &["EXR", "NPY"]),
+        (!arguments.channels.is_empty(), "--channels", &["EXR"]),
+    ] {
+        if is_given && !formats.contains(&output) {
+            let formats = formats.join(" and ");
+            let message = format!("{option} is for {formats} files, and the output is {output}");
+            return Err(Failure::Usage(message));
+        }
+    }
+    if format == Format::Apng && arguments.skip_existing {
+        let message =
+            "--skip-existing is for files of one frame each, and the output has all of them";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     let png = PngOptions {
         deep: arguments.bits == Some(16),
         rgb: arguments.rgb,
     };
-    match format {
-        Format::Png | Format::Apng if arguments.float => refused("--float", "EXR", "PNG"),
-        Format::Png | Format::Apng if arguments.error_channel => {
-            refused("--error-channel", "EXR", "PNG")
-        }
-        Format::Png | Format::Apng if !arguments.channels.is_empty() => {
-            refused("--channels", "EXR", "PNG")
-        }
-        Format::Apng if arguments.skip_existing => Err(Failure::Usage(
-            "--skip-existing is for files of one frame each, and the output has all of them"
-                .to_owned(),
-        )),
-        Format::Exr if arguments.rgb => refused("--rgb", "PNG", "EXR"),
-        Format::Exr if arguments.bits.is_some() => refused("--bits", "PNG", "EXR"),
-        Format::Png => Ok(Encoding::Png(png)),
-        Format::Apng => Ok(Encoding::Apng(png)),
-        Format::Exr => Ok(Encoding::Exr(ExrOptions {
+    Ok(match format {
+        Format::Png => Encoding::Png(png),
+        Format::Apng => Encoding::Apng(png),
+        Format::Exr => Encoding::Exr(ExrOptions {
             float: arguments.float,
             error: arguments.error_channel,
-        })),
-    }
+        }),
+        Format::Npy => Encoding::Npy(NpyOptions {
+            error: arguments.error_channel,
+        }),
+    })
 }
 
 /// Tells how a run has ended, and returns its exit code.

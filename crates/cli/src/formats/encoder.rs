@@ -1,9 +1,10 @@
 //! The encoder of a sequence's pictures: strips become pieces of files, and pieces become files.
 
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ::exr::block::chunk::Chunk;
+use blake3::Hash;
 use marbles_core::{BAND_ROWS, Geometry, GeometrySettings, Image, Precision};
 
 use super::encoding::Encoding;
@@ -11,6 +12,7 @@ use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
 use super::exr::write::write_blocks;
 use super::facts::Facts;
 use super::form::Form;
+use super::npy::files::Files;
 use super::png::animation::{Animation, delay};
 use super::png::shape::Shape;
 use super::png::write::{texts, write};
@@ -29,6 +31,7 @@ pub(crate) struct Encoder {
 pub(super) enum Layout {
     Png(Shape),
     Exr(Box<Blocks>),
+    Npy(Files),
 }
 
 /// A part of a file, made of a strip.
@@ -47,6 +50,7 @@ impl Encoder {
                 Layout::Png(Shape::of(&form, options))
             }
             Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
+            Encoding::Npy(options) => Layout::Npy(Files::new(&form, options)),
         };
         Self { form, layout }
     }
@@ -54,10 +58,10 @@ impl Encoder {
     /// Bands of a strip.
     pub(crate) fn bands(&self) -> u32 {
         match self.layout {
-            Layout::Png(_) if self.form.region.window.row.is_multiple_of(BAND_ROWS) => 1,
-            // What begins within a band renders all of it, so that few should.
-            Layout::Png(_) => 4,
             Layout::Exr(_) => ROWS_OF_A_BLOCK / BAND_ROWS,
+            _ if self.form.region.window.row.is_multiple_of(BAND_ROWS) => 1,
+            // What begins within a band renders all of it, so that few should.
+            _ => 4,
         }
     }
 
@@ -77,7 +81,7 @@ impl Encoder {
         const COPIES_OF_A_BLOCK: u64 = 4;
         let samples = self.sample_bytes(0) as u64;
         match self.layout {
-            Layout::Png(_) => samples,
+            Layout::Png(_) | Layout::Npy(_) => samples,
             Layout::Exr(_) => COPIES_OF_A_BLOCK * samples,
         }
     }
@@ -88,6 +92,7 @@ impl Encoder {
         let row_bytes = match &self.layout {
             Layout::Png(shape) => shape.row_bytes(),
             Layout::Exr(blocks) => blocks.row_bytes(),
+            Layout::Npy(files) => files.row_bytes(),
         };
         rows as usize * row_bytes
     }
@@ -107,6 +112,10 @@ impl Encoder {
                 0
             }
             Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
+            Layout::Npy(files) => {
+                files.encode(samples, col, image, rows);
+                0
+            }
         }
     }
 
@@ -120,7 +129,7 @@ impl Encoder {
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         match &self.layout {
             // It has no such channels.
-            Layout::Png(_) => {}
+            Layout::Png(_) | Layout::Npy(_) => {}
             Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
         }
     }
@@ -128,8 +137,17 @@ impl Encoder {
     /// The piece that the samples of the strip with this index become.
     pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
         match &self.layout {
-            Layout::Png(_) => Piece::Samples(samples),
+            Layout::Png(_) | Layout::Npy(_) => Piece::Samples(samples),
             Layout::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
+        }
+    }
+
+    /// The files of a picture whose own is at `path`, that one first, and the digests that they tell
+    /// where its own is `digest`.
+    pub(crate) fn files(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
+        match &self.layout {
+            Layout::Png(_) | Layout::Exr(_) => vec![(path.to_owned(), *digest)],
+            Layout::Npy(files) => files.digests(path, digest),
         }
     }
 
@@ -155,6 +173,10 @@ impl Encoder {
             }
             Layout::Exr(blocks) => {
                 write_blocks(file.file(), blocks, facts, || block(next())).map(|()| file)
+            }
+            Layout::Npy(files) => {
+                let strips = self.pieces();
+                files.write(path, file, &facts.digest, strips, || samples(next()))
             }
         };
         finish(path, written)
@@ -192,11 +214,11 @@ impl Encoder {
     }
 }
 
-/// The samples of a piece of a PNG.
+/// The samples of a piece of a PNG or of NPY files.
 pub(super) fn samples(piece: Option<Piece>) -> Result<Vec<u8>, Fault> {
     match piece {
         Some(Piece::Samples(samples)) => Ok(samples),
-        // Blocks are never made for a PNG.
+        // Blocks are made for an EXR only.
         Some(Piece::Block(_)) | None => Err(Fault::Stopped),
     }
 }

@@ -9,13 +9,20 @@ pub(crate) enum Format {
     /// All frames in one file, an animated PNG.
     Apng,
     Exr,
+    Npy,
 }
 
 impl Format {
     /// The format that the ending of a name asks for.
     pub(crate) fn of(name: &str) -> Option<Self> {
+        const ENDINGS: [(&str, Format); 4] = [
+            ("png", Format::Png),
+            ("apng", Format::Apng),
+            ("exr", Format::Exr),
+            ("npy", Format::Npy),
+        ];
         let (_, ending) = name.rsplit_once('.')?;
-        [("png", Self::Png), ("apng", Self::Apng), ("exr", Self::Exr)]
+        ENDINGS
             .into_iter()
             .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
     }
@@ -33,6 +40,7 @@ pub(crate) enum Encoding {
     /// The pictures of a sequence in one file.
     Apng(PngOptions),
     Exr(ExrOptions),
+    Npy(NpyOptions),
 }
 
 /// The way in which a PNG file is written.
@@ -50,5 +58,12 @@ pub(crate) struct ExrOptions {
     /// Single precision instead of half.
     pub(crate) float: bool,
     /// A channel with the error of each pixel.
+    pub(crate) error: bool,
+}
+
+/// The way in which NPY files are written.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct NpyOptions {
+    /// A second file with the error of each pixel.
     pub(crate) error: bool,
 }

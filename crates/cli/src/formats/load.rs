@@ -8,7 +8,7 @@ use std::path::Path;
 use blake3::Hash;
 
 use super::picture::Picture;
-use super::{exr, png};
+use super::{exr, npy, png};
 use crate::base::failure::{Failure, lower};
 use crate::base::region::Region;
 
@@ -16,6 +16,9 @@ use crate::base::region::Region;
 const PNG_MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// The first bytes of every EXR.
 const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
+
+/// The first bytes of every NPY.
+const NPY_MAGIC: &[u8] = b"\x93NUM";
 
 /// Reads the picture at `path`.
 ///
@@ -39,12 +42,14 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         png::read::decode(bytes).map_err(|reason| format!("not a usable PNG: {}", lower(&reason)))
     } else if bytes.starts_with(EXR_MAGIC) {
         exr::read::decode(bytes).map_err(|reason| format!("not a usable EXR: {}", lower(&reason)))
+    } else if bytes.starts_with(NPY_MAGIC) {
+        npy::read::decode(bytes).map_err(|reason| format!("not a usable NPY: {}", lower(&reason)))
     } else if bytes.is_empty() {
-        Err("expected a PNG or EXR picture, found an empty file".to_owned())
+        Err("expected a PNG, EXR or NPY picture, found an empty file".to_owned())
     } else {
         let start = bytes[..bytes.len().min(EXR_MAGIC.len())].escape_ascii();
         Err(format!(
-            "expected a PNG or EXR picture, found a file that begins with `{start}`"
+            "expected a PNG, EXR or NPY picture, found a file that begins with `{start}`"
         ))
     }
 }
@@ -66,6 +71,8 @@ fn contents_of(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
     file.read_exact(&mut magic).ok()?;
     if magic == EXR_MAGIC {
         exr::stored::contents(file)
+    } else if magic == NPY_MAGIC {
+        npy::stored::contents(file)
     } else {
         png::stored::contents(file)
     }

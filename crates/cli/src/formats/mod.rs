@@ -1,4 +1,4 @@
-//! Picture formats: PNG, alone and animated, and EXR, each with the writing and the reading of it.
+//! Picture formats: PNG, alone and animated, EXR and NPY, each with the writing and the reading of it.
 
 pub(crate) mod center_channels;
 pub(crate) mod encoder;
@@ -9,6 +9,7 @@ pub(crate) mod form;
 pub(crate) mod frame_rate;
 mod half;
 pub(crate) mod load;
+pub(crate) mod npy;
 pub(crate) mod picture;
 pub(crate) mod png;
 pub(crate) mod rows;

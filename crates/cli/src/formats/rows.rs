@@ -9,9 +9,12 @@ use blake3::Hash;
 
 use super::encoding::Format;
 use super::exr::write::{header_like, write_rows};
+use super::npy::array::Array;
+use super::npy::stamp::Stamp;
+use super::npy::write::write_array;
 use super::png::shape::Shape;
 use super::png::write::{texts, write};
-use super::{exr, png};
+use super::{exr, npy, png};
 use crate::base::failure::{Failure, lower};
 use crate::base::region::Region;
 use crate::base::size::Size;
@@ -22,12 +25,14 @@ use crate::files::save::{Fault, save};
 pub(crate) enum Kind {
     Png(Shape),
     Exr(Box<Header>),
+    Npy(Array),
 }
 
 /// A file that is being read.
 pub(crate) enum RowReader {
     Png(Box<png::rows::Rows>),
     Exr(Box<exr::rows::Rows>),
+    Npy(Box<npy::rows::Rows>),
 }
 
 impl Kind {
@@ -35,14 +40,16 @@ impl Kind {
         match self {
             Self::Png(_) => Format::Png,
             Self::Exr(_) => Format::Exr,
+            Self::Npy(_) => Format::Npy,
         }
     }
 
-    /// Bytes of a sample: of a whole pixel in a PNG, and channel by channel in an EXR, whose rows
+    /// Bytes of a sample: of a whole pixel in a PNG or NPY, and channel by channel in an EXR, whose rows
     /// hold one after the other.
     pub(crate) fn sample_bytes(&self) -> Vec<usize> {
         match self {
             Self::Png(shape) => vec![shape.pixel_bytes()],
+            Self::Npy(array) => vec![array.pixel_bytes()],
             Self::Exr(header) => {
                 let channels = header.channels.list.iter();
                 channels
@@ -77,6 +84,13 @@ impl Kind {
                 write_rows(file.file(), header_like(header, size), samples)?;
                 Ok(file)
             }),
+            Self::Npy(array) => {
+                let stamp = Stamp {
+                    digest: *digest,
+                    region: Region::all(size),
+                };
+                write_array(path, &array.resized(size), Some(&stamp), samples)
+            }
         };
         Ok(saved?)
     }
@@ -95,8 +109,9 @@ impl RowReader {
                 let rows = exr::rows::Rows::begin(file()?).map(Box::new);
                 rows.map(Self::Exr).map_err(|error| error.to_string())
             }
+            Some(Format::Npy) => npy::rows::Rows::begin(file()?).map(Box::new).map(Self::Npy),
             Some(Format::Apng) | None => {
-                return Err("expected a file name that ends in .png or .exr".to_owned());
+                return Err("expected a file name that ends in .png, .exr or .npy".to_owned());
             }
         };
         opened.map_err(|error| lower(&error))
@@ -106,6 +121,7 @@ impl RowReader {
         match self {
             Self::Png(rows) => Kind::Png(rows.shape()),
             Self::Exr(rows) => Kind::Exr(Box::new(rows.header().clone())),
+            Self::Npy(rows) => Kind::Npy(rows.array()),
         }
     }
 
@@ -114,6 +130,7 @@ impl RowReader {
         let row = match self {
             Self::Png(rows) => rows.next().map_err(|error| error.to_string()),
             Self::Exr(rows) => rows.next().map_err(|error| error.to_string()),
+            Self::Npy(rows) => rows.next().map_err(|error| error.to_string()),
         };
         Ok(row?.ok_or("it ends early")?)
     }

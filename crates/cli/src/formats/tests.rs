@@ -32,7 +32,7 @@ pub(super) fn exr_bytes(image: &Image, options: ExrOptions) -> Vec<u8> {
     encode(image, Encoding::Exr(options), &facts()).0
 }
 
-fn facts() -> Facts {
+pub(super) fn facts() -> Facts {
     Facts {
         camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
         frame: 1,
@@ -80,6 +80,7 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
         Layout::Exr(blocks) => {
             write_blocks(&mut file, blocks, facts, || block(pieces.next())).unwrap();
         }
+        Layout::Npy(_) => panic!("these are several files"),
     }
     (file.into_inner(), clipped)
 }

@@ -12,7 +12,7 @@ use marbles_core::{
 use rayon::prelude::*;
 
 use crate::formats::center_channels::{CenterChannels, name_of};
-use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
+use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
 
 /// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
 /// the same scene do.
@@ -190,6 +190,10 @@ impl Feed {
             Encoding::Exr(ExrOptions { float, error }) => {
                 self.integer(1);
                 self.integer(float);
+                self.integer(error);
+            }
+            Encoding::Npy(NpyOptions { error }) => {
+                self.integer(2);
                 self.integer(error);
             }
         }

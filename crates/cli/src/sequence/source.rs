@@ -134,16 +134,22 @@ impl<'a> Source<'a> {
             digest: self.digests.of(&Shot {
                 exposure: &exposure,
                 frame,
-                // A PNG does not tell it, and an animated one keeps no digest.
+                // Other files do not tell it, and an animated one keeps no digest.
                 frames_per_second: match request.encoding {
-                    Encoding::Png(_) | Encoding::Apng(_) => None,
+                    Encoding::Png(_) | Encoding::Apng(_) | Encoding::Npy(_) => None,
                     Encoding::Exr(_) => request.frames_per_second,
                 },
             }),
         };
-        save::clean(path, &mut self.left_over);
-        let contents = (facts.digest, self.pipeline.encoder.form.region);
-        let is_there = || load::contents(path) == Some(contents);
+        let encoder = &self.pipeline.encoder;
+        let files = encoder.files(path, &facts.digest);
+        for (path, _) in &files {
+            save::clean(path, &mut self.left_over);
+        }
+        let is_there = || {
+            let mut files = files.iter();
+            files.all(|(path, digest)| load::contents(path) == Some((*digest, encoder.form.region)))
+        };
         let file = if request.is_animation() {
             None
         } else if !request.skip_existing {

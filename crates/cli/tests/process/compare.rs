@@ -23,6 +23,7 @@ fn folder() -> Folder {
     for arguments in [
         "-o a.exr --samples 4",
         "-o a.png --samples 4",
+        "-o a.npy --samples 4",
         "-o float.exr --samples 4 --float",
         "-o deep.png --samples 4 --bits 16 --rgb",
         "-o fine.exr --samples 16",
@@ -96,6 +97,8 @@ fn formats_differ_by_their_rounding_alone() {
         "a.exr float.exr",
         "deep.png float.exr",
         "a.png deep.png",
+        "a.exr a.npy",
+        "deep.png a.npy",
     ] {
         let output = folder.run(&format!("compare {pair}"));
         let expected = "0 of 2400 pixels, fraction 0.0e+00, differ by more than rounding";
@@ -156,7 +159,7 @@ fn the_error_channel_is_told_and_not_compared() {
     assert_eq!(refused.status.code(), Some(2));
     assert_eq!(
         text(&refused.stderr),
-        "marbles: --error-channel is for EXR files, and the output is PNG\n"
+        "marbles: --error-channel is for EXR and NPY files, and the output is PNG\n"
     );
 }
 

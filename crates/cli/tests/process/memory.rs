@@ -31,7 +31,7 @@ fn pictures_larger_than_the_memory_are_rendered() {
     const KILOBYTES: u32 = 400_000;
     let folder = colored();
     // 16.8 million pixels of four channels in double precision are 537 MB.
-    for output in ["a.png --bits 16", "a.exr --float"] {
+    for output in ["a.png --bits 16", "a.exr --float", "a.npy"] {
         let arguments = format!(
             "render ball.ron -o {output} --alpha --samples 1 --threads 2 --size 16384x1024"
         );

@@ -38,6 +38,8 @@ fn parts_are_merged_into_the_picture() {
             "exr",
             "--samples 1 --channels depth,normal,position,id,albedo,mask --axes camera-opencv",
         ),
+        ("turn", "npy", ""),
+        ("grey", "npy", "--alpha"),
     ] {
         let render = format!("render {scene}.ron --frames 7 --size 101x83 {more}");
         let output = folder.run(&format!("{render} -o whole.{ending}"));
@@ -70,6 +72,33 @@ fn parts_are_merged_into_the_picture() {
         let again = format!("{render} -o merged.{ending} --skip-existing");
         assert!(text(&folder.run(&again).stdout).contains(": skipped"));
     }
+}
+
+#[test]
+fn errors_beside_light_are_merged_on_their_own() {
+    let folder = turntable();
+    let render = "render turn.ron --frames 7 --size 50x40 --error-channel";
+    for (name, region) in [
+        ("whole", ""),
+        ("left", "--region 0,0,21,40"),
+        ("right", "--region 21,0,29,40"),
+    ] {
+        let output = folder.run(&format!("{render} -o {name}.npy {region}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    }
+    for file in ["", "_error"] {
+        let merge = format!("merge merged{file}.npy left{file}.npy right{file}.npy");
+        assert_eq!(code(&folder.run(&merge)), 0);
+        let [whole, merged] =
+            ["whole", "merged"].map(|name| folder.read(&format!("{name}{file}.npy")));
+        assert!(whole == merged, "{file}");
+    }
+    let again = format!("{render} -o merged.npy --skip-existing");
+    assert!(text(&folder.run(&again).stdout).contains(": skipped"));
+    let output = folder.run("merge mixed.npy left.npy right_error.npy");
+    assert_eq!(code(&output), 2);
+    let reason = "marbles: right_error.npy: not of the same scene, frame and settings as left.npy";
+    assert!(text(&output.stderr).starts_with(reason));
 }
 
 #[test]

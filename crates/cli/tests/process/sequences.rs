@@ -70,8 +70,13 @@ fn sequences_that_are_killed_and_resumed_are_those_that_are_not() {
     const LONGEST: Duration = Duration::from_millis(250);
     let folder = turntable();
     let mut state = 7;
-    for ending in ["png", "exr"] {
-        let render = |out: &str| format!("render turn.ron -o {out}/##.{ending} --samples 16");
+    for (ending, more, files) in [
+        ("png", "", 60),
+        ("exr", "", 60),
+        ("npy", "--error-channel", 120),
+    ] {
+        let render =
+            |out: &str| format!("render turn.ron -o {out}/##.{ending} --samples 16 {more}");
         let whole = format!("whole-{ending}");
         let output = folder.run(&render(&whole));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
@@ -87,7 +92,7 @@ fn sequences_that_are_killed_and_resumed_are_those_that_are_not() {
         let output = folder.run(&resume);
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
         let expected = contents(&folder, &whole);
-        assert_eq!(expected.len(), 60);
+        assert_eq!(expected.len(), files);
         let none: [&str; 0] = [];
         assert_eq!(differences(&expected, &contents(&folder, &killed)), none);
     }
@@ -96,7 +101,7 @@ fn sequences_that_are_killed_and_resumed_are_those_that_are_not() {
 #[test]
 fn only_complete_frames_of_the_same_picture_are_skipped() {
     let folder = turntable();
-    for ending in ["png", "exr"] {
+    for ending in ["png", "exr", "npy"] {
         let render = format!("render turn.ron -o {ending}/#.{ending} --frames 1-6 --size 31x17");
         let skipped = |arguments: &str| {
             let output = folder.run(&format!("{render} --skip-existing {arguments}"));
@@ -138,7 +143,7 @@ fn only_complete_frames_of_the_same_picture_are_skipped() {
 #[test]
 fn another_rate_matters_where_files_tell_it() {
     let folder = turntable();
-    for (ending, expected) in [("png", 1), ("exr", 0)] {
+    for (ending, expected) in [("png", 1), ("npy", 1), ("exr", 0)] {
         let render = format!("render turn.ron -o a.{ending} --frames 1 --size 9x9 --skip-existing");
         folder.run(&render);
         let output = folder.run(&format!("{render} --fps 30"));
@@ -230,6 +235,49 @@ fn a_folder_that_is_deleted_is_an_error() {
     }
     assert!(last.contains(" of 60 frames written, failed: "), "{errors}");
     assert!(last.ends_with("-60"), "{errors}");
+}
+
+#[test]
+fn a_frame_without_its_file_of_errors_is_rendered_again() {
+    let folder = turntable();
+    let render = "render turn.ron -o out/#.npy --frames 7-8 --size 31x17 --error-channel";
+    assert_eq!(code(&folder.run(render)), 0);
+    let whole = contents(&folder, "out");
+    let names = whole.iter().map(|(name, _)| name.as_str());
+    let expected = ["7.npy", "7_error.npy", "8.npy", "8_error.npy"];
+    assert!(names.eq(expected));
+    let skipped = |more: &str| {
+        let output = folder.run(&format!("{render} --skip-existing {more}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        text(&output.stdout).matches(": skipped").count()
+    };
+    assert_eq!(skipped(""), 2);
+    fs::remove_file(folder.path("out/8_error.npy")).unwrap();
+    // As a process that was killed leaves it.
+    fs::write(folder.path("out/8_error.npy.tmp"), "").unwrap();
+    assert_eq!(skipped(""), 1);
+    assert!(contents(&folder, "out") == whole);
+    fs::copy(
+        folder.path("out/8_error.npy"),
+        folder.path("out/7_error.npy"),
+    )
+    .unwrap();
+    assert_eq!(skipped(""), 1);
+    assert!(contents(&folder, "out") == whole);
+    // The light's file cannot stand for that of the errors.
+    fs::copy(folder.path("out/7.npy"), folder.path("out/7_error.npy")).unwrap();
+    assert_eq!(skipped(""), 1);
+    assert!(contents(&folder, "out") == whole);
+
+    // A file of errors that cannot be written is named.
+    fs::remove_file(folder.path("out/7_error.npy")).unwrap();
+    fs::create_dir(folder.path("out/7_error.npy")).unwrap();
+    let output = folder.run(&format!("{render} --frames 7"));
+    assert_eq!(code(&output), 2, "an option that is given twice");
+    let output = folder.run(&render.replace("7-8", "7"));
+    assert_eq!(code(&output), 1);
+    let expected = "marbles: out/7_error.npy: cannot write the file: there is a folder\n";
+    assert_eq!(text(&output.stderr), expected);
 }
 
 /// A noisy ball comes into the picture in the middle, where the files become large.

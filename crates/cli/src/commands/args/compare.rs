@@ -14,7 +14,7 @@ Examples:
 
 PNG codes are decoded to linear light and multiplied by alpha, as in EXR. Grey stands for three
 equal colors, and alpha is 1 in a picture that has none. The channel `error` of an EXR is no light, and
-not compared.
+not compared. An NPY is an array of height × width, or height × width × 1 to 4 channels.
 
 Rows of the result:
   largest     the largest difference of any channel of any pixel
@@ -36,11 +36,11 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CompareArguments {
-    /// Picture, PNG or EXR
+    /// Picture, PNG, EXR or NPY
     #[arg(value_name = "A")]
     pub(crate) a: PathBuf,
 
-    /// Picture to compare it with, PNG or EXR
+    /// Picture to compare it with, PNG, EXR or NPY
     #[arg(value_name = "B")]
     pub(crate) b: PathBuf,
 

@@ -17,6 +17,7 @@ const EXAMPLES: &str = "\
 Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
+  marbles render ball.ron -o ball.npy --error-channel  float64, with ball_error.npy beside it
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
@@ -37,9 +38,9 @@ pub(crate) struct RenderArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
 
-    /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png or
-    /// .exr chooses the format, and .apng has all frames in one file, an animated PNG that plays in
-    /// a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png,
+    /// .exr or .npy chooses the format, and .apng has all frames in one file, an animated PNG that
+    /// plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
@@ -99,7 +100,8 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) float: bool,
 
-    /// Store each pixel's error in an EXR as well, in a channel `error` in single precision
+    /// Store each pixel's error as well: in an EXR in a channel `error` in single precision, with
+    /// NAME.npy in a file NAME_error.npy in double precision
     #[arg(long)]
     pub(crate) error_channel: bool,
 

@@ -33,7 +33,7 @@ impl DifferencePicture {
         let holds_floats = match Format::of_file(path) {
             Some(Format::Png) => false,
             Some(Format::Exr) => true,
-            Some(Format::Apng) | None => {
+            Some(Format::Apng | Format::Npy) | None => {
                 return Err(Failure::Usage(format!(
                     "--diff: expected a file name that ends in .png or .exr, found `{}`",
                     path.display()

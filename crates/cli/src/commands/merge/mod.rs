@@ -16,8 +16,9 @@ use crate::terminal::console::Console;
 
 pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, Failure> {
     let path = &arguments.output;
-    let format = Format::of_file(path)
-        .ok_or_else(|| Failure::unusable(path, "expected a file name that ends in .png or .exr"))?;
+    let format = Format::of_file(path).ok_or_else(|| {
+        Failure::unusable(path, "expected a file name that ends in .png, .exr or .npy")
+    })?;
     let mut parts = Parts::examine(&arguments.parts)?;
     let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
     prepare(path)?;

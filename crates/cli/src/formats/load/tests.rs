@@ -14,11 +14,11 @@ fn refuses_what_is_no_picture() {
     let refusal = |bytes: &[u8]| decode(bytes).unwrap_err();
     assert_eq!(
         refusal(b""),
-        "expected a PNG or EXR picture, found an empty file"
+        "expected a PNG, EXR or NPY picture, found an empty file"
     );
     assert_eq!(
         refusal(b"\xff\xd8\xff\xe0JFIF"),
-        "expected a PNG or EXR picture, found a file that begins with `\\xff\\xd8\\xff\\xe0`"
+        "expected a PNG, EXR or NPY picture, found a file that begins with `\\xff\\xd8\\xff\\xe0`"
     );
 }
 

@@ -47,9 +47,10 @@ fn endings_choose_the_format() {
     assert_eq!(format("a.PNG"), Format::Png);
     assert_eq!(format("a.b.Exr"), Format::Exr);
     assert_eq!(format("a.png.apng"), Format::Apng);
+    assert_eq!(format("a.NPY"), Format::Npy);
     for wrong in ["a.jpg", "a", "png", "out/", "out.png/", "a.png.", ".."] {
         assert!(
-            refusal(wrong).contains("ends in .png, .apng or .exr"),
+            refusal(wrong).contains("ends in .png, .apng, .exr or .npy"),
             "{wrong}"
         );
     }

@@ -1,0 +1,181 @@
+//! The files of a picture: an array of its light, and others beside it.
+//!
+//! `a.npy` is the file of the light, and `a_error.npy` one beside it. The rows of all arrays come
+//! together, strip by strip. The file of the light is the last that gets its final name.
+
+use std::ffi::OsString;
+use std::io::Write;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use blake3::{Hash, Hasher};
+use marbles_core::Image;
+
+use super::array::{Array, Number};
+use super::header;
+use super::stamp::Stamp;
+use crate::base::failure::Failure;
+use crate::base::region::Region;
+use crate::files::save::{self, Fault};
+use crate::files::temporary::TemporaryFile;
+use crate::formats::encoding::NpyOptions;
+use crate::formats::form::Form;
+
+/// The meaning of the digest of a file beside that of the light.
+const PURPOSE: &str = "marbles 2026-11-23 digest of an array beside a picture";
+
+/// The part of its name that a file of errors has more.
+const ERROR: &str = "_error";
+
+/// The arrays of a picture, each of which becomes a file.
+#[derive(Clone, Debug)]
+pub(crate) struct Files {
+    region: Region,
+    /// The light, then what lies beside it.
+    arrays: Vec<Part>,
+}
+
+/// An array, and the end of the stem of its file's name.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    suffix: &'static str,
+    array: Array,
+}
+
+impl Files {
+    /// The arrays of a picture of this form: red, green and blue, with alpha where there is one, and
+    /// on request the error of each pixel. A picture without color has them as well, so that the
+    /// shape does not depend on what a scene contains.
+    pub(crate) fn new(form: &Form, options: NpyOptions) -> Self {
+        let part = |suffix, channels| Part {
+            suffix,
+            array: Array {
+                size: form.region.size(),
+                channels,
+                number: Number::F64,
+            },
+        };
+        let mut arrays = vec![part("", Some(3 + u32::from(form.alpha)))];
+        if options.error {
+            arrays.push(part(ERROR, None));
+        }
+        Self {
+            region: form.region,
+            arrays,
+        }
+    }
+
+    /// Bytes of a row in all arrays together.
+    pub(crate) fn row_bytes(&self) -> usize {
+        self.arrays.iter().map(|part| part.array.row_bytes()).sum()
+    }
+
+    /// Puts the numbers of some rows of an image where they belong in `samples`, from the column `col`
+    /// on. Samples are as many rows, array by array.
+    pub(crate) fn encode(&self, samples: &mut [u8], col: u32, image: &Image, rows: Range<u32>) {
+        let mut rest = samples;
+        for part in &self.arrays {
+            let array = part.array;
+            let (own, others) = rest.split_at_mut(array.row_bytes() * rows.len());
+            rest = others;
+            let first = col as usize * array.pixel_bytes();
+            let length = image.width() as usize * array.pixel_bytes();
+            for (row, numbers) in rows.clone().zip(own.chunks_exact_mut(array.row_bytes())) {
+                let numbers = &mut numbers[first..first + length];
+                let pixels = numbers.chunks_exact_mut(array.pixel_bytes());
+                for (col, pixel) in (0..).zip(pixels) {
+                    let (numbers, _) = pixel.as_chunks_mut();
+                    if part.suffix == ERROR {
+                        numbers[0] = image.error(col, row).to_le_bytes();
+                        continue;
+                    }
+                    for (number, value) in numbers.iter_mut().zip(image.rgba(col, row)) {
+                        *number = value.to_le_bytes();
+                    }
+                }
+            }
+        }
+    }
+
+    /// The files of the picture whose light is at `path`, and the digests that they tell where the
+    /// light's is `digest`.
+    pub(crate) fn digests(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
+        let of = |part: &Part| (beside(path, part.suffix), digest_of(digest, part.suffix));
+        self.arrays.iter().map(of).collect()
+    }
+
+    /// Writes the files of a picture, the light's to `file`; `next` gives the samples of the strips from
+    /// the top downward, of which there are `strips`.
+    pub(crate) fn write(
+        &self,
+        path: &Path,
+        file: TemporaryFile,
+        digest: &Hash,
+        strips: u32,
+        mut next: impl FnMut() -> Result<Vec<u8>, Fault>,
+    ) -> Result<TemporaryFile, Fault> {
+        let mut files = vec![(path.to_owned(), file)];
+        for part in &self.arrays[1..] {
+            let path = beside(path, part.suffix);
+            let file = save::begin(&path).map_err(Fault::Failed)?;
+            files.push((path, file));
+        }
+        for (part, (path, file)) in self.arrays.iter().zip(&mut files) {
+            let stamp = Stamp {
+                digest: digest_of(digest, part.suffix),
+                region: self.region,
+            };
+            write_bytes(path, file, &header::bytes(&part.array, Some(&stamp)))?;
+        }
+        for _ in 0..strips {
+            let samples = next()?;
+            let rows = samples.len() / self.row_bytes();
+            let mut rest = &samples[..];
+            for (part, (path, file)) in self.arrays.iter().zip(&mut files) {
+                let (own, others) = rest.split_at(rows * part.array.row_bytes());
+                rest = others;
+                write_bytes(path, file, own)?;
+            }
+        }
+        let mut files = files.into_iter();
+        let (_, light) = files.next().ok_or(Fault::Stopped)?;
+        for (path, file) in files {
+            save::finish(&path, Ok(file)).map_err(|unwritten| Fault::Failed(unwritten.into()))?;
+        }
+        Ok(light)
+    }
+}
+
+/// The path of a file beside that of the light.
+fn beside(path: &Path, suffix: &str) -> PathBuf {
+    if suffix.is_empty() {
+        return path.to_owned();
+    }
+    let mut name = OsString::from(path.file_stem().unwrap_or_default());
+    name.push(suffix);
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
+}
+
+/// The digest of a file beside that of the light, so that no part of the one is merged with the other.
+fn digest_of(digest: &Hash, suffix: &str) -> Hash {
+    if suffix.is_empty() {
+        return *digest;
+    }
+    let mut hasher = Hasher::new_derive_key(PURPOSE);
+    hasher.update(digest.as_bytes());
+    hasher.update(suffix.as_bytes());
+    hasher.finalize()
+}
+
+/// Writes some bytes, and tells the name of the file where that fails.
+fn write_bytes(path: &Path, file: &mut TemporaryFile, bytes: &[u8]) -> Result<(), Fault> {
+    let written = file.file().write_all(bytes);
+    written.map_err(|error| Fault::Failed(Failure::io(path, "cannot write the file", &error)))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,148 @@
+use std::fs::{self, File};
+use std::io::Read;
+
+use marbles_core::Window;
+
+use super::*;
+use crate::base::size::Size;
+use crate::formats::encoder::{Encoder, Piece};
+use crate::formats::encoding::Encoding;
+use crate::formats::load;
+use crate::formats::npy::rows::Rows;
+use crate::formats::tests::{DIGEST, Scene, facts, render, size};
+use crate::tests::temporary;
+
+/// Writes a picture as columns of 8 and the rest, and returns the paths of its files.
+fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf, Hash)> {
+    let form = Form {
+        region,
+        channels: image.channels(),
+        alpha: image.has_alpha(),
+    };
+    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error }), form);
+    let path = temporary(name);
+    let mut pieces = (0..encoder.pieces()).map(|index| {
+        let first = index * encoder.rows();
+        let rows = first..image.height().min(first + encoder.rows());
+        let mut samples = vec![0; encoder.sample_bytes(index)];
+        assert_eq!(encoder.encode(&mut samples, 0, image, rows), 0);
+        encoder.piece(index, samples)
+    });
+    let file = save::begin(&path).unwrap();
+    let written = encoder.write(&facts(), &path, file, || pieces.next());
+    assert!(written.is_ok());
+    encoder.files(&path, &DIGEST)
+}
+
+/// The numbers of a file, and its array.
+fn read(path: &Path) -> (Array, Vec<f64>) {
+    let mut rows = Rows::begin(File::open(path).unwrap()).unwrap();
+    let mut numbers = Vec::new();
+    while let Some(row) = rows.next().unwrap() {
+        let (row, _) = row.as_chunks();
+        numbers.extend(row.iter().map(|number| f64::from_le_bytes(*number)));
+    }
+    (rows.array(), numbers)
+}
+
+#[test]
+fn doubles_come_back_to_the_bit() {
+    for scene in [Scene::Grey, Scene::Color, Scene::Bright] {
+        for (alpha, error) in [(false, true), (true, true), (true, false)] {
+            let image = render(scene, alpha);
+            let name = format!("bits_{scene:?}_{alpha}_{error}.npy");
+            let files = write(&image, Region::all(size(&image)), error, &name);
+            assert_eq!(files.len(), if error { 2 } else { 1 });
+
+            let (array, numbers) = read(&files[0].0);
+            let count = if alpha { 4 } else { 3 };
+            assert_eq!((array.size, array.channels), (size(&image), Some(count)));
+            let places = size(&image).places();
+            let count = count as usize;
+            let light = places.flat_map(|(col, row)| image.rgba(col, row).into_iter().take(count));
+            assert!(numbers.into_iter().eq(light));
+
+            if error {
+                let name = files[1].0.file_name().unwrap().to_str().unwrap();
+                assert!(name.ends_with("_true_error.npy"), "{name}");
+                let (array, numbers) = read(&files[1].0);
+                assert_eq!((array.size, array.channels), (size(&image), None));
+                let errors = size(&image).places();
+                let errors = errors.map(|(col, row)| image.error(col, row));
+                assert!(numbers.into_iter().eq(errors));
+            }
+            for (path, _) in files {
+                fs::remove_file(path).unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn every_file_tells_its_digest_and_its_region() {
+    let image = render(Scene::Color, false);
+    let window = Window {
+        col: 2,
+        row: 1,
+        width: image.width(),
+        height: image.height(),
+    };
+    let whole = Size {
+        width: 100,
+        height: 200,
+    };
+    let region = Region::new(window, whole).unwrap();
+    let files = write(&image, region, true, "told.npy");
+    assert!(files[0].1 == DIGEST && files[1].1 != DIGEST);
+    for (path, digest) in files {
+        assert_eq!(load::contents(&path), Some((digest, region)));
+        let mut bytes = Vec::new();
+        File::open(&path).unwrap().read_to_end(&mut bytes).unwrap();
+        for wrong in [
+            &bytes[..bytes.len() - 1],
+            &bytes[..40],
+            &[&bytes[..], b"x"].concat(),
+        ] {
+            fs::write(&path, wrong).unwrap();
+            assert_eq!(load::contents(&path), None);
+        }
+        fs::remove_file(path).unwrap();
+    }
+}
+
+#[test]
+fn nothing_is_left_of_a_picture_that_is_not_complete() {
+    let image = render(Scene::Color, false);
+    let form = Form {
+        region: Region::all(size(&image)),
+        channels: image.channels(),
+        alpha: false,
+    };
+    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error: true }), form);
+    let path = temporary("cut.npy");
+    let file = save::begin(&path).unwrap();
+    let mut pieces = [Piece::Samples(vec![0; encoder.sample_bytes(0)])].into_iter();
+    assert!(
+        encoder
+            .write(&facts(), &path, file, || pieces.next())
+            .is_err()
+    );
+    for (path, _) in encoder.files(&path, &DIGEST) {
+        assert!(!path.exists());
+        let mut temporary = path.into_os_string();
+        temporary.push(".tmp");
+        assert!(!Path::new(&temporary).exists());
+    }
+}
+
+#[test]
+fn files_beside_the_light_have_its_name_and_more() {
+    for (name, expected) in [
+        ("a.npy", "a_error.npy"),
+        ("out/a.0001.NPY", "out/a.0001_error.NPY"),
+        (".npy", ".npy_error"),
+    ] {
+        assert_eq!(beside(Path::new(name), ERROR), Path::new(expected));
+        assert_eq!(beside(Path::new(name), ""), Path::new(name));
+    }
+}

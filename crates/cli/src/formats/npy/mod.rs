@@ -1,0 +1,13 @@
+//! NPY, the arrays of NumPy: linear light and errors in double precision.
+
+pub(crate) mod array;
+pub(crate) mod files;
+mod header;
+pub(crate) mod read;
+pub(crate) mod rows;
+pub(crate) mod stamp;
+pub(crate) mod stored;
+pub(crate) mod write;
+
+/// The first bytes of every file, of which six are the format's name.
+const MAGIC: &[u8] = b"\x93NUMPY";

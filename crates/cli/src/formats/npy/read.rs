@@ -1,0 +1,108 @@
+//! NPY of a picture, as it is: linear light, premultiplied.
+
+use std::io::{Cursor, Read};
+
+use super::array::{Array, Number};
+use super::header;
+use crate::formats::picture::{Picture, Samples, check_memory};
+
+/// The numbers of a file.
+#[derive(Debug)]
+struct Numbers {
+    array: Array,
+    bytes: Vec<u8>,
+}
+
+/// The picture in the bytes of a file.
+pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    let mut file = Cursor::new(bytes);
+    let array = header::read(&mut file)?.array;
+    let names = match array.channels {
+        None | Some(1) => "Y",
+        Some(2) => "YA",
+        Some(3) => "RGB",
+        Some(4) => "RGBA",
+        Some(other) => return Err(format!("expected 1 to 4 channels, found {other}")),
+    };
+    let (width, height) = (array.size.width as usize, array.size.height as usize);
+    let size = check_memory(width, height, array.pixel_bytes())?;
+    let mut numbers = Vec::new();
+    file.read_to_end(&mut numbers)
+        .map_err(|error| error.to_string())?;
+    if array.bytes() != Some(numbers.len() as u64) {
+        return Err("its numbers are more or fewer than its header says".to_owned());
+    }
+    let kind = match array.number {
+        Number::F64 => "double",
+        Number::F32 => "float",
+        Number::U32 => "uint",
+    };
+    Ok(Picture {
+        size,
+        grey: names.starts_with('Y'),
+        alpha: names.ends_with('A'),
+        description: format!("NPY, {kind}, {names}"),
+        warning: None,
+        samples: Box::new(Numbers {
+            array,
+            bytes: numbers,
+        }),
+    })
+}
+
+impl Samples for Numbers {
+    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
+        let of = |channel| self.number(col, row, channel);
+        match self.array.numbers() {
+            1 => [of(0), of(0), of(0), 1.0],
+            2 => [of(0), of(0), of(0), of(1)],
+            3 => [of(0), of(1), of(2), 1.0],
+            _ => [of(0), of(1), of(2), of(3)],
+        }
+    }
+
+    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+        // Doubles hold what was computed.
+        match self.array.number {
+            Number::F64 => [0.0; 4],
+            Number::F32 => self.rgba(col, row).map(half_step),
+            Number::U32 => [0.5; 4],
+        }
+    }
+
+    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+        let largest = match self.array.number {
+            Number::F64 => f64::MAX,
+            Number::F32 => f32::MAX.into(),
+            Number::U32 => u32::MAX.into(),
+        };
+        self.rgba(col, row).map(|value| value == largest)
+    }
+}
+
+impl Numbers {
+    fn number(&self, col: u32, row: u32, channel: usize) -> f64 {
+        let pixel = row as usize * self.array.size.width as usize + col as usize;
+        let index = pixel * self.array.numbers() + channel;
+        let (pairs, _) = self.bytes.as_chunks::<8>();
+        let (words, _) = self.bytes.as_chunks::<4>();
+        match self.array.number {
+            Number::F64 => f64::from_le_bytes(pairs[index]),
+            Number::F32 => f32::from_le_bytes(words[index]).into(),
+            Number::U32 => u32::from_le_bytes(words[index]).into(),
+        }
+    }
+}
+
+/// Half the way from a float to the next one.
+fn half_step(value: f64) -> f64 {
+    let float = value.abs() as f32;
+    if float.is_finite() {
+        0.5 * (f64::from(float.next_up()) - f64::from(float))
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,24 @@
+//! The digest and the region that a file tells, read without its numbers.
+
+use std::io::{Read, Seek, SeekFrom};
+
+use blake3::Hash;
+
+use super::header::{self, Header};
+use super::stamp::Stamp;
+use crate::base::region::Region;
+
+/// The digest and the region of the picture in a file; `None` where it does not tell them, or has been
+/// cut off or continued.
+pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
+    let end = file.seek(SeekFrom::End(0)).ok()?;
+    file.rewind().ok()?;
+    let Header {
+        array,
+        stamp,
+        start,
+    } = header::read(file).ok()?;
+    let Stamp { digest, region } = stamp?;
+    let is_whole = start.checked_add(array.bytes()?)? == end && array.size == region.size();
+    is_whole.then_some((digest, region))
+}
