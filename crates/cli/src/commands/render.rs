@@ -40,9 +40,9 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     if outcome.frames > 1
         && request.pattern.is_numbered()
         && !quiet
-        && let Some(total) = &outcome.total
+        && let Some(total) = messages::total(&outcome)
     {
-        console.result(&messages::total(outcome.written, total, outcome.time));
+        console.result(&total);
     }
     Ok(conclusion(&outcome, console))
 }
@@ -131,6 +131,8 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     for (is_given, option, formats) in [
         (arguments.bits.is_some(), "--bits", &["PNG"][..]),
         (arguments.rgb, "--rgb", &["PNG"]),
+        (arguments.linear, "--linear", &["PNG"]),
+        (arguments.exposure.is_some(), "--exposure", &["PNG"]),
         (arguments.float, "--float", &["EXR"]),
         (arguments.error_channel, "--error-channel", &["EXR", "NPY"]),
         (!arguments.channels.is_empty(), "--channels", &["EXR"]),
@@ -141,6 +143,10 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
             return Err(Failure::Usage(message));
         }
     }
+    if arguments.linear && arguments.bits == Some(8) {
+        let message = "--linear writes 16 bit, and --bits asks for 8";
+        return Err(Failure::Usage(message.to_owned()));
+    }
     if format == Format::Apng && arguments.skip_existing {
         let message =
             "--skip-existing is for files of one frame each, and the output has all of them";
@@ -149,6 +155,8 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     let png = PngOptions {
         deep: arguments.bits == Some(16),
         rgb: arguments.rgb,
+        linear: arguments.linear,
+        gain: libm::exp2(arguments.exposure.unwrap_or(0.0)),
     };
     Ok(match format {
         Format::Png => Encoding::Png(png),

@@ -29,7 +29,11 @@ pub(crate) struct Encoder {
 /// The layout of samples in a file.
 #[derive(Debug)]
 pub(super) enum Layout {
-    Png(Shape),
+    Png {
+        shape: Shape,
+        /// See [`PngOptions`](super::encoding::PngOptions).
+        gain: f64,
+    },
     Exr(Box<Blocks>),
     Npy(Files),
 }
@@ -46,9 +50,10 @@ pub(crate) enum Piece {
 impl Encoder {
     pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
         let layout = match encoding {
-            Encoding::Png(options) | Encoding::Apng(options) => {
-                Layout::Png(Shape::of(&form, options))
-            }
+            Encoding::Png(options) | Encoding::Apng(options) => Layout::Png {
+                shape: Shape::of(&form, options),
+                gain: options.gain,
+            },
             Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
             Encoding::Npy(options) => Layout::Npy(Files::new(&form, options)),
         };
@@ -81,7 +86,7 @@ impl Encoder {
         const COPIES_OF_A_BLOCK: u64 = 4;
         let samples = self.sample_bytes(0) as u64;
         match self.layout {
-            Layout::Png(_) | Layout::Npy(_) => samples,
+            Layout::Png { .. } | Layout::Npy(_) => samples,
             Layout::Exr(_) => COPIES_OF_A_BLOCK * samples,
         }
     }
@@ -90,7 +95,7 @@ impl Encoder {
     pub(crate) fn sample_bytes(&self, index: u32) -> usize {
         let rows = (self.form.region.window.height - index * self.rows()).min(self.rows());
         let row_bytes = match &self.layout {
-            Layout::Png(shape) => shape.row_bytes(),
+            Layout::Png { shape, .. } => shape.row_bytes(),
             Layout::Exr(blocks) => blocks.row_bytes(),
             Layout::Npy(files) => files.row_bytes(),
         };
@@ -98,7 +103,8 @@ impl Encoder {
     }
 
     /// Puts some rows of an image where they belong in a strip of as many rows, from the column `col`
-    /// on; returns how many finite numbers were too large for the format's.
+    /// on; returns how many pixels of a PNG were clipped, or how many finite numbers were too large
+    /// for those of an EXR.
     pub(crate) fn encode(
         &self,
         samples: &mut [u8],
@@ -107,10 +113,7 @@ impl Encoder {
         rows: Range<u32>,
     ) -> u64 {
         match &self.layout {
-            Layout::Png(shape) => {
-                shape.encode(samples, col, image, rows);
-                0
-            }
+            Layout::Png { shape, gain } => shape.encode(samples, col, image, rows, *gain),
             Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
             Layout::Npy(files) => {
                 files.encode(samples, col, image, rows);
@@ -137,7 +140,7 @@ impl Encoder {
     /// The piece that the samples of the strip with this index become.
     pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
         match &self.layout {
-            Layout::Png(_) | Layout::Npy(_) => Piece::Samples(samples),
+            Layout::Png { .. } | Layout::Npy(_) => Piece::Samples(samples),
             Layout::Exr(blocks) => Piece::Block(blocks.compress(index, samples)),
         }
     }
@@ -146,7 +149,7 @@ impl Encoder {
     /// where its own is `digest`.
     pub(crate) fn files(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
         match &self.layout {
-            Layout::Png(_) | Layout::Exr(_) => vec![(path.to_owned(), *digest)],
+            Layout::Png { .. } | Layout::Exr(_) => vec![(path.to_owned(), *digest)],
             Layout::Npy(files) => files.digests(path, digest),
         }
     }
@@ -162,7 +165,7 @@ impl Encoder {
         mut next: impl FnMut() -> Option<Piece>,
     ) -> Result<(), Unwritten> {
         let written = match &self.layout {
-            Layout::Png(shape) => {
+            Layout::Png { shape, .. } => {
                 let texts = texts(&facts.digest, &self.form.region);
                 write(file, *shape, &texts, |stream| {
                     for _ in 0..self.pieces() {
@@ -194,7 +197,7 @@ impl Encoder {
         mut next: impl FnMut() -> Option<Piece>,
         mut written: impl FnMut() -> Option<()>,
     ) -> Result<(), Unwritten> {
-        let Layout::Png(shape) = &self.layout else {
+        let Layout::Png { shape, .. } = &self.layout else {
             // Other formats have no animations.
             return Err(Unwritten::Stopped);
         };

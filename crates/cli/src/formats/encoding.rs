@@ -34,7 +34,7 @@ impl Format {
 }
 
 /// The way in which pictures are turned into bytes.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Encoding {
     Png(PngOptions),
     /// The pictures of a sequence in one file.
@@ -44,12 +44,16 @@ pub(crate) enum Encoding {
 }
 
 /// The way in which a PNG file is written.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PngOptions {
     /// 16 bit instead of 8.
     pub(crate) deep: bool,
     /// Three channels for pictures without color as well.
     pub(crate) rgb: bool,
+    /// Codes of 16 bit in proportion to light, instead of those of sRGB.
+    pub(crate) linear: bool,
+    /// The factor by which light is multiplied before it becomes codes; above 0.
+    pub(crate) gain: f64,
 }
 
 /// The way in which an EXR file is written.

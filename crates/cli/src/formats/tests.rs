@@ -19,6 +19,14 @@ use super::png::write::{compress, texts};
 use crate::base::region::Region;
 use crate::base::size::Size;
 
+/// Codes of sRGB, of 8 bit, in grey where the picture is.
+pub(crate) const PNG: PngOptions = PngOptions {
+    deep: false,
+    rgb: false,
+    linear: false,
+    gain: 1.0,
+};
+
 /// The digest that the pictures tell.
 pub(super) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
 
@@ -67,7 +75,7 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
     });
     let mut file = Cursor::new(Vec::new());
     match &encoder.layout {
-        Layout::Png(shape) => {
+        Layout::Png { shape, .. } => {
             let texts = texts(&facts.digest, &form.region);
             let has_grown = compress(&mut file, *shape, &texts, |stream| {
                 for piece in pieces {

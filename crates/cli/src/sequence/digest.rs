@@ -182,10 +182,18 @@ impl Feed {
     fn encoding(&mut self, encoding: Encoding) {
         match encoding {
             // An animated one keeps no digest.
-            Encoding::Png(PngOptions { deep, rgb }) | Encoding::Apng(PngOptions { deep, rgb }) => {
+            Encoding::Png(options) | Encoding::Apng(options) => {
+                let PngOptions {
+                    deep,
+                    rgb,
+                    linear,
+                    gain,
+                } = options;
                 self.integer(0);
                 self.integer(deep);
                 self.integer(rgb);
+                self.integer(linear);
+                self.number(gain);
             }
             Encoding::Exr(ExrOptions { float, error }) => {
                 self.integer(1);

@@ -11,10 +11,15 @@ use super::results::WorstPixel;
 use crate::base::numbers::{bound, counted};
 use crate::formats::encoding::Encoding;
 
-/// The line of results; `time` is the rendering's alone.
-pub(super) fn result(path: &str, summary: &Summary, time: Duration) -> String {
+/// The line of results; `time` is the rendering's alone, and `clipped` the number of pixels that are
+/// too bright for a PNG.
+pub(super) fn result(path: &str, summary: &Summary, clipped: u64, time: Duration) -> String {
+    let clipped = match clipped {
+        0 => String::new(),
+        _ => format!(", {} clipped", counted(clipped, "pixel")),
+    };
     format!(
-        "{path}: {} pixels, {}, {} over the tolerance, {:.3} s",
+        "{path}: {} pixels, {}, {} over the tolerance{clipped}, {:.3} s",
         summary.pixels,
         claim(summary),
         summary.over_tolerance,
@@ -22,9 +27,12 @@ pub(super) fn result(path: &str, summary: &Summary, time: Duration) -> String {
     )
 }
 
-/// The line of results of several files together, in the form of a file's own.
-pub(crate) fn total(files: u64, summary: &Summary, time: Duration) -> String {
-    result(&counted(files, "frame"), summary, time)
+/// The line of results of all files together, in the form of a file's own; `None` where none was
+/// written.
+pub(crate) fn total(outcome: &Outcome) -> Option<String> {
+    let frames = counted(outcome.written, "frame");
+    let summary = outcome.total.as_ref()?;
+    Some(result(&frames, summary, outcome.clipped, outcome.time))
 }
 
 /// The line of results of a file that was there.
@@ -115,13 +123,27 @@ mod tests {
         };
         let time = Duration::from_millis(12);
         assert_eq!(
-            result("a.png", &summary(600), time),
+            result("a.png", &summary(600), 0, time),
             "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, 0.012 s"
         );
         assert_eq!(
-            total(7, &summary(0), time),
-            "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, 0.012 s"
+            result("a.png", &summary(600), 1, time),
+            "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, \
+             1 pixel clipped, 0.012 s"
         );
+        let outcome = Outcome {
+            written: 7,
+            total: Some(summary(0)),
+            clipped: 37,
+            time,
+            ..Outcome::default()
+        };
+        assert_eq!(
+            total(&outcome).unwrap(),
+            "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, \
+             37 pixels clipped, 0.012 s"
+        );
+        assert_eq!(total(&Outcome::default()), None);
         for (bounds, share) in [
             (599, "99 %"),
             (360, "60 %"),

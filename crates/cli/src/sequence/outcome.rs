@@ -24,6 +24,8 @@ pub(crate) struct Outcome {
     pub(crate) failed: Vec<i32>,
     /// The results of the written frames together.
     pub(crate) total: Option<Summary>,
+    /// Pixels of the written frames that are too bright for a PNG.
+    pub(crate) clipped: u64,
     /// The time that rendering the written frames took.
     pub(crate) time: Duration,
     /// True where the user ended the work.
@@ -32,8 +34,9 @@ pub(crate) struct Outcome {
 
 impl Outcome {
     /// Counts a frame that was written.
-    pub(crate) fn add(&mut self, summary: Summary, time: Duration) {
+    pub(crate) fn add(&mut self, summary: Summary, clipped: u64, time: Duration) {
         self.written += 1;
+        self.clipped += clipped;
         self.time += time;
         self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
     }

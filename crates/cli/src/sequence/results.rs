@@ -11,7 +11,8 @@ pub(super) struct Results {
     pub(super) summary: Option<Summary>,
     /// The worst of the pixels that did not meet the tolerance.
     pub(super) worst: Option<WorstPixel>,
-    /// The number of finite numbers that were too large for the file's.
+    /// The number of pixels of a PNG that were clipped, or of finite numbers that were too large for
+    /// those of an EXR.
     pub(super) clipped: u64,
 }
 

@@ -11,6 +11,7 @@ use super::outcome::Outcome;
 use super::pipeline::{Order, Pipeline};
 use super::strip_encoder::Finished;
 use crate::files::save::Unwritten;
+use crate::formats::encoding::Encoding;
 
 /// Writes pictures as they come, each to its file.
 pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
@@ -19,8 +20,8 @@ pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> O
     for order in orders {
         let (frame, path, end) = (order.facts.frame, order.path.clone(), order.end);
         match write_file(order, pipeline) {
-            Ok((summary, time)) => {
-                outcome.add(summary, time);
+            Ok((summary, clipped, time)) => {
+                outcome.add(summary, clipped, time);
                 let skipped = pipeline.skipped.load(Ordering::Relaxed);
                 pipeline.progress.written(frame, outcome.written, skipped);
             }
@@ -38,8 +39,12 @@ pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> O
     outcome
 }
 
-/// Writes a picture and says so; returns its results, and the time that it took.
-fn write_file(order: Order, pipeline: &Pipeline<'_>) -> Result<(Summary, Duration), Unwritten> {
+/// Writes a picture and says so; returns its results, how many pixels are too bright for a PNG, and the
+/// time that it took.
+fn write_file(
+    order: Order,
+    pipeline: &Pipeline<'_>,
+) -> Result<(Summary, u64, Duration), Unwritten> {
     let Order {
         facts,
         path,
@@ -59,19 +64,19 @@ fn write_file(order: Order, pipeline: &Pipeline<'_>) -> Result<(Summary, Duratio
     let Finished { results, time } = finished.recv().map_err(|_| Unwritten::Stopped)?;
     let summary = results.summary.ok_or(Unwritten::Stopped)?;
     let shown = path.display().to_string();
-    progress.result(&messages::result(&shown, &summary, time));
-    if results.clipped > 0 {
-        progress.warn(&messages::clipped(
-            &shown,
-            results.clipped,
-            request.encoding,
-        ));
+    let (clipped, too_large) = match request.encoding {
+        Encoding::Png(_) | Encoding::Apng(_) => (results.clipped, 0),
+        Encoding::Exr(_) | Encoding::Npy(_) => (0, results.clipped),
+    };
+    progress.result(&messages::result(&shown, &summary, clipped, time));
+    if too_large > 0 {
+        progress.warn(&messages::clipped(&shown, too_large, request.encoding));
     }
     if summary.over_tolerance > 0 {
         let count = summary.over_tolerance;
         progress.warn(&messages::over_tolerance(&shown, count, results.worst));
     }
-    Ok((summary, time))
+    Ok((summary, clipped, time))
 }
 
 /// Writes pictures as they come, all to one file. Without all of them there is no file, and none counts
@@ -98,7 +103,7 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
         let frame = order.facts.frame;
         let Finished { results, time } = order.finished.recv().ok()?;
         let summary = results.summary?;
-        outcome.add(summary, time);
+        outcome.add(summary, results.clipped, time);
         progress.written(frame, outcome.written, 0);
         if summary.over_tolerance > 0 {
             let shown = format!("{shown}: frame {frame}");
@@ -109,7 +114,8 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
     });
     match (written, &outcome.total) {
         (Ok(()), Some(total)) => {
-            progress.result(&messages::result(&shown, total, outcome.time));
+            let line = messages::result(&shown, total, outcome.clipped, outcome.time);
+            progress.result(&line);
             for warning in warnings {
                 progress.warn(&warning);
             }

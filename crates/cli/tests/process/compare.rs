@@ -25,6 +25,7 @@ fn folder() -> Folder {
         "-o a.png --samples 4",
         "-o a.npy --samples 4",
         "-o float.exr --samples 4 --float",
+        "-o linear.png --samples 4 --linear",
         "-o deep.png --samples 4 --bits 16 --rgb",
         "-o fine.exr --samples 16",
         "-o wide.exr --samples 4 --size 60x41",
@@ -99,6 +100,7 @@ fn formats_differ_by_their_rounding_alone() {
         "a.png deep.png",
         "a.exr a.npy",
         "deep.png a.npy",
+        "linear.png a.npy",
     ] {
         let output = folder.run(&format!("compare {pair}"));
         let expected = "0 of 2400 pixels, fraction 0.0e+00, differ by more than rounding";

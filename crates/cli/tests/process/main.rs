@@ -15,6 +15,7 @@ mod folder;
 #[cfg(target_os = "linux")]
 mod memory;
 mod merge;
+mod png_codes;
 #[cfg(target_os = "linux")]
 mod preview;
 mod progress;
@@ -66,6 +67,15 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron -o a.exr --channels depth --depth far", 2),
         ("render ball.ron -o a.exr --channels depth --axes maya", 2),
         ("render ball.ron -o a.png --error-channel", 2),
+        ("render ball.ron --size 9x9 -o a.png --linear", 0),
+        ("render ball.ron --size 9x9 -o a.png --exposure -1.5", 0),
+        ("render ball.ron -o a.png --linear --bits 8", 2),
+        ("render ball.ron -o a.png --exposure much", 2),
+        ("render ball.ron -o a.png --exposure NaN", 2),
+        ("render ball.ron -o a.png --exposure 101", 2),
+        ("render ball.ron -o a.exr --linear", 2),
+        ("render ball.ron -o a.npy --linear", 2),
+        ("render ball.ron -o a.exr --exposure 1", 2),
         ("render ball.ron -o a.npy --float", 2),
         ("render ball.ron -o a.npy --rgb", 2),
         ("render ball.ron -o a.npy --bits 16", 2),
@@ -89,7 +99,9 @@ fn exit_codes_tell_what_happened() {
             "marbles {arguments}"
         );
     }
-    let expected = ["a.-1.exr", "a.-2.exr", "ball.png", "ball.ron", "new"];
+    let expected = [
+        "a.-1.exr", "a.-2.exr", "a.png", "ball.png", "ball.ron", "new",
+    ];
     assert_eq!(folder.names("."), expected);
 }
 

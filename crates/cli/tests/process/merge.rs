@@ -38,6 +38,7 @@ fn parts_are_merged_into_the_picture() {
             "exr",
             "--samples 1 --channels depth,normal,position,id,albedo,mask --axes camera-opencv",
         ),
+        ("turn", "png", "--linear --exposure -0.5"),
         ("turn", "npy", ""),
         ("grey", "npy", "--alpha"),
     ] {

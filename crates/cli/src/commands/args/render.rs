@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use marbles_core::Window;
 
-use super::values::{above_zero, bits, samples, threads, tolerance_above_zero};
+use super::values::{above_zero, bits, exposure, samples, threads, tolerance_above_zero};
 use crate::base::region::window_of;
 use crate::base::size::Size;
 use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
@@ -88,9 +88,18 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) alpha: bool,
 
-    /// Bits of a number in a PNG, 8 or 16 [default: 8]
+    /// Bits of a number in a PNG, 8 or 16 [default: 8, and 16 with --linear]
     #[arg(long, value_name = "BITS", value_parser = bits)]
     pub(crate) bits: Option<u8>,
+
+    /// Write a PNG whose numbers are in proportion to light, instead of those of sRGB, in 16 bit
+    #[arg(long)]
+    pub(crate) linear: bool,
+
+    /// Multiply light by 2^EV before it is rounded to the numbers of a PNG; what is told of errors
+    /// is about the light before
+    #[arg(long, value_name = "EV", value_parser = exposure, allow_hyphen_values = true)]
+    pub(crate) exposure: Option<f64>,
 
     /// Write a PNG in color even if nothing in the scene has color
     #[arg(long)]

@@ -37,6 +37,14 @@ pub(super) fn bits(text: &str) -> Result<u8, String> {
     }
 }
 
+/// A number of stops, of which each doubles the light.
+pub(super) fn exposure(text: &str) -> Result<f64, String> {
+    /// Farther from 0 there is only black or white.
+    const MOST: f64 = 100.0;
+    let expected = format!("a number from -{MOST} to {MOST}");
+    number(text, &expected, |stops| stops.abs() <= MOST)
+}
+
 pub(super) fn tolerance(text: &str) -> Result<f64, String> {
     number(text, "a number from 0", |tolerance| tolerance >= 0.0)
 }

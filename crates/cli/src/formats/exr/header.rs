@@ -15,7 +15,7 @@ use crate::formats::frame_rate;
 pub(super) const DIGEST_ATTRIBUTE: &str = "digest";
 
 /// CIE xy of the primaries and the white of Rec. 709.
-pub(super) const REC_709: Chromaticities = Chromaticities {
+pub(in crate::formats) const REC_709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.3, 0.6),
     blue: Vec2(0.15, 0.06),

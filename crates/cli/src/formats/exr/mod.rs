@@ -3,7 +3,7 @@
 mod attribute_order;
 pub(crate) mod blocks;
 mod channels;
-mod header;
+pub(super) mod header;
 pub(crate) mod read;
 pub(crate) mod rows;
 pub(crate) mod stored;

@@ -6,7 +6,7 @@ use super::*;
 use crate::base::size::Size;
 use crate::formats::encoding::{ExrOptions, PngOptions};
 use crate::formats::png::write::write_grey;
-use crate::formats::tests::{DIGEST, Scene, exr_bytes, png_bytes, render, size};
+use crate::formats::tests::{DIGEST, PNG, Scene, exr_bytes, png_bytes, render, size};
 use crate::tests::temporary;
 
 #[test]
@@ -29,7 +29,7 @@ fn of(bytes: &[u8]) -> Option<(Hash, Region)> {
 fn files() -> Vec<Vec<u8>> {
     let image = render(Scene::Color, true);
     let each = [false, true];
-    let pngs = each.map(|deep| png_bytes(&image, PngOptions { deep, rgb: false }));
+    let pngs = each.map(|deep| png_bytes(&image, PngOptions { deep, ..PNG }));
     let exrs = each.map(|float| exr_bytes(&image, ExrOptions { float, error: true }));
     pngs.into_iter().chain(exrs).collect()
 }

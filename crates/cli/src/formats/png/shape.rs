@@ -1,10 +1,11 @@
-//! The samples of a PNG: sRGB codes of 8 or 16 bit, grey where the picture is.
+//! The samples of a PNG: codes of 8 or 16 bit, of sRGB or linear, grey where the picture is.
 
 use std::ops::Range;
 
 use marbles_core::{Channels, Image};
 use png::{BitDepth, ColorType, Info};
 
+use super::curve::Curve;
 use crate::base::size::Size;
 use crate::formats::encoding::PngOptions;
 use crate::formats::form::{Form, color_count};
@@ -16,6 +17,8 @@ pub(crate) struct Shape {
     pub(super) size: Size,
     pub(super) color_type: ColorType,
     pub(super) depth: BitDepth,
+    /// True where codes are in proportion to light.
+    pub(super) is_linear: bool,
 }
 
 impl Shape {
@@ -30,11 +33,12 @@ impl Shape {
                 (false, false) => ColorType::Rgb,
                 (false, true) => ColorType::Rgba,
             },
-            depth: if options.deep {
+            depth: if options.deep || options.linear {
                 BitDepth::Sixteen
             } else {
                 BitDepth::Eight
             },
+            is_linear: options.linear,
         }
     }
 
@@ -44,6 +48,7 @@ impl Shape {
             size,
             color_type,
             depth: BitDepth::Eight,
+            is_linear: false,
         }
     }
 
@@ -53,6 +58,7 @@ impl Shape {
             size: size_of(info),
             color_type: info.color_type,
             depth: info.bit_depth,
+            is_linear: matches!(Curve::of(info), Ok((Curve::Linear, _))),
         }
     }
 
@@ -89,38 +95,72 @@ impl Shape {
         rows + rows / 1000 + OTHER_PARTS
     }
 
+    /// The light above which white is no longer the nearest code, though it is the last one.
+    fn most_light(self) -> f64 {
+        let (curve, most) = match (self.is_linear, self.sample_bytes()) {
+            (true, _) => (Curve::Linear, f64::from(u16::MAX)),
+            (false, 1) => (Curve::Srgb, f64::from(u8::MAX)),
+            (false, _) => (Curve::Srgb, f64::from(u16::MAX)),
+        };
+        curve.light((most + 0.5) / most)
+    }
+
     /// Puts the codes of some rows of an image, big end first, where they belong in `samples`, which
-    /// are as many rows, from the column `col` on.
-    pub(crate) fn encode(self, samples: &mut [u8], col: u32, image: &Image, rows: Range<u32>) {
+    /// are as many rows, from the column `col` on; returns how many pixels were clipped. Light is
+    /// multiplied by `gain` before.
+    pub(crate) fn encode(
+        self,
+        samples: &mut [u8],
+        col: u32,
+        image: &Image,
+        rows: Range<u32>,
+        gain: f64,
+    ) -> u64 {
+        let most_light = self.most_light();
+        let (code_8, code_16): (fn(f64) -> u8, fn(f64) -> u16) = if self.is_linear {
+            (linear_8, linear_16)
+        } else {
+            (srgb::encode_8, srgb::encode_16)
+        };
+        let mut clipped = 0;
         let colors = match self.color_type {
             ColorType::Grayscale | ColorType::GrayscaleAlpha => 1,
             _ => 3,
         };
         let stored = color_count(image.channels());
-        let is_plain = self.sample_bytes() == 1 && !image.has_alpha() && colors == stored;
+        let is_plain =
+            self.sample_bytes() == 1 && !image.has_alpha() && colors == stored && gain == 1.0;
         let pixel_bytes = self.pixel_bytes();
         let first = col as usize * pixel_bytes;
         let length = image.width() as usize * pixel_bytes;
         for (samples, row) in samples.chunks_exact_mut(self.row_bytes()).zip(rows) {
             let samples = &mut samples[first..first + length];
             if is_plain {
-                srgb::encode_all_8(image.row(row), samples);
+                let light = image.row(row);
+                srgb::encode_all_8(light, samples);
+                let pixels = light.chunks_exact(stored);
+                let is_clipped = |pixel: &&[f64]| pixel.iter().any(|&value| value > most_light);
+                clipped += pixels.filter(is_clipped).count() as u64;
                 continue;
             }
             for (samples, col) in samples.chunks_exact_mut(pixel_bytes).zip(0..) {
                 let rgba = image.rgba(col, row);
                 let alpha = rgba[3];
                 let mut samples = samples.chunks_exact_mut(self.sample_bytes());
+                let mut is_clipped = false;
                 for (&value, sample) in rgba[..colors].iter().zip(&mut samples) {
-                    let value = straight(value, alpha);
-                    put(sample, srgb::encode_8, srgb::encode_16, value);
+                    let value = gain * straight(value, alpha);
+                    is_clipped |= value > most_light;
+                    put(sample, code_8, code_16, value);
                 }
+                clipped += u64::from(is_clipped);
                 // The alpha channel, where there is one.
                 if let Some(sample) = samples.next() {
                     put(sample, linear_8, linear_16, alpha);
                 }
             }
         }
+        clipped
     }
 }
 

@@ -4,7 +4,12 @@ use std::io::{BufReader, BufWriter, Cursor, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use blake3::Hash;
-use png::{ColorType, Compression, DecodingError, Encoder, EncodingError, SrgbRenderingIntent};
+use exr::meta::attribute::Chromaticities;
+use exr::prelude::Vec2;
+use png::{
+    ColorType, Compression, DecodingError, Encoder, EncodingError, ScaledFloat,
+    SourceChromaticities, SrgbRenderingIntent,
+};
 
 use super::decoder::decoder;
 use super::shape::Shape;
@@ -13,6 +18,7 @@ use crate::base::region::Region;
 use crate::base::size::Size;
 use crate::files::save::{Fault, save};
 use crate::files::temporary::TemporaryFile;
+use crate::formats::exr::header::REC_709;
 use crate::formats::facts::SOFTWARE;
 
 /// The keyword under which a PNG keeps the digest of its picture.
@@ -132,7 +138,19 @@ pub(super) fn encoder<W: Write>(
     encoder.set_color(shape.color_type);
     encoder.set_depth(shape.depth);
     encoder.set_compression(compression);
-    encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    if shape.is_linear {
+        encoder.set_source_gamma(ScaledFloat::new(1.0));
+        let Chromaticities {
+            red,
+            green,
+            blue,
+            white,
+        } = REC_709;
+        let [white, red, green, blue] = [white, red, green, blue].map(|Vec2(x, y)| (x, y));
+        encoder.set_source_chromaticities(SourceChromaticities::new(white, red, green, blue));
+    } else {
+        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+    }
     encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
     Ok(encoder)
 }

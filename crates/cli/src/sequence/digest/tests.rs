@@ -5,6 +5,7 @@ use marbles_scene::Scene;
 
 use super::*;
 use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
+use crate::formats::tests::PNG as PLAIN;
 
 const SCENE: &str = "(
     image: (width: 60, height: 40),
@@ -28,10 +29,7 @@ const SETTINGS: Settings = Settings {
     method: Method::Tolerance(1e-3),
     alpha: false,
 };
-const PNG: Encoding = Encoding::Png(PngOptions {
-    deep: false,
-    rgb: false,
-});
+const PNG: Encoding = Encoding::Png(PLAIN);
 
 fn digest_with(centers: Option<&CenterChannels>) -> Hash {
     let scene = Scene::parse(SCENE, Path::new("a.ron")).unwrap();
@@ -134,8 +132,20 @@ fn whatever_changes_a_picture_changes_its_digest() {
     }
     for (one, other) in [(false, true), (true, false), (true, true)] {
         let (deep, rgb) = (one, other);
-        let encoding = Encoding::Png(PngOptions { deep, rgb });
+        let encoding = Encoding::Png(PngOptions { deep, rgb, ..PLAIN });
         add("PNG", digest(SCENE, &SETTINGS, encoding, 2));
+    }
+    for (linear, gain) in [(true, 1.0), (false, 0.5), (false, 2.0), (true, 2.0)] {
+        let encoding = Encoding::Png(PngOptions {
+            linear,
+            gain,
+            ..PLAIN
+        });
+        add("PNG", digest(SCENE, &SETTINGS, encoding, 2));
+    }
+    for error in [false, true] {
+        let encoding = Encoding::Npy(NpyOptions { error });
+        add("NPY", digest(SCENE, &SETTINGS, encoding, 2));
     }
     for (float, error) in [(false, false), (false, true), (true, false), (true, true)] {
         let encoding = Encoding::Exr(ExrOptions { float, error });

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::formats::encoding::{Encoding, ExrOptions, PngOptions};
+use crate::formats::tests::PNG as PLAIN;
 
 fn encoder(encoding: Encoding, width: u32, height: u32) -> Encoder {
     let form = Form {
@@ -16,6 +17,7 @@ fn encoder(encoding: Encoding, width: u32, height: u32) -> Encoder {
 const PNG: Encoding = Encoding::Png(PngOptions {
     deep: true,
     rgb: true,
+    ..PLAIN
 });
 const EXR: Encoding = Encoding::Exr(ExrOptions {
     float: true,

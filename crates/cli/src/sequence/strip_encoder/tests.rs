@@ -7,8 +7,9 @@ use marbles_core::Channels;
 use super::*;
 use crate::base::region::Region;
 use crate::base::size::Size;
-use crate::formats::encoding::{Encoding, PngOptions};
+use crate::formats::encoding::Encoding;
 use crate::formats::form::Form;
+use crate::formats::tests::PNG;
 
 #[test]
 fn a_strip_that_is_given_up_leaves_nobody_waiting() {
@@ -19,8 +20,7 @@ fn a_strip_that_is_given_up_leaves_nobody_waiting() {
         alpha: false,
         centers: None,
     };
-    let (deep, rgb) = (false, false);
-    let encoder = Encoder::new(Encoding::Png(PngOptions { deep, rgb }), form);
+    let encoder = Encoder::new(Encoding::Png(PNG), form);
     let buffer = ReorderBuffer::new(2);
     let (sender, finished) = channel();
     let clock = Clock::new(1);

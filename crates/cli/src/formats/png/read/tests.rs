@@ -125,18 +125,35 @@ fn truncated_files_are_refused() {
 #[test]
 fn what_render_writes_comes_back() {
     for scene in [Scene::Grey, Scene::Color] {
-        for (alpha, deep, rgb) in [
-            (false, false, false),
-            (false, true, true),
-            (true, false, true),
-            (true, true, false),
+        for (alpha, deep, rgb, linear, gain) in [
+            (false, false, false, false, 1.0),
+            (false, true, true, false, 1.0),
+            (true, false, true, false, 0.5),
+            (true, true, false, false, 1.0),
+            (false, false, false, true, 1.0),
+            (true, true, true, true, 0.25),
+            (false, false, false, false, 2.0),
         ] {
             let image = render(scene, alpha);
-            let bytes = png_bytes(&image, PngOptions { deep, rgb });
+            let options = PngOptions {
+                deep,
+                rgb,
+                linear,
+                gain,
+            };
+            let bytes = png_bytes(&image, options);
             let picture = decode(&bytes).unwrap();
             assert_eq!(picture.alpha, alpha);
+            let kind = match (deep || linear, linear) {
+                (true, true) => "PNG, 16 bit linear, ",
+                (true, false) => "PNG, 16 bit sRGB, ",
+                (false, _) => "PNG, 8 bit sRGB, ",
+            };
+            assert!(picture.description.starts_with(kind));
             for (col, row) in size(&image).places() {
-                let (expected, found) = (image.rgba(col, row), picture.samples.rgba(col, row));
+                let [red, green, blue, coverage] = image.rgba(col, row);
+                let expected = [gain * red, gain * green, gain * blue, coverage];
+                let found = picture.samples.rgba(col, row);
                 let rounding = picture.samples.rounding(col, row);
                 for channel in 0..4 {
                     let full = found[3];

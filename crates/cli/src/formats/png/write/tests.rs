@@ -4,26 +4,19 @@ use marbles_core::{Channels, Image};
 use png::{BitDepth, Decoder};
 
 use super::*;
+use crate::formats::encoding::Encoding;
 use crate::formats::encoding::PngOptions;
-use crate::formats::tests::{Scene, png_bytes, render, size};
+use crate::formats::tests::{PNG, Scene, encode, facts, png_bytes, render, size};
 use crate::tests::temporary;
 
 const ALL: [PngOptions; 4] = [
-    PngOptions {
-        deep: false,
-        rgb: false,
-    },
-    PngOptions {
-        deep: true,
-        rgb: false,
-    },
-    PngOptions {
-        deep: false,
-        rgb: true,
-    },
+    PNG,
+    PngOptions { deep: true, ..PNG },
+    PngOptions { rgb: true, ..PNG },
     PngOptions {
         deep: true,
         rgb: true,
+        ..PNG
     },
 ];
 
@@ -103,6 +96,75 @@ fn check(image: &Image, options: PngOptions) {
         }
     }
     assert!(pixels.next().is_none());
+}
+
+/// The pixels with light above `most`, multiplied by `gain`, and not premultiplied.
+fn brighter(image: &Image, gain: f64, most: f64) -> u64 {
+    let is_brighter = |&(col, row): &(u32, u32)| {
+        let [colors @ .., alpha] = image.rgba(col, row);
+        alpha > 0.0 && colors.iter().any(|color| gain * color / alpha > most)
+    };
+    size(image).places().filter(is_brighter).count() as u64
+}
+
+#[test]
+fn pixels_brighter_than_white_are_counted() {
+    // Half a code of 8 bit above white, where the slope of the curve is 0.4396.
+    const SRGB_8: f64 = 1.0 + 0.5 / 255.0 / 0.4396;
+    const SLACK: f64 = 1e-4;
+    for scene in [Scene::Grey, Scene::Color, Scene::Bright] {
+        for alpha in [false, true] {
+            let image = render(scene, alpha);
+            for options in ALL {
+                for (gain, linear) in [(1.0, false), (0.4, false), (1.5, false), (1.1, true)] {
+                    let options = PngOptions {
+                        gain,
+                        linear,
+                        ..options
+                    };
+                    let (_, clipped) = encode(&image, Encoding::Png(options), &facts());
+                    let most = if options.deep || linear { 1.0 } else { SRGB_8 };
+                    let least = brighter(&image, gain, most + SLACK);
+                    let most = brighter(&image, gain, most - SLACK);
+                    assert!((least..=most).contains(&clipped), "{scene:?} {options:?}");
+                }
+            }
+        }
+    }
+    let bright = render(Scene::Bright, false);
+    assert!(brighter(&bright, 1.0, 1.0) > 50);
+    let grey = render(Scene::Grey, false);
+    assert_eq!(encode(&grey, Encoding::Png(PNG), &facts()).1, 0);
+}
+
+#[test]
+fn linear_files_say_that_they_are() {
+    let options = PngOptions {
+        linear: true,
+        ..PNG
+    };
+    let bytes = png_bytes(&render(Scene::Color, false), options);
+    let reader = Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+    let info = reader.info();
+    assert_eq!(info.bit_depth, BitDepth::Sixteen);
+    assert_eq!(info.srgb, None);
+    assert_eq!(info.gama_chunk.unwrap().into_scaled(), 100_000);
+    // Rec. 709, in units of 1 / 100,000.
+    let SourceChromaticities {
+        white,
+        red,
+        green,
+        blue,
+    } = info.chrm_chunk.unwrap();
+    let scaled = [white, red, green, blue].map(|(x, y)| (x.into_scaled(), y.into_scaled()));
+    let expected = [
+        (31_270, 32_900),
+        (64_000, 33_000),
+        (30_000, 60_000),
+        (15_000, 6_000),
+    ];
+    assert_eq!(scaled, expected);
+    assert!(Shape::of_file(info).is_linear);
 }
 
 #[test]
