@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ::exr::block::chunk::Chunk;
 use blake3::Hash;
-use marbles_core::{BAND_ROWS, Geometry, GeometrySettings, Image, Precision};
+use marbles_core::{BAND_ROWS, Geometry, GeometrySettings, Image, Precision, Summary};
 
 use super::encoding::Encoding;
 use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
@@ -156,13 +156,15 @@ impl Encoder {
 
     /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
     ///
-    /// `next` gives the pieces from the top downward, and `None` for one that will not come.
+    /// `next` gives the pieces from the top downward, and `None` for one that will not come; `summary`
+    /// gives what they achieved, after the last one.
     pub(crate) fn write(
         &self,
         facts: &Facts,
         path: &Path,
         mut file: TemporaryFile,
         mut next: impl FnMut() -> Option<Piece>,
+        summary: impl FnOnce() -> Option<Summary>,
     ) -> Result<(), Unwritten> {
         let written = match &self.layout {
             Layout::Png { shape, .. } => {
@@ -175,7 +177,8 @@ impl Encoder {
                 })
             }
             Layout::Exr(blocks) => {
-                write_blocks(file.file(), blocks, facts, || block(next())).map(|()| file)
+                let next = || block(next());
+                write_blocks(file.file(), blocks, facts, next, summary).map(|()| file)
             }
             Layout::Npy(files) => {
                 let strips = self.pieces();

@@ -8,6 +8,7 @@ use ::exr::meta::header::Header;
 use blake3::Hash;
 
 use super::encoding::Format;
+use super::exr::header::add_achieved;
 use super::exr::write::{header_like, write_rows};
 use super::npy::array::Array;
 use super::npy::stamp::Stamp;
@@ -41,6 +42,13 @@ impl Kind {
             Self::Png(_) => Format::Png,
             Self::Exr(_) => Format::Exr,
             Self::Npy(_) => Format::Npy,
+        }
+    }
+
+    /// Takes in what the header of another part of the same picture tells of it alone.
+    pub(crate) fn add(&mut self, other: &Self) {
+        if let (Self::Exr(header), Self::Exr(other)) = (self, other) {
+            add_achieved(&mut header.own_attributes, &other.own_attributes);
         }
     }
 

@@ -42,7 +42,7 @@ pub(super) fn exr_bytes(image: &Image, options: ExrOptions) -> Vec<u8> {
 
 pub(super) fn facts() -> Facts {
     Facts {
-        camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
+        view: view(),
         frame: 1,
         frames_per_second: None,
         method: Method::Samples(NonZeroU32::MIN),
@@ -86,7 +86,8 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
             assert!(!has_grown.unwrap());
         }
         Layout::Exr(blocks) => {
-            write_blocks(&mut file, blocks, facts, || block(pieces.next())).unwrap();
+            let next = || block(pieces.next());
+            write_blocks(&mut file, blocks, facts, next, || Some(image.summary())).unwrap();
         }
         Layout::Npy(_) => panic!("these are several files"),
     }

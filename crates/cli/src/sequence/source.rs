@@ -127,7 +127,7 @@ impl<'a> Source<'a> {
         let view = request.resized(view);
         let exposure = request.scene.exposure(&view);
         let facts = Facts {
-            camera: view.camera,
+            view,
             frame,
             frames_per_second: request.frames_per_second,
             method: request.settings.method,

@@ -60,8 +60,14 @@ fn write_file(
         ..
     } = pipeline;
     let file = file.ok_or(Unwritten::Stopped)?;
-    encoder.write(&facts, &path, file, || buffer.take())?;
-    let Finished { results, time } = finished.recv().map_err(|_| Unwritten::Stopped)?;
+    let mut end = None;
+    let summary = || {
+        end = finished.recv().ok();
+        end.and_then(|end| end.results.summary)
+    };
+    encoder.write(&facts, &path, file, || buffer.take(), summary)?;
+    let end = end.or_else(|| finished.recv().ok());
+    let Finished { results, time } = end.ok_or(Unwritten::Stopped)?;
     let summary = results.summary.ok_or(Unwritten::Stopped)?;
     let shown = path.display().to_string();
     let (clipped, too_large) = match request.encoding {

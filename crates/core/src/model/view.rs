@@ -28,6 +28,13 @@ impl View {
         self.lens.width / f64::from(self.width)
     }
 
+    /// The part of the plane at distance 1 before the viewpoint that the picture shows: its center, to
+    /// the right and up from the view axis, and its width.
+    pub fn screen_window(&self) -> (DVec2, f64) {
+        let distance = self.lens.distance * self.zoom;
+        (self.lens.shift / distance, self.lens.width / distance)
+    }
+
     /// The ray from the viewpoint through a point of the retina.
     pub fn ray(&self, retina_point: DVec2) -> Ray {
         let in_camera = DVec3::new(

@@ -1,7 +1,7 @@
 //! The parts of a picture.
 
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use blake3::Hash;
 use marbles_core::Window;
@@ -56,10 +56,17 @@ impl Parts {
         }
         let (digest, whole) = found.ok_or_else(|| Failure::Usage("no parts".to_owned()))?;
         check_cover(&parts, whole)?;
-        let first: &Path = &parts[0].path;
-        let reader = RowReader::open(first).map_err(|why| Failure::unusable(first, &why))?;
+        let kind = |part: &Part| {
+            let reader = RowReader::open(&part.path);
+            let kind = reader.map(|reader| reader.kind());
+            kind.map_err(|why| Failure::unusable(&part.path, &why))
+        };
+        let mut all = kind(&parts[0])?;
+        for part in &parts[1..] {
+            all.add(&kind(part)?);
+        }
         Ok(Self {
-            kind: reader.kind(),
+            kind: all,
             parts,
             whole,
             digest,

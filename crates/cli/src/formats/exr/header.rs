@@ -5,7 +5,7 @@ use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, Sample
 use exr::meta::header::{Header, ImageAttributes, LayerAttributes};
 use exr::prelude::{AttributeValue, Compression, SmallVec, Text, Vec2};
 use glam::DVec3;
-use marbles_core::{Camera, Method};
+use marbles_core::{Camera, Method, Summary, View};
 
 use crate::base::size::Size;
 use crate::formats::facts::{Facts, SOFTWARE};
@@ -13,6 +13,12 @@ use crate::formats::frame_rate;
 
 /// The attribute in which an EXR keeps the digest.
 pub(super) const DIGEST_ATTRIBUTE: &str = "digest";
+
+/// The attributes in which it keeps what is achieved: the largest error of any pixel, the number of
+/// pixels whose error is a bound, and that of pixels over the tolerance.
+const ERROR_ATTRIBUTE: &str = "error";
+const BOUNDED_ATTRIBUTE: &str = "bounded_pixels";
+const OVER_ATTRIBUTE: &str = "over";
 
 /// CIE xy of the primaries and the white of Rec. 709.
 pub(in crate::formats) const REC_709: Chromaticities = Chromaticities {
@@ -45,7 +51,7 @@ pub(super) fn header_of(size: Size, channels: Vec<(&str, SampleType)>) -> Header
 pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     let mut attributes = LayerAttributes {
         frames_per_second: facts.frames_per_second.and_then(frame_rate::nearest),
-        world_to_camera: Some(world_to_camera(&facts.camera)),
+        world_to_camera: Some(world_to_camera(&facts.view.camera)),
         software_name: Some(Text::from(SOFTWARE)),
         ..LayerAttributes::default()
     };
@@ -53,6 +59,10 @@ pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     custom("frame", AttributeValue::I32(facts.frame));
     let digest = Text::from(&*facts.digest.to_hex());
     custom(DIGEST_ATTRIBUTE, AttributeValue::Text(digest));
+    // They are known when the blocks are.
+    for name in [ERROR_ATTRIBUTE, BOUNDED_ATTRIBUTE, OVER_ATTRIBUTE] {
+        custom(name, AttributeValue::F64(0.0));
+    }
     match facts.method {
         // The command line keeps the number far below this limit.
         Method::Tolerance(tolerance) => custom("tolerance", AttributeValue::F32(tolerance as f32)),
@@ -61,7 +71,45 @@ pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
             AttributeValue::I32(i32::try_from(samples.get()).unwrap_or(i32::MAX)),
         ),
     };
+    (
+        attributes.screen_window_center,
+        attributes.screen_window_width,
+    ) = screen_window(&facts.view);
     attributes
+}
+
+/// The names and the values of the attributes about what is achieved. Doubles hold any number of pixels.
+pub(super) fn achieved(summary: &Summary) -> [(&'static str, f64); 3] {
+    [
+        (ERROR_ATTRIBUTE, summary.largest_error),
+        (BOUNDED_ATTRIBUTE, summary.bounds as f64),
+        (OVER_ATTRIBUTE, summary.over_tolerance as f64),
+    ]
+}
+
+/// Makes what one part of a picture achieved what it and another one did together.
+pub(crate) fn add_achieved(one: &mut LayerAttributes, other: &LayerAttributes) {
+    for name in [ERROR_ATTRIBUTE, BOUNDED_ATTRIBUTE, OVER_ATTRIBUTE] {
+        let value = one.other.get_mut(name.as_bytes());
+        let other = other.other.get(name.as_bytes());
+        if let (Some(AttributeValue::F64(value)), Some(AttributeValue::F64(other))) = (value, other)
+        {
+            *value = match name {
+                ERROR_ATTRIBUTE => value.max(*other),
+                _ => *value + other,
+            };
+        }
+    }
+}
+
+/// The center and the width of the screen window.
+///
+/// OpenEXR's technical introduction lets x point to the left, and its standard attributes, which have
+/// RenderMan's coordinates, to the right. We hold with these, as `worldToCamera` does.
+fn screen_window(view: &View) -> (Vec2<f32>, f32) {
+    let (center, width) = view.screen_window();
+    let float = |number: f64| number.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
+    (Vec2(float(center.x), float(center.y)), float(width))
 }
 
 /// The matrix M of p_camera = p_world · M, row by row: points are rows, as everywhere in OpenEXR.

@@ -1,6 +1,6 @@
 //! OpenEXR.
 
-mod attribute_order;
+mod attributes;
 pub(crate) mod blocks;
 mod channels;
 pub(super) mod header;

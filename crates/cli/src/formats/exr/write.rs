@@ -9,10 +9,11 @@ use exr::block::writer::ChunksWriter;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::{Header, LayerAttributes};
 use exr::prelude::{Error, Text, Vec2};
+use marbles_core::Summary;
 
-use super::attribute_order::sort_attributes;
+use super::attributes::{set_double, sort_attributes};
 use super::blocks::{Blocks, ROWS_OF_A_BLOCK, compress};
-use super::header::{attributes, header_of};
+use super::header::{achieved, attributes, header_of};
 use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::files::save::{Fault, save};
@@ -76,19 +77,22 @@ pub(crate) fn write_rows(
     let height = header.layer_size.height() as u32;
     let mut blocks = (0..height).step_by(ROWS_OF_A_BLOCK as usize).enumerate();
     let of_blocks = header.clone();
-    write(file, header, || {
+    let next = || {
         let (index, first) = blocks.next().ok_or(Fault::Stopped)?;
         let samples = samples(first..height.min(first + ROWS_OF_A_BLOCK))?;
         compress(&of_blocks, index, samples).map_err(Fault::Encoding)
-    })
+    };
+    write(file, header, next, || Ok(None))
 }
 
-/// Writes a file whose blocks `next` gives, the same for the same picture and facts.
+/// Writes a file whose blocks `next` gives, and then `summary` what they achieved; the same for the
+/// same picture and facts.
 pub(crate) fn write_blocks(
     file: &mut (impl Read + Write + Seek),
     blocks: &Blocks,
     facts: &Facts,
     next: impl FnMut() -> Result<Chunk, Fault>,
+    summary: impl FnOnce() -> Option<Summary>,
 ) -> Result<(), Fault> {
     let header = blocks.header.clone();
     let mut attributes = LayerAttributes {
@@ -96,14 +100,18 @@ pub(crate) fn write_blocks(
         ..attributes(facts)
     };
     attributes.other.extend(header.own_attributes.other.clone());
-    write(file, header.with_attributes(attributes), next)
+    write(file, header.with_attributes(attributes), next, || {
+        summary().map(Some).ok_or(Fault::Stopped)
+    })
 }
 
-/// Writes a file with this header, whose blocks `next` gives from the top downward.
+/// Writes a file with this header, whose blocks `next` gives from the top downward. Then `summary` may
+/// give what is to stand in it about them.
 fn write(
     file: &mut (impl Read + Write + Seek),
     header: Header,
     mut next: impl FnMut() -> Result<Chunk, Fault>,
+    summary: impl FnOnce() -> Result<Option<Summary>, Fault>,
 ) -> Result<(), Fault> {
     let mut fault = None;
     let buffered = BufWriter::with_capacity(BUFFER_BYTES, &mut *file);
@@ -137,6 +145,11 @@ fn write(
         .take(HEADER_BYTES)
         .read_to_end(&mut start)?;
     let unknown = || Fault::Encoding("the header has an unknown form".to_owned());
+    if let Some(summary) = summary()? {
+        for (name, number) in achieved(&summary) {
+            set_double(&mut start, name, number).ok_or_else(unknown)?;
+        }
+    }
     sort_attributes(&mut start).ok_or_else(unknown)?;
     file.seek(SeekFrom::Start(0))?;
     file.write_all(&start)?;

@@ -35,6 +35,26 @@ fn shift_moves_the_retina_and_zoom_its_distance() {
 }
 
 #[test]
+fn the_screen_window_is_what_rays_span_at_distance_1() {
+    let mut view = view();
+    view.lens.shift = DVec2::new(5.0, -1.0);
+    view.zoom = 3.0;
+    let (center, width) = view.screen_window();
+    assert_eq!(
+        (center.x, center.y, width),
+        (5.0 / 30.0, -1.0 / 30.0, 8.0 / 30.0)
+    );
+    let at_distance_1 = |u: f64, v: f64| {
+        let ray = view.ray(view.lens.shift + DVec2::new(u, v));
+        ray.direction.truncate() / ray.direction.z
+    };
+    let left = at_distance_1(-4.0, 0.0);
+    let right = at_distance_1(4.0, 0.0);
+    assert!((0.5 * (left + right) - center).length() < 1e-15);
+    assert!((right.x - left.x - width).abs() < 1e-15);
+}
+
+#[test]
 fn projection_inverts_the_rays() {
     let angle = Angle::from_degrees;
     let mut view = view();

@@ -5,15 +5,15 @@ use exr::prelude::{
     AnyChannels, AttributeValue, FlatSamples, Image as ExrImage, Layer, ReadChannels, ReadLayers,
     Text, f16,
 };
-use glam::{DVec3, DVec4};
-use marbles_core::{Angle, Camera, Method};
+use glam::{DVec2, DVec3, DVec4};
+use marbles_core::{Angle, Camera, Lens, Method, View};
 
 use super::*;
 use crate::formats::encoding::Encoding;
-use crate::formats::exr::attribute_order::sort_attributes;
+use crate::formats::exr::attributes::sort_attributes;
 use crate::formats::exr::header::REC_709;
 use crate::formats::facts::{Facts, SOFTWARE};
-use crate::formats::tests::{DIGEST, Scene, encode, render, size};
+use crate::formats::tests::{DIGEST, Scene, encode, render, size, view};
 
 const HALF: ExrOptions = ExrOptions {
     float: false,
@@ -27,7 +27,16 @@ const FLOAT: ExrOptions = ExrOptions {
 fn facts() -> Facts {
     let [pan, tilt, roll] = [30.0, -10.0, 5.0].map(Angle::from_degrees);
     Facts {
-        camera: Camera::free(DVec3::new(1.0, 2.0, 3.0), pan, tilt, roll),
+        view: View {
+            camera: Camera::free(DVec3::new(1.0, 2.0, 3.0), pan, tilt, roll),
+            lens: Lens {
+                width: 6.0,
+                distance: 4.0,
+                shift: DVec2::new(0.5, -1.0),
+            },
+            zoom: 2.0,
+            ..view()
+        },
         frame: -7,
         frames_per_second: Some(23.976),
         method: Method::Samples(NonZeroU32::MIN),
@@ -133,6 +142,16 @@ fn the_header_tells_the_facts() {
     let custom = |name: &str| attributes.other.get(&Text::from(name));
     assert_eq!(custom("samples"), Some(&AttributeValue::I32(1)));
     assert_eq!(custom("frame"), Some(&AttributeValue::I32(-7)));
+    let summary = image.summary();
+    for (name, expected) in [
+        ("error", summary.largest_error),
+        ("bounded_pixels", summary.bounds as f64),
+        ("over", summary.over_tolerance as f64),
+    ] {
+        assert_eq!(custom(name), Some(&AttributeValue::F64(expected)), "{name}");
+    }
+    assert_eq!(attributes.screen_window_center, Vec2(0.0625, -0.125));
+    assert_eq!(attributes.screen_window_width, 0.75);
     let matrix = attributes.world_to_camera.unwrap().map(f64::from);
     let to_a_tolerance = Facts {
         method: Method::Tolerance(1e-3),
@@ -144,7 +163,7 @@ fn the_header_tells_the_facts() {
     assert_eq!(tolerance, Some(&AttributeValue::F32(1e-3)));
     assert!(!custom.contains_key(&Text::from("samples")));
 
-    let camera = facts().camera;
+    let camera = facts().view.camera;
     let row_times_matrix = |p: DVec3| {
         let p = DVec4::from((p, 1.0)).to_array();
         [0, 1, 2].map(|col| {

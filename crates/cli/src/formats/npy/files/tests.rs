@@ -29,7 +29,7 @@ fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf
         encoder.piece(index, samples)
     });
     let file = save::begin(&path).unwrap();
-    let written = encoder.write(&facts(), &path, file, || pieces.next());
+    let written = encoder.write(&facts(), &path, file, || pieces.next(), || None);
     assert!(written.is_ok());
     encoder.files(&path, &DIGEST)
 }
@@ -124,7 +124,7 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
     let mut pieces = [Piece::Samples(vec![0; encoder.sample_bytes(0)])].into_iter();
     assert!(
         encoder
-            .write(&facts(), &path, file, || pieces.next())
+            .write(&facts(), &path, file, || pieces.next(), || None)
             .is_err()
     );
     for (path, _) in encoder.files(&path, &DIGEST) {

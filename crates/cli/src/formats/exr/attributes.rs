@@ -1,4 +1,5 @@
-//! The order of the attributes in the header of an EXR file.
+//! The attributes in the header of an EXR file that is written: their order, and numbers that are known
+//! only when the file is.
 //!
 //! Layout: magic number, version, then attributes, each a name and a type that end in a zero
 //! byte, a size and as many bytes; an empty name ends them.
@@ -15,21 +16,39 @@ const PREAMBLE: usize = 8;
 /// The encoder keeps some in a hash map, so that their order would differ from run to run.
 /// `None`, and nothing changed, where the bytes do not have the form above.
 pub(crate) fn sort_attributes(file: &mut [u8]) -> Option<()> {
-    let mut records: Vec<Range<usize>> = Vec::new();
-    let mut start = PREAMBLE;
-    while *file.get(start)? != 0 {
-        let end = attribute_end(file, start)?;
-        records.push(start..end);
-        start = end;
-    }
+    let mut records = records(file)?;
+    let end = records.last().map_or(PREAMBLE, |last| last.end);
     // A name is smaller than the longer ones it begins: its zero byte comes before all letters.
     records.sort_by_key(|record| &file[record.clone()]);
     let sorted: Vec<u8> = records
         .into_iter()
         .flat_map(|record| file[record].iter().copied())
         .collect();
-    file[PREAMBLE..start].copy_from_slice(&sorted);
+    file[PREAMBLE..end].copy_from_slice(&sorted);
     Some(())
+}
+
+/// Puts another number into the attribute with this name, a double. `None` where there is none.
+pub(crate) fn set_double(file: &mut [u8], name: &str, number: f64) -> Option<()> {
+    const BYTES: [u8; 4] = 8_u32.to_le_bytes();
+    let start = [name.as_bytes(), b"\0double\0", &BYTES].concat();
+    let record = records(file)?
+        .into_iter()
+        .find(|record| file[record.clone()].starts_with(&start))?;
+    file[record.start + start.len()..record.end].copy_from_slice(&number.to_le_bytes());
+    Some(())
+}
+
+/// The places of the attributes in a file with one part.
+fn records(file: &[u8]) -> Option<Vec<Range<usize>>> {
+    let mut records = Vec::new();
+    let mut start = PREAMBLE;
+    while *file.get(start)? != 0 {
+        let end = attribute_end(file, start)?;
+        records.push(start..end);
+        start = end;
+    }
+    Some(records)
 }
 
 /// The end of the attribute that begins at `start`.
