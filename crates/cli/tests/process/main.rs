@@ -19,6 +19,7 @@ mod png_codes;
 #[cfg(target_os = "linux")]
 mod preview;
 mod progress;
+mod readers;
 mod report;
 mod sequences;
 mod signals;
