@@ -1,0 +1,122 @@
+//! Cameras as OpenCV has them.
+//!
+//! The world's axes are left-handed, and no rotation leads from them to a right-handed frame. The world
+//! is therefore handed out with z negated: X = (x, y, −z) is right-handed. OpenCV's camera axes are
+//! x right, y down, z forward. With W the rotation from the camera's axes to the world's and e the
+//! viewpoint,
+//!
+//! ```text
+//! x_camera = R X + t,   R = D Wᵀ F,   t = −D Wᵀ e,   D = diag(1, −1, 1),   F = diag(1, 1, −1)
+//! ```
+//!
+//! and det R = det D · det W · det F = 1. D and F change signs only, so that R has the digits of W.
+//! Pixel (0, 0) is the *center* of the first pixel, half a pixel from the corner of the picture.
+
+use glam::{DMat3, DVec2, DVec3};
+
+use super::camera::{Camera, Lens};
+use super::view::View;
+
+/// The factors that turn a camera's y up into OpenCV's y down, and back.
+const DOWN: DVec3 = DVec3::new(1.0, -1.0, 1.0);
+
+/// A point or a direction of the world in the right-handed world with z negated, and back.
+pub fn right_handed(vector: DVec3) -> DVec3 {
+    // Without `+ 0` there would be negative zeros, which readers of files stumble over.
+    DVec3::new(vector.x, vector.y, -vector.z) + DVec3::ZERO
+}
+
+/// The place of a camera: `x_camera = rotation · X + translation`, from the right-handed world with z
+/// negated to OpenCV's axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extrinsics {
+    /// R, of determinant 1.
+    pub rotation: DMat3,
+    /// t, in scene units.
+    pub translation: DVec3,
+}
+
+impl Extrinsics {
+    /// The place of this camera.
+    pub fn of(camera: &Camera) -> Self {
+        let camera_from_world = camera.world_from_camera.transpose();
+        let translation = DOWN * -(camera_from_world * camera.position);
+        Self {
+            rotation: mirrored(camera_from_world),
+            translation: translation + DVec3::ZERO,
+        }
+    }
+
+    /// The camera at this place.
+    pub fn camera(&self) -> Camera {
+        let world_from_camera = mirrored(self.rotation).transpose();
+        Camera {
+            position: -(world_from_camera * (DOWN * self.translation)) + DVec3::ZERO,
+            world_from_camera,
+        }
+    }
+
+    /// A direction of the (left-handed) world in OpenCV's axes.
+    pub fn direction(&self, toward: DVec3) -> DVec3 {
+        self.rotation * right_handed(toward)
+    }
+}
+
+/// D M F, which is its own inverse.
+fn mirrored(matrix: DMat3) -> DMat3 {
+    let columns = [matrix.x_axis, matrix.y_axis, -matrix.z_axis];
+    let [x, y, z] = columns.map(|column| DOWN * column + DVec3::ZERO);
+    DMat3::from_cols(x, y, z)
+}
+
+/// The matrix of a pinhole camera with square pixels: a point is seen at `focal_length · (x, y) / z +
+/// principal_point`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intrinsics {
+    /// The distance of the retina, in pixels; greater than 0.
+    pub focal_length: f64,
+    /// The pixel that the axis of view passes, (0, 0) at the center of the first one.
+    pub principal_point: DVec2,
+}
+
+impl Intrinsics {
+    /// The matrix of this view, with its zoom.
+    ///
+    /// It is infinite where a pixel is too small beside the distance of the retina for doubles.
+    pub fn of(view: &View) -> Self {
+        let shift = view.lens.shift / view.pixel_size();
+        let middle = middle(view.width, view.height);
+        Self {
+            focal_length: view.lens.distance * view.zoom / view.pixel_size(),
+            principal_point: DVec2::new(middle.x - shift.x, middle.y + shift.y),
+        }
+    }
+
+    /// The lens that has this matrix in a picture of so many pixels, at zoom 1: its retina is measured in pixels.
+    pub fn lens(&self, width: u32, height: u32) -> Lens {
+        let aside = middle(width, height) - self.principal_point;
+        Lens {
+            width: f64::from(width),
+            distance: self.focal_length,
+            shift: DVec2::new(aside.x, -aside.y),
+        }
+    }
+
+    /// K, which has the focal length twice.
+    pub fn matrix(&self) -> DMat3 {
+        let DVec2 { x, y } = self.principal_point;
+        DMat3::from_cols(
+            DVec3::new(self.focal_length, 0.0, 0.0),
+            DVec3::new(0.0, self.focal_length, 0.0),
+            DVec3::new(x, y, 1.0),
+        )
+    }
+}
+
+/// The middle of a picture.
+fn middle(width: u32, height: u32) -> DVec2 {
+    0.5 * (DVec2::new(f64::from(width), f64::from(height)) - DVec2::ONE)
+}
+
+#[cfg(test)]
+mod tests;
