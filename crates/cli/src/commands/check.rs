@@ -107,7 +107,7 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
     for cloud in scene.clouds() {
         rows.extend(self::cloud(scene, cloud));
     }
-    let materials = scene.description().materials;
+    let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
     rows.push(("lights", world.lights.len().to_string()));
     for light in world.lights.iter().take(LIGHTS_LISTED) {

@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use crate::text::{Placed, present};
 use crate::values::{
-    Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, Point, Radius, Shutter, Turns,
-    Zoom,
+    Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, Point, Radius, Rotation,
+    Shutter, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.
@@ -51,6 +51,18 @@ pub(crate) enum Camera {
         #[serde(default)]
         fill: Placed<Fill>,
     },
+    Pose {
+        rotation: Placed<Rotation>,
+        translation: Placed<Point>,
+        axes: Placed<Axes>,
+    },
+}
+
+/// The axes in which a pose is given.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(crate) enum Axes {
+    /// x right, y down, z forward, in the right-handed world with z negated.
+    OpenCV,
 }
 
 /// An animation of 24 frames per second by default; keyframes last from the first key to the last,
@@ -175,6 +187,8 @@ impl Camera {
                 (all.azimuth, all.elevation) = (azimuth.get()?.0, elevation.get()?.0);
                 roll
             }
+            // It has no numbers that keys could name.
+            Self::Pose { .. } => return Some(all),
         };
         all.roll = roll.get()?.0;
         Some(all)
@@ -187,6 +201,7 @@ impl Camera {
             Self::LookAt { .. } => "LookAt",
             Self::Orbit { .. } => "Orbit",
             Self::Frame { .. } => "Frame",
+            Self::Pose { .. } => "Pose",
         }
     }
 
@@ -197,6 +212,7 @@ impl Camera {
             Self::LookAt { .. } => &["position", "target", "roll", "zoom"],
             Self::Orbit { .. } => &["target", "radius", "azimuth", "elevation", "roll", "zoom"],
             Self::Frame { .. } => &["azimuth", "elevation", "roll", "zoom"],
+            Self::Pose { .. } => &["zoom"],
         }
     }
 }

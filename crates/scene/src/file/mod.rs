@@ -9,13 +9,13 @@ mod names;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-pub(crate) use self::camera::{Animation, Camera, Ease, Key};
+pub(crate) use self::camera::{Animation, Axes, Camera, Ease, Key};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Placed, present};
 use crate::values::{
-    Amplitude, Color, ColumnName, Exponent, FieldOfView, FileName, Flag, GrainSize, ImageSide,
-    MaterialName, Point, Radius, RetinaDistance, RetinaWidth, Scale, Seed, Shift, Shininess,
-    Strength, ValueRange, Zoom,
+    Amplitude, Color, ColumnName, Coordinate, Exponent, FieldOfView, FileName, Flag, FocalLength,
+    GrainSize, ImageSide, MaterialName, Point, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
+    Shift, Shininess, Strength, ValueRange, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -53,7 +53,8 @@ pub(crate) struct Image {
     pub(crate) height: Placed<ImageSide>,
 }
 
-/// The retina, given by its size and distance or by the horizontal field of view in degrees.
+/// The retina, given by its size and distance, by the horizontal field of view in degrees, or by the matrix of a
+/// camera in pixels, (0, 0) the center of the first one.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Lens {
@@ -64,6 +65,12 @@ pub(crate) enum Lens {
         shift: Placed<Shift>,
     },
     Fov(Placed<FieldOfView>),
+    Matrix {
+        fx: Placed<FocalLength>,
+        fy: Placed<FocalLength>,
+        cx: Placed<Coordinate>,
+        cy: Placed<Coordinate>,
+    },
 }
 
 /// A light; its intensity is 1 by default.

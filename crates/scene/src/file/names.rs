@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::camera::{Animation, Camera, Ease, Key};
+use super::camera::{Animation, Axes, Camera, Ease, Key};
 use super::{Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
@@ -26,8 +26,9 @@ macro_rules! structures {
 
 structures! {
     Image: "image", "an image `(width: …, height: …)`";
-    Lens: "lens", "a lens: `Retina(width: …, distance: …)` or `Fov(…)`";
-    Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)` or `Frame(…)`";
+    Lens: "lens", "a lens: `Retina(width: …, distance: …)`, `Fov(…)` or `Matrix(fx: …, fy: …, cx: …, cy: …)`";
+    Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)`, `Frame(…)` or `Pose(…)`";
+    Axes: "axes", "axes: `OpenCV`";
     Light: "light", "a light `Directional(toward: …)`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";

@@ -1,14 +1,14 @@
 //! The channels of a camera: its numbers, each of them a curve.
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera};
+use marbles_core::{Angle, Camera, Extrinsics};
 
 use super::curve::{Curve, CurveKey};
 use super::error::FrameFault;
 use super::framing::Framing;
 use crate::file::{self, Key};
 use crate::text::Placed;
-use crate::values::Point;
+use crate::values::{Point, Rotation};
 
 /// The numbers of a camera, each of them a curve; those that its kind lacks are 0.
 #[derive(Clone, Debug)]
@@ -27,11 +27,13 @@ pub(super) struct Channels {
 }
 
 /// The way in which channels give a camera.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 enum Kind {
     Free,
     LookAt,
     Orbit,
+    /// No channel has a part in this one.
+    Pose(Camera),
 }
 
 impl Channels {
@@ -43,6 +45,11 @@ impl Channels {
                 file::Camera::Free { .. } => Kind::Free,
                 file::Camera::LookAt { .. } => Kind::LookAt,
                 file::Camera::Orbit { .. } | file::Camera::Frame { .. } => Kind::Orbit,
+                file::Camera::Pose {
+                    rotation,
+                    translation,
+                    axes,
+                } => Kind::Pose(pose(rotation.get()?, translation.get()?, axes.get()?)),
             },
             position: keys.points(rest.position, |key| &key.position),
             target: keys.points(rest.target, |key| &key.target),
@@ -93,11 +100,26 @@ impl Channels {
                 }
                 camera
             }
+            Kind::Pose(camera) => camera,
         };
         if camera.position.is_finite() {
             Ok(camera)
         } else {
             Err(FrameFault::TooFar)
+        }
+    }
+}
+
+/// The camera that is given as a pose.
+fn pose(rotation: Rotation, translation: Point, axes: file::Axes) -> Camera {
+    match axes {
+        file::Axes::OpenCV => {
+            let (rotation, translation) = (rotation.0, translation.0);
+            Extrinsics {
+                rotation,
+                translation,
+            }
+            .camera()
         }
     }
 }

@@ -6,10 +6,11 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::{CloudDescription, Description, Scene};
-use crate::file::{Camera, File};
+use crate::file::{Camera, File, Materials};
 use crate::motion::CameraMotion;
 use crate::report::SceneError;
-use crate::text::{Fault, Read, Slice, collect, optional, token};
+use crate::text::{Fault, Placed, Read, Slice, collect, optional, token};
+use crate::values::MaterialName;
 use crate::world::{self, Cloud, CloudError, Progress};
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
@@ -107,6 +108,7 @@ impl Draft {
         // Each part is made before any is missed, so that the faults of all are told.
         let world = world::world(file);
         let motion = CameraMotion::new(file, text);
+        let lens = world::lens(&file.lens, &file.image);
         let image = file.image.value.as_ref()?;
         let (world, clouds) = world?;
         let camera = file.camera.value.as_ref()?;
@@ -117,11 +119,11 @@ impl Draft {
         let scene = Scene {
             world,
             motion: motion?,
-            lens: world::lens(&file.lens)?,
+            lens: lens?,
             width: image.width.get()?.0,
             height: image.height.get()?.0,
             description: Description {
-                materials: file.materials.0.len(),
+                materials: names(&file.materials)?,
                 camera: camera.kind(),
                 animation: optional(&file.animation, |animation| Some(animation.kind()))?,
                 lens: world::lens_as_written(&file.lens)?,
@@ -167,6 +169,12 @@ impl Draft {
         }
         Ok(scene)
     }
+}
+
+/// The names of materials that were not refused.
+fn names(materials: &Materials) -> Option<Vec<String>> {
+    let name = |name: &Placed<MaterialName>| Some(name.value.as_ref()?.0.clone());
+    materials.0.iter().map(|(key, _)| name(key)).collect()
 }
 
 /// The bytes of a file that has at most `most`; [`ErrorKind::FileTooLarge`] where it has more.

@@ -36,9 +36,9 @@ pub struct CloudDescription {
 /// A scene in words and numbers, for people.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Description {
-    /// Number of materials that the file defines.
-    pub materials: usize,
-    /// The kind of camera: `Free`, `LookAt` or `Orbit`.
+    /// The names of the materials that the file defines, in the order of the world's.
+    pub materials: Vec<String>,
+    /// The kind of camera, for example `LookAt`.
     pub camera: &'static str,
     /// The kind of animation, `Keyframes` or `Turntable`; `None` for a still.
     pub animation: Option<&'static str>,

@@ -1,5 +1,7 @@
 use std::path::Path;
 
+mod opencv;
+
 use glam::{DVec2, DVec3};
 use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness};
 
@@ -59,7 +61,7 @@ fn what_is_left_out_has_its_default() {
     assert_eq!(
         *scene.description(),
         Description {
-            materials: 0,
+            materials: Vec::new(),
             camera: "Free",
             animation: None,
             lens: String::from("Fov(90)"),
@@ -95,7 +97,7 @@ fn surfaces_have_their_defaults() {
     assert_eq!(world.material(3).roughness, roughness);
     assert_eq!(world.lights[0].toward(), DVec3::Y);
     assert_eq!(world.lights[0].intensity(), DVec3::ONE);
-    assert_eq!(scene.description().materials, 3);
+    assert_eq!(scene.description().materials.len(), 3);
 }
 
 #[test]

@@ -3,13 +3,15 @@
 mod color;
 mod point;
 mod quantity;
+mod rotation;
 mod words;
 
 pub(crate) use color::{Color, from_srgb, linear};
 pub(crate) use point::{FrameRange, Point, Shift, ValueRange};
 pub(crate) use quantity::{
-    Amplitude, Degrees, Exponent, FieldOfView, Fill, Frame, FrameCount, FramesPerSecond, GrainSize,
-    ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed, Shininess, Shutter, Strength,
-    Turns, Zoom,
+    Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Fill, FocalLength, Frame, FrameCount,
+    FramesPerSecond, GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
+    Shininess, Shutter, Strength, Turns, Zoom,
 };
+pub(crate) use rotation::Rotation;
 pub(crate) use words::{ColumnName, FileName, Flag, MaterialName};

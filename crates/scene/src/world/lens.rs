@@ -1,13 +1,14 @@
 //! The lens of a scene file.
 
 use glam::DVec2;
-use marbles_core::Lens;
+use marbles_core::{Intrinsics, Lens};
 
 use crate::file;
-use crate::text::Placed;
+use crate::text::{Placed, refuse};
+use crate::values::FocalLength;
 
-/// The lens; `None` where a fault was reported.
-pub(crate) fn lens(lens: &Placed<file::Lens>) -> Option<Lens> {
+/// The lens of a picture of this size; `None` where a fault was reported.
+pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Option<Lens> {
     match lens.value.as_ref()? {
         file::Lens::Retina {
             width,
@@ -24,7 +25,29 @@ pub(crate) fn lens(lens: &Placed<file::Lens>) -> Option<Lens> {
             let width = lens.width.max(f64::MIN_POSITIVE);
             Some(Lens { width, ..lens })
         }
+        file::Lens::Matrix { fx, fy, cx, cy } => {
+            let focal_length = focal_length(fx, fy)?;
+            let principal_point = DVec2::new(cx.get()?.0, cy.get()?.0);
+            let image = image.value.as_ref()?;
+            let intrinsics = Intrinsics {
+                focal_length,
+                principal_point,
+            };
+            Some(intrinsics.lens(image.width.get()?.0, image.height.get()?.0))
+        }
     }
+}
+
+/// The focal length of square pixels.
+fn focal_length(fx: &Placed<FocalLength>, fy: &Placed<FocalLength>) -> Option<f64> {
+    /// The largest relative difference: what nine digits leave.
+    const DIFFERENCE: f64 = 1e-9;
+    let (x, y) = (fx.get()?.0, fy.get()?.0);
+    if (y - x).abs() > DIFFERENCE * x.max(y) {
+        let message = format!("expected square pixels, with an fy of {x} as fx, found {y}");
+        return refuse(fy.place.clone(), message);
+    }
+    Some(x + 0.5 * (y - x))
 }
 
 /// The lens as the file writes it.
@@ -44,5 +67,10 @@ pub(crate) fn lens_as_written(lens: &Placed<file::Lens>) -> Option<String> {
             }
         }
         file::Lens::Fov(degrees) => format!("Fov({})", degrees.get()?.0),
+        file::Lens::Matrix { fx, fy, cx, cy } => {
+            let [fx, fy] = [fx.get()?.0, fy.get()?.0];
+            let [cx, cy] = [cx.get()?.0, cy.get()?.0];
+            format!("Matrix(fx: {fx}, fy: {fy}, cx: {cx}, cy: {cy})")
+        }
     })
 }
