@@ -13,6 +13,7 @@ use super::scene;
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::status;
+use crate::formats::sidecar::Sidecar;
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
@@ -25,6 +26,9 @@ const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, console, false)?;
+    if arguments.json {
+        return json(&scene, arguments, console);
+    }
     let frames = frames_of(&scene);
     let (views, errors) = views(&scene, &frames);
 
@@ -61,6 +65,15 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
             Err(Failure::Usage(message))
         }
     }
+}
+
+/// Prints what is known of a frame before it is rendered.
+fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
+    let view = scene::view(scene, arguments.frame)?;
+    let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
+    let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
+    console.result(sidecar.text().map_err(Failure::Work)?.trim_end());
+    Ok(status::SUCCESS)
 }
 
 fn count(frames: &RangeInclusive<i32>) -> i64 {

@@ -1,5 +1,6 @@
 //! `marbles render`: the frames of a scene, one file each.
 
+use std::ffi::OsStr;
 use std::path::Path;
 
 use marbles_core::{Method, Settings};
@@ -9,9 +10,10 @@ use super::args::RenderArguments;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::{status, threads};
-use crate::files::destination::prepare;
+use crate::files::destination::{is_same, prepare};
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
 use crate::formats::encoding::{Encoding, ExrOptions, Format, NpyOptions, PngOptions};
+use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
@@ -75,6 +77,9 @@ pub(super) fn request(
             scene.world().has_bumps(),
         )
     });
+    if arguments.sidecar {
+        check_sidecars(&pattern, &frames, &arguments.scene)?;
+    }
     Ok(Request {
         size: arguments.size,
         window: arguments.region,
@@ -87,10 +92,12 @@ pub(super) fn request(
         },
         frames_per_second: arguments.fps.or(scene.frames_per_second()),
         scene,
+        scene_path: arguments.scene.clone(),
         frames,
         pattern,
         encoding,
         centers,
+        sidecar: arguments.sidecar,
         skip_existing: arguments.skip_existing,
         fail_fast: arguments.fail_fast,
     })
@@ -121,6 +128,19 @@ fn check_names(
     Ok(())
 }
 
+/// Refuses a sidecar in the place of the scene.
+fn check_sidecars(pattern: &Pattern, frames: &FrameList, scene: &Path) -> Result<(), Failure> {
+    let is_scene = |frame| is_same(&sidecar::beside(&pattern.path(frame)), scene);
+    let may_be = scene.extension() == Some(OsStr::new("json"));
+    match may_be && frames.iter().any(is_scene) {
+        true => Err(Failure::unusable(
+            scene,
+            "the sidecar would replace the scene",
+        )),
+        false => Ok(()),
+    }
+}
+
 /// The options of the format; those of others are refused.
 fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
     let output = match format {
@@ -147,10 +167,15 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         let message = "--linear writes 16 bit, and --bits asks for 8";
         return Err(Failure::Usage(message.to_owned()));
     }
-    if format == Format::Apng && arguments.skip_existing {
-        let message =
-            "--skip-existing is for files of one frame each, and the output has all of them";
-        return Err(Failure::Usage(message.to_owned()));
+    for (is_given, option) in [
+        (arguments.skip_existing, "--skip-existing"),
+        (arguments.sidecar, "--sidecar"),
+    ] {
+        if is_given && format == Format::Apng {
+            let message =
+                format!("{option} is for files of one frame each, and the output has all of them");
+            return Err(Failure::Usage(message));
+        }
     }
     let png = PngOptions {
         deep: arguments.bits == Some(16),

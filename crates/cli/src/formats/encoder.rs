@@ -157,7 +157,8 @@ impl Encoder {
     /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
     ///
     /// `next` gives the pieces from the top downward, and `None` for one that will not come; `summary`
-    /// gives what they achieved, after the last one.
+    /// gives what they achieved, after the last one. `complete` is called before the complete file gets
+    /// its name.
     pub(crate) fn write(
         &self,
         facts: &Facts,
@@ -165,6 +166,7 @@ impl Encoder {
         mut file: TemporaryFile,
         mut next: impl FnMut() -> Option<Piece>,
         summary: impl FnOnce() -> Option<Summary>,
+        complete: impl FnOnce() -> Result<(), Fault>,
     ) -> Result<(), Unwritten> {
         let written = match &self.layout {
             Layout::Png { shape, .. } => {
@@ -185,7 +187,7 @@ impl Encoder {
                 files.write(path, file, &facts.digest, strips, || samples(next()))
             }
         };
-        finish(path, written)
+        finish(path, written.and_then(|file| complete().map(|()| file)))
     }
 
     /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each

@@ -13,6 +13,7 @@ pub(crate) mod npy;
 pub(crate) mod picture;
 pub(crate) mod png;
 pub(crate) mod rows;
+pub(crate) mod sidecar;
 pub(crate) mod srgb;
 #[cfg(test)]
 pub(crate) mod tests;

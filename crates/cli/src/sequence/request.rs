@@ -1,5 +1,7 @@
 //! The request for a sequence of pictures.
 
+use std::path::PathBuf;
+
 use marbles_core::{Settings, View, Window};
 use marbles_scene::Scene;
 
@@ -15,6 +17,8 @@ use crate::formats::form::Form;
 /// The pictures that are rendered, and the files that they become.
 pub(crate) struct Request {
     pub(crate) scene: Scene,
+    /// The scene file.
+    pub(crate) scene_path: PathBuf,
     pub(crate) frames: FrameList,
     /// A size in place of the scene's.
     pub(crate) size: Option<Size>,
@@ -26,6 +30,8 @@ pub(crate) struct Request {
     pub(crate) encoding: Encoding,
     /// The channels of the files besides the pictures.
     pub(crate) centers: Option<CenterChannels>,
+    /// True where each picture has a sidecar.
+    pub(crate) sidecar: bool,
     /// True where frames are left out whose files are there.
     pub(crate) skip_existing: bool,
     /// True where the first failure ends the work.
@@ -45,7 +51,14 @@ impl Request {
         matches!(self.encoding, Encoding::Apng(_))
     }
 
-    pub(super) fn resized(&self, view: View) -> View {
+    /// The view of a frame, in the size that is wanted.
+    pub(super) fn view(&self, frame: i32) -> Result<View, Failure> {
+        let view = self.scene.view(frame);
+        let view = view.map_err(|error| Failure::Work(error.to_string()))?;
+        Ok(self.resized(view))
+    }
+
+    fn resized(&self, view: View) -> View {
         self.size.map_or(view, |size| size.resize(view))
     }
 

@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{SyncSender, channel};
 
+use blake3::Hash;
 use marbles_core::{Exposure, Renderer, Rendering};
 
 use super::digest::{Digests, Shot};
@@ -15,11 +16,12 @@ use super::pipeline::{Order, Pipeline};
 use super::strip_encoder::PictureEncoder;
 use super::workers::SharedWork;
 use crate::base::failure::Failure;
+use crate::base::region::Region;
 use crate::files::save;
 use crate::files::temporary::{LeftOver, TemporaryFile};
 use crate::formats::encoding::Encoding;
 use crate::formats::facts::Facts;
-use crate::formats::load;
+use crate::formats::{load, sidecar};
 
 /// Gives pictures to render, and orders to write them.
 pub(super) struct Source<'a> {
@@ -122,9 +124,7 @@ impl<'a> Source<'a> {
         has_waited: bool,
     ) -> Result<Decision<'a>, Failure> {
         let request = self.pipeline.request;
-        let view = request.scene.view(frame);
-        let view = view.map_err(|error| Failure::Work(error.to_string()))?;
-        let view = request.resized(view);
+        let view = request.view(frame)?;
         let exposure = request.scene.exposure(&view);
         let facts = Facts {
             view,
@@ -143,13 +143,12 @@ impl<'a> Source<'a> {
         };
         let encoder = &self.pipeline.encoder;
         let files = encoder.files(path, &facts.digest);
-        for (path, _) in &files {
+        let sidecar = request.sidecar.then(|| sidecar::beside(path));
+        for path in files.iter().map(|(path, _)| path).chain(&sidecar) {
             save::clean(path, &mut self.left_over);
         }
-        let is_there = || {
-            let mut files = files.iter();
-            files.all(|(path, digest)| load::contents(path) == Some((*digest, encoder.form.region)))
-        };
+        let contents = (facts.digest, encoder.form.region);
+        let is_there = || is_there(&files, sidecar.as_deref(), contents);
         let file = if request.is_animation() {
             None
         } else if !request.skip_existing {
@@ -223,6 +222,17 @@ impl<'a> Source<'a> {
             pipeline,
         })
     }
+}
+
+/// Returns whether the files of a picture are there, with these digests, and its sidecar where it is to have one.
+fn is_there(
+    files: &[(PathBuf, Hash)],
+    sidecar: Option<&Path>,
+    (digest, region): (Hash, Region),
+) -> bool {
+    let mut files = files.iter();
+    files.all(|(path, digest)| load::contents(path) == Some((*digest, region)))
+        && sidecar.is_none_or(|path| sidecar::contents(path) == Some((digest, region)))
 }
 
 impl SharedWork for InFlight<'_> {

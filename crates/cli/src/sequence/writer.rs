@@ -1,5 +1,7 @@
 //! The thread that writes: pictures become files in the order of their rendering.
 
+use std::cell::Cell;
+use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::Receiver;
 use std::time::Duration;
@@ -10,8 +12,11 @@ use super::messages;
 use super::outcome::Outcome;
 use super::pipeline::{Order, Pipeline};
 use super::strip_encoder::Finished;
-use crate::files::save::Unwritten;
+use crate::base::failure::Failure;
+use crate::files::save::{Fault, Unwritten, write_bytes};
 use crate::formats::encoding::Encoding;
+use crate::formats::facts::Facts;
+use crate::formats::sidecar::{self, Sidecar};
 
 /// Writes pictures as they come, each to its file.
 pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
@@ -60,14 +65,23 @@ fn write_file(
         ..
     } = pipeline;
     let file = file.ok_or(Unwritten::Stopped)?;
-    let mut end = None;
+    let end: Cell<Option<Finished>> = Cell::new(None);
     let summary = || {
-        end = finished.recv().ok();
-        end.and_then(|end| end.results.summary)
+        if end.get().is_none() {
+            end.set(finished.recv().ok());
+        }
+        end.get().and_then(|end| end.results.summary)
     };
-    encoder.write(&facts, &path, file, || buffer.take(), summary)?;
-    let end = end.or_else(|| finished.recv().ok());
-    let Finished { results, time } = end.ok_or(Unwritten::Stopped)?;
+    let complete = || {
+        let summary = summary().ok_or(Fault::Stopped)?;
+        if request.sidecar {
+            // Where the picture is there, its sidecar is.
+            write_sidecar(&facts, &path, &summary, pipeline).map_err(Fault::Failed)?;
+        }
+        Ok(())
+    };
+    encoder.write(&facts, &path, file, || buffer.take(), summary, complete)?;
+    let Finished { results, time } = end.into_inner().ok_or(Unwritten::Stopped)?;
     let summary = results.summary.ok_or(Unwritten::Stopped)?;
     let shown = path.display().to_string();
     let (clipped, too_large) = match request.encoding {
@@ -83,6 +97,25 @@ fn write_file(
         progress.warn(&messages::over_tolerance(&shown, count, results.worst));
     }
     Ok((summary, clipped, time))
+}
+
+/// Writes the sidecar of the picture at `path`.
+fn write_sidecar(
+    facts: &Facts,
+    path: &Path,
+    summary: &Summary,
+    pipeline: &Pipeline<'_>,
+) -> Result<(), Failure> {
+    let Pipeline {
+        request, encoder, ..
+    } = pipeline;
+    let view = request.view(facts.frame)?;
+    let sidecar = Sidecar::of(&request.scene, &request.scene_path, facts.frame, &view);
+    let region = &encoder.form.region;
+    let sidecar = sidecar.with_results(region, facts.method, summary, &facts.digest);
+    let path = sidecar::beside(path);
+    let text = sidecar.text().map_err(|error| Failure::at(&path, &error))?;
+    write_bytes(text.as_bytes(), &path)
 }
 
 /// Writes pictures as they come, all to one file. Without all of them there is no file, and none counts

@@ -22,6 +22,7 @@ mod progress;
 mod readers;
 mod report;
 mod sequences;
+mod sidecar;
 mod signals;
 #[cfg(target_os = "linux")]
 mod terminal;

@@ -24,6 +24,7 @@ Examples:
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
+  marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
 
 Exit codes:
   0  everything is written, and every pixel met the tolerance
@@ -132,6 +133,10 @@ pub(crate) struct RenderArguments {
     /// Axes of the normals and positions that --channels stores [default: world]
     #[arg(long, value_name = "AXES", requires = "channels")]
     pub(crate) axes: Option<AxesForm>,
+    /// Write NAME.json beside each picture NAME.png or NAME.exr: the camera as OpenCV's K, R and t, the
+    /// lights, and what is known of the error
+    #[arg(long)]
+    pub(crate) sidecar: bool,
 
     /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
     #[arg(long, value_name = "FORM")]

@@ -1,0 +1,257 @@
+//! The sidecar of a picture: a JSON file that tells what measurements need to know of it.
+//!
+//! Its world is right-handed, that of the scene with z negated, and its camera axes are OpenCV's: x
+//! right, y down, z forward. Pixel (0, 0) is the center of the first pixel. Numbers have as many of 17
+//! digits as it takes to read the same double; one that is not finite is `null`.
+
+mod layout;
+mod stored;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use blake3::Hash;
+use glam::{DMat3, DVec3};
+use marbles_core::{
+    DirectionalLight, Extrinsics, Intrinsics, Method, Summary, View, Window, World, right_handed,
+};
+use marbles_scene::Scene;
+use serde::Serialize;
+
+pub(crate) use self::stored::contents;
+use crate::base::region::Region;
+
+/// The facts about a picture, in the order of the file.
+#[derive(Debug, Serialize)]
+pub(crate) struct Sidecar<'a> {
+    /// The name of the scene file, without its folder.
+    scene: String,
+    frame: i32,
+    image: Image,
+    /// The part that the picture shows of the whole; none where it shows all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    region: Option<Part>,
+    camera: Camera,
+    lights: Vec<Light>,
+    ambient: [f64; 3],
+    background: [f64; 3],
+    /// The seeds of rough materials, by the materials' names.
+    seeds: BTreeMap<&'a str, u64>,
+    #[serde(flatten)]
+    rendered: Option<Rendered>,
+    version: &'static str,
+}
+
+/// The size of the whole picture.
+#[derive(Debug, Serialize)]
+struct Image {
+    width: u32,
+    height: u32,
+}
+
+/// A part of the picture, from the pixel (`col`, `row`) on.
+#[derive(Debug, Serialize)]
+struct Part {
+    col: u32,
+    row: u32,
+    width: u32,
+    height: u32,
+}
+
+/// The camera: its projection, and `x_camera = R X + t`.
+#[derive(Debug, Serialize)]
+struct Camera {
+    #[serde(flatten)]
+    projection: Projection,
+    /// The side of a pixel on the retina, in scene units.
+    pixel_size: f64,
+    /// The factor on the retina's distance, which the projection contains.
+    zoom: f64,
+    #[serde(rename = "R")]
+    rotation: [[f64; 3]; 3],
+    #[serde(rename = "t")]
+    translation: [f64; 3],
+    /// The viewpoint in the right-handed world.
+    position: [f64; 3],
+    axes: &'static str,
+    world: &'static str,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum Projection {
+    Pinhole {
+        #[serde(rename = "K")]
+        matrix: [[f64; 3]; 3],
+    },
+}
+
+#[derive(Debug, Serialize)]
+struct Light {
+    /// `null`, for scenes give lights no names.
+    name: Option<String>,
+    #[serde(flatten)]
+    place: LightPlace,
+    intensity: [f64; 3],
+}
+
+/// The place of a light, in the right-handed world and in the camera's axes.
+#[derive(Debug, Serialize)]
+#[serde(tag = "kind", rename_all = "lowercase")]
+enum LightPlace {
+    Directional {
+        toward: [f64; 3],
+        toward_camera: [f64; 3],
+    },
+}
+
+/// The facts that only rendering knows.
+#[derive(Debug, Serialize)]
+struct Rendered {
+    #[serde(flatten)]
+    setting: Setting,
+    /// The largest error that a pixel claims; `null` where nothing is known of it.
+    error: Option<f64>,
+    /// `bound` where all errors are proved.
+    evidence: Option<&'static str>,
+    bounded_pixels: u64,
+    over: u64,
+    digest: String,
+}
+
+#[derive(Debug, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Setting {
+    Tolerance(f64),
+    Samples(u32),
+}
+
+/// The name of the sidecar of the picture at `path`.
+pub(crate) fn beside(path: &Path) -> PathBuf {
+    path.with_extension("json")
+}
+
+impl<'a> Sidecar<'a> {
+    /// The facts about a view of a frame that are known before it is rendered; `path` is the scene's.
+    pub(crate) fn of(scene: &'a Scene, path: &Path, frame: i32, view: &View) -> Self {
+        let world = scene.world();
+        let place = Extrinsics::of(&view.camera);
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        let lights = world.lights.iter();
+        Self {
+            scene: name.to_string_lossy().into_owned(),
+            frame,
+            image: Image {
+                width: view.width,
+                height: view.height,
+            },
+            region: None,
+            camera: Camera::of(view, &place),
+            lights: lights.map(|light| Light::of(light, &place)).collect(),
+            ambient: numbers(world.ambient),
+            background: numbers(world.background),
+            seeds: seeds(world, &scene.description().materials),
+            rendered: None,
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+
+    /// The same with what is known of a part of the picture that was rendered.
+    pub(crate) fn with_results(
+        mut self,
+        region: &Region,
+        method: Method,
+        summary: &Summary,
+        digest: &Hash,
+    ) -> Self {
+        let Window {
+            col,
+            row,
+            width,
+            height,
+        } = region.window;
+        let part = Part {
+            col,
+            row,
+            width,
+            height,
+        };
+        self.region = (!region.is_all()).then_some(part);
+        let is_known = summary.largest_error.is_finite();
+        let evidence = match summary.bounds == summary.pixels {
+            true => "bound",
+            false => "estimate",
+        };
+        self.rendered = Some(Rendered {
+            setting: match method {
+                Method::Tolerance(tolerance) => Setting::Tolerance(tolerance),
+                Method::Samples(samples) => Setting::Samples(samples.get()),
+            },
+            error: is_known.then_some(summary.largest_error),
+            evidence: is_known.then_some(evidence),
+            bounded_pixels: summary.bounds,
+            over: summary.over_tolerance,
+            digest: digest.to_hex().to_string(),
+        });
+        self
+    }
+
+    /// The text of the file, which ends with its last line.
+    pub(crate) fn text(&self) -> Result<String, String> {
+        layout::text(self)
+    }
+}
+
+impl Camera {
+    fn of(view: &View, place: &Extrinsics) -> Self {
+        Self {
+            projection: Projection::Pinhole {
+                matrix: rows(Intrinsics::of(view).matrix()),
+            },
+            pixel_size: view.pixel_size(),
+            zoom: view.zoom,
+            rotation: rows(place.rotation),
+            translation: numbers(place.translation),
+            position: numbers(right_handed(view.camera.position)),
+            axes: "opencv",
+            world: "right-handed, z negated",
+        }
+    }
+}
+
+impl Light {
+    fn of(light: &DirectionalLight, place: &Extrinsics) -> Self {
+        Self {
+            name: None,
+            place: LightPlace::Directional {
+                toward: numbers(right_handed(light.toward())),
+                toward_camera: numbers(place.direction(light.toward())),
+            },
+            intensity: numbers(light.intensity()),
+        }
+    }
+}
+
+/// The seeds of a world's rough materials, which have these names.
+fn seeds<'a>(world: &World, names: &'a [String]) -> BTreeMap<&'a str, u64> {
+    let materials = names.iter().zip(world.materials());
+    let seeds = materials.filter_map(|(name, material)| {
+        let roughness = material.roughness?;
+        Some((name.as_str(), roughness.seed))
+    });
+    seeds.collect()
+}
+
+/// The rows of a matrix.
+fn rows(matrix: DMat3) -> [[f64; 3]; 3] {
+    let transposed = matrix.transpose();
+    [transposed.x_axis, transposed.y_axis, transposed.z_axis].map(numbers)
+}
+
+fn numbers(vector: DVec3) -> [f64; 3] {
+    // `+ 0` makes no negative zeros.
+    (vector + DVec3::ZERO).to_array()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,162 @@
+//! Sidecars: files beside pictures.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::folder::{Folder, code, text};
+
+fn read(folder: &Folder, name: &str) -> Value {
+    serde_json::from_slice(&folder.read(name)).unwrap()
+}
+
+/// The names in the folder but for the scene.
+fn names(folder: &Folder) -> Vec<String> {
+    let mut names = folder.names(".");
+    names.retain(|name| name != "ball.ron");
+    names
+}
+
+#[test]
+fn every_picture_has_a_sidecar_beside_it() {
+    let folder = Folder::new();
+    let output = folder.run("render ball.ron -o a.#.png --frames 1-2 --size 60x30 --sidecar");
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert_eq!(
+        names(&folder),
+        ["a.1.json", "a.1.png", "a.2.json", "a.2.png"]
+    );
+    // A line for each picture and one for all: sidecars are no pictures.
+    assert_eq!(text(&output.stdout).lines().count(), 3);
+    let [one, two] = ["a.1.json", "a.2.json"].map(|name| read(&folder, name));
+    assert_eq!((&one["frame"], &two["frame"]), (&1.into(), &2.into()));
+    assert_ne!(one["digest"], two["digest"]);
+    let matrix = serde_json::json!([[10.0, 0.0, 29.5], [0.0, 10.0, 14.5], [0.0, 0.0, 1.0]]);
+    assert_eq!(one["camera"]["K"], matrix);
+    assert!(one["error"].as_f64().unwrap() <= 1e-3);
+    assert_eq!((&one["tolerance"], &one["over"]), (&1e-3.into(), &0.into()));
+    let png = text(&folder.run("compare a.1.png a.2.png").stdout);
+    assert!(png.contains("PNG"), "{png}");
+
+    // `check` tells the same, but for what only rendering knows.
+    let output = folder.run("check ball.ron --json");
+    assert_eq!((code(&output), &*text(&output.stderr)), (0, ""));
+    let mut known: Value = serde_json::from_slice(&output.stdout).unwrap();
+    folder.run("render ball.ron -o whole.exr --samples 1 --sidecar");
+    let mut whole = read(&folder, "whole.json");
+    let rendered = [
+        "samples",
+        "error",
+        "evidence",
+        "bounded_pixels",
+        "over",
+        "digest",
+    ];
+    for name in rendered {
+        let object = whole.as_object_mut().unwrap();
+        assert!(object.remove(name).is_some(), "{name}");
+        assert_eq!(known.as_object_mut().unwrap().remove(name), None);
+    }
+    assert_eq!(whole, known);
+}
+
+#[test]
+fn the_same_input_makes_the_same_sidecar() {
+    let folder = Folder::new();
+    folder.run("render ball.ron -o a.png --size 50x40 --sidecar --threads 1");
+    let scene = folder.path("ball.ron");
+    let absolute = scene.to_str().unwrap();
+    folder.run(&format!(
+        "render {absolute} -o b.png --size 50x40 --sidecar --threads 3"
+    ));
+    assert_eq!(text(&folder.read("a.json")), text(&folder.read("b.json")));
+}
+
+#[test]
+fn a_frame_is_there_when_its_sidecar_is() {
+    let folder = Folder::new();
+    let run = |more: &str| {
+        let arguments = "render ball.ron -o #.png --frames 1-5 --size 9x9 --skip-existing";
+        let output = folder.run(&format!("{arguments} {more}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        text(&output.stdout).matches("skipped").count()
+    };
+    assert_eq!(run(""), 0);
+    assert_eq!(run(""), 5);
+    // All lack a sidecar; then none does, and pictures alone do not ask for it.
+    assert_eq!(run("--sidecar"), 0);
+    assert_eq!(run("--sidecar"), 5);
+    assert_eq!(run(""), 5);
+    let good = folder.read("1.json");
+    fs::remove_file(folder.path("2.json")).unwrap();
+    fs::write(folder.path("3.json"), &folder.read("3.json")[..100]).unwrap();
+    fs::write(folder.path("4.json"), folder.read("5.json")).unwrap();
+    fs::write(folder.path("5.json.tmp"), "left by a killed process").unwrap();
+    assert_eq!(run("--sidecar"), 2);
+    assert_eq!(folder.read("1.json"), good);
+    for frame in 1..=5 {
+        let name = format!("{frame}.json");
+        assert_eq!(read(&folder, &name)["frame"], frame);
+    }
+    assert!(!folder.path("5.json.tmp").exists());
+}
+
+#[test]
+fn parts_tell_their_region_and_the_camera_of_the_whole() {
+    let folder = Folder::new();
+    folder.run("render ball.ron -o all.png --size 48x48 --sidecar");
+    folder.run("render ball.ron -o part.png --size 48x48 --region 16,8,10,20 --sidecar");
+    let (all, part) = (read(&folder, "all.json"), read(&folder, "part.json"));
+    let region = serde_json::json!({"col": 16, "row": 8, "width": 10, "height": 20});
+    assert_eq!((&part["region"], all.get("region")), (&region, None));
+    for same in ["image", "camera", "lights", "digest"] {
+        assert_eq!(part[same], all[same], "{same}");
+    }
+    let output = folder.run("render ball.ron -o part.png --size 48x48 --sidecar --skip-existing");
+    assert!(!text(&output.stdout).contains("skipped"));
+}
+
+#[test]
+fn sidecars_that_cannot_be_are_refused() {
+    let folder = Folder::new();
+    fs::copy(folder.path("ball.ron"), folder.path("ball.json")).unwrap();
+    for (arguments, expected) in [
+        (
+            "render ball.ron -o a.apng --sidecar",
+            "marbles: --sidecar is for files of one frame each, and the output has all of them\n",
+        ),
+        (
+            "render ball.json --sidecar",
+            "marbles: ball.json: the sidecar would replace the scene\n",
+        ),
+        (
+            "check ball.ron --json --frame 3",
+            "marbles: --frame: expected 1, the only frame of the scene, found 3\n",
+        ),
+    ] {
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), 2, "{arguments}");
+        assert_eq!(text(&output.stderr), expected);
+    }
+    assert_eq!(code(&folder.run("check ball.ron --frame 1")), 2);
+    assert_eq!(names(&folder), ["ball.json"]);
+
+    // What is in the way of a sidecar keeps its picture from being complete.
+    fs::create_dir(folder.path("a.json")).unwrap();
+    let output = folder.run("render ball.ron -o a.png --size 9x9 --sidecar");
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    assert_eq!(
+        errors,
+        "marbles: a.json: cannot write the file: there is a folder\n"
+    );
+    assert_eq!(names(&folder), ["a.json", "ball.json"]);
+}
+
+#[test]
+fn tasks_of_farms_write_sidecars() {
+    let folder = Folder::new();
+    let output = folder.run("farm slurm ball.ron -o out/#.png --sidecar");
+    assert_eq!(code(&output), 0);
+    assert!(text(&output.stdout).contains("--sidecar"));
+}
