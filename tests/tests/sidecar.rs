@@ -82,19 +82,24 @@ fn numbers(sidecar: &str, name: &str) -> Vec<String> {
 
 #[test]
 fn opencv_projects_spheres_to_where_the_picture_has_them() {
-    /// Small beside its distance; a third of a scene unit is some pixels.
+    /// In scene units.
     const DISTANCES: [f64; 3] = [9.0, 14.0, 30.0];
+    /// In pixels, near the axis.
+    const RADIUS: f64 = 20.0;
+    /// Cells of a pixel's side, at whose centers spheres lie.
+    const CELLS: u32 = 7;
     for camera in CAMERAS {
         let folder = Folder::new();
         let view = parse(&scene(camera, "")).view(1).unwrap();
         let [mut spheres, mut table] = [String::new(), String::from("x,y,z,radius\n")];
         for (index, distance) in (0..12_u32).zip(DISTANCES.into_iter().cycle()) {
-            // On a grid of 4 × 3, off the centers of pixels.
-            let (col, row) = (40 + 79 * (index % 4), 40 + 77 * (index / 4));
-            let ray = view.ray(view.cell_center(col.into(), row.into(), 1));
+            // Off the middle of pixels, and each at another place of its pixel.
+            let col = CELLS * (42 + 78 * (index % 4)) + index % 5;
+            let row = CELLS * (42 + 77 * (index / 4)) + index % 3;
+            let ray = view.ray(view.cell_center(col.into(), row.into(), CELLS));
             let point = ray.at(distance / ray.direction.length());
             let [x, y, z] = point.to_array();
-            let radius = 4.0 * distance * view.pixel_size() / (view.lens.distance * view.zoom);
+            let radius = RADIUS * distance * view.pixel_size() / (view.lens.distance * view.zoom);
             spheres.push_str(&format!("(center: ({x}, {y}, {z}), radius: {radius}), "));
             table.push_str(&format!("{x},{y},{z},{radius}\n"));
         }

@@ -12,7 +12,8 @@ import sys
 import cv2
 import numpy as np
 
-# In pixels: more than the rounding of 16 bits moves a centroid.
+# In pixels. A pixel on an outline counts at its center, which moves the centroid of a disc with a radius of 20 pixels
+# by a few 1e-4.
 TOLERANCE = 1e-3
 
 sidecar_path, picture_path, spheres_path = sys.argv[1:]
@@ -41,7 +42,7 @@ for center, radius, pixel in zip(centers, radii, projected):
     z = (R @ center + t)[2]
     # The middle of an outline is farther from the principal point than the projection of the sphere's center.
     expected = K[:2, 2] + (pixel - K[:2, 2]) * z**2 / (z**2 - radius**2)
-    reach = 2 * K[0, 0] * radius / z + 3
+    reach = 1.5 * K[0, 0] * radius / z + 3
     (left, top), (right, bottom) = np.floor(expected - reach).astype(int), np.ceil(expected + reach).astype(int)
     assert left >= 0 and top >= 0 and right < codes.shape[1] and bottom < codes.shape[0], "outside of the picture"
     window = covered[top : bottom + 1, left : right + 1]
