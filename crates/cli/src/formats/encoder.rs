@@ -132,7 +132,7 @@ impl Encoder {
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         match &self.layout {
             // It has no such channels.
-            Layout::Png(_) | Layout::Npy(_) => {}
+            Layout::Png { .. } | Layout::Npy(_) => {}
             Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
         }
     }

@@ -82,7 +82,10 @@ fn the_middle_of_a_ball_is_where_it_is() {
     let FlatSamples::U32(ids) = &channels["id"] else {
         panic!("{:?}", channels["id"]);
     };
-    assert_eq!([ids[0], ids[15 * 41 + 20], ids[15 * 41 + 35]], [u32::MAX, 0, 1]);
+    assert_eq!(
+        [ids[0], ids[15 * 41 + 20], ids[15 * 41 + 35]],
+        [u32::MAX, 0, 1]
+    );
     // The corner sees nothing.
     assert_eq!(at(&channels, "depth.Z", 0, 0), f32::INFINITY);
     assert_eq!(vector(&channels, "normal", 0, 0), [0.0; 3]);
@@ -111,7 +114,10 @@ fn axes_and_depths_are_those_that_are_asked_for() {
         let camera = render(&folder, &format!("balls.ron {options}"));
         let position = vector(&camera, "position", col, row);
         near(position, [sx * (x - 1.0), sy * (y - 2.0), sz * (z - 3.0)]);
-        near(vector(&camera, "normal", col, row), [sx * nx, sy * ny, sz * nz]);
+        near(
+            vector(&camera, "normal", col, row),
+            [sx * nx, sy * ny, sz * nz],
+        );
         let squares = position.map(|part| f64::from(part) * f64::from(part));
         let distance = squares.iter().sum::<f64>().sqrt();
         let depth = f64::from(at(&camera, "depth.Z", col, row));
@@ -124,11 +130,21 @@ fn axes_and_depths_are_those_that_are_asked_for() {
 fn channels_do_not_depend_on_the_picture() {
     let folder = balls();
     let one = render(&folder, &format!("balls.ron {ALL} --samples 1"));
-    for more in ["--samples 4 --float", "--tolerance 1e-2", "--alpha --error-channel --threads 1"] {
+    for more in [
+        "--samples 4 --float",
+        "--tolerance 1e-2",
+        "--alpha --error-channel --threads 1",
+    ] {
         let other = render(&folder, &format!("balls.ron {ALL} {more}"));
-        let centers = one.iter().filter(|(name, _)| !["R", "G", "B"].contains(&&***name));
+        let centers = one
+            .iter()
+            .filter(|(name, _)| !["R", "G", "B"].contains(&&***name));
         for (name, values) in centers {
-            assert_eq!(format!("{values:?}"), format!("{:?}", other[name]), "{more} {name}");
+            assert_eq!(
+                format!("{values:?}"),
+                format!("{:?}", other[name]),
+                "{more} {name}"
+            );
         }
     }
     // And the picture does not depend on them.
@@ -141,7 +157,10 @@ fn channels_do_not_depend_on_the_picture() {
 #[test]
 fn bumps_have_two_normals() {
     let folder = balls();
-    let rough = BALLS.replace("radius: 2, material: \"red\"", "radius: 2, material: \"bumps\"");
+    let rough = BALLS.replace(
+        "radius: 2, material: \"red\"",
+        "radius: 2, material: \"bumps\"",
+    );
     fs::write(folder.path("rough.ron"), rough).unwrap();
     let [smooth, rough] =
         ["balls", "rough"].map(|name| render(&folder, &format!("{name}.ron --channels normal")));
@@ -174,8 +193,15 @@ fn a_png_has_no_such_channels() {
     let output = folder.run("render balls.ron -o a.png --channels depth,id");
     assert_eq!(code(&output), 2);
     let expected = "marbles: --channels is for EXR files, and the output is PNG\n";
-    assert!(text(&output.stderr).contains(expected), "{}", text(&output.stderr));
+    assert!(
+        text(&output.stderr).contains(expected),
+        "{}",
+        text(&output.stderr)
+    );
     let output = folder.run("render balls.ron -o a.exr --channels dept");
     let errors = text(&output.stderr);
-    assert!(errors.contains("depth, normal, position, id, albedo, mask"), "{errors}");
+    assert!(
+        errors.contains("depth, normal, position, id, albedo, mask"),
+        "{errors}"
+    );
 }

@@ -29,11 +29,7 @@ fn cases() -> Vec<(Sphere, Ray)> {
             1e-6,
             DVec3::new(1e-7, 2e-7, 1.0),
         ),
-        case(
-            DVec3::new(0.3, -0.7, 1e3),
-            1e-2,
-            DVec3::new(1e-6, 0.0, 1.0),
-        ),
+        case(DVec3::new(0.3, -0.7, 1e3), 1e-2, DVec3::new(1e-6, 0.0, 1.0)),
         case(DVec3::ZERO, 4.0, DVec3::new(0.2, 0.1, -1.0)),
         case(DVec3::ZERO, 4e12, DVec3::new(1e-14, 0.1, -1.0)),
     ]

@@ -18,6 +18,7 @@ fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf
         region,
         channels: image.channels(),
         alpha: image.has_alpha(),
+        centers: None,
     };
     let encoder = Encoder::new(Encoding::Npy(NpyOptions { error }), form);
     let path = temporary(name);
@@ -29,7 +30,7 @@ fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf
         encoder.piece(index, samples)
     });
     let file = save::begin(&path).unwrap();
-    let written = encoder.write(&facts(), &path, file, || pieces.next(), || None);
+    let written = encoder.write(&facts(), &path, file, || pieces.next(), || None, || Ok(()));
     assert!(written.is_ok());
     encoder.files(&path, &DIGEST)
 }
@@ -117,6 +118,7 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
         region: Region::all(size(&image)),
         channels: image.channels(),
         alpha: false,
+        centers: None,
     };
     let encoder = Encoder::new(Encoding::Npy(NpyOptions { error: true }), form);
     let path = temporary("cut.npy");
@@ -124,7 +126,7 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
     let mut pieces = [Piece::Samples(vec![0; encoder.sample_bytes(0)])].into_iter();
     assert!(
         encoder
-            .write(&facts(), &path, file, || pieces.next(), || None)
+            .write(&facts(), &path, file, || pieces.next(), || None, || Ok(()))
             .is_err()
     );
     for (path, _) in encoder.files(&path, &DIGEST) {
