@@ -17,7 +17,7 @@ const EXAMPLES: &str = "\
 Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
-  marbles render ball.ron -o ball.npy --error-channel  float64, with ball_error.npy beside it
+  marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
@@ -97,8 +97,8 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) linear: bool,
 
-    /// Multiply light by 2^EV before it is rounded to the numbers of a PNG; what is told of errors
-    /// is about the light before
+    /// Multiply light by 2^EV before it is rounded to the numbers of a PNG; tolerance and errors are
+    /// those of the light before
     #[arg(long, value_name = "EV", value_parser = exposure, allow_hyphen_values = true)]
     pub(crate) exposure: Option<f64>,
 
