@@ -117,11 +117,6 @@ impl Shape {
         gain: f64,
     ) -> u64 {
         let most_light = self.most_light();
-        let (code_8, code_16): (fn(f64) -> u8, fn(f64) -> u16) = if self.is_linear {
-            (linear_8, linear_16)
-        } else {
-            (srgb::encode_8, srgb::encode_16)
-        };
         let mut clipped = 0;
         let colors = match self.color_type {
             ColorType::Grayscale | ColorType::GrayscaleAlpha => 1,
@@ -151,12 +146,12 @@ impl Shape {
                 for (&value, sample) in rgba[..colors].iter().zip(&mut samples) {
                     let value = gain * straight(value, alpha);
                     is_clipped |= value > most_light;
-                    put(sample, code_8, code_16, value);
+                    put(sample, value, self.is_linear);
                 }
                 clipped += u64::from(is_clipped);
                 // The alpha channel, where there is one.
                 if let Some(sample) = samples.next() {
-                    put(sample, linear_8, linear_16, alpha);
+                    put(sample, alpha, true);
                 }
             }
         }
@@ -165,10 +160,12 @@ impl Shape {
 }
 
 /// Puts the code of a value where a sample of one byte or two is.
-fn put(sample: &mut [u8], code_8: fn(f64) -> u8, code_16: fn(f64) -> u16, value: f64) {
-    match sample {
-        [byte] => *byte = code_8(value),
-        pair => pair.copy_from_slice(&code_16(value).to_be_bytes()),
+fn put(sample: &mut [u8], value: f64, is_linear: bool) {
+    match (sample, is_linear) {
+        ([byte], true) => *byte = linear_8(value),
+        ([byte], false) => *byte = srgb::encode_8(value),
+        (pair, true) => pair.copy_from_slice(&linear_16(value).to_be_bytes()),
+        (pair, false) => pair.copy_from_slice(&srgb::encode_16(value).to_be_bytes()),
     }
 }
 
