@@ -6,15 +6,22 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 
-/// The virtual environment is made by one test at a time.
-static MAKING: Mutex<()> = Mutex::new(());
+/// True once packages could not be had. The virtual environment is made by one test at a time.
+static UNAVAILABLE: Mutex<bool> = Mutex::new(false);
 
 /// Runs a script of this folder with packages from PyPI, and fails where it fails.
 ///
 /// The packages are installed once, in a virtual environment in Cargo's folder for temporary files. Where there
 /// is no Python, or no package can be had, the script is skipped with a word on stderr.
 pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) {
-    let Some(python) = python_with(packages) else {
+    let mut unavailable = UNAVAILABLE.lock().unwrap_or_else(PoisonError::into_inner);
+    let python = match *unavailable {
+        true => None,
+        false => python_with(packages),
+    };
+    *unavailable = python.is_none();
+    drop(unavailable);
+    let Some(python) = python else {
         skipped(
             script,
             "there is no Python 3 with venv, or no package index",
@@ -41,7 +48,6 @@ fn skipped(script: &str, reason: &str) {
 
 /// The interpreter of an environment that has these packages.
 fn python_with(packages: &[&str]) -> Option<PathBuf> {
-    let _making = MAKING.lock().unwrap_or_else(PoisonError::into_inner);
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
     let bin = if cfg!(windows) { "Scripts" } else { "bin" };
     let python = folder.join(bin).join("python");
