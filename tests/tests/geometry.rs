@@ -193,14 +193,11 @@ fn judge(
         Axes::CameraOpenGl => DVec3::new(1.0, 1.0, -1.0),
     };
     let found = |quantity, component, col: usize| {
-        let value = geometry.values(quantity, component, row).unwrap()[col];
-        match settings.precision {
-            Precision::Single => f64::from(value as f32),
-            Precision::Double => value,
-        }
+        let mut values = geometry.values(quantity, component, row).unwrap();
+        values.nth(col).unwrap()
     };
     let mut errors = Errors::default();
-    for (col, &id) in geometry.ids(row).iter().enumerate() {
+    for (col, id) in geometry.ids(row).enumerate() {
         let (ray, retina) = center_ray(view, col, row);
         let Some((index, point)) = truth(world, &ray) else {
             assert_eq!(id, Geometry::NOTHING, "{name} {col} {row}");
@@ -321,6 +318,10 @@ impl Strip for Part<'_> {
     fn end(self: Box<Self>) {}
 }
 
+fn values(geometry: &Geometry, quantity: Quantity, row: u32) -> Vec<f64> {
+    geometry.values(quantity, 0, row).unwrap().collect()
+}
+
 #[test]
 fn a_sample_sees_what_the_geometry_tells() {
     let wanted = settings(Axes::World, Depth::Axis, Precision::Single);
@@ -350,14 +351,15 @@ fn a_sample_sees_what_the_geometry_tells() {
                     let in_whole = window.row + row + part_row;
                     let first = (window.col + col) as usize;
                     let columns = first..first + geometry.width() as usize;
-                    let ids = geometry.ids(part_row);
-                    assert_eq!(ids, &whole.ids(in_whole)[columns.clone()], "{name}");
+                    let ids: Vec<u32> = geometry.ids(part_row).collect();
+                    let all: Vec<u32> = whole.ids(in_whole).collect();
+                    assert_eq!(ids, all[columns.clone()], "{name}");
                     for quantity in Quantity::ALL {
-                        let values = geometry.values(quantity, 0, part_row).unwrap();
-                        let all = whole.values(quantity, 0, in_whole).unwrap();
-                        assert_eq!(values, &all[columns.clone()], "{name} {quantity:?}");
+                        let values = values(geometry, quantity, part_row);
+                        let all = self::values(&whole, quantity, in_whole);
+                        assert_eq!(values, all[columns.clone()], "{name} {quantity:?}");
                     }
-                    for (col, &id) in (0..).zip(ids) {
+                    for (col, id) in (0..).zip(ids) {
                         let [red, ..] = image.rgba(col, part_row);
                         // Every sphere glows in its own color, and the background is black.
                         let seen = red as u32;
@@ -391,15 +393,18 @@ fn bumps_tilt_the_shading_normal_alone() {
         let mut tilted = 0;
         for row in 0..SIDE {
             let vector = |quantity, col: usize| {
-                let of = |axis| geometry.values(quantity, axis, row).unwrap()[col];
+                let of = |axis| {
+                    let mut values = geometry.values(quantity, axis, row).unwrap();
+                    values.nth(col).unwrap()
+                };
                 DVec3::new(of(0), of(1), of(2))
             };
-            for (col, &id) in geometry.ids(row).iter().enumerate() {
+            for (col, id) in geometry.ids(row).enumerate() {
                 let shading = vector(Quantity::Normal, col);
                 let geometric = vector(Quantity::GeometricNormal, col);
                 match id {
                     0 => {
-                        assert!((shading.length() - 1.0).abs() < 1e-14);
+                        assert!((shading.length() - 1.0).abs() < 1e-7);
                         tilted += u32::from(shading.angle_between(geometric) > 0.01);
                     }
                     1 => assert_eq!(shading, geometric),
@@ -422,11 +427,13 @@ fn only_what_is_wanted_is_told() {
     let renderer = Renderer::new(world);
     let [some, all] = [wanted, all].map(|settings| renderer.geometry(view, &settings));
     for row in 0..SIDE {
-        assert_eq!(some.ids(row), all.ids(row));
-        assert_eq!(some.values(Quantity::Depth, 0, row), None);
+        assert!(some.ids(row).eq(all.ids(row)));
+        assert!(some.values(Quantity::Depth, 0, row).is_none());
         for axis in 0..3 {
-            let [some, all] = [&some, &all].map(|one| one.values(Quantity::Normal, axis, row));
-            assert_eq!(some, all);
+            let of = |one: &Geometry| -> Vec<f64> {
+                one.values(Quantity::Normal, axis, row).unwrap().collect()
+            };
+            assert_eq!(of(&some), of(&all));
         }
     }
 }

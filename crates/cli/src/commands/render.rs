@@ -155,7 +155,11 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         (arguments.exposure.is_some(), "--exposure", &["PNG"]),
         (arguments.float, "--float", &["EXR"]),
         (arguments.error_channel, "--error-channel", &["EXR", "NPY"]),
-        (!arguments.channels.is_empty(), "--channels", &["EXR"]),
+        (
+            !arguments.channels.is_empty(),
+            "--channels",
+            &["EXR", "NPY"],
+        ),
     ] {
         if is_given && !formats.contains(&output) {
             let formats = formats.join(" and ");

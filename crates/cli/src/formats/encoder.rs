@@ -125,15 +125,20 @@ impl Encoder {
     /// What an image's pixels have to see for its file; the settings are those of the format's numbers.
     pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
         let centers = self.form.centers?;
-        Some(centers.settings(Precision::Single))
+        let precision = match self.layout {
+            Layout::Png(_) | Layout::Exr(_) => Precision::Single,
+            Layout::Npy(_) => Precision::Double,
+        };
+        Some(centers.settings(precision))
     }
 
     /// Puts what the pixels of a strip see where it belongs, from the column `col` on.
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         match &self.layout {
             // It has no such channels.
-            Layout::Png { .. } | Layout::Npy(_) => {}
+            Layout::Png { .. } => {}
             Layout::Exr(blocks) => blocks.encode_geometry(samples, col, geometry),
+            Layout::Npy(files) => files.encode_geometry(samples, col, geometry),
         }
     }
 

@@ -188,11 +188,85 @@ fn frames_without_the_channels_are_rendered_again() {
 }
 
 #[test]
+fn arrays_hold_the_same_in_doubles() {
+    let folder = balls();
+    let floats = render(&folder, &format!("balls.ron {ALL}"));
+    let output = folder.run(&format!("render balls.ron {ALL} -o b.npy"));
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert_eq!(
+        folder.names("."),
+        [
+            "a.exr",
+            "b.npy",
+            "b_channels.npy",
+            "b_id.npy",
+            "ball.ron",
+            "balls.ron"
+        ]
+    );
+    let names = "depth.Z normal.X normal.Y normal.Z position.X position.Y position.Z \
+                 albedo.R albedo.G albedo.B mask";
+    let names: Vec<&str> = names.split(' ').collect();
+    let bytes = folder.read("b_channels.npy");
+    let (doubles, _) = bytes[bytes.len() - 41 * 31 * 8 * names.len()..].as_chunks::<8>();
+    let bytes = folder.read("b_id.npy");
+    let (ids, _) = bytes[bytes.len() - 41 * 31 * 4..].as_chunks::<4>();
+    let FlatSamples::U32(expected) = &floats["id"] else {
+        panic!("{:?}", floats["id"]);
+    };
+    for pixel in 0..41 * 31 {
+        assert_eq!(u32::from_le_bytes(ids[pixel]), expected[pixel]);
+        for (place, name) in names.iter().enumerate() {
+            let double = f64::from_le_bytes(doubles[pixel * names.len() + place]);
+            let float = at(&floats, name, pixel % 41, pixel / 41);
+            // A unit in the last place of a float at most.
+            let off = (double - f64::from(float)).abs();
+            let is_near = off <= f64::from(f32::EPSILON) * double.abs();
+            assert!(
+                is_near || f64::from(float) == double,
+                "{name} {float} {double}"
+            );
+        }
+    }
+    let header = |name: &str| text(&folder.read(name)[10..100]);
+    assert!(header("b_channels.npy").contains("'shape': (31, 41, 11)"));
+    assert!(header("b_id.npy").contains("'<u4'"));
+    let again = folder.run(&format!("render balls.ron {ALL} -o b.npy --skip-existing"));
+    assert!(text(&again.stdout).contains(": skipped"));
+    fs::remove_file(folder.path("b_id.npy")).unwrap();
+    let again = folder.run(&format!("render balls.ron {ALL} -o b.npy --skip-existing"));
+    assert!(!text(&again.stdout).contains(": skipped"));
+}
+
+#[test]
+fn arrays_of_parts_are_merged() {
+    let folder = balls();
+    for (name, region) in [
+        ("whole", ""),
+        ("left", "--region 0,0,19,31"),
+        ("right", "--region 19,0,22,31"),
+    ] {
+        let output = folder.run(&format!("render balls.ron {ALL} -o {name}.npy {region}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    }
+    for part in ["", "_channels", "_id"] {
+        let names = ["merged", "left", "right"].map(|name| format!("{name}{part}.npy"));
+        let output = folder.run(&format!("merge {}", names.join(" ")));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+        let [merged, whole] =
+            ["merged", "whole"].map(|name| folder.read(&format!("{name}{part}.npy")));
+        assert!(merged == whole, "{part}");
+    }
+    let output = folder.run("merge mixed.npy left.npy right_id.npy");
+    assert_eq!(code(&output), 2);
+}
+
+#[test]
 fn a_png_has_no_such_channels() {
     let folder = balls();
     let output = folder.run("render balls.ron -o a.png --channels depth,id");
     assert_eq!(code(&output), 2);
-    let expected = "marbles: --channels is for EXR files, and the output is PNG\n";
+    let expected = "marbles: --channels is for EXR and NPY files, and the output is PNG\n";
     assert!(
         text(&output.stderr).contains(expected),
         "{}",

@@ -72,6 +72,13 @@ impl Quantities {
         Self(self.0 | 1 << quantity as u8)
     }
 
+    /// The number of the components of those quantities that are among them.
+    fn components(self, quantities: impl IntoIterator<Item = Quantity>) -> usize {
+        let wanted = quantities.into_iter();
+        let wanted = wanted.filter(|&quantity| self.has(quantity));
+        wanted.map(Quantity::components).sum()
+    }
+
     /// True if it is among them.
     pub const fn has(self, quantity: Quantity) -> bool {
         self.0 >> quantity as u8 & 1 == 1
@@ -135,134 +142,165 @@ pub enum Precision {
 /// t times the point (u, v, distance) of the retina, both with the signs of the [`Axes`].
 ///
 /// # Accuracy
-/// A bound for depths, positions and geometric normals, each component of its own however small: rounded to
-/// the type that [`Precision`] names it is within 2 units in the last place of the exact number.
+/// A bound for depths, positions and geometric normals, each component of its own however small: in the type
+/// that [`Precision`] names it is within 2 units in the last place of the exact number.
 /// `tests/tests/geometry.rs` holds it against rational arithmetic. Shading normals with bumps are those that
 /// the picture is shaded with.
-#[derive(Clone, Debug, PartialEq)]
+///
+/// Eight pixels of a row are a block; where they see nothing, there is none.
+#[derive(Clone, Debug)]
 pub struct Geometry {
-    width: u32,
-    height: u32,
+    /// The part of the blocks that is told.
+    window: Window,
     quantities: Quantities,
-    /// Component by component of each quantity, row by row.
-    values: Vec<f64>,
-    ids: Vec<u32>,
+    /// Blocks side by side.
+    columns: usize,
+    /// The places of the blocks, row by row.
+    places: Vec<u32>,
+    /// Of each block the components of each quantity.
+    numbers: Numbers,
+    ids: Vec<[u32; SIDE]>,
 }
+
+/// The numbers of blocks.
+#[derive(Clone, Debug)]
+enum Numbers {
+    Single(Vec<[f32; SIDE]>),
+    Double(Vec<[f64; SIDE]>),
+}
+
+/// The place of a block that sees nothing.
+const NOWHERE: u32 = u32::MAX;
 
 impl Geometry {
     /// The id where no sphere is seen.
     pub const NOTHING: u32 = u32::MAX;
 
-    /// A geometry that sees nothing yet, in the memory of another one.
+    /// A geometry that sees nothing yet, in the memory of another one with the same settings.
     pub(crate) fn new(
         (width, height): (u32, u32),
-        quantities: Quantities,
+        settings: &GeometrySettings,
         spent: Option<Self>,
     ) -> Self {
-        let pixels = width as usize * height as usize;
-        let (mut values, mut ids) =
-            spent.map_or_else(Default::default, |spent| (spent.values, spent.ids));
-        values.clear();
-        ids.clear();
-        ids.resize(pixels, Self::NOTHING);
-        for quantity in Quantity::ALL {
-            if quantities.has(quantity) {
-                let length = values.len() + pixels * quantity.components();
-                values.resize(length, quantity.of_nothing());
-            }
+        let columns = width.div_ceil(Tile::SIDE) as usize;
+        let empty = || match settings.precision {
+            Precision::Single => Numbers::Single(Vec::new()),
+            Precision::Double => Numbers::Double(Vec::new()),
+        };
+        let spent = spent.map(|spent| (spent.places, (spent.numbers, spent.ids)));
+        let (places, rest) = spent.unzip();
+        let (numbers, ids) = rest.unzip();
+        let mut places = places.unwrap_or_default();
+        places.clear();
+        places.resize(columns * height as usize, NOWHERE);
+        let mut numbers = numbers.unwrap_or_else(empty);
+        match &mut numbers {
+            Numbers::Single(numbers) => numbers.clear(),
+            Numbers::Double(numbers) => numbers.clear(),
         }
+        let mut ids: Vec<[u32; SIDE]> = ids.unwrap_or_default();
+        ids.clear();
         Self {
-            width,
-            height,
-            quantities,
-            values,
+            window: Window {
+                col: 0,
+                row: 0,
+                width,
+                height,
+            },
+            quantities: settings.quantities,
+            columns,
+            places,
+            numbers,
             ids,
         }
     }
 
     /// Number of columns.
     pub fn width(&self) -> u32 {
-        self.width
+        self.window.width
     }
 
     /// Number of rows.
     pub fn height(&self) -> u32 {
-        self.height
+        self.window.height
     }
 
-    /// The indices of the spheres that a row's pixels see, or [`Self::NOTHING`].
+    /// The indices of the spheres that a row's pixels see, from left to right, or [`Self::NOTHING`].
     ///
     /// # Panics
     /// Outside the picture.
-    pub fn ids(&self, row: u32) -> &[u32] {
-        &self.ids[self.row(row)]
+    pub fn ids(&self, row: u32) -> impl Iterator<Item = u32> {
+        let nothing = [Self::NOTHING; SIDE];
+        let block = move |place: Option<usize>| place.map_or(nothing, |place| self.ids[place]);
+        self.inside(self.blocks(row).flat_map(block))
     }
 
-    /// A component of a quantity in a row's pixels, `None` where the quantity was not wanted.
+    /// A component of a quantity in a row's pixels, from left to right; `None` where the quantity was not
+    /// wanted.
     ///
     /// # Panics
     /// Outside the picture, and for components that the quantity does not have.
-    pub fn values(&self, quantity: Quantity, component: usize, row: u32) -> Option<&[f64]> {
+    pub fn values(
+        &self,
+        quantity: Quantity,
+        component: usize,
+        row: u32,
+    ) -> Option<impl Iterator<Item = f64>> {
         assert!(component < quantity.components(), "component {component}");
-        let plane = self.plane(quantity)? + component;
-        let pixels = self.ids.len();
-        Some(&self.values[plane * pixels..][self.row(row)])
+        let before = Quantity::ALL.into_iter();
+        let before = before.take_while(|&other| other != quantity);
+        let number = self.quantities.components(before) + component;
+        let count = self.quantities.components(Quantity::ALL);
+        let nothing = [quantity.of_nothing(); SIDE];
+        let block = move |place: Option<usize>| match (place, &self.numbers) {
+            (None, _) => nothing,
+            (Some(place), Numbers::Single(all)) => all[place * count + number].map(f64::from),
+            (Some(place), Numbers::Double(all)) => all[place * count + number],
+        };
+        let is_wanted = self.quantities.has(quantity);
+        is_wanted.then(|| self.inside(self.blocks(row).flat_map(block)))
     }
 
-    /// The number of the first plane of a quantity, among those of one number for each pixel.
-    fn plane(&self, quantity: Quantity) -> Option<usize> {
-        let before = Quantity::ALL
-            .into_iter()
-            .take_while(|&other| other != quantity);
-        let wanted = before.filter(|&other| self.quantities.has(other));
-        let first = wanted.map(Quantity::components).sum();
-        self.quantities.has(quantity).then_some(first)
+    /// The places of the blocks in a row.
+    fn blocks(&self, row: u32) -> impl Iterator<Item = Option<usize>> {
+        assert!(row < self.window.height, "row {row} is outside");
+        let first = (self.window.row + row) as usize * self.columns;
+        let places = self.places[first..first + self.columns].iter();
+        places.map(|&place| (place != NOWHERE).then_some(place as usize))
     }
 
-    fn row(&self, row: u32) -> Range<usize> {
-        assert!(row < self.height, "row {row} is outside");
-        let width = self.width as usize;
-        let first = row as usize * width;
-        first..first + width
+    /// The pixels of a row of blocks that are told.
+    fn inside<T>(&self, pixels: impl Iterator<Item = T>) -> impl Iterator<Item = T> {
+        let Window { col, width, .. } = self.window;
+        pixels.skip(col as usize).take(width as usize)
     }
 
-    /// Writes what a tile sees, where the first pixel is the one in this column and row of a larger picture.
-    /// What was nothing stays so.
+    /// Writes what a tile sees, where the first pixel is the one in this column and row of a larger picture, in
+    /// which tiles begin with it.
     pub(crate) fn write(&mut self, tile: Tile, (col, row): (u32, u32), seen: &TileGeometry) {
-        let (pixels, width) = (self.ids.len(), tile.width as usize);
-        let first = (tile.row - row) as usize * self.width as usize + (tile.col - col) as usize;
+        let first =
+            (tile.row - row) as usize * self.columns + ((tile.col - col) / Tile::SIDE) as usize;
         for (number, seen) in seen.rows[..tile.height as usize].iter().enumerate() {
             if !seen.sees_any {
                 continue;
             }
-            let start = first + number * self.width as usize;
-            self.ids[start..start + width].copy_from_slice(&seen.ids[..width]);
-            let mut plane = start;
+            self.places[first + number * self.columns] = self.ids.len() as u32;
+            self.ids.push(seen.ids);
             for quantity in Quantity::ALL {
                 if self.quantities.has(quantity) {
-                    for values in seen.of(quantity) {
-                        self.values[plane..plane + width].copy_from_slice(&values[..width]);
-                        plane += pixels;
+                    let own = places(quantity);
+                    match &mut self.numbers {
+                        Numbers::Single(all) => all.extend_from_slice(&seen.singles[own]),
+                        Numbers::Double(all) => all.extend_from_slice(&seen.doubles[own]),
                     }
                 }
             }
         }
     }
 
-    /// A part of the geometry.
-    pub(crate) fn cut(&self, window: Window) -> Self {
-        let mut part = Self::new((window.width, window.height), self.quantities, None);
-        let (columns, pixels) = (window.width as usize, part.ids.len());
-        for row in 0..window.height as usize {
-            let from = (window.row as usize + row) * self.width as usize + window.col as usize;
-            let to = row * columns;
-            part.ids[to..to + columns].copy_from_slice(&self.ids[from..from + columns]);
-            let planes = self.values.chunks_exact(self.ids.len());
-            for (plane, part) in planes.zip(part.values.chunks_exact_mut(pixels)) {
-                part[to..to + columns].copy_from_slice(&plane[from..from + columns]);
-            }
-        }
-        part
+    /// The geometry of a part of the pixels.
+    pub(crate) fn cut(self, window: Window) -> Self {
+        Self { window, ..self }
     }
 }
 
@@ -293,7 +331,9 @@ pub(crate) struct RowGeometry {
     /// False where no sphere is seen; the numbers then mean nothing.
     pub(crate) sees_any: bool,
     pub(crate) ids: [u32; SIDE],
-    values: [[f64; SIDE]; COMPONENTS],
+    /// The numbers of either precision, of which one is written.
+    singles: [[f32; SIDE]; COMPONENTS],
+    doubles: [[f64; SIDE]; COMPONENTS],
 }
 
 /// Nothing is seen.
@@ -302,30 +342,52 @@ impl Default for RowGeometry {
         Self {
             sees_any: false,
             ids: [Geometry::NOTHING; SIDE],
-            values: [[0.0; SIDE]; COMPONENTS],
+            singles: [[0.0; SIDE]; COMPONENTS],
+            doubles: [[0.0; SIDE]; COMPONENTS],
         }
     }
 }
 
 impl RowGeometry {
+    /// Writes a component of a quantity.
+    #[inline(always)]
+    pub(crate) fn put(
+        &mut self,
+        precision: Precision,
+        (quantity, component): (Quantity, usize),
+        values: [f64; SIDE],
+    ) {
+        let place = places(quantity).start + component;
+        match precision {
+            Precision::Single => {
+                for (single, value) in self.singles[place].iter_mut().zip(values) {
+                    *single = value as f32;
+                }
+            }
+            Precision::Double => self.doubles[place] = values,
+        }
+    }
+
+    /// Writes a component of a quantity of one pixel.
+    pub(crate) fn put_one(
+        &mut self,
+        (quantity, component): (Quantity, usize),
+        pixel: usize,
+        value: f64,
+    ) {
+        let place = places(quantity).start + component;
+        self.singles[place][pixel] = value as f32;
+        self.doubles[place][pixel] = value;
+    }
+
     /// Makes the shading normals the geometric ones.
     #[inline(always)]
-    pub(crate) fn copy_geometric_normals(&mut self) {
-        let geometric = places(Quantity::GeometricNormal);
-        self.values
-            .copy_within(geometric, places(Quantity::Normal).start);
-    }
-
-    /// The components of a quantity.
-    #[inline(always)]
-    pub(crate) fn of(&self, quantity: Quantity) -> &[[f64; SIDE]] {
-        &self.values[places(quantity)]
-    }
-
-    /// The components of a quantity, to be written.
-    #[inline(always)]
-    pub(crate) fn of_mut(&mut self, quantity: Quantity) -> &mut [[f64; SIDE]] {
-        &mut self.values[places(quantity)]
+    pub(crate) fn copy_geometric_normals(&mut self, precision: Precision) {
+        let (from, to) = (places(Quantity::GeometricNormal), places(Quantity::Normal));
+        match precision {
+            Precision::Single => self.singles.copy_within(from, to.start),
+            Precision::Double => self.doubles.copy_within(from, to.start),
+        }
     }
 }
 

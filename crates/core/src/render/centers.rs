@@ -61,7 +61,7 @@ impl Renderer<'_> {
     /// What the rays through the centers of a view's pixels see, without its light.
     pub fn geometry(&self, view: &View, settings: &GeometrySettings) -> Geometry {
         let centers = self.centers(view, *settings);
-        let mut geometry = Geometry::new((view.width, view.height), settings.quantities, None);
+        let mut geometry = Geometry::new((view.width, view.height), settings, None);
         let mut scratch = Scratch::default();
         for row in (0..view.height).step_by(Tile::SIDE as usize) {
             let band = Tile {

@@ -196,9 +196,10 @@ impl Rendering<'_> {
                     ..self.layout
                 };
                 let mut part = Image::new(layout, spent.0);
-                let mut geometry = self.centers.as_ref().map(|centers| {
-                    Geometry::new(size, centers.settings.quantities, spent.1.take())
-                });
+                let mut geometry = self
+                    .centers
+                    .as_ref()
+                    .map(|centers| Geometry::new(size, &centers.settings, spent.1.take()));
                 let first = (col, rows.start);
                 let parts = (&mut part, geometry.as_mut());
                 work += self.paint(first, parts, &mut scratch, progress)?;
@@ -211,10 +212,9 @@ impl Rendering<'_> {
                 };
                 let first = inside.start - strip.col;
                 let is_whole = (in_part.width, in_part.height) == size;
-                match &geometry {
-                    Some(geometry) if is_whole => sink.add_geometry(first, geometry),
-                    Some(geometry) => sink.add_geometry(first, &geometry.cut(in_part)),
-                    None => {}
+                let geometry = geometry.map(|geometry| geometry.cut(in_part));
+                if let Some(geometry) = &geometry {
+                    sink.add_geometry(first, geometry);
                 }
                 if is_whole {
                     sink.add(first, &part);

@@ -78,29 +78,61 @@ impl Centers {
             #[inline(always)]
             || {
                 row.sees_any = true;
-                row.ids = [Geometry::NOTHING; LANES];
-                for Group { ball, lanes } in seen.groups.as_slice() {
-                    for lane in set_bits(*lanes) {
-                        row.ids[lane] = ball.index() as u32;
+                let (inverse_radius, albedos) = self.look_up(simd, seen.groups, shading, row);
+                if self.wants(Quantity::Albedo) {
+                    for (axis, albedo) in albedos.into_iter().enumerate() {
+                        self.put(row, (Quantity::Albedo, axis), albedo);
                     }
                 }
-                let doubtful = self.place(simd, seen, tracer, row);
+                let doubtful = self.place(simd, seen, tracer, inverse_radius, row);
                 if doubtful != 0 {
                     self.place_alone(seen, tracer, doubtful, row);
                 }
                 if self.wants(Quantity::Normal) {
                     self.tilt(simd, seen, shading, looks, row);
                 }
-                if self.wants(Quantity::Albedo) {
-                    paint(seen.groups, shading, row.of_mut(Quantity::Albedo));
-                }
             },
         );
+    }
+
+    /// The numbers of the spheres that are seen: indices, to the row; 1 / r; and albedos.
+    #[inline(always)]
+    fn look_up<S: Simd>(
+        &self,
+        simd: S,
+        groups: &Groups<'_>,
+        shading: &Shading<'_>,
+        row: &mut RowGeometry,
+    ) -> (f64x8<S>, [f64x8<S>; 3]) {
+        let zero = f64x8::splat(simd, 0.0);
+        let (mut inverse_radius, mut albedos) = (zero, [zero; 3]);
+        row.ids = [Geometry::NOTHING; LANES];
+        for Group { ball, lanes } in groups.as_slice() {
+            let mask = mask64x8::from_bitmask(simd, *lanes);
+            let own = f64x8::splat(simd, ball.inverse_radius);
+            inverse_radius = mask.select(own, inverse_radius);
+            for (lane, id) in row.ids.iter_mut().enumerate() {
+                let is_own = lanes >> lane & 1 == 1;
+                *id = if is_own { ball.index() as u32 } else { *id };
+            }
+            if self.wants(Quantity::Albedo) {
+                let own = shading.world.albedo(ball.index());
+                for (axis, albedo) in albedos.iter_mut().enumerate() {
+                    *albedo = mask.select(f64x8::splat(simd, own[axis]), *albedo);
+                }
+            }
+        }
+        (inverse_radius, albedos)
     }
 
     #[inline(always)]
     fn wants(&self, quantity: Quantity) -> bool {
         self.settings.quantities.has(quantity)
+    }
+
+    #[inline(always)]
+    fn put<S: Simd>(&self, row: &mut RowGeometry, place: (Quantity, usize), values: f64x8<S>) {
+        row.put(self.settings.precision, place, values.into());
     }
 
     /// Depths, positions and geometric normals; returns the lanes that have to be computed alone.
@@ -115,13 +147,14 @@ impl Centers {
         simd: S,
         seen: &Seen<'_, '_, S>,
         tracer: &Tracer<'_>,
+        inverse_radius: f64x8<S>,
         row: &mut RowGeometry,
     ) -> u64 {
         let &Seen {
             sight,
-            groups,
             place,
             across,
+            ..
         } = seen;
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let zero = f64x8::splat(simd, 0.0);
@@ -131,7 +164,10 @@ impl Centers {
                 Quantity::GeometricNormal,
                 Quantity::Position,
             ] {
-                row.of_mut(quantity).fill([quantity.of_nothing(); LANES]);
+                for component in 0..quantity.components() {
+                    let nothing = [quantity.of_nothing(); LANES];
+                    row.put(Precision::Double, (quantity, component), nothing);
+                }
             }
             return sight.covered;
         }
@@ -146,10 +182,9 @@ impl Centers {
                 Depth::Ray => t * sight.length_sq.sqrt(),
             };
             let never = f64x8::splat(simd, f64::INFINITY);
-            put(
+            self.put(
                 row,
-                Quantity::Depth,
-                0,
+                (Quantity::Depth, 0),
                 covered.select(depth * length, never),
             );
         }
@@ -178,15 +213,15 @@ impl Centers {
             };
             for axis in 0..3 {
                 let component = covered.select(position.along(axis), zero);
-                put(row, Quantity::Position, axis, component);
+                self.put(row, (Quantity::Position, axis), component);
             }
         }
         if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
-            let (normal, proved) = self.normals(simd, sight, groups);
+            let (normal, proved) = self.normals(simd, sight, inverse_radius);
             unproved |= !proved.to_bitmask();
             for axis in 0..3 {
                 let component = covered.select(normal.along(axis), zero);
-                put(row, Quantity::GeometricNormal, axis, component);
+                self.put(row, (Quantity::GeometricNormal, axis), component);
             }
         }
         (unproved & sight.covered) | sight.alone | sight.inner
@@ -198,13 +233,8 @@ impl Centers {
         &self,
         simd: S,
         sight: &Sight<S>,
-        groups: &Groups<'_>,
+        inverse_radius: f64x8<S>,
     ) -> (Vectors<S>, mask64x8<S>) {
-        let mut inverse_radius = f64x8::splat(simd, 0.0);
-        for Group { ball, lanes } in groups.as_slice() {
-            let own = f64x8::splat(simd, ball.inverse_radius);
-            inverse_radius = mask64x8::from_bitmask(simd, *lanes).select(own, inverse_radius);
-        }
         let normal = sight.normal;
         let factor = inverse_radius * (2.0 * DISTANCE_ERROR);
         let error = sight.point.times(factor);
@@ -252,10 +282,10 @@ impl Centers {
                 let upward = tracer.rays.upward(seen.place);
                 DVec3::new(seen.across[lane], upward, forward) * found.t * signs
             });
-            row.of_mut(Quantity::Depth)[0][lane] = depth;
+            row.put_one((Quantity::Depth, 0), lane, depth);
             for axis in 0..3 {
-                row.of_mut(Quantity::Position)[axis][lane] = position[axis];
-                row.of_mut(Quantity::GeometricNormal)[axis][lane] = found.normal[axis];
+                row.put_one((Quantity::Position, axis), lane, position[axis]);
+                row.put_one((Quantity::GeometricNormal, axis), lane, found.normal[axis]);
             }
         }
     }
@@ -270,7 +300,7 @@ impl Centers {
         looks: &mut Looks<'_>,
         row: &mut RowGeometry,
     ) {
-        row.copy_geometric_normals();
+        row.copy_geometric_normals(self.settings.precision);
         if shading.is_smooth {
             return;
         }
@@ -287,22 +317,8 @@ impl Centers {
         let normal = shading.shading_normals(simd, sight, groups, seen.place, &mut looks.noise);
         for lane in set_bits(rough) {
             let normal = normal.lane(lane);
-            for (axis, values) in row.of_mut(Quantity::Normal).iter_mut().enumerate() {
-                values[lane] = self.axes[axis].dot(normal);
-            }
-        }
-    }
-}
-
-/// The albedos of what is seen; nothing is black.
-#[inline(always)]
-fn paint(groups: &Groups<'_>, shading: &Shading<'_>, albedos: &mut [[f64; LANES]]) {
-    albedos.fill([0.0; LANES]);
-    for Group { ball, lanes } in groups.as_slice() {
-        let albedo = shading.world.albedo(ball.index());
-        for lane in set_bits(*lanes) {
-            for (axis, values) in albedos.iter_mut().enumerate() {
-                values[lane] = albedo[axis];
+            for (number, axis) in self.axes.iter().enumerate() {
+                row.put_one((Quantity::Normal, number), lane, axis.dot(normal));
             }
         }
     }
@@ -314,11 +330,6 @@ fn is_small<S: Simd>(simd: S, error: Vectors<S>, vector: Vectors<S>) -> mask64x8
     let (error, size) = (error.sizes(), vector.sizes());
     let most = size.times(f64x8::splat(simd, SINGLE));
     error.x.simd_le(most.x) & error.y.simd_le(most.y) & error.z.simd_le(most.z)
-}
-
-#[inline(always)]
-fn put<S: Simd>(row: &mut RowGeometry, quantity: Quantity, component: usize, values: f64x8<S>) {
-    row.of_mut(quantity)[component] = values.into();
 }
 
 /// A number times the length of a vector, in twice the precision until it is rounded.

@@ -115,9 +115,9 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) error_channel: bool,
 
-    /// Store what the rays through the centers of pixels see in an EXR as well, each value of one
-    /// ray and never an average: depth, normal, position, id, albedo, mask, and several of these
-    /// with commas; `docs/ground-truth.md` has the conventions
+    /// Store what the rays through the centers of pixels see in an EXR, or in files NAME_channels.npy
+    /// and NAME_id.npy, as well; no value is an average: depth, normal, position, id, albedo, mask, and
+    /// several of these with commas
     #[arg(
         long,
         value_name = "LIST",

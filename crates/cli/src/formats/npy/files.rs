@@ -1,6 +1,6 @@
 //! The files of a picture: an array of its light, and others beside it.
 //!
-//! `a.npy` is the file of the light, and `a_error.npy` one beside it. The rows of all arrays come
+//! `a.npy` is the file of the light; `a_error.npy`, `a_channels.npy` and `a_id.npy` may lie beside it. The rows of all arrays come
 //! together, strip by strip. The file of the light is the last that gets its final name.
 
 use std::ffi::OsString;
@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use blake3::{Hash, Hasher};
-use marbles_core::Image;
+use marbles_core::{Geometry, Image};
 
 use super::array::{Array, Number};
 use super::header;
@@ -18,6 +18,7 @@ use crate::base::failure::Failure;
 use crate::base::region::Region;
 use crate::files::save::{self, Fault};
 use crate::files::temporary::TemporaryFile;
+use crate::formats::center_channels::{CenterChannels, Source};
 use crate::formats::encoding::NpyOptions;
 use crate::formats::form::Form;
 
@@ -27,12 +28,19 @@ const PURPOSE: &str = "marbles 2026-11-23 digest of an array beside a picture";
 /// The part of its name that a file of errors has more.
 const ERROR: &str = "_error";
 
+/// That of what the rays through the centers of pixels see, but for the spheres' indices, which have a file of
+/// their own.
+const CHANNELS: &str = "_channels";
+const ID: &str = "_id";
+
 /// The arrays of a picture, each of which becomes a file.
 #[derive(Clone, Debug)]
 pub(crate) struct Files {
     region: Region,
     /// The light, then what lies beside it.
     arrays: Vec<Part>,
+    /// The numbers of a pixel among the channels.
+    centers: Vec<Source>,
 }
 
 /// An array, and the end of the stem of its file's name.
@@ -44,7 +52,7 @@ struct Part {
 
 impl Files {
     /// The arrays of a picture of this form: red, green and blue, with alpha where there is one, and
-    /// on request the error of each pixel. A picture without color has them as well, so that the
+    /// on request the error of each pixel, and what its center sees. A picture without color has them as well, so that the
     /// shape does not depend on what a scene contains.
     pub(crate) fn new(form: &Form, options: NpyOptions) -> Self {
         let part = |suffix, channels| Part {
@@ -59,9 +67,22 @@ impl Files {
         if options.error {
             arrays.push(part(ERROR, None));
         }
+        let sources = form.centers.iter().flat_map(CenterChannels::list);
+        let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
+        let is_number = |source: &Source| *source != Source::Id;
+        let centers: Vec<Source> = sources.iter().copied().filter(is_number).collect();
+        if !centers.is_empty() {
+            arrays.push(part(CHANNELS, Some(centers.len() as u32)));
+        }
+        if sources.len() > centers.len() {
+            let mut ids = part(ID, None);
+            ids.array.number = Number::U32;
+            arrays.push(ids);
+        }
         Self {
             region: form.region,
             arrays,
+            centers,
         }
     }
 
@@ -78,6 +99,9 @@ impl Files {
             let array = part.array;
             let (own, others) = rest.split_at_mut(array.row_bytes() * rows.len());
             rest = others;
+            if [CHANNELS, ID].contains(&part.suffix) {
+                continue;
+            }
             let first = col as usize * array.pixel_bytes();
             let length = image.width() as usize * array.pixel_bytes();
             for (row, numbers) in rows.clone().zip(own.chunks_exact_mut(array.row_bytes())) {
@@ -91,6 +115,54 @@ impl Files {
                     }
                     for (number, value) in numbers.iter_mut().zip(image.rgba(col, row)) {
                         *number = value.to_le_bytes();
+                    }
+                }
+            }
+        }
+    }
+
+    /// Puts what some rows of pixels see where it belongs, as [`Self::encode`] does with their light.
+    pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
+        let mut rest = samples;
+        for part in &self.arrays {
+            let array = part.array;
+            let length = array.row_bytes() * geometry.height() as usize;
+            let (own, others) = rest.split_at_mut(length);
+            rest = others;
+            let first = col as usize * array.pixel_bytes();
+            let length = geometry.width() as usize * array.pixel_bytes();
+            for (row, numbers) in (0..).zip(own.chunks_exact_mut(array.row_bytes())) {
+                let numbers = &mut numbers[first..first + length];
+                match part.suffix {
+                    ID => {
+                        let (numbers, _) = numbers.as_chunks_mut();
+                        for (number, id) in numbers.iter_mut().zip(geometry.ids(row)) {
+                            *number = id.to_le_bytes();
+                        }
+                    }
+                    CHANNELS => self.encode_centers(numbers, geometry, row),
+                    _ => {}
+                }
+            }
+        }
+    }
+
+    /// Puts the numbers of a row of pixels' centers into theirs, pixel by pixel.
+    fn encode_centers(&self, numbers: &mut [u8], geometry: &Geometry, row: u32) {
+        let (numbers, _) = numbers.as_chunks_mut();
+        for (place, source) in self.centers.iter().enumerate() {
+            let own = numbers.iter_mut().skip(place).step_by(self.centers.len());
+            match *source {
+                Source::Value(quantity, component) => {
+                    let values = geometry.values(quantity, component, row);
+                    for (number, value) in own.zip(values.into_iter().flatten()) {
+                        *number = value.to_le_bytes();
+                    }
+                }
+                Source::Id | Source::Mask => {
+                    for (number, id) in own.zip(geometry.ids(row)) {
+                        let mask = f64::from(u8::from(id != Geometry::NOTHING));
+                        *number = mask.to_le_bytes();
                     }
                 }
             }
