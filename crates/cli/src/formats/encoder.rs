@@ -126,7 +126,7 @@ impl Encoder {
     pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
         let centers = self.form.centers?;
         let precision = match self.layout {
-            Layout::Png(_) | Layout::Exr(_) => Precision::Single,
+            Layout::Png { .. } | Layout::Exr(_) => Precision::Single,
             Layout::Npy(_) => Precision::Double,
         };
         Some(centers.settings(precision))
