@@ -1,0 +1,100 @@
+//! What does it cost to tell what the rays through the centers of pixels see, beside one sample a pixel?
+
+use std::num::NonZeroU32;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use marbles_benches::{Case, load, main as run, square_view, table};
+use marbles_core::{
+    Axes, Depth, Geometry, GeometrySettings, Image, Method, Precision, Quantity, Renderer,
+    Settings, Sink, Strip, View, Window,
+};
+
+const SIDE: u32 = 600;
+/// Those of the strips of an EXR.
+const BANDS: u32 = 2;
+
+/// Counts the pixels of the geometries that it gets.
+#[derive(Default)]
+struct Counter(AtomicU64);
+
+impl Sink for Counter {
+    fn begin(&self, _: u32) -> Option<Box<dyn Strip + '_>> {
+        Some(Box::new(CountedStrip(self)))
+    }
+}
+
+struct CountedStrip<'a>(&'a Counter);
+
+impl Strip for CountedStrip<'_> {
+    fn add_geometry(&mut self, _: u32, part: &Geometry) {
+        let pixels = u64::from(part.width()) * u64::from(part.height());
+        self.0.0.fetch_add(pixels, Ordering::Relaxed);
+    }
+
+    fn add(&mut self, _: u32, _: &Image) {}
+
+    fn end(self: Box<Self>) {}
+}
+
+/// Renders with one sample a pixel; the number of pixels whose geometry is told.
+fn pixels(renderer: &Renderer<'_>, view: &View, geometry: Option<&GeometrySettings>) -> u64 {
+    let settings = Settings {
+        method: Method::Samples(NonZeroU32::MIN),
+        alpha: false,
+    };
+    let window = Window::whole(view);
+    let counter = Counter::default();
+    let rendering = renderer.begin_with_geometry(view, window, &settings, BANDS, geometry);
+    let helped = rendering.help(&counter, &|_| ControlFlow::Continue(()));
+    helped.expect("nothing cancels it");
+    counter.0.into_inner()
+}
+
+fn main() {
+    run(|| {
+        let scene = load("tests/truth/pixels/cloud1k");
+        let view = square_view(&scene, SIDE);
+        let renderer = Renderer::new(scene.world());
+        let wanted = |quantities: &[Quantity], axes, precision| {
+            Some(GeometrySettings {
+                quantities: quantities.iter().copied().collect(),
+                depth: Depth::Axis,
+                axes,
+                precision,
+            })
+        };
+        let (world, camera) = (Axes::World, Axes::CameraOpenCv);
+        let (single, double) = (Precision::Single, Precision::Double);
+        let all = [
+            Quantity::Depth,
+            Quantity::Normal,
+            Quantity::Position,
+            Quantity::Albedo,
+        ];
+        let cases = [
+            ("none", None),
+            ("id", wanted(&[], world, single)),
+            ("depth", wanted(&all[..1], world, single)),
+            ("depth, normal, position", wanted(&all[..3], world, single)),
+            ("all", wanted(&all, world, single)),
+            ("all, camera's axes", wanted(&all, camera, single)),
+            ("all, doubles", wanted(&all, world, double)),
+        ];
+        let cases = cases.map(|(name, settings)| Case {
+            name: name.to_owned(),
+            millions: f64::from(SIDE * SIDE) * 1e-6,
+            run: Box::new({
+                let (renderer, view) = (&renderer, &view);
+                move |_| pixels(renderer, view, settings.as_ref())
+            }),
+        });
+        let counts = table("channels", "rays", 6, &cases);
+        assert_eq!(counts[0], 0);
+        assert!(
+            counts[1..]
+                .iter()
+                .all(|&count| count == u64::from(SIDE * SIDE))
+        );
+    });
+}
