@@ -13,23 +13,13 @@ use glam::DVec3;
 
 use super::double::{BOUND, Crossing};
 use super::exact;
+use super::outcome::Components;
 use super::scaled::Scaled;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::fused::is_fused;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
-
-/// The point where a ray meets a sphere.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Components {
-    /// The distance in multiples of the ray's direction.
-    pub(crate) t: f64,
-    /// In the world frame.
-    pub(crate) position: DVec3,
-    /// The components of the unit outward normal along the axes that were asked for.
-    pub(crate) normal: DVec3,
-}
 
 /// The relative error of each number before its last rounding, at most: 2⁻⁵⁷.
 const TOLERANCE: f64 = UNIT_ROUNDOFF / 16.0;

@@ -6,8 +6,7 @@ use dashu_int::ops::{Abs, BitTest, SquareRoot};
 use dashu_int::{IBig, UBig};
 use glam::DVec3;
 
-use super::components::Components;
-use super::outcome::Hit;
+use super::outcome::{Components, Hit};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 

@@ -13,6 +13,17 @@ pub struct Hit {
     pub inner_side: bool,
 }
 
+/// The point where a ray meets a sphere, by its coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Components {
+    /// The distance in multiples of the ray's direction.
+    pub(crate) t: f64,
+    /// In the world frame.
+    pub(crate) position: DVec3,
+    /// The components of the unit outward normal along the axes that were asked for.
+    pub(crate) normal: DVec3,
+}
+
 /// The arithmetic that settled a hit or a miss.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Floor {

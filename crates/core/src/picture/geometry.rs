@@ -162,6 +162,9 @@ pub struct Geometry {
     ids: Vec<[u32; SIDE]>,
 }
 
+/// A geometry that is being written, and the column and row of its first pixel in the picture.
+pub(crate) type Written<'a> = ((u32, u32), &'a mut Geometry);
+
 /// The numbers of blocks.
 #[derive(Clone, Debug)]
 enum Numbers {

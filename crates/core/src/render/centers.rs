@@ -6,7 +6,7 @@ use super::integrator::Integrator;
 use super::renderer::Renderer;
 use crate::model::exposure::Exposure;
 use crate::model::view::View;
-use crate::picture::geometry::{Geometry, GeometrySettings};
+use crate::picture::geometry::{Geometry, GeometrySettings, Written};
 use crate::picture::pixel::Work;
 use crate::picture::tile::Tile;
 use crate::sampling::{Scratch, Supersampling};
@@ -19,9 +19,6 @@ pub(super) struct Centers<'scene> {
     /// `None` where the picture's own samples are these rays.
     apart: Option<Box<Supersampling<'scene>>>,
 }
-
-/// A geometry that is being written, and the column and row of its first pixel in the picture.
-pub(super) type Written<'a> = ((u32, u32), &'a mut Geometry);
 
 impl<'scene> Centers<'scene> {
     /// An integrator and the center rays of its exposure, which its samples may be.

@@ -1,12 +1,12 @@
 //! The ways to average light over pixels, for a band of a picture at a time.
 
 use super::approach::Approach;
-use super::centers::Written;
 use super::settings::Settings;
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::exposure::Exposure;
 use crate::model::world::World;
 use crate::picture::band::Band;
+use crate::picture::geometry::Written;
 use crate::picture::pixel::{Method, Work};
 use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;

@@ -26,8 +26,8 @@ fn cases() -> Vec<(Sphere, Ray)> {
         case(DVec3::Y * -1e9, 1e9 - 3.0, DVec3::new(0.1, -0.2, 1.0)),
         case(
             DVec3::new(0.3, -0.7, 2.1),
-            1e-6,
-            DVec3::new(1e-7, 2e-7, 1.0),
+            1e-3,
+            DVec3::new(1e-4, 2e-4, 1.0),
         ),
         case(DVec3::new(0.3, -0.7, 1e3), 1e-2, DVec3::new(1e-6, 0.0, 1.0)),
         case(DVec3::ZERO, 4.0, DVec3::new(0.2, 0.1, -1.0)),
