@@ -12,8 +12,8 @@ use crate::search::view_index::ViewIndex;
 
 impl Renderer<'_> {
     /// The areas in which a view sees each sphere, in pixels, in the order of the world's spheres: on the threads of the
-    /// current rayon pool, on whose number they do not depend. No pixel is off by more than about `tolerance`, all its
-    /// spheres together, without the error of its spheres saying so.
+    /// current rayon pool, on whose number they do not depend. Each pixel is asked for to within `tolerance`, all its
+    /// spheres together; what does not get there shows in the errors.
     ///
     /// `progress` is called as that of [`Self::render`] is.
     ///
