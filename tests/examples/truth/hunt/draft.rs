@@ -54,6 +54,18 @@ impl Draft {
         self.lights.push(light);
     }
 
+    /// Moves the camera away from a place 100 units ahead, and the retina as many times as far from it: things
+    /// there keep their size.
+    pub(super) fn step_back(&mut self, times: f64) {
+        let distance = self.head[1].trim_end_matches(')').rsplit(' ').next();
+        let distance: f64 = distance.and_then(|it| it.parse().ok()).unwrap_or(f64::NAN);
+        self.head[1] = format!(
+            "lens: Retina(width: {SIDE}, distance: {})",
+            distance * times
+        );
+        self.head[2] = format!("camera: Free(position: (0, 0, {}))", 100.0 * (1.0 - times));
+    }
+
     pub(super) fn sphere(&mut self, [x, y, z]: [f64; 3], radius: f64) {
         let sphere = format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")");
         self.spheres.push(sphere);

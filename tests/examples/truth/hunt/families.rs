@@ -2,9 +2,9 @@
 
 use super::draft::Draft;
 use super::scenes::{
-    aligned_grids, coincident, crowds, exponents, floors, grazing_shadows, highlights, long_lenses,
-    many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps, terminator_at_rim,
-    touching, triple_points, wide_lenses,
+    aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
+    highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
+    terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use crate::numbers::Numbers;
 
@@ -16,7 +16,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 21] = [
+pub(super) const FAMILIES: [Family; 23] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -63,6 +63,11 @@ pub(super) const FAMILIES: [Family; 21] = [
         rarity: 1,
     },
     Family {
+        name: "far away",
+        draft: far_away,
+        rarity: 1,
+    },
+    Family {
         name: "wide lenses",
         draft: wide_lenses,
         rarity: 1,
@@ -105,6 +110,11 @@ pub(super) const FAMILIES: [Family; 21] = [
     Family {
         name: "bumps larger than pixels",
         draft: |numbers| surface_bumps(numbers, [0.5, 2.0]),
+        rarity: 20,
+    },
+    Family {
+        name: "bumps far away",
+        draft: far_bumps,
         rarity: 20,
     },
     Family {

@@ -174,6 +174,29 @@ pub(super) fn long_lenses(numbers: &mut Numbers) -> Draft {
     draft
 }
 
+/// Scenes of other families as seen from 10 to 1e6 times farther away: nearly parallel rays.
+pub(super) fn far_away(numbers: &mut Numbers) -> Draft {
+    let mut draft = match numbers.below(8) {
+        0 => ordinary(numbers),
+        1 => touching(numbers),
+        2 => grazing_shadows(numbers),
+        3 => terminator_at_rim(numbers),
+        4 => exponents(numbers),
+        5 => highlights(numbers),
+        6 => slivers(numbers),
+        _ => seams(numbers),
+    };
+    draft.step_back(libm::pow(10.0, numbers.between(1.0, 6.0)));
+    draft
+}
+
+/// Rough balls as seen from far away.
+pub(super) fn far_bumps(numbers: &mut Numbers) -> Draft {
+    let mut draft = surface_bumps(numbers, [-0.3, 2.0]);
+    draft.step_back(libm::pow(10.0, numbers.between(1.0, 6.0)));
+    draft
+}
+
 pub(super) fn wide_lenses(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, 3.0, 1);
     for _ in 0..4 {
