@@ -30,6 +30,10 @@ pub(super) struct Projected<S: Simd> {
     pub(super) more: f64x8<S>,
     /// How much larger the rest of the series is than its terms of the second degree.
     pub(super) further: f64x8<S>,
+    /// How far points may lie from where second derivatives say, where a box comes near the silhouette.
+    pub(super) rest: f64x8<S>,
+    /// How far the silhouette is behind the points, along the view, as seen from the side: R g.
+    pub(super) depth: f64x8<S>,
     /// How far second derivatives are from those of the middle of the box in its corners, over themselves.
     pub(super) third: f64x8<S>,
     /// Heights in a box differ by no more from that in its middle.
@@ -50,6 +54,12 @@ impl<S: Simd> Projected<S> {
         // A plane is seen at t / (1 − slide) there: the series that ends with P'' converges as fast as that.
         let rest = (one - around.slide).max(f64x8::splat(simd, LEAST_REST));
         let further = one / (rest * rest);
+        // Toward the silhouette a sphere lies at R g √(1 − x), with the part x of the way there and the cosine g toward
+        // the eye: its first derivatives take 1 − x/2 for the root, the second ones x²/8 less.
+        let depth = around.grazing * around.radius;
+        let part = (moved_sq.sqrt() * 2.0 / depth).min(one);
+        let root = (one - part).sqrt();
+        let unknown = one - part * 0.5 - part * part * 0.125 - root;
         let height_across = [x.dot_one(light.toward), y.dot_one(light.toward)];
         let [xx, xy, yy] = &around.seconds;
         let turned = around.turn_sq.sqrt() / around.grazing;
@@ -73,6 +83,8 @@ impl<S: Simd> Projected<S> {
             offset: around.offset,
             moved_sq,
             more,
+            rest: depth * unknown,
+            depth,
             further,
             third: (turned * 0.5 + around.slide).min(half),
             of_box: (height_across[0].abs() + height_across[1].abs()) * further * 0.5,

@@ -42,6 +42,7 @@ impl<S: Simd> Surroundings<S> {
             return left;
         }
         let seen = Projected::new(simd, self, light);
+        let deepest = f64x8::splat(simd, DEEPEST);
         for caster in casters {
             let (middle, across, bends) = seen.depth_in(light, caster);
             let bend = (seen.more * caster.radius + seen.moved_sq) * seen.further;
@@ -53,11 +54,9 @@ impl<S: Simd> Surroundings<S> {
             let top = caster.center.dot(light.toward);
             let above = is_inside.select(seen.height, at_foot).simd_lt(top);
             let width = across[0].abs() + across[1].abs();
-            if (middle.abs() - bend * 2.0)
-                .simd_lt(width * 0.5)
-                .to_bitmask()
-                == 0
-            {
+            let rest = seen.rest * (2.0 * caster.radius);
+            let most = width * 0.5 + (bend * 2.0).max(bend + rest);
+            if middle.abs().simd_lt(most).to_bitmask() == 0 {
                 // No edge is near.
                 let is_dark = above & is_inside;
                 left.region.darken(simd, is_dark);
@@ -69,7 +68,12 @@ impl<S: Simd> Surroundings<S> {
             // What is above elsewhere in the box may be dark.
             let hidden = above.select(zero, part.share);
             let may_be = (seen.height - seen.of_box).simd_lt(top);
-            let doubt = may_be.select(part.doubt + hidden, zero);
+            // An edge that second derivatives do not see in the box may cross it beside the silhouette.
+            let is_one = part.share.simd_le(zero) | part.share.simd_ge(one);
+            let within = (most - middle.abs()).max(zero) / (seen.depth * (2.0 * caster.radius));
+            let within = within.min(deepest);
+            let beside = is_one.select(within * within * 0.5, zero);
+            let doubt = may_be.select(part.doubt.max(beside) + hidden, zero);
             let mut remaining = whole.or(above, &part.other_side(simd));
             remaining.doubt = doubt;
             left.is_free &= remaining.share.simd_ge(one) & doubt.simd_le(zero);
@@ -80,6 +84,9 @@ impl<S: Simd> Surroundings<S> {
         left
     }
 }
+
+/// What second derivatives leave of a root at its end: its value in the middle is 1.
+const DEEPEST: f64 = 0.375;
 
 /// The way in sides of a box from its middle along the gradient to where a linear function vanishes, as far as that
 /// lies in the box.
