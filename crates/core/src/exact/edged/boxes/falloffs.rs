@@ -118,7 +118,7 @@ impl<S: Simd> Faced<S> {
         let by_least = one / least;
         let bends = normals.second * by_least
             + normals.turn_sq * by_least * by_least * ((exponent - 1.0).abs() * OF_SECOND);
-        let most = falloff.of(self.cosine + width);
+        let most = falloff.of(self.cosine + self.width + normals.bow);
         let power = if exponent < 1.0 {
             falloff.of(least)
         } else {
@@ -133,13 +133,14 @@ impl<S: Simd> Faced<S> {
         }
     }
 
-    /// The falloff of the highlight, which ends where the surface turns from the light.
+    /// The falloff of the highlight, which ends where the surface turns from the light; for these cosines of the half
+    /// vector and their changes across boxes.
     #[inline(always)]
     pub(super) fn shine(
         &self,
         simd: S,
         finish: &Finish,
-        half_cosine: f64x8<S>,
+        (half_cosine, half_across): (f64x8<S>, [f64x8<S>; 2]),
         normals: &Normals<S>,
     ) -> Power<S> {
         let zero = f64x8::splat(simd, 0.0);
@@ -166,10 +167,14 @@ impl<S: Simd> Faced<S> {
         let is_cut = self.is_cut();
         if is_cut.to_bitmask() == 0 {
             let faces = self.cosine.simd_gt(zero);
+            // Near a silhouette cosines go with a root, and may change their sign where linear functions do not.
+            let may_turn = self.cosine.abs().simd_lt(self.width + normals.bow);
+            let doubt = may_turn.select(most, doubt);
+            let may_face = faces | may_turn;
             return Power {
                 value: faces.select(power, zero),
-                most: faces.select(most, zero),
-                doubt: faces.select(doubt, zero),
+                most: may_face.select(most, zero),
+                doubt: may_face.select(doubt, zero),
                 ambiguity: zero,
             };
         }
@@ -177,6 +182,11 @@ impl<S: Simd> Faced<S> {
         let bend = normals.second * (0.25 / OF_SECOND);
         let facing = HalfPlane::new(simd, self.cosine, self.across, bend);
         let is_faced = facing.share + facing.doubt;
+        // That of the middle of the part that faces the light, which a highlight ends in unevenly.
+        let by_share = one / facing.share.max(f64x8::splat(simd, LEAST_FACING));
+        let [to_x, to_y] = facing.moments;
+        let further = (half_across[0] * to_x + half_across[1] * to_y) * by_share;
+        let power = falloff.of((half_cosine + further).min(one));
         Power {
             value: power * facing.share,
             most: is_faced.simd_gt(zero).select(most, zero),
@@ -193,6 +203,9 @@ const OF_RAMP: f64 = 2.0;
 /// How much higher a cosine may be than a linear function says, over the error of the average: near silhouettes it is
 /// the root of one.
 const OF_HIGHEST: f64 = 4.0;
+
+/// The least share of a box that its own middle is found of.
+const LEAST_FACING: f64 = 1e-6;
 
 /// What the error of highlights is multiplied by, as half vectors turn with the view, too: one pixel in millions was off
 /// by more without it.

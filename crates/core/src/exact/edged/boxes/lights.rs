@@ -61,9 +61,10 @@ impl<S: Simd> Lit<S> {
             normals.across[0].dot_one(toward),
             normals.across[1].dot_one(toward),
         ];
-        let mut highest = cosine + across[0].abs() + across[1].abs();
+        // Near a silhouette cosines go with a root: they rise above linear functions.
+        let mut highest = cosine + across[0].abs() + across[1].abs() + normals.bow;
         if normals.is_rough {
-            highest += normals.bow + normals.second;
+            highest += normals.second;
         }
         if highest.simd_gt(zero).to_bitmask() == 0 {
             return;
@@ -86,14 +87,15 @@ impl<S: Simd> Lit<S> {
         let (faced, aside) = Faced::new(simd, normals, toward, of_point, of_lit);
         let diffuse = faced.diffuse(simd, finish, normals);
         let viewed = finish.viewed(&around.points, &normals.normal);
-        let mut half_cosine = zero;
+        let (mut half_cosine, mut half_across) = (zero, [zero; 2]);
         if finish.reflectance.highlight.is_some() {
             half_cosine = viewed.half_cosine(toward, cosine);
-            let [x, y] = &normals.across;
-            let turned = x.times(aside[0]).plus(&y.times(aside[1]));
-            half_cosine += viewed.change_of_half_cosine(toward, &turned);
+            for axis in 0..2 {
+                half_across[axis] = viewed.change_of_half_cosine(toward, &normals.across[axis]);
+                half_cosine += half_across[axis] * aside[axis];
+            }
         }
-        let shine = faced.shine(simd, finish, half_cosine, normals);
+        let shine = faced.shine(simd, finish, (half_cosine, half_across), normals);
         let weights = finish.reflectance.brightest(light.intensity);
         // Light that ends in a part of the box may end in what is hidden of it.
         let cut = left.region.most.min(one - lit.area);
