@@ -205,6 +205,8 @@ impl Setting<'_, '_> {
             }
         }
         let open = outside.share(simd).area;
+        // What no sphere was found to fill may belong to any of them.
+        sum.doubt += (one - open - sum.seen).abs();
         sum.fill(simd, one - open);
         sum.add_region(&outside);
         let background = Lit::ambient(simd, self.background, open);
