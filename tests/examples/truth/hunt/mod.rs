@@ -68,6 +68,8 @@ struct Found {
     /// Pixels whose truth is not known well enough to judge a tolerance.
     unjudged: u64,
     broken: Vec<Broken>,
+    /// Pixels within their tolerance that claim next to nothing of what they are off by.
+    false_claims: Vec<Broken>,
     /// For each tolerance, how far pixels are off whose claims are not negligible.
     honesty: Vec<Honesty>,
 }
@@ -78,6 +80,7 @@ impl Found {
             pixels: 0,
             unjudged: 0,
             broken: Vec::new(),
+            false_claims: Vec::new(),
             honesty: vec![Honesty::default(); tolerances.len()],
         }
     }
@@ -86,6 +89,7 @@ impl Found {
         self.pixels += other.pixels;
         self.unjudged += other.unjudged;
         self.broken.extend(&other.broken);
+        self.false_claims.extend(&other.false_claims);
         for (all, honesty) in self.honesty.iter_mut().zip(&other.honesty) {
             all.add(honesty);
         }
@@ -112,10 +116,8 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
         report.add(family.name, each, found.iter().map(|(_, found)| found));
         for (index, (draft, found)) in found.iter().enumerate() {
             let worst = |broken: &&Broken| broken.error / broken.tolerance;
-            let worst = found
-                .broken
-                .iter()
-                .max_by(|a, b| worst(a).total_cmp(&worst(b)));
+            let all = found.broken.iter().chain(&found.false_claims);
+            let worst = all.max_by(|a, b| worst(a).total_cmp(&worst(b)));
             let Some(worst) = worst else { continue };
             // Writing to a string does not fail.
             let _ = writeln!(examples, "{} {index}: {worst}", family.name);

@@ -28,6 +28,10 @@ const TELLING: f64 = 10.0;
 /// It tells the ratio to a claim, too, if the claim is so many times that: the ratio is off by less than a tenth.
 const TELLING_OF_CLAIMS: f64 = 10.0;
 
+/// A claim is false if a pixel is off by more than so many times as much, and by more than a part of the tolerance.
+const FALSE: f64 = 20.0;
+const FALSE_OF_TOLERANCE: f64 = 0.02;
+
 /// Where the difference does not tell, the truth is asked of one of so many pixels.
 const SHARE: u32 = 256;
 
@@ -58,6 +62,8 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
             found.pixels += 1;
             if pixel.is_suspect() {
                 found.broken.extend(pixel.shortfall(subject));
+            } else if pixel.has_false_claim() {
+                found.false_claims.push(pixel.broken(pixel.apart));
             }
             if let Some((ratio, pixels)) = pixel.honesty(subject) {
                 found.honesty[index].count(ratio, pixels);
@@ -128,14 +134,26 @@ impl Pixel {
         let (col, row) = self.place();
         let allowed = self.allowed();
         let (error, uncertain) = subject.error_of(col, row, self.value, allowed)?;
-        (error > allowed + uncertain).then_some(Broken {
+        (error > allowed + uncertain).then(|| self.broken(error))
+    }
+
+    /// True if it claims next to nothing of what it is off by.
+    fn has_false_claim(&self) -> bool {
+        let off = self.apart - self.uncertain;
+        off > FALSE * self.claimed && off > FALSE_OF_TOLERANCE * self.tolerance
+    }
+
+    /// The pixel with its true error.
+    fn broken(&self, error: f64) -> Broken {
+        let (col, row) = self.place();
+        Broken {
             col,
             row,
             tolerance: self.tolerance,
             error,
             claimed: self.claimed,
             is_confessed: self.is_confessed,
-        })
+        }
     }
 
     /// The true error over the claimed one, and for how many pixels it stands; none of negligible claims. The

@@ -25,7 +25,7 @@ impl<'a> Report<'a> {
         Self {
             tolerances,
             counts: format!(
-                "| family | scenes | pixels |{names} beyond claim |\n|---|--:|--:|{rules}--:|\n"
+                "| family | scenes | pixels |{names} beyond claim | false claims |\n|---|--:|--:|{rules}--:|--:|\n"
             ),
             medians: format!("| true / claimed error |{names}\n|---|{rules}\n"),
             honesty: vec![Honesty::default(); tolerances.len()],
@@ -55,7 +55,8 @@ impl<'a> Report<'a> {
             let _ = write!(self.counts, "| {} ", broken.count());
         }
         let beyond = sum.broken.iter().filter(|broken| broken.is_confessed);
-        let _ = writeln!(self.counts, "| {} |", beyond.count());
+        let false_claims = sum.false_claims.len();
+        let _ = writeln!(self.counts, "| {} | {false_claims} |", beyond.count());
         self.medians.push_str(&medians(family, &sum.honesty));
         for (all, honesty) in self.honesty.iter_mut().zip(&sum.honesty) {
             all.add(honesty);
