@@ -1,4 +1,4 @@
-//! The pinhole camera: where it stands, where it looks, and its retina.
+//! The camera: where it stands, where it looks, and its lens.
 
 use glam::{DMat3, DVec2, DVec3};
 
@@ -90,14 +90,27 @@ impl Camera {
 }
 
 /// The flat retina in front of the viewpoint.
+///
+/// The rays of a pinhole go from the viewpoint through the retina. Those of a parallel lens go along
+/// the axis of view, and begin on the retina, which then lies in the plane through the viewpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Width of the retina in scene units, greater than 0; square pixels give its height.
     pub width: f64,
-    /// Distance of the retina from the viewpoint at zoom 1, greater than 0.
+    /// Distance of the retina from the viewpoint at zoom 1, greater than 0; infinite for a parallel
+    /// lens, whose rays are those from a viewpoint that is infinitely far behind the retina.
     pub distance: f64,
     /// The way from the axis of view to the retina's center, in scene units, right and up.
     pub shift: DVec2,
+}
+
+/// How the rays of a lens lie to each other.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Projection {
+    /// They go through one point.
+    Central,
+    /// They have one direction.
+    Parallel,
 }
 
 impl Lens {
@@ -108,6 +121,28 @@ impl Lens {
             width: 2.0 * libm::tan(0.5 * field_of_view),
             distance: 1.0,
             shift: DVec2::ZERO,
+        }
+    }
+
+    /// The lens whose rays all go along the axis of view, `width` scene units apart at zoom 1.
+    pub fn parallel(width: f64, shift: DVec2) -> Self {
+        Self {
+            width,
+            distance: f64::INFINITY,
+            shift,
+        }
+    }
+
+    /// True where all rays have one direction.
+    pub fn is_parallel(&self) -> bool {
+        self.projection() == Projection::Parallel
+    }
+
+    pub(crate) fn projection(&self) -> Projection {
+        if self.distance == f64::INFINITY {
+            Projection::Parallel
+        } else {
+            Projection::Central
         }
     }
 }

@@ -82,7 +82,8 @@ pub struct Intrinsics {
 impl Intrinsics {
     /// The matrix of this view, with its zoom.
     ///
-    /// It is infinite where a pixel is too small beside the distance of the retina for doubles.
+    /// It is infinite where a pixel is too small beside the distance of the retina for doubles, and for a parallel
+    /// lens: [`View::pixels_per_unit`] tells what that does.
     pub fn of(view: &View) -> Self {
         let shift = view.lens.shift / view.pixel_size();
         let middle = middle(view.width, view.height);

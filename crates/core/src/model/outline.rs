@@ -1,6 +1,6 @@
 //! The outlines of spheres on the retina.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::sphere::Sphere;
 use super::view::View;
@@ -17,7 +17,8 @@ pub struct Outline {
     /// The distance of the center along the axis of view, in scene units.
     pub depth: f64,
     /// The ellipse that the sphere fills, unless others hide it; none where the plane through the viewpoint, across
-    /// the axis of view, touches the sphere: then the outline is a parabola or a hyperbola, or there is none.
+    /// the axis of view, touches the sphere: then the outline is a parabola or a hyperbola, or there is none. Through a
+    /// parallel lens it is a circle, of what lies before that plane.
     pub ellipse: Option<Ellipse>,
 }
 
@@ -47,6 +48,9 @@ impl View {
         let from_eye = sphere.center() - self.camera.position;
         let center = self.camera.world_from_camera.transpose() * from_eye;
         let radius = sphere.radius();
+        if self.lens.is_parallel() {
+            return self.circle(sphere, center);
+        }
         let apart = (center.z - radius) * (center.z + radius);
         let scale = self.lens.distance * self.zoom / self.pixel_size();
         let is_ahead = center.z > radius && apart > 0.0;
@@ -61,6 +65,28 @@ impl View {
                 semi_axes: [long * scale, short * scale],
                 along: folded(DVec2::new(along.x, -along.y)),
             }
+        });
+        Outline {
+            center: self.project(sphere.center()),
+            depth: center.z,
+            ellipse: ellipse.filter(Ellipse::is_finite),
+        }
+    }
+
+    /// The outline of a sphere with this center in the camera's frame, through a parallel lens: a circle, behind
+    /// whose plane nothing is seen.
+    fn circle(&self, sphere: &Sphere, center: DVec3) -> Outline {
+        let radius = sphere.radius();
+        let in_plane = if center.z >= 0.0 {
+            radius
+        } else {
+            ((radius + center.z) * (radius - center.z)).max(0.0).sqrt()
+        };
+        let in_pixels = in_plane * (self.zoom / self.pixel_size());
+        let ellipse = (in_plane > 0.0).then(|| Ellipse {
+            center: self.pixel_of(center.truncate() * self.zoom),
+            semi_axes: [in_pixels; 2],
+            along: DVec2::X,
         });
         Outline {
             center: self.project(sphere.center()),

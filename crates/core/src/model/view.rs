@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::camera::{Camera, Lens};
+use super::camera::{Camera, Lens, Projection};
 use super::ray::Ray;
 
 /// One picture to take: camera, lens, and the pixels of the retina.
@@ -12,7 +12,7 @@ pub struct View {
     pub camera: Camera,
     /// Its retina.
     pub lens: Lens,
-    /// Factor on the retina's distance, greater than 0.
+    /// Factor on the retina's distance, or that a parallel lens's width is divided by, greater than 0.
     pub zoom: f64,
     /// Columns of the picture, at least 1.
     pub width: u32,
@@ -28,23 +28,47 @@ impl View {
         self.lens.width / f64::from(self.width)
     }
 
+    /// The pixels that a length of 1 on the plane at distance 1 before the viewpoint spans, or, through a
+    /// parallel lens, that any length of 1 across the axis of view does.
+    pub fn pixels_per_unit(&self) -> f64 {
+        self.magnification() / self.pixel_size()
+    }
+
+    /// The lengths on the retina for each length on the plane at distance 1 before the viewpoint; of a
+    /// parallel lens, on any plane across the axis of view.
+    pub fn magnification(&self) -> f64 {
+        match self.lens.projection() {
+            Projection::Central => self.lens.distance * self.zoom,
+            Projection::Parallel => self.zoom,
+        }
+    }
+
     /// The part of the plane at distance 1 before the viewpoint that the picture shows: its center, to
     /// the right and up from the view axis, and its width.
     pub fn screen_window(&self) -> (DVec2, f64) {
-        let distance = self.lens.distance * self.zoom;
-        (self.lens.shift / distance, self.lens.width / distance)
+        let magnification = self.magnification();
+        (
+            self.lens.shift / magnification,
+            self.lens.width / magnification,
+        )
     }
 
-    /// The ray from the viewpoint through a point of the retina.
+    /// The ray through a point of the retina: from the viewpoint, or of a parallel lens from the point of
+    /// the plane through the viewpoint that is seen there, with a unit vector for a direction.
     pub fn ray(&self, retina_point: DVec2) -> Ray {
-        let in_camera = DVec3::new(
-            retina_point.x,
-            retina_point.y,
-            self.lens.distance * self.zoom,
-        );
-        Ray {
-            origin: self.camera.position,
-            direction: self.camera.world_from_camera * in_camera,
+        let axes = &self.camera.world_from_camera;
+        match self.lens.projection() {
+            Projection::Central => Ray {
+                origin: self.camera.position,
+                direction: *axes * retina_point.extend(self.lens.distance * self.zoom),
+            },
+            Projection::Parallel => {
+                let DVec2 { x, y } = retina_point / self.zoom;
+                Ray {
+                    origin: self.camera.position + (axes.x_axis * x + axes.y_axis * y),
+                    direction: axes.z_axis,
+                }
+            }
         }
     }
 
@@ -71,7 +95,10 @@ impl View {
         if in_camera.z <= 0.0 {
             return None;
         }
-        let scale = self.lens.distance * self.zoom / in_camera.z;
+        let scale = match self.lens.projection() {
+            Projection::Central => self.lens.distance * self.zoom / in_camera.z,
+            Projection::Parallel => self.zoom,
+        };
         Some(self.pixel_of(in_camera.truncate() * scale))
     }
 

@@ -2,11 +2,12 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::light::{Looks, Shading};
 use super::rays::Place;
 use super::trace::{DISTANCE_ERROR, Group, Groups, Sight, Tracer};
+use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::bits::set_bits;
 use crate::numeric::double_double::DoubleDouble;
@@ -158,7 +159,8 @@ impl Centers {
         } = seen;
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let zero = f64x8::splat(simd, 0.0);
-        if self.settings.precision == Precision::Double {
+        let precision = self.settings.precision;
+        if precision == Precision::Double || tracer.rays.projection() == Projection::Parallel {
             for quantity in [
                 Quantity::Depth,
                 Quantity::GeometricNormal,
@@ -166,7 +168,7 @@ impl Centers {
             ] {
                 for component in 0..quantity.components() {
                     let nothing = [quantity.of_nothing(); LANES];
-                    row.put(Precision::Double, (quantity, component), nothing);
+                    row.put(precision, (quantity, component), nothing);
                 }
             }
             return sight.covered;
@@ -178,7 +180,7 @@ impl Centers {
         let scale = libm::scalbn(1.0, -tracer.rays.exponent());
         if self.wants(Quantity::Depth) {
             let depth = match self.settings.depth {
-                Depth::Axis => t * (tracer.rays.distance() * scale),
+                Depth::Axis => t * (tracer.rays.magnification() * scale),
                 Depth::Ray => t * sight.length_sq.sqrt(),
             };
             let never = f64x8::splat(simd, f64::INFINITY);
@@ -200,7 +202,7 @@ impl Centers {
                 }
                 Some(signs) => {
                     let upward = f64x8::splat(simd, tracer.rays.upward(place) * scale);
-                    let forward = f64x8::splat(simd, tracer.rays.distance() * scale);
+                    let forward = f64x8::splat(simd, tracer.rays.magnification() * scale);
                     let retina = [
                         across * scale * signs.x,
                         upward * signs.y,
@@ -273,15 +275,20 @@ impl Centers {
             let Some(found) = sphere.hit_components(&ray, &self.axes) else {
                 continue;
             };
-            let forward = tracer.rays.distance();
-            let depth = match self.settings.depth {
-                Depth::Axis => found.t * forward,
-                Depth::Ray => times_length(found.t, ray.direction),
+            let forward = tracer.rays.magnification();
+            let retina = DVec2::new(seen.across[lane], tracer.rays.upward(seen.place));
+            let (depth, in_camera) = match tracer.rays.projection() {
+                Projection::Central => {
+                    let depth = match self.settings.depth {
+                        Depth::Axis => found.t * forward,
+                        Depth::Ray => times_length(found.t, ray.direction),
+                    };
+                    (depth, retina.extend(forward) * found.t)
+                }
+                // Directions are unit vectors along the axis.
+                Projection::Parallel => (found.t, (retina / forward).extend(found.t)),
             };
-            let position = self.signs.map_or(found.position, |signs| {
-                let upward = tracer.rays.upward(seen.place);
-                DVec3::new(seen.across[lane], upward, forward) * found.t * signs
-            });
+            let position = self.signs.map_or(found.position, |signs| in_camera * signs);
             row.put_one((Quantity::Depth, 0), lane, depth);
             for axis in 0..3 {
                 row.put_one((Quantity::Position, axis), lane, position[axis]);

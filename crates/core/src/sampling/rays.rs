@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
+use crate::model::camera::Projection;
 use crate::model::ray::Ray;
 use crate::model::view::View;
 use crate::numeric::lanes::LANE_NUMBERS;
@@ -25,11 +26,12 @@ pub(super) struct Rays {
     side: u32,
     /// Half the side of a cell.
     half_cell: f64,
-    distance: f64,
+    /// Lengths there for each at the distance of 1, or, through a parallel lens, at any distance.
+    magnification: f64,
     /// Directions are divided by two to the power of this, which makes them moderate.
     exponent: i32,
     scale: f64,
-    /// Rows on a length of 1 at the distance of 1, and in the lens's shift.
+    /// Rows on a length of 1 at the distance of 1, or at any, and in the lens's shift.
     rows_on_unit: f64,
     shift_rows: f64,
     /// The place of the first sample in a pixel.
@@ -48,18 +50,23 @@ pub(super) struct Place {
 impl Rays {
     pub(super) fn new(view: &View, side: u32) -> Self {
         let cell = view.lens.width / (f64::from(view.width) * f64::from(side));
-        let distance = view.lens.distance * view.zoom;
+        let magnification = view.magnification();
         let size = DVec2::new(f64::from(view.width), f64::from(view.height));
         let edges = 0.5 * view.pixel_size() * size + view.lens.shift.abs();
-        let exponent = libm::ilogb(edges.max_element().max(distance)).clamp(-1000, 1000);
+        let exponent = match view.lens.projection() {
+            Projection::Central => libm::ilogb(edges.max_element().max(magnification)),
+            // Directions are unit vectors.
+            Projection::Parallel => 0,
+        };
+        let exponent = exponent.clamp(-1000, 1000);
         Self {
             view: *view,
             side,
             half_cell: 0.5 * cell,
-            distance,
+            magnification,
             exponent,
             scale: libm::scalbn(1.0, -exponent),
-            rows_on_unit: distance / view.pixel_size(),
+            rows_on_unit: magnification / view.pixel_size(),
             shift_rows: view.lens.shift.y / view.pixel_size(),
             first: 0.5 / f64::from(side),
         }
@@ -70,12 +77,12 @@ impl Rays {
         self.exponent
     }
 
-    /// The number of samples side by side on a length of 1 at the distance of 1.
+    /// The number of samples side by side on a length of 1 at the distance of 1, or at any.
     pub(super) fn cells_on_unit(&self) -> f64 {
-        self.distance / (2.0 * self.half_cell)
+        self.magnification / (2.0 * self.half_cell)
     }
 
-    /// The side of a tile at the distance of 1.
+    /// The side of a tile at the distance of 1, or at any.
     pub(super) fn tile_side(&self) -> f64 {
         f64::from(Tile::SIDE) / self.rows_on_unit
     }
@@ -106,9 +113,17 @@ impl Rays {
         -self.half_cell * twice + self.view.lens.shift.y
     }
 
-    /// The distance of the retina.
-    pub(super) fn distance(&self) -> f64 {
-        self.distance
+    /// The distance of the retina; of a parallel lens its lengths for each of the world.
+    pub(super) fn magnification(&self) -> f64 {
+        self.magnification
+    }
+
+    pub(super) fn viewpoint(&self) -> DVec3 {
+        self.view.camera.position
+    }
+
+    pub(super) fn projection(&self) -> Projection {
+        self.view.lens.projection()
     }
 
     /// The directions of a sample in eight pixels that lie so far to the right, divided by that
@@ -117,7 +132,7 @@ impl Rays {
     pub(super) fn directions<S: Simd>(&self, u: f64x8<S>, place: Place) -> Vectors<S> {
         let v = self.upward(place);
         let axes = &self.view.camera.world_from_camera;
-        let (up, forward) = (axes.y_axis * v, axes.z_axis * self.distance);
+        let (up, forward) = (axes.y_axis * v, axes.z_axis * self.magnification);
         Vectors {
             x: (u * axes.x_axis.x + up.x + forward.x) * self.scale,
             y: (u * axes.x_axis.y + up.y + forward.y) * self.scale,
@@ -139,6 +154,14 @@ impl Rays {
 
     /// The bounds of all rays of a tile.
     pub(super) fn bundle(&self, tile: Tile) -> Bundle {
+        if self.projection() == Projection::Parallel {
+            return Bundle {
+                cone: None,
+                rows: self.rows(tile),
+                shortest: 1.0,
+                longest: 1.0,
+            };
+        }
         let pixel = self.view.pixel_size();
         let middle = |first: u32, count: u32, pixels: u32| {
             f64::from(first) + 0.5 * (f64::from(count) - f64::from(pixels))
@@ -146,7 +169,7 @@ impl Rays {
         let center = DVec3::new(
             middle(tile.col, tile.width, self.view.width) * pixel + self.view.lens.shift.x,
             -middle(tile.row, tile.height, self.view.height) * pixel + self.view.lens.shift.y,
-            self.distance,
+            self.magnification,
         ) * self.scale;
         let half = DVec2::new(f64::from(tile.width), f64::from(tile.height)) * (0.5 * pixel);
         let half = half * self.scale;
@@ -198,7 +221,7 @@ impl Rays {
 /// The bounds of all rays of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bundle {
-    /// Around them; none where it would be wider than is worth having.
+    /// Around them; none where it would be wider than is worth having, and for parallel rays.
     pub(super) cone: Option<Cone>,
     pub(super) rows: Rows,
     /// No direction is shorter.

@@ -6,6 +6,7 @@ use glam::{DVec2, DVec3};
 
 use super::tile_balls::TileBall;
 use super::trace::{DISTANCE_ERROR, Groups, Sight};
+use crate::model::camera::Projection;
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -20,13 +21,20 @@ use crate::search::visibility::Visibility;
 pub(super) struct Shadows<'scene> {
     visibility: &'scene Visibility<'scene>,
     viewpoint: DVec3,
-    /// Of the balls' unit of length, in those of the world.
-    length: f64,
-    /// About the side of a tile at the distance of 1.
-    tile_side: f64,
+    scale: Scale,
     /// The regions of surfaces that were asked for.
     regions: Vec<Region>,
     cells: &'scene mut ShadowCells,
+}
+
+/// The size of what a tile sees.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    /// Of the balls' unit of length, in those of the world.
+    pub(super) length: f64,
+    /// About the side of a tile at the distance of 1, or through a parallel lens at any.
+    pub(super) tile_side: f64,
+    pub(super) projection: Projection,
 }
 
 /// A part of a sphere, and the discs that may darken it.
@@ -53,14 +61,13 @@ impl<'scene> Shadows<'scene> {
     pub(super) fn new(
         visibility: &'scene Visibility<'scene>,
         viewpoint: DVec3,
-        (length, tile_side): (f64, f64),
+        scale: Scale,
         cells: &'scene mut ShadowCells,
     ) -> Self {
         Self {
             visibility,
             viewpoint,
-            length,
-            tile_side,
+            scale,
             regions: Vec::new(),
             cells,
         }
@@ -119,7 +126,7 @@ impl<'scene> Shadows<'scene> {
     fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> LitPoints<S> {
         /// As in [`Ray::point_error`].
         const ROUNDING: f64 = 7.0 * UNIT_ROUNDOFF;
-        let from_eye = sight.point.times(f64x8::splat(simd, self.length));
+        let from_eye = sight.point.times(f64x8::splat(simd, self.scale.length));
         let points = Vectors::splat(simd, self.viewpoint).plus(&from_eye);
         let (x, y, z) = (from_eye.x.abs(), from_eye.y.abs(), from_eye.z.abs());
         let largest = x.max(y).max(z);
@@ -218,20 +225,23 @@ impl<'scene> Shadows<'scene> {
         ball: &TileBall,
         asked: u64,
     ) -> u64 {
-        let center = self.viewpoint + ball.ball.to_center * self.length;
+        let center = self.viewpoint + ball.ball.to_center * self.scale.length;
         simd.vectorize(
             #[inline(always)]
             || {
                 let mut dark = 0;
                 for lane in set_bits(asked) {
                     let point = lit.points.lane(lane);
-                    let distance = (point - self.viewpoint).abs().max_element();
+                    let distance = match self.scale.projection {
+                        Projection::Central => (point - self.viewpoint).abs().max_element(),
+                        Projection::Parallel => 1.0,
+                    };
                     let point = SurfacePoint {
                         point,
                         error: lit.errors[lane],
                         sphere: ball.index(),
                         center,
-                        side: distance * self.tile_side,
+                        side: distance * self.scale.tile_side,
                     };
                     let is_dark = self.cells.is_blocked(simd, self.visibility, light, &point);
                     dark |= u64::from(is_dark) << lane;

@@ -9,10 +9,11 @@ use glam::DVec3;
 use super::centers::{Centers, Seen};
 use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
-use super::shadow::Shadows;
+use super::shadow::{Scale, Shadows};
 use super::sums::{Sample, Sums};
 use super::tile_balls::{TileBall, TileBalls};
 use super::trace::{Groups, RayRow, Tracer};
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
@@ -267,9 +268,13 @@ impl<'scene> Supersampling<'scene> {
             geometry,
             shadows: (self.shading.world.shadows && !self.is_dark).then(|| {
                 let length = libm::scalbn(1.0, self.index.length_exponent());
-                let sizes = (length, self.rays.tile_side());
+                let size = Scale {
+                    length,
+                    tile_side: self.rays.tile_side(),
+                    projection: self.rays.projection(),
+                };
                 let viewpoint = self.view.camera.position;
-                Shadows::new(self.index.visibility, viewpoint, sizes, cells)
+                Shadows::new(self.index.visibility, viewpoint, size, cells)
             }),
         }
     }
@@ -295,14 +300,21 @@ impl<'scene> Supersampling<'scene> {
         let dark = RayRow::new(simd, Vectors::splat(simd, DVec3::ZERO));
         let mut rows = [dark; ROWS];
         let across = self.rays.across(simd, place, tracer.tile.width);
-        for row in &mut rows[..height] {
-            *row = RayRow::new(simd, self.rays.directions(across, place));
-            place.row += 1;
+        let is_parallel = self.rays.projection() == Projection::Parallel;
+        if !is_parallel {
+            for row in &mut rows[..height] {
+                *row = RayRow::new(simd, self.rays.directions(across, place));
+                place.row += 1;
+            }
+            tracer.search(simd, &mut rows);
         }
-        tracer.search(simd, &mut rows);
         place.row = tracer.tile.row;
         for (row, sample) in rows[..height].iter().zip(samples) {
-            let sight = tracer.look(simd, place, row, groups);
+            let sight = if is_parallel {
+                tracer.look_along(simd, place, groups)
+            } else {
+                tracer.look(simd, place, row, groups)
+            };
             *sample = *nothing;
             if let Some(centers) = &self.centers {
                 let row = &mut geometry.rows[(place.row - tracer.tile.row) as usize % ROWS];

@@ -46,7 +46,8 @@ impl TileBall {
         self.ball.index as usize
     }
 
-    /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1.
+    /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1, or through a parallel lens
+    /// at any.
     #[inline(always)]
     fn new(ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
         let radius_sq = ball.radius * ball.radius;

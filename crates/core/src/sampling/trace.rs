@@ -50,6 +50,24 @@ impl<'tile> Groups<'tile> {
         }
     }
 
+    pub(super) fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Adds a ray that sees a ball.
+    pub(super) fn add(&mut self, ball: &'tile TileBall, lane: usize) {
+        let mut known = self.list[..self.count].iter_mut();
+        if let Some(group) = known.find(|group| group.ball.index() == ball.index()) {
+            group.lanes |= 1 << lane;
+            return;
+        }
+        self.list[self.count] = Group {
+            ball,
+            lanes: 1 << lane,
+        };
+        self.count += 1;
+    }
+
     pub(super) fn as_slice(&self) -> &[Group<'tile>] {
         &self.list[..self.count]
     }
@@ -220,7 +238,7 @@ impl<'tile> Tracer<'tile> {
         for lane in set_bits(open) {
             let lane_of_pixel = lane.min(self.tile.width as usize - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
-            let nearest = self.index.nearest(self.tile, ray.direction);
+            let nearest = self.index.nearest(self.tile, &ray);
             let place = nearest.and_then(|(index, _)| {
                 let mut balls = self.balls.list.iter();
                 balls.position(|ball| ball.index() == index)

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::picture::tile::Tile;
@@ -35,6 +36,15 @@ impl CameraSphere {
         }
     }
 
+    /// The sphere in a view whose lengths are those of the world times `scale`.
+    pub(super) fn of_view(to_center: DVec3, radius: f64, view: &View, scale: f64) -> Self {
+        let sphere = Self::new(to_center, radius, view);
+        match view.lens.projection() {
+            Projection::Central => sphere,
+            Projection::Parallel => sphere.of_parallel_rays(view, scale),
+        }
+    }
+
     /// The box around the silhouette on the retina at distance 1: its lowest and highest corner; none
     /// where the sphere comes too near to the eye's plane.
     pub(super) fn silhouette_box(&self) -> Option<(DVec2, DVec2)> {
@@ -49,6 +59,22 @@ impl CameraSphere {
         (z > CLEAR * self.radius).then_some(corners)
     }
 
+    /// The same for parallel rays, whose origins are off by their own rounding as well; lengths are those of
+    /// the world times `scale`.
+    fn of_parallel_rays(self, view: &View, scale: f64) -> Self {
+        let place = view.camera.position.abs().max_element();
+        let slack = 16.0 * UNIT_ROUNDOFF * place * scale;
+        Self {
+            radius: self.radius + slack,
+            ..self
+        }
+    }
+
+    /// A bound from below of the distances along parallel rays at which the sphere begins.
+    pub(super) fn begin(&self) -> f64 {
+        self.center.z - self.radius
+    }
+
     /// True where all of the sphere may be behind the viewpoint, where no ray goes.
     pub(super) fn is_behind(&self) -> bool {
         self.center.z < -self.radius
@@ -61,7 +87,8 @@ struct Axis {
     /// Planes through the viewpoint between neighboring tiles, in the order of the tiles; the
     /// normals point to higher tiles.
     planes: Vec<DVec2>,
-    /// A slope, along the axis over forward, times this is in tiles,
+    projection: Projection,
+    /// A slope, along the axis over forward, or through a parallel lens a length, times this is in tiles,
     tiles_per_slope: f64,
     /// and so far from the first.
     offset: f64,
@@ -71,8 +98,13 @@ struct Axis {
 type Span = (u32, u32);
 
 impl Axis {
-    fn new(view: &View, pixels: u32, sign: f64, shift: f64) -> Self {
-        let distance = view.lens.distance * view.zoom;
+    fn new(view: &View, pixels: u32, sign: f64, shift: f64, scale: f64) -> Self {
+        let projection = view.lens.projection();
+        let distance = view.magnification();
+        let per_length = match projection {
+            Projection::Central => distance,
+            Projection::Parallel => distance / scale,
+        };
         let pixel = view.pixel_size();
         let edges = (0..pixels).step_by(Tile::SIDE as usize).chain([pixels]);
         let plane = |edge: u32| {
@@ -83,7 +115,8 @@ impl Axis {
         let side = f64::from(Tile::SIDE);
         Self {
             planes: edges.map(plane).collect(),
-            tiles_per_slope: sign * (distance / pixel) / side,
+            projection,
+            tiles_per_slope: sign * (per_length / pixel) / side,
             offset: (0.5 * f64::from(pixels) - sign * (shift / pixel)) / side,
         }
     }
@@ -98,6 +131,19 @@ impl Axis {
         /// below 10⁻¹² of the sums of absolute values that this is relative to.
         const MARGIN: f64 = 1e-10;
         let (along, forward) = (center.x, center.y);
+        if self.projection == Projection::Parallel {
+            let (middle, half) = (along * self.tiles_per_slope, radius * self.tiles_per_slope);
+            let size = middle.abs() + half.abs() + self.offset.abs() + f64::from(self.tiles());
+            let half = half.abs() + MARGIN * size;
+            let (low, high) = (middle + self.offset - half, middle + self.offset + half);
+            let last = f64::from(self.tiles() - 1);
+            if low <= high {
+                return (high >= 0.0 && low < last + 1.0)
+                    .then(|| (low.max(0.0) as u32, high.min(last) as u32));
+            }
+            // What is not a number may be anywhere.
+            return Some((0, self.tiles() - 1));
+        }
         if forward > CLEAR * radius {
             let product = (forward - radius) * (forward + radius);
             let half = radius * (along * along + product).sqrt();
@@ -134,7 +180,7 @@ fn is_between(planes: &[DVec2], center: DVec2, radius: f64) -> bool {
     !(planes[0].dot(center) < -radius || planes[1].dot(center) > radius)
 }
 
-/// The tiles of a picture, from a viewpoint.
+/// The tiles of a picture, from a viewpoint or along parallel rays.
 #[derive(Clone, Debug)]
 pub(super) struct Frustum {
     columns: Axis,
@@ -156,12 +202,12 @@ impl TileRange {
 }
 
 impl Frustum {
-    /// The frustum of a view cut into tiles.
-    pub(super) fn new(view: &View) -> Self {
+    /// The frustum of a view cut into tiles, for lengths that are those of the world times `scale`.
+    pub(super) fn new(view: &View, scale: f64) -> Self {
         let shift = view.lens.shift;
         Self {
-            columns: Axis::new(view, view.width, 1.0, shift.x),
-            rows: Axis::new(view, view.height, -1.0, shift.y),
+            columns: Axis::new(view, view.width, 1.0, shift.x, scale),
+            rows: Axis::new(view, view.height, -1.0, shift.y, scale),
         }
     }
 

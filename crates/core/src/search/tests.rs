@@ -136,8 +136,7 @@ fn midpoints_agree(few: &ViewIndex<'_>, view: &View, hierarchy: Option<&Hierarch
             for row in cells(tile.row, tile.height) {
                 for col in cells(tile.col, tile.width) {
                     let ray = view.ray(view.cell_center(col, row, divisions));
-                    let [one, other] =
-                        [few, &crowd].map(|index| index.nearest(tile, ray.direction));
+                    let [one, other] = [few, &crowd].map(|index| index.nearest(tile, &ray));
                     assert_eq!(one, other, "{divisions} × {divisions}");
                 }
             }
@@ -174,9 +173,9 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
         for tile in tiles_of(&view) {
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                let found = few.nearest(tile, ray.direction);
+                let found = few.nearest(tile, &ray);
                 let expected = nearest_of_all(spheres, &ray);
-                assert_eq!(found, crowd.nearest(tile, ray.direction));
+                assert_eq!(found, crowd.nearest(tile, &ray));
                 // Distances agree to the last place; what is known from the viewpoint is rounded
                 // another way.
                 assert_eq!(
@@ -250,7 +249,7 @@ fn crowds_leave_out_what_is_hidden() {
             left_once += sampled.balls(tile).count();
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));
-                let [one, other] = [&few, &crowd].map(|index| index.nearest(tile, ray.direction));
+                let [one, other] = [&few, &crowd].map(|index| index.nearest(tile, &ray));
                 assert_eq!(one, other);
             }
         }
@@ -321,7 +320,7 @@ fn far_from_the_origin() {
         };
         for (col, row) in tile.pixels() {
             let ray = view.ray(view.cell_center(u64::from(col), u64::from(row), 1));
-            let found = index.nearest(tile, ray.direction);
+            let found = index.nearest(tile, &ray);
             let expected = nearest_of_all(world.spheres(), &ray);
             assert_eq!(
                 found.map(|(index, _)| index),

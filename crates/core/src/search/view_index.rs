@@ -4,7 +4,6 @@ use std::ops::RangeInclusive;
 use std::slice;
 use std::sync::Arc;
 
-use glam::DVec3;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSliceMut;
 
@@ -17,17 +16,17 @@ use super::tile_lists::{Places, TileLists};
 use super::visibility::Visibility;
 use crate::hit::ball::Ball;
 use crate::hit::outcome::Hit;
+use crate::model::camera::Projection;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
-use crate::numeric::bits::rising_bits;
+use crate::numeric::bits::{of_rising_bits, rising_bits};
 use crate::picture::tile::Tile;
 
 /// A world as one view sees it, ready to be asked tile by tile; copies share what was found out.
 #[derive(Clone, Debug)]
 pub(crate) struct ViewIndex<'world> {
     pub(crate) visibility: &'world Visibility<'world>,
-    viewpoint: DVec3,
     /// Lengths of the balls are those of the world times 2 to the power of minus this.
     length_exponent: i32,
     lists: Arc<Lists>,
@@ -91,15 +90,15 @@ impl<'world> ViewIndex<'world> {
         // The power of two and its inverse are doubles; whatever is lost makes odd balls.
         let length_exponent = libm::ilogb(visibility.largest_size(viewpoint)).clamp(-1000, 1000);
         let lists = match hierarchy {
-            Some(hierarchy) => {
+            // Parallel rays have no blocks yet: all that they may see is listed.
+            Some(hierarchy) if !view.lens.is_parallel() => {
                 let search = BlockSearch::new(view, points, spheres, hierarchy, length_exponent);
                 Lists::Many(Blocks::new(&search))
             }
-            None => Lists::few(spheres, view, length_exponent),
+            _ => Lists::few(spheres, view, length_exponent),
         };
         Self {
             visibility,
-            viewpoint,
             length_exponent,
             lists: Arc::new(lists),
         }
@@ -140,19 +139,15 @@ impl<'world> ViewIndex<'world> {
         self.balls(tile).map(|ball| ball.index as usize).collect()
     }
 
-    /// The first sphere in a direction from the viewpoint, of those that may be seen in a tile, by
-    /// index, and where it is hit; of coincident surfaces the sphere with the lower index.
-    pub(crate) fn nearest(&self, tile: Tile, direction: DVec3) -> Option<(usize, Hit)> {
+    /// The first sphere on a ray of the view, of those that may be seen in a tile, by index, and where it
+    /// is hit; of coincident surfaces the sphere with the lower index.
+    pub(crate) fn nearest(&self, tile: Tile, ray: &Ray) -> Option<(usize, Hit)> {
         /// Sums of squares that have neither overflowed nor lost digits to underflow.
         const TRUSTED_SQUARES: RangeInclusive<f64> = 1e-280..=f64::MAX;
         /// The length of the direction is off by less, relatively.
         const ABOVE: f64 = 1.0 + 8.0 * f64::EPSILON;
         let spheres = self.visibility.spheres();
-        let ray = Ray {
-            origin: self.viewpoint,
-            direction,
-        };
-        let direction_sq = direction.length_squared();
+        let direction_sq = ray.direction.length_squared();
         // Otherwise every sphere is asked.
         let length = if TRUSTED_SQUARES.contains(&direction_sq) {
             direction_sq.sqrt() * ABOVE
@@ -167,11 +162,11 @@ impl<'world> ViewIndex<'world> {
                 continue;
             }
             let index = ball.index as usize;
-            let Some(hit) = spheres[index].hit_from_viewpoint(&ray) else {
+            let Some(hit) = spheres[index].hit_from_viewpoint(ray) else {
                 continue;
             };
             let is_nearer = nearest.as_ref().is_none_or(|(other, other_hit)| {
-                match spheres[index].compare(&hit, &spheres[*other], other_hit, &ray) {
+                match spheres[index].compare(&hit, &spheres[*other], other_hit, ray) {
                     std::cmp::Ordering::Less => true,
                     std::cmp::Ordering::Equal => index < *other,
                     std::cmp::Ordering::Greater => false,
@@ -190,12 +185,17 @@ impl Lists {
     fn few(spheres: &[Sphere], view: &View, length_exponent: i32) -> Self {
         let viewpoint = view.camera.position;
         let scale = libm::scalbn(1.0, -length_exponent);
-        let frustum = Frustum::new(view);
+        let frustum = Frustum::new(view, scale);
+        let projection = view.lens.projection();
         let visible = |(index, sphere): (usize, &Sphere)| {
             let to_center = (sphere.center() - viewpoint) * scale;
             let radius = sphere.radius() * scale;
-            let range = frustum.range(&CameraSphere::new(to_center, radius, view))?;
-            let nearest = rising_bits(Ball::nearest(to_center, radius));
+            let in_camera = CameraSphere::of_view(to_center, radius, view, scale);
+            let range = frustum.range(&in_camera)?;
+            let nearest = rising_bits(match projection {
+                Projection::Central => Ball::nearest(to_center, radius),
+                Projection::Parallel => in_camera.begin(),
+            });
             let index = index as u32;
             Some(Visible {
                 nearest,
@@ -218,8 +218,14 @@ impl Lists {
             .iter()
             .map(|visible| (visible.index, &spheres[visible.index as usize]));
         let ranges = || order.iter().map(|visible| visible.range);
+        let mut balls = Ball::all(here, viewpoint, length_exponent);
+        if projection == Projection::Parallel {
+            for (ball, visible) in balls.iter_mut().zip(&order) {
+                ball.nearest = of_rising_bits(visible.nearest);
+            }
+        }
         Self::Few {
-            balls: Ball::all(here, viewpoint, length_exponent),
+            balls,
             lists: TileLists::new(frustum.columns(), frustum.rows(), ranges),
         }
     }

@@ -30,18 +30,22 @@ impl MovingSphere<'_> {
     /// it and the four sides of the picture.
     fn half_space_tests(&self, view: &View) -> u8 {
         let (center, radius) = (self.center(view), self.sphere.radius());
-        let scale = 1.0 / (view.lens.distance * view.zoom);
+        let scale = 1.0 / view.magnification();
+        // The sides of a parallel lens's picture are seen at the same places from anywhere.
+        let is_parallel = view.lens.is_parallel();
+        let distance = if is_parallel { 1.0 } else { center.z };
         let size = DVec2::new(f64::from(view.width), f64::from(view.height)) * view.pixel_size();
         let high = (view.lens.shift + 0.5 * size) * scale;
         let low = (view.lens.shift - 0.5 * size) * scale;
         let sides = [
-            (center.x - high.x * center.z, high.x),
-            (low.x * center.z - center.x, low.x),
-            (center.y - high.y * center.z, high.y),
-            (low.y * center.z - center.y, low.y),
+            (center.x - high.x * distance, high.x),
+            (low.x * distance - center.x, low.x),
+            (center.y - high.y * distance, high.y),
+            (low.y * distance - center.y, low.y),
         ];
         let mut bits = u8::from(center.z < -radius);
         for (side, (beyond, slope)) in sides.into_iter().enumerate() {
+            let slope = if is_parallel { 0.0 } else { slope };
             let is_outside = beyond > radius * (1.0 + slope * slope).sqrt();
             bits |= u8::from(is_outside) << (side + 1);
         }
@@ -52,19 +56,28 @@ impl MovingSphere<'_> {
     /// in pixels; none where the sphere may be seen anywhere.
     pub(super) fn silhouette_box(&self, view: &View) -> Option<(DVec2, DVec2)> {
         let (center, radius) = (self.center(view), self.sphere.radius());
+        let is_parallel = view.lens.is_parallel();
         let product = (center.z - radius) * (center.z + radius);
         let half = |along: f64| radius * (along * along + product).sqrt();
         let halves = DVec2::new(half(center.x), half(center.y));
         let middle = center.truncate() * center.z;
-        let scale = view.lens.distance * view.zoom;
+        let scale = view.magnification();
         let half_size = 0.5 * DVec2::new(f64::from(view.width), f64::from(view.height));
         let in_pixels = |slopes: DVec2| {
             let on_retina = slopes * scale - view.lens.shift;
             half_size + DVec2::new(on_retina.x, -on_retina.y) / view.pixel_size()
         };
-        let one = in_pixels((middle - halves) / product);
-        let other = in_pixels((middle + halves) / product);
-        let is_known = center.z > CLEAR * radius && one.is_finite() && other.is_finite();
+        let [one, other] = if is_parallel {
+            [
+                center.truncate() - radius,
+                center.truncate() + DVec2::splat(radius),
+            ]
+        } else {
+            [(middle - halves) / product, (middle + halves) / product]
+        };
+        let (one, other) = (in_pixels(one), in_pixels(other));
+        let is_clear = is_parallel || center.z > CLEAR * radius;
+        let is_known = is_clear && one.is_finite() && other.is_finite();
         is_known.then(|| (one.min(other), one.max(other)))
     }
 

@@ -96,7 +96,7 @@ fn areas_agree_with_exact_samples() {
                         let col = u64::from(col * SIDE + part % SIDE);
                         let row = u64::from(row * SIDE + part / SIDE);
                         let ray = view.ray(view.cell_center(col, row, SIDE));
-                        if let Some((sphere, _)) = index.nearest(tile, ray.direction) {
+                        if let Some((sphere, _)) = index.nearest(tile, &ray) {
                             counts[sphere] += 1;
                         }
                     }

@@ -8,6 +8,12 @@ use crate::model::material::Material;
 use crate::model::world::World;
 use crate::search::tests::Random;
 
+const SCALE: Scale = Scale {
+    length: 1.0,
+    tile_side: 0.1,
+    projection: Projection::Central,
+};
+
 /// Points on the first of a world's spheres, the first light, and how far they are off.
 fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
     let visibility = Visibility::new(world);
@@ -35,7 +41,7 @@ fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
             up: vectors.dot_one(up),
         };
         let mut cells = ShadowCells::default();
-        let mut shadows = Shadows::new(&visibility, DVec3::ZERO, (1.0, 0.1), &mut cells);
+        let mut shadows = Shadows::new(&visibility, DVec3::ZERO, SCALE, &mut cells);
         shadows.darkened(simd, &lit, 0, light, 0, 0xff)
     });
     assert_eq!(found, expected);
