@@ -2,18 +2,21 @@
 
 use glam::DVec3;
 
+use crate::model::camera::Projection;
 use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// A rectangle of the retina: a pixel or a part of one.
 ///
 /// Its points have the coordinates −½ ≤ x, y ≤ ½. The ray through (x, y) has in the camera's frame the
-/// direction (u, v, 1), where u and v grow with x and y.
+/// direction (u, v, 1), where u and v grow with x and y. A parallel one has the direction (0, 0, 1), and
+/// begins at (u, v, 0): a cell keeps it as (u, v, 1), too, whose third component then means nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cell {
     /// The ray through the middle.
     pub(crate) middle: DVec3,
     /// What one unit of x adds to the ray, and one of y; positive.
     pub(crate) size: [f64; 2],
+    pub(crate) projection: Projection,
 }
 
 /// A sphere in the camera's frame.
@@ -21,13 +24,29 @@ pub(crate) struct Cell {
 pub(crate) struct Ball {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
-    /// K = |center|² − radius², positive for an eye outside.
+    /// K = |center|² − radius², positive for an eye outside. For parallel rays the center's distance from the
+    /// plane in which they begin, where the sphere lies before it; not positive where the plane cuts it.
+    ///
+    /// Of spheres that are apart the nearer has the smaller one, either way.
     pub(crate) outside: f64,
+    pub(crate) projection: Projection,
 }
 
 impl Ball {
+    /// Returns whether the rays that see it are parallel.
+    #[inline(always)]
+    pub(crate) fn is_parallel(&self) -> bool {
+        self.projection == Projection::Parallel
+    }
+
+    /// Returns whether parallel rays begin inside of it, some of them.
+    pub(crate) fn is_cut(&self) -> bool {
+        self.is_parallel() && self.outside <= 0.0
+    }
+
     /// Whether K is computed from the center and the radius without harm: the sphere does not
     /// come so near to the eye that the two nearly cancel.
+    #[inline(always)]
     pub(crate) fn is_apart(&self) -> bool {
         self.radius * self.radius <= self.outside
     }
@@ -42,7 +61,74 @@ impl Cell {
         Self {
             middle,
             size: [self.size[0] * (x[1] - x[0]), self.size[1] * (y[1] - y[0])],
+            projection: self.projection,
         }
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_parallel(&self) -> bool {
+        self.projection == Projection::Parallel
+    }
+
+    /// The length of the ray through the middle; 1 for parallel ones.
+    pub(crate) fn ray_length(&self) -> f64 {
+        match self.projection {
+            Projection::Central => self.middle.length(),
+            Projection::Parallel => 1.0,
+        }
+    }
+
+    /// The length that positions at distance 1 are rounded by: that of the ray through the middle, or, of
+    /// parallel ones, how far from the axis they are.
+    pub(crate) fn extent(&self) -> f64 {
+        match self.projection {
+            Projection::Central => self.middle.length(),
+            Projection::Parallel => self.middle.truncate().length(),
+        }
+    }
+
+    /// A bound of the angle by which rays turn across it along an axis; none for parallel ones.
+    pub(crate) fn turn(&self) -> [f64; 2] {
+        match self.projection {
+            Projection::Central => self.size,
+            Projection::Parallel => [0.0; 2],
+        }
+    }
+
+    /// The point of the ray through the middle at this distance, in multiples of the ray.
+    pub(crate) fn at(&self, t: f64) -> DVec3 {
+        match self.projection {
+            Projection::Central => self.middle * t,
+            Projection::Parallel => self.middle.with_z(t),
+        }
+    }
+
+    /// d · center: the place of the middle of a ball's chord along rays, times d · d.
+    pub(crate) fn along(&self, center: DVec3) -> Linear {
+        match self.projection {
+            Projection::Central => self.dot(center),
+            Projection::Parallel => Linear {
+                one: center.z,
+                x: 0.0,
+                y: 0.0,
+            },
+        }
+    }
+
+    /// The ways from a point to parallel rays, across these: along the axes x and y of the retina.
+    pub(super) fn aside(&self, point: DVec3) -> [Linear; 2] {
+        [
+            Linear {
+                one: self.middle[0] - point[0],
+                x: self.size[0],
+                y: 0.0,
+            },
+            Linear {
+                one: self.middle[1] - point[1],
+                x: 0.0,
+                y: self.size[1],
+            },
+        ]
     }
 
     /// d · vector.

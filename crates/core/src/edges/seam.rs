@@ -25,7 +25,7 @@ pub(crate) fn seam(cell: &Cell, one: &Ball, other: &Ball) -> Quadratic {
     let by_outside = small.outside - large.outside - 2.0 * small.center.dot(between);
     let radii_cost = large.radius.max(length) * length.max(1e-300);
     let outside_cost = small.outside.abs() + large.outside.abs() + small.center.length() * length;
-    let twice = if radii_cost <= outside_cost {
+    let twice = if radii_cost <= outside_cost || cell.is_parallel() {
         by_radii
     } else {
         by_outside
@@ -45,6 +45,9 @@ pub(crate) fn seam(cell: &Cell, one: &Ball, other: &Ball) -> Quadratic {
 /// > w∥² |d × c|² + ((c × d) · (ĉ × w))² − r² q² + A μ² + 2 μ (d × c) · (d × w).
 pub(super) fn plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quadratic {
     let (center, radius_sq) = (ball.center, ball.radius * ball.radius);
+    if cell.is_parallel() {
+        return parallel_plane_cut(cell, ball, w, offset);
+    }
     let q = cell.dot(w);
     let ray_sq = cell.ray_sq();
     let m = center.dot(w) + offset;
@@ -73,6 +76,31 @@ pub(super) fn plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quad
     }
     let mixed = dot(&across, &cell.cross(w));
     central + ray_sq * (offset * offset) + mixed * (2.0 * offset)
+}
+
+/// The same for parallel rays.
+///
+/// # Source
+/// With a and b the ways from the center to a ray, across it, the ray meets the plane (μ − w_x a − w_y b) / w_z ahead of
+/// the center, on the sphere where that is the root of r² − a² − b².
+fn parallel_plane_cut(cell: &Cell, ball: &Ball, w: DVec3, offset: f64) -> Quadratic {
+    let [a, b] = cell.aside(ball.center);
+    let along = |linear: &Linear, factor: f64| Linear {
+        one: linear.one * factor,
+        x: linear.x * factor,
+        y: linear.y * factor,
+    };
+    let (x, y) = (along(&a, w.x), along(&b, w.y));
+    let rest = Linear {
+        one: x.one + y.one - offset,
+        x: x.x + y.x,
+        y: x.y + y.y,
+    };
+    let radius_sq = Quadratic {
+        one: ball.radius * ball.radius,
+        ..Quadratic::default()
+    };
+    rest * rest - (radius_sq - a * a - b * b) * (w.z * w.z)
 }
 
 #[cfg(test)]

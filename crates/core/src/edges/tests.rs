@@ -30,6 +30,7 @@ pub(crate) fn ball(center: DVec3, radius: f64) -> Ball {
         center,
         radius,
         outside: center.length_squared() - radius * radius,
+        projection: crate::model::camera::Projection::Central,
     }
 }
 
@@ -50,7 +51,11 @@ pub(crate) fn cell_at(random: &mut Random, ball: &Ball, widths: f64) -> Cell {
     middle.x += 0.3 * angle * coordinate(random);
     middle.y += 0.3 * angle * coordinate(random);
     let size = [0, 1].map(|_| widths * angle * (0.7 + 0.6 * random.number()));
-    Cell { middle, size }
+    Cell {
+        middle,
+        size,
+        projection: crate::model::camera::Projection::Central,
+    }
 }
 
 /// A cell anywhere, of any size.
@@ -59,6 +64,7 @@ pub(crate) fn any_cell(random: &mut Random) -> Cell {
     Cell {
         middle: (random.point() * away).with_z(1.0),
         size: [0, 1].map(|_| magnitude(random, 1e-5, 2.0)),
+        projection: crate::model::camera::Projection::Central,
     }
 }
 

@@ -195,15 +195,15 @@ impl<'scene> Areas<'scene> {
         } = scratch;
         contents.see(scene, cell, spheres, cache);
         match &contents.active[..] {
-            [] => return,
-            [one] if contents.conics.is_empty() => {
+            [] if !contents.is_mixed => return,
+            [one] if contents.conics.is_empty() && !contents.is_mixed => {
                 sums.add(one.sphere, share, 0.0);
                 return;
             }
             _ => {}
         }
         let tolerance = self.context.tolerance;
-        if boxes.shares(simd, scene, cell, contents, (tolerance, shares)) {
+        if !contents.is_mixed && boxes.shares(simd, scene, cell, contents, (tolerance, shares)) {
             for (active, [area, error]) in contents.active.iter().zip(&shares.of_spheres) {
                 let error = error + contents.rounding;
                 sums.add(active.sphere, area * share, error * share);

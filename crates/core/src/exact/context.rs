@@ -38,7 +38,7 @@ pub(crate) struct Context<'scene> {
 impl Context<'_> {
     /// The cell that covers some pixels.
     pub(crate) fn cell(&self, tile: Tile) -> Cell {
-        let distance = self.view.lens.distance * self.view.zoom;
+        let distance = self.view.magnification();
         let pixel = self.view.pixel_size() / distance;
         let center = |col: u32, row: u32| {
             self.view.cell_center(u64::from(col), u64::from(row), 1) / distance
@@ -51,6 +51,7 @@ impl Context<'_> {
                 pixel * f64::from(tile.width),
                 pixel * f64::from(tile.height),
             ],
+            projection: self.scene.projection,
         }
     }
 
@@ -97,7 +98,7 @@ impl Context<'_> {
     #[inline(always)]
     pub(crate) fn rays<S: Simd>(&self, simd: S, start: Tile) -> (Vectors<S>, f64) {
         let cell = self.cell(start);
-        let distance = self.view.lens.distance * self.view.zoom;
+        let distance = self.view.magnification();
         let mut u = [0.0; 8];
         for (lane, u) in u.iter_mut().enumerate() {
             let col = u64::from(start.col) + lane as u64;

@@ -2,11 +2,13 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
+use glam::DVec3;
 
 use super::points::Points;
 use super::scene::{InCamera, Light};
 use super::surface::Finish;
 use crate::light::shading_normal::ShadingNormal;
+use crate::model::camera::Projection;
 use crate::numeric::vectors::Vectors;
 
 impl Finish {
@@ -160,10 +162,15 @@ impl Finish {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         // Rays have a length of at least 1: so far may one turn from the middle's.
-        let turn = 0.5 * (size[0] + size[1]);
-        let scale = -one / middle.length_squared().sqrt();
+        let mut turn = 0.5 * (size[0] + size[1]);
+        let mut scale = -one / middle.length_squared().sqrt();
+        let mut direction = *middle;
+        if scene.projection == Projection::Parallel {
+            direction = Vectors::splat(simd, DVec3::Z);
+            (turn, scale) = (0.0, -one);
+        }
         for light in &scene.lights {
-            let along = middle.dot_one(light.toward) * scale;
+            let along = direction.dot_one(light.toward) * scale;
             let sine_sq = (along * -0.5 + (0.5 + 0.5 * turn)).max(zero).min(one);
             let height = falloff.of_clamped(sine_sq.sqrt());
             let most = strength * light.intensity.max_element();

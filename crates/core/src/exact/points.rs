@@ -2,6 +2,7 @@
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use glam::DVec3;
 
 use crate::edges::cell::Ball;
 use crate::numeric::vectors::Vectors;
@@ -9,6 +10,7 @@ use crate::numeric::vectors::Vectors;
 /// Points of a sphere that the eye sees from outside.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Points<S: Simd> {
+    /// The directions of the rays.
     pub(crate) ray: Vectors<S>,
     pub(crate) ray_sq: f64x8<S>,
     /// In multiples of the ray.
@@ -35,11 +37,27 @@ impl<S: Simd> Points<S> {
         }
     }
 
-    /// The points in the directions `ray`; a ray that misses counts as grazing.
+    /// The points on the rays of a cell; a ray that misses counts as grazing.
     #[inline(always)]
     pub(crate) fn new(simd: S, ball: &Ball, ray: Vectors<S>) -> Self {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
+        if ball.is_parallel() {
+            let (a, b) = (ray.x - ball.center.x, ray.y - ball.center.y);
+            let discriminant = (a * a + b * b) * -1.0 + ball.radius * ball.radius;
+            let root = discriminant.max(zero).sqrt();
+            let from_center = Vectors {
+                x: a,
+                y: b,
+                z: -root,
+            };
+            return Self {
+                ray: Vectors::splat(simd, DVec3::Z),
+                ray_sq: one,
+                t: root * -1.0 + ball.center.z,
+                normal: from_center.times(one * (1.0 / ball.radius)),
+            };
+        }
         let ray_sq = ray.length_squared();
         let along = ray.dot_one(ball.center);
         if ball.is_apart() {
@@ -72,9 +90,13 @@ impl<S: Simd> Points<S> {
         }
     }
 
-    /// The points, from the eye.
+    /// The points, in the camera's frame; of this ball.
     #[inline(always)]
-    pub(crate) fn place(&self) -> Vectors<S> {
+    pub(crate) fn place(&self, ball: &Ball) -> Vectors<S> {
+        if ball.is_parallel() {
+            let from_center = self.normal.times(self.t * 0.0 + ball.radius);
+            return Vectors::splat(self.t.simd, ball.center).plus(&from_center);
+        }
         self.ray.times(self.t)
     }
 }

@@ -5,6 +5,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIter
 
 use crate::edges::cell::Ball;
 use crate::edges::shadow::Caster;
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -27,6 +28,7 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) visibility: &'scene Visibility<'scene>,
     pub(crate) world_from_camera: DMat3,
     pub(crate) viewpoint: DVec3,
+    pub(crate) projection: Projection,
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
     balls: Vec<Ball>,
@@ -82,7 +84,9 @@ impl<'scene> InCamera<'scene> {
         let world_from_camera = view.camera.world_from_camera;
         let camera_from_world = world_from_camera.transpose();
         let viewpoint = view.camera.position;
-        let in_camera = |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world);
+        let projection = view.lens.projection();
+        let in_camera =
+            |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world, projection);
         let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
         let balls: Vec<Ball> = if world.spheres().len() <= MOST_KEPT {
             spheres.clone().map(in_camera).collect()
@@ -115,7 +119,11 @@ impl<'scene> InCamera<'scene> {
             visibility,
             world_from_camera,
             viewpoint,
-            is_enclosed: world.shadows && spheres.any(encloses),
+            projection,
+            // Of parallel rays some may begin inside of a sphere, and others not.
+            is_enclosed: world.shadows
+                && projection == Projection::Central
+                && spheres.any(encloses),
             camera_from_world,
             balls,
             lights: lights.collect(),
@@ -147,6 +155,7 @@ impl<'scene> InCamera<'scene> {
                 &self.world.spheres()[sphere],
                 self.viewpoint,
                 &self.camera_from_world,
+                self.projection,
             ),
         }
     }
@@ -177,10 +186,24 @@ impl<'scene> InCamera<'scene> {
     }
 }
 
-fn in_camera(sphere: &Sphere, viewpoint: DVec3, camera_from_world: &DMat3) -> Ball {
+fn in_camera(
+    sphere: &Sphere,
+    viewpoint: DVec3,
+    camera_from_world: &DMat3,
+    projection: Projection,
+) -> Ball {
+    let (center, radius) = (
+        *camera_from_world * (sphere.center() - viewpoint),
+        sphere.radius(),
+    );
     Ball {
-        center: *camera_from_world * (sphere.center() - viewpoint),
-        radius: sphere.radius(),
-        outside: sphere.outside(viewpoint),
+        center,
+        radius,
+        outside: match projection {
+            Projection::Central => sphere.outside(viewpoint),
+            Projection::Parallel if center.z >= radius => center.z,
+            Projection::Parallel => -1.0,
+        },
+        projection,
     }
 }

@@ -78,6 +78,7 @@ fn a_huge_floor_cuts_a_small_ball_in_its_circle() {
         let cell = Cell {
             middle: small.center / 8.0,
             size: [0.4; 2],
+            projection: crate::model::camera::Projection::Central,
         };
         let seam = seam(&cell, &floor, &small);
         for step in 0..40 {

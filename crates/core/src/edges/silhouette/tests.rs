@@ -47,6 +47,7 @@ fn far_and_small_spheres_keep_their_outline() {
     let cell = Cell {
         middle: DVec3::new(u / UNIT, v / UNIT, 1.0),
         size: [2.0 * half as f64 / UNIT; 2],
+        projection: crate::model::camera::Projection::Central,
     };
     let outline = silhouette(&cell, &ball);
     for row in (-half..=half).step_by(128) {

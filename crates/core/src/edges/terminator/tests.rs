@@ -39,10 +39,12 @@ fn light_from_behind_the_eye_has_a_circle_for_its_terminator() {
         center: DVec3::Z * 4.0,
         radius: 1.0,
         outside: 15.0,
+        projection: crate::model::camera::Projection::Central,
     };
     let cell = Cell {
         middle: DVec3::Z,
         size: [1.0; 2],
+        projection: crate::model::camera::Projection::Central,
     };
     let circle = terminator(&cell, &ball, DVec3::NEG_Z);
     let [rising, falling] = super::super::tests::crossings(&circle, [0.0; 8]);

@@ -15,9 +15,11 @@ pub(crate) struct Active {
     pub(crate) ball: Ball,
     /// The discriminant Q of the ray.
     pub(crate) discriminant: Quadratic,
-    /// d · c.
+    /// d · c, for parallel rays the center's distance from their plane.
     pub(crate) along: Linear,
     pub(crate) terminators: Terminators,
+    /// Whether no light reaches it, as inside of a sphere.
+    pub(crate) is_dark: bool,
 }
 
 /// The place where the surface of a sphere turns from a light.

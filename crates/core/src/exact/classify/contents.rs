@@ -18,6 +18,7 @@ use crate::edges::terminator::terminator;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
@@ -56,6 +57,12 @@ pub(crate) struct Contents {
     /// How far, in sides of the cell, rounding may move an edge; and the area of spheres that are too small to
     /// be resolved, which are left out.
     pub(crate) rounding: f64,
+    /// Whether rays begin inside of a sphere that casts shadows, so that no light gets to what they see.
+    is_enclosed: bool,
+    /// Spheres of which some parallel rays of the cell begin inside, and others not.
+    cut: Vec<(usize, Ball)>,
+    /// Whether edges of the cell are not known because of these.
+    pub(crate) is_mixed: bool,
     hidden: HiddenSpheres,
 }
 
@@ -93,21 +100,33 @@ impl Contents {
         self.reach.clear();
         self.occluders.clear();
         let size = cell.size[0].min(cell.size[1]);
-        self.rounding = ROUNDINGS * cell.middle.length() / size;
+        self.rounding = ROUNDINGS * cell.extent() / size;
+        self.is_enclosed = scene.is_enclosed;
+        self.is_mixed = false;
+        self.cut.clear();
         let mut unresolved = 0.0;
-        for &(sphere, ball) in spheres {
+        for &(sphere, mut ball) in spheres {
+            if ball.is_cut() && !self.take_cut(scene, cell, (sphere, &mut ball)) {
+                continue;
+            }
             let width = silhouette_width(&ball) / size;
             if width < NARROWEST {
                 unresolved += width * width;
                 continue;
             }
             let discriminant = silhouette(cell, &ball);
-            let along = cell.dot(ball.center);
+            let along = cell.along(ball.center);
             let spread = discriminant.spread();
-            let slack = GEOMETRY_SLACK * (spread + discriminant.one.abs());
+            let mut slack = GEOMETRY_SLACK * (spread + discriminant.one.abs());
+            if ball.is_parallel() {
+                let length = ball.center.length() + ball.radius;
+                self.rounding = self.rounding.max(ROUNDINGS * length / size);
+                slack += 2.0 * ROUNDINGS * length * ball.radius;
+            }
             let half = 0.5 * (along.x.abs() + along.y.abs());
             let is_outside = ball.outside > 0.0;
-            if is_outside && (discriminant.one + spread + slack < 0.0 || along.one + half <= 0.0) {
+            let is_behind = along.one + half <= 0.0;
+            if is_outside && (discriminant.one + spread + slack < 0.0 || is_behind) {
                 continue;
             }
             // Of spheres that coincide the first is seen.
@@ -124,7 +143,7 @@ impl Contents {
             // Of spheres with one outline the nearest hides the others.
             let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
             if let Some(other) = self.active.iter_mut().find(is_alike) {
-                let moved = ALIKE * cell.middle.length() / size;
+                let moved = ALIKE * (cell.extent() + ball.center.length()) / size;
                 self.rounding = self.rounding.max(moved);
                 if ball.outside < other.ball.outside {
                     *other = Active {
@@ -133,6 +152,7 @@ impl Contents {
                         discriminant,
                         along,
                         terminators: Terminators::of(scene, sphere, self.pixel),
+                        is_dark: false,
                     };
                 }
                 continue;
@@ -143,8 +163,10 @@ impl Contents {
                 discriminant,
                 along,
                 terminators: Terminators::of(scene, sphere, self.pixel),
+                is_dark: false,
             });
         }
+        self.add_caps(scene, cell);
         self.hidden.remove(cache.level, &mut self.active);
         for position in 0..self.active.len() {
             let active = self.active[position];
@@ -154,7 +176,8 @@ impl Contents {
                 self.conics.push((kind, active.discriminant));
             }
             self.add_seams(cell, position);
-            let may_be_shaded = is_outside && !scene.is_enclosed && scene.world.shadows;
+            let may_be_lit = is_outside && !self.is_enclosed && !active.is_dark;
+            let may_be_shaded = may_be_lit && scene.world.shadows;
             let patch = may_be_shaded.then(|| {
                 let Active {
                     ball,
@@ -165,7 +188,7 @@ impl Contents {
                 Patch::new(cell, ball, discriminant, along)
             });
             for light in 0..scene.lights.len() {
-                let reach = if is_outside && !scene.is_enclosed {
+                let reach = if may_be_lit {
                     self.reach_of(scene, cell, (&active, patch.as_ref()), light, cache)
                 } else {
                     Reach::Nowhere
@@ -182,6 +205,80 @@ impl Contents {
             }
         }
         self.rounding += unresolved;
+    }
+
+    /// Takes in a sphere that the plane cuts in which parallel rays begin. As the cell sees it the ball is then one that
+    /// all rays begin outside of, or inside; returns false where it is not seen, or not known yet.
+    fn take_cut(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        (sphere, ball): (usize, &mut Ball),
+    ) -> bool {
+        let z = ball.center.z;
+        let mut inside = silhouette(cell, ball);
+        let (at_center, spread) = (inside.one, inside.spread());
+        inside.one -= z * z;
+        let size = cell.extent() + ball.center.length() + ball.radius;
+        let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
+            + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
+        if inside.one + spread + slack < 0.0 {
+            // Rays meet its outer side, or pass it.
+            ball.outside = z;
+            return z > 0.0;
+        }
+        if inside.one - spread - slack > 0.0 {
+            self.is_enclosed |= scene.world.shadows;
+            return true;
+        }
+        self.cut.push((sphere, *ball));
+        false
+    }
+
+    /// Adds the spheres of which some rays of the cell begin inside: there, where nothing else lies inside of one, its
+    /// inner side is what a dark ball before all else would be, behind whose outline its outer side is seen.
+    fn add_caps(&mut self, scene: &InCamera<'_>, cell: &Cell) {
+        let [(sphere, ball)] = self.cut[..] else {
+            self.is_mixed = !self.cut.is_empty();
+            return;
+        };
+        let reaches_in = |active: &Active| {
+            let apart = (active.ball.center - ball.center).length();
+            apart < (active.ball.radius + ball.radius) * (1.0 + GEOMETRY_SLACK)
+        };
+        if self.active.iter().any(reaches_in) || self.is_enclosed {
+            self.is_mixed = true;
+            return;
+        }
+        let z = ball.center.z;
+        let radius = ((ball.radius - z) * (ball.radius + z)).max(0.0).sqrt();
+        let size = cell.size[0].min(cell.size[1]);
+        // Rounding moves the outline of a thin cap by more than the plane.
+        let moved = ROUNDINGS * (ball.center.length() + ball.radius) * ball.radius;
+        self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
+        let outer = Ball { outside: z, ..ball };
+        let cap = Ball {
+            center: ball.center.with_z(-(2.0 * ball.radius + radius)),
+            radius,
+            outside: f64::MIN_POSITIVE,
+            ..ball
+        };
+        for (ball, is_dark) in [(outer, false), (cap, true)] {
+            if is_dark || z > 0.0 {
+                self.active.push(Active {
+                    sphere,
+                    ball,
+                    discriminant: silhouette(cell, &ball),
+                    along: cell.along(ball.center),
+                    terminators: if is_dark {
+                        Terminators::Plain
+                    } else {
+                        Terminators::of(scene, sphere, self.pixel)
+                    },
+                    is_dark,
+                });
+            }
+        }
     }
 
     /// Adds the curves in which an active sphere intersects those before it.
@@ -243,7 +340,10 @@ impl Contents {
             };
             let extent = |center: DVec3, radius: f64| center.length() + radius;
             let own = extent(active.ball.center, active.ball.radius);
-            let distance = patch.ends[0].length() / cell.middle.length();
+            let distance = match cell.projection {
+                Projection::Central => patch.ends[0].length() / cell.middle.length(),
+                Projection::Parallel => 1.0,
+            };
             let size = cell.size[0].min(cell.size[1]) * distance;
             for &sphere in found {
                 let (center, radius) = scene.center(sphere as usize);
@@ -292,7 +392,7 @@ impl Contents {
             // The patch is no longer than this.
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
-            let turn = 0.5 * length / active.ball.radius + cell.size[0];
+            let turn = 0.5 * length / active.ball.radius + cell.turn()[0];
             let finish = Finish::new(scene, active.sphere, self.pixel);
             // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
             let cells = finish.shading_normal.cells();
@@ -339,6 +439,11 @@ fn has_same_outline(one: &Ball, other: &Ball) -> bool {
     if one.outside <= 0.0 || other.outside <= 0.0 {
         return false;
     }
+    if one.is_parallel() {
+        let slack = ALIKE * (one.center.length() + other.center.length() + one.radius);
+        let aside = (one.center - other.center).truncate();
+        return (one.radius - other.radius).abs() <= slack && aside.length() <= slack;
+    }
     let far = [one, other].map(|ball| ball.center.length());
     let slack = ALIKE * far[0] * far[1];
     (one.radius * far[1] - other.radius * far[0]).abs() <= slack
@@ -359,8 +464,11 @@ fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
 /// A bound of the width of a sphere's silhouette on the retina at distance 1; infinite where the sphere comes
 /// near the eye's plane.
 ///
-/// Along an axis the silhouette is 2 r √(c_x² + c_z² − r²) / (c_z² − r²) wide.
+/// Along an axis the silhouette is 2 r √(c_x² + c_z² − r²) / (c_z² − r²) wide; through parallel rays 2 r.
 fn silhouette_width(ball: &Ball) -> f64 {
+    if ball.is_parallel() {
+        return 2.0 * ball.radius;
+    }
     let product = (ball.center.z - ball.radius) * (ball.center.z + ball.radius);
     if ball.center.z > 2.0 * ball.radius {
         2.0 * ball.radius * ball.center.length() / product

@@ -23,6 +23,14 @@ impl<S: Simd> Discriminant<S> {
     pub(crate) fn new(ray: &Vectors<S>, ray_sq: f64x8<S>, ball: &Ball) -> Self {
         let (u, v) = (ray.x, ray.y);
         let (c, r, k) = (ball.center, ball.radius, ball.outside);
+        if ball.is_parallel() {
+            let (a, b) = (u - c.x, v - c.y);
+            return Self {
+                value: (a * a + b * b) * -1.0 + r * r,
+                along: u * 0.0 + c.z,
+                half_slopes: [-a, -b],
+            };
+        }
         let along = u * c.x + v * c.y + c.z;
         if ball.is_apart() {
             let across = [v * c.z - c.y, c.x - u * c.z, u * c.y - v * c.x];
@@ -48,6 +56,9 @@ impl<S: Simd> Discriminant<S> {
 /// The sum of the sizes of the coefficients of second degree of Q, along the retina at distance 1.
 #[inline(always)]
 pub(crate) fn bend(ball: &Ball) -> f64 {
+    if ball.is_parallel() {
+        return 2.0;
+    }
     let (c, k) = (ball.center, ball.outside);
     (c.x * c.x - k).abs() + (c.y * c.y - k).abs() + 2.0 * (c.x * c.y).abs()
 }

@@ -1,7 +1,7 @@
 //! What makes light in a cell hard: how bright highlights may be, and how fine bumps are.
 
 use fearless_simd::prelude::*;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use super::contents::{Contents, Reach};
 use super::patch::Patch;
@@ -9,6 +9,7 @@ use crate::edges::cell::Cell;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::numeric::vectors::Vectors;
 
@@ -58,7 +59,10 @@ impl Contents {
             let finish = Finish::new(scene, active.sphere, self.pixel);
             let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
             let middle = 0.5 * (patch.ends[0] + patch.ends[1]);
-            let side = cell.size[0] * middle.length() / cell.middle.length();
+            let side = match cell.projection {
+                Projection::Central => cell.size[0] * middle.length() / cell.middle.length(),
+                Projection::Parallel => cell.size[0],
+            };
             most = most.max(finish.shading_normal.cells() * side / active.ball.radius);
         }
         most
@@ -93,8 +97,11 @@ impl Contents {
                 let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
                 let turn = OF_CHORD * length / active.ball.radius;
                 // Rays are at least 1 long: so far may one, as a unit vector, be from the middle's.
-                let view = cell.middle * (-1.0 / cell.middle.length());
-                let aside = DVec2::from_array(cell.size).length();
+                let view = match cell.projection {
+                    Projection::Central => cell.middle * (-1.0 / cell.middle.length()),
+                    Projection::Parallel => DVec3::NEG_Z,
+                };
+                let aside = DVec2::from_array(cell.turn()).length();
                 let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
                 let mut highest = 0.0;
                 for (light, reach) in scene.lights.iter().zip(&self.reach[first..]) {

@@ -35,7 +35,12 @@ impl HiddenSpheres {
         self.ends.clear();
         for (position, active) in active.iter().enumerate() {
             let ball = &active.ball;
-            if ball.outside > 0.0 {
+            if ball.outside > 0.0 && ball.is_parallel() {
+                // Rays touch it at the center's distance.
+                let (distance, slack) = (ball.center.z, GEOMETRY_SLACK * ball.center.length());
+                self.begins.push((distance - ball.radius - slack, position));
+                self.ends.push((distance + slack, position));
+            } else if ball.outside > 0.0 {
                 let distance = ball.center.length();
                 let begin = distance - ball.radius - GEOMETRY_SLACK * distance;
                 self.begins.push((begin, position));

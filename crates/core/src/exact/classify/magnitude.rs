@@ -10,11 +10,7 @@ const MODERATE: std::ops::Range<f64> = 1e-60..1e60;
 /// Returns whether the numbers of a view are moderate. Edges are found in plain doubles, without the floors of
 /// exact hits; where they cannot be trusted, a pixel makes no claim.
 pub(crate) fn is_view_moderate(view: &View) -> bool {
-    // Edges are known of central projections alone.
-    if view.lens.is_parallel() {
-        return false;
-    }
-    let distance = view.lens.distance * view.zoom;
+    let distance = view.magnification();
     let pixel = view.pixel_size() / distance;
     [distance, view.pixel_size(), pixel]
         .iter()

@@ -11,6 +11,7 @@ use super::shade_mask::ShadeMask;
 use crate::edges::cell::Cell;
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
+use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
@@ -23,7 +24,7 @@ const SMALL_PX: f64 = 4.0;
 #[derive(Clone, Debug)]
 pub(crate) struct OccluderCache {
     tile: Cell,
-    /// The side of a pixel at distance 1.
+    /// The side of a pixel at distance 1; for parallel rays at any.
     pixel: f64,
     pub(crate) level: Level,
     known: Vec<Known>,
@@ -96,7 +97,11 @@ impl OccluderCache {
     /// Looks for these in the hierarchy.
     fn find(&mut self, scene: &InCamera<'_>, sphere: usize, light: usize) -> Option<Range<usize>> {
         let ball = scene.ball(sphere);
-        let is_small = ball.radius < SMALL_PX * self.pixel * ball.center.z;
+        let distance = match ball.projection {
+            Projection::Central => ball.center.z,
+            Projection::Parallel => 1.0,
+        };
+        let is_small = ball.radius < SMALL_PX * self.pixel * distance;
         let patch = if is_small {
             Patch {
                 ends: [ball.center; 2],
@@ -104,7 +109,7 @@ impl OccluderCache {
             }
         } else {
             let discriminant = silhouette(&self.tile, &ball);
-            let along = self.tile.dot(ball.center);
+            let along = self.tile.along(ball.center);
             Patch::new(&self.tile, &ball, &discriminant, &along)
         };
         let points = patch.ends.map(|point| scene.in_world(point));
@@ -231,6 +236,7 @@ impl OccluderCache {
         let tile = Cell {
             middle: glam::DVec3::Z,
             size: [1.0; 2],
+            projection: crate::model::camera::Projection::Central,
         };
         let mut cache = Self::new(tile, 1.0);
         for (index, caster) in (0..).zip(casters) {

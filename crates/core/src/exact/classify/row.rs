@@ -84,6 +84,60 @@ pub(crate) fn classify_row<S: Simd>(
 /// along the retina is 2 r √K or more there: times half a side, it is a part of the spread.
 const ROUNDINGS: f64 = 32.0 * UNIT_ROUNDOFF;
 
+/// The part of a ball before their plane that eight pixels see through parallel rays: it begins at c_z − √Q⁺, and
+/// ends at c_z − √Q⁻.
+///
+/// With u the roundoff the center is off by 8 u |c|, and the ray by 4 u of its place, which moves Q by twice the
+/// radius times that where it is about 0; the slope there is 2 r, so that this is a move of the ray by as much.
+#[inline(always)]
+fn parallel_extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+    let (c, r) = (ball.center, ball.radius);
+    let discriminant = Discriminant::new(ray, ray.x * 0.0 + 1.0, ball);
+    let q = discriminant.value;
+    let [by_u, by_v] = discriminant.half_slopes;
+    let second = 0.25 * size * size * bend(ball);
+    let moved = (ray.x.abs() + ray.y.abs() + (c.length() + r)) * ROUNDINGS;
+    let slack = moved * (2.0 * r + size) + moved * moved;
+    let spread = (by_u.abs() + by_v.abs()) * size + second;
+    let slack = slack + spread * GEOMETRY_SLACK + q.abs() * GEOMETRY_SLACK;
+    let (lowest, highest) = (q - spread - slack, q + spread + slack);
+    let zero = f64x8::splat(simd, 0.0);
+    let far = GEOMETRY_SLACK * (c.length() + r);
+    if ball.is_cut() {
+        return cut_extent(simd, ball, [lowest, highest]);
+    }
+    let (low_root, high_root) = (lowest.max(zero).sqrt(), highest.max(zero).sqrt());
+    Extent {
+        touched: highest.simd_ge(0.0),
+        covered: lowest.simd_gt(0.0),
+        nearest: high_root * -1.0 + (c.z - far),
+        farthest: low_root * -1.0 + (c.z + far),
+    }
+}
+
+/// The same of a ball that the plane cuts, from bounds of Q: rays begin inside of it where Q > c_z², and see its
+/// inner side at c_z + √Q.
+#[inline(always)]
+fn cut_extent<S: Simd>(simd: S, ball: &Ball, [lowest, highest]: [f64x8<S>; 2]) -> Extent<S> {
+    let (z, zero) = (ball.center.z, f64x8::splat(simd, 0.0));
+    let slack = GEOMETRY_SLACK * (ball.center.length() + ball.radius);
+    // Behind the plane lies all of it that begins before its middle.
+    let least = if z > 0.0 {
+        0.0
+    } else {
+        (z + slack).min(0.0).powi(2)
+    };
+    let inside = (z.abs() + slack).powi(2);
+    let covered = lowest.simd_gt(inside);
+    Extent {
+        touched: highest.simd_ge(least),
+        covered,
+        // What lies inside of it, before its wall, is dark by it.
+        nearest: zero,
+        farthest: highest.max(zero).sqrt() + (z + slack),
+    }
+}
+
 /// The part of a ball that eight pixels of this size see, with these rays through their middles, whose third
 /// component is 1.
 ///
@@ -91,6 +145,9 @@ const ROUNDINGS: f64 = 32.0 * UNIT_ROUNDOFF;
 /// is seen of a sphere begins at K / (B⁺ + √Q⁺) and ends at K / (B⁻ + √Q⁻).
 #[inline(always)]
 fn extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -> Extent<S> {
+    if ball.is_parallel() {
+        return parallel_extent(simd, ray, size, ball);
+    }
     let (u, v) = (ray.x, ray.y);
     let ray_sq = u * u + v * v + 1.0;
     let (c, k) = (ball.center, ball.outside);
@@ -200,7 +257,8 @@ fn visible_spheres(
         if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !contains(spheres, one) {
             continue;
         }
-        let patch = Patch::new(cell, ball, &silhouette(cell, ball), &cell.dot(ball.center));
+        let (outline, along) = (silhouette(cell, ball), cell.along(ball.center));
+        let patch = Patch::new(cell, ball, &outline, &along);
         for other in coverages.iter().filter(here) {
             if other.sphere == one.sphere || !contains(spheres, other) {
                 continue;
@@ -224,6 +282,9 @@ fn visible_spheres(
 
 /// The least distance of the middle of a sphere's chord along rays of a cell, in multiples of these.
 fn nearest_middle(cell: &Cell, ball: &Ball) -> f64 {
+    if cell.is_parallel() {
+        return ball.center.z;
+    }
     let along = cell.dot(ball.center);
     let ray_sq = cell.ray_sq();
     (along.one - 0.5 * (along.x.abs() + along.y.abs())) / (ray_sq.one + ray_sq.spread())

@@ -116,7 +116,10 @@ impl Workspace {
         let is_fine = self
             .contents
             .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
-        if !is_fine && let Some(part) = self.by_boxes(simd, pixel, &cell) {
+        if !is_fine
+            && !self.contents.is_mixed
+            && let Some(part) = self.by_boxes(simd, pixel, &cell)
+        {
             return Ok(part);
         }
         let mut part = self.part(simd, pixel, &cell, 0)?;
@@ -238,6 +241,13 @@ impl Workspace {
             ..
         } = pixel.context;
         let contents = &self.contents;
+        if contents.is_mixed {
+            self.budget.spend(CellWork {
+                samples: 0,
+                tests: pixel.spheres.len() as u64,
+            });
+            return Err(GiveUp::Unknown);
+        }
         let mut work = CellWork {
             samples: 0,
             tests: pixel.spheres.len() as u64,

@@ -83,7 +83,10 @@ impl<S: Simd> Filled<'_, S> {
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<Average> {
         let negligible = NEGLIGIBLE * self.tolerance;
-        let turn = self.turn + self.size[0].max(self.size[1]);
+        let mut turn = self.turn;
+        if !self.ball.is_parallel() {
+            turn += self.size[0].max(self.size[1]);
+        }
         for (lit, light) in self.lit.iter().zip(&self.scene.lights) {
             let finish = self.finish;
             if *lit != 0 && finish.too_sharp(simd, points, light, turn, SHARPEST, negligible) != 0 {
@@ -139,9 +142,12 @@ pub(crate) fn of_filled_cell<S: Simd>(
             let middle = Vectors::splat(simd, cell.middle);
             let points = Points::new(simd, ball, middle);
             let patch = Patch::new(cell, ball, &active.discriminant, &active.along);
-            let length = cell.middle.length();
+            let length = cell.ray_length();
             let at = points.t[0] * length;
-            let ends = patch.ends.map(|end| (end.length() - at).abs());
+            let ends = patch.ends.map(|end| match cell.is_parallel() {
+                true => (end.z - at).abs(),
+                false => (end.length() - at).abs(),
+            });
             let turn = (ends[0].max(ends[1]) + patch.around) / ball.radius;
             let grazing = -points.normal.dot(&points.ray)[0] / length;
             let filled = Filled {

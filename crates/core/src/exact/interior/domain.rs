@@ -35,6 +35,11 @@
 //! or less: by ρ, by ε α / 2, by α² / (1 + α), and by the product of the linear parts of B and d·l with the
 //! quadratic one of α.
 
+//!
+//! Of parallel rays Q = r² − a² − b² with the linear ways a, b from the center to the ray, n = (a, b, −√Q) / r, and
+//! all of this becomes simpler: n·l changes by ((|l_x| + |l_y|) h + |l_z| q) / r or less, and differs from a
+//! polynomial of degree 3 by √Q₀ |l_z| |ρ| / r. The directions toward the eye do not change.
+
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
@@ -66,6 +71,7 @@ const ROOT_OF_TWO: f64 = 1.42;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Domain<'a, S: Simd> {
     ball: &'a Ball,
+    /// The directions of the rays.
     ray: Vectors<S>,
     ray_sq: f64x8<S>,
     /// The pixels that have one.
@@ -84,6 +90,8 @@ pub(super) struct Domain<'a, S: Simd> {
     factors: [f64x8<S>; 2],
     /// A bound of what rounding makes wrong in normals, anywhere in the pixel.
     pub(super) rounding: f64x8<S>,
+    /// Those in the middle, for parallel rays alone.
+    normal: Vectors<S>,
 }
 
 /// A quantity in the middles of eight pixels, and a bound of its change in their domains.
@@ -118,6 +126,9 @@ impl<'a, S: Simd> Domain<'a, S> {
         /// which is less than twice that elsewhere in the pixel. In roundoffs, the center in the camera's frame is
         /// off by 10 |c|, the place on the retina by 4, and Q by 16 A r (r + |c|): together 44.
         const ROUNDINGS: f64 = 256.0 * UNIT_ROUNDOFF;
+        if ball.is_parallel() {
+            return Self::of_parallel_rays(simd, ball, ray, size, ROUNDINGS);
+        }
         let (c, r, k) = (ball.center, ball.radius, ball.outside);
         let far = c.length();
         let ray_sq = ray.length_squared();
@@ -158,12 +169,67 @@ impl<'a, S: Simd> Domain<'a, S> {
             factors: [sum * reach * scale, loss * scale],
             // A is its root or more.
             rounding: ray_sq * inverse * ((r + far) * ROUNDINGS),
+            normal: *ray,
+        }
+    }
+
+    /// The same for parallel rays; normals are off by `roundings`, as they have it.
+    #[inline(always)]
+    fn of_parallel_rays(
+        simd: S,
+        ball: &'a Ball,
+        ray: &Vectors<S>,
+        size: f64,
+        roundings: f64,
+    ) -> Self {
+        let (c, r) = (ball.center, ball.radius);
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let discriminant = Discriminant::new(ray, one, ball);
+        let value = discriminant.value;
+        let [by_u, by_v] = discriminant.half_slopes;
+        // The center and the ray are off by roundings of these.
+        let far = ray.x.abs() + ray.y.abs() + (c.length() + r);
+        let is_sound = value.simd_gt(far * (r * SOUND));
+        let root = value.sqrt();
+        let slope = (by_u.abs() + by_v.abs()) * 2.0;
+        let most = value * KAPPA;
+        let steep = slope + (slope * slope + most * (4.0 * bend(ball))).sqrt();
+        let reach = most * 2.0 / steep;
+        let by_radius = 1.0 / r;
+        Self {
+            ball,
+            ray: Vectors::splat(simd, DVec3::Z),
+            ray_sq: one,
+            is_known: is_sound,
+            share: f64x8::splat(simd, 0.5 * size) / reach,
+            reach,
+            along: zero,
+            slack: zero,
+            t: root * -1.0 + c.z,
+            root,
+            factors: [reach * by_radius, root * (CHANGE_OF_ROOT * by_radius)],
+            rounding: far / root * roundings,
+            normal: Vectors {
+                x: (ray.x - c.x) * by_radius,
+                y: (ray.y - c.y) * by_radius,
+                z: root * -by_radius,
+            },
         }
     }
 
     /// n·l.
     #[inline(always)]
     pub(super) fn cosine(&self, toward: DVec3) -> Change<S> {
+        if self.ball.is_parallel() {
+            let aside = toward.x.abs() + toward.y.abs();
+            return Change {
+                value: self.normal.dot_one(toward),
+                change: self.factors[0] * aside + self.factors[1] * toward.z.abs(),
+                limit: None,
+                rounding: self.rounding,
+            };
+        }
         let along = self.ray.dot_one(toward);
         let aside = toward.x.abs() + toward.y.abs();
         let center = self.ball.center.dot(toward);
@@ -180,6 +246,16 @@ impl<'a, S: Simd> Domain<'a, S> {
     /// Where A changes by half of A₀ at most, 1 / √A changes by 0.83 of that, relatively, and n·v = √Q / (r √A).
     #[inline(always)]
     pub(super) fn toward_eye(&self) -> TowardEye<S> {
+        if self.ball.is_parallel() {
+            let one = self.reach * 0.0 + 1.0;
+            let cosine = self.root * (1.0 / self.ball.radius);
+            return TowardEye {
+                inverse: one,
+                stretch: one * 0.0,
+                cosine,
+                change: cosine * CHANGE_OF_ROOT,
+            };
+        }
         let reach = self.reach;
         let inverse_sq = 1.0 / self.ray_sq;
         let inverse = inverse_sq.sqrt();
@@ -196,6 +272,9 @@ impl<'a, S: Simd> Domain<'a, S> {
     /// A bound of what n·l differs by from a polynomial of degree 3, anywhere in the domain.
     #[inline(always)]
     pub(super) fn bend(&self, toward: DVec3, eye: &TowardEye<S>) -> f64x8<S> {
+        if self.ball.is_parallel() {
+            return self.root * (toward.z.abs() * BEND_OF_ROOT / self.ball.radius);
+        }
         let reach = self.reach;
         let aside = reach * (toward.x.abs() + toward.y.abs());
         let most = self.ray.dot_one(toward).abs() + aside;
@@ -227,7 +306,10 @@ impl<'a, S: Simd> Domain<'a, S> {
         // 1 + l·v, and its change, relatively.
         let rest = 1.0 - along * eye.inverse;
         let inverse_rest = 1.0 / rest;
-        let turn = self.reach * (aside * ROOT_OF_TWO) + along.abs() * eye.stretch * OF_ROOT;
+        let mut turn = self.reach * (aside * ROOT_OF_TWO) + along.abs() * eye.stretch * OF_ROOT;
+        if self.ball.is_parallel() {
+            turn *= 0.0;
+        }
         let turn = turn * eye.inverse * inverse_rest;
         let sum = cosine.value + eye.cosine;
         let of_sum = (cosine.change + eye.change) * ROOT_OF_TWO + sum * turn * OF_ROOT;

@@ -213,7 +213,13 @@ impl<S: Simd> Filled<'_, S> {
         let normal = &points.normal;
         let along = normal.x.abs() * (0.5 * width) + normal.y.abs() * (0.5 * height);
         let grazing = (normal.dot(&points.ray) / -points.ray_sq.sqrt()).max(zero);
-        let turn = points.t * (along / grazing + half_diagonal) * (1.0 / self.ball.radius);
+        // Points on parallel rays move by as much as the rays, wherever they are.
+        let scale = if self.ball.is_parallel() {
+            zero + 1.0
+        } else {
+            points.t
+        };
+        let turn = scale * (along / grazing + half_diagonal) * (1.0 / self.ball.radius);
         let nearness = turn * 2.0 / grazing;
         (turn * (nearness * 0.5 + 1.0), nearness)
     }

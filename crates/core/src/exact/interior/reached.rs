@@ -4,6 +4,7 @@ use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 use super::filled::FilledRow;
+use crate::edges::cell::Ball;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::occluders::Occluder;
 use crate::exact::context::{Context, NEGLIGIBLE};
@@ -74,9 +75,14 @@ impl<S: Simd> Reached<S> {
         let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
         let length = points.ray_sq.sqrt();
         let away = (farthest - points.t).max(points.t - nearest) * length;
-        let around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
+        let mut around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
+        if ball.is_parallel() {
+            let extent = ball.center.length() + ball.radius;
+            let places = ray.x.abs() + ray.y.abs() + farthest.abs();
+            around = (places + extent) * GEOMETRY_SLACK + half_diagonal;
+        }
         let turn = (away + around) * (1.0 / ball.radius);
-        let grazing = (points.normal.dot(&ray) * (-one / length)).max(zero);
+        let grazing = (points.normal.dot(&points.ray) * (-one / length)).max(zero);
         // A root of what vanishes at the silhouette, with the square of this.
         let mut nearness = turn * 2.0 / grazing;
         let mut hard = 0;
@@ -101,7 +107,7 @@ impl<S: Simd> Reached<S> {
                     None => reached = 0,
                     Some(range) => {
                         cache.tests += range.len() as u64 * u64::from(reached.count_ones());
-                        let ends = Ends::new(&ray, [nearest, farthest], light);
+                        let ends = Ends::new(ball, &ray, [nearest, farthest], light);
                         for occluder in range {
                             let occluder = cache.occluder(occluder);
                             let [touched, dark] = ends.shade(simd, &occluder, around);
@@ -118,7 +124,10 @@ impl<S: Simd> Reached<S> {
             // Those of bumps are told by samples of parts, and by how far their normals turn.
             if reached != 0 && !finish.is_bumpy() {
                 let negligible = NEGLIGIBLE * context.tolerance;
-                let turn = turn + size;
+                let mut turn = turn;
+                if !ball.is_parallel() {
+                    turn += size;
+                }
                 let sharp = finish.too_sharp(simd, &points, light, turn, SHARPEST, negligible);
                 hard |= sharp & reached;
                 reached &= !hard;
@@ -136,7 +145,24 @@ impl<S: Simd> Reached<S> {
 
 impl<S: Simd> Ends<S> {
     #[inline(always)]
-    fn new(ray: &Vectors<S>, [nearest, farthest]: [f64x8<S>; 2], light: &Light) -> Self {
+    fn new(
+        ball: &Ball,
+        ray: &Vectors<S>,
+        [nearest, farthest]: [f64x8<S>; 2],
+        light: &Light,
+    ) -> Self {
+        if ball.is_parallel() {
+            let near = Vectors { z: nearest, ..*ray };
+            let far = Vectors {
+                z: farthest,
+                ..*ray
+            };
+            return Self {
+                right: [near.dot_one(light.right), far.dot_one(light.right)],
+                up: [near.dot_one(light.up), far.dot_one(light.up)],
+                height: [near.dot_one(light.toward), far.dot_one(light.toward)],
+            };
+        }
         let (right, up) = (ray.dot_one(light.right), ray.dot_one(light.up));
         let height = ray.dot_one(light.toward);
         Self {

@@ -196,6 +196,7 @@ fn occluders_are_all_spheres_that_matter() {
             let tile = Cell {
                 middle: (random.point() * 0.4).with_z(1.0),
                 size: [magnitude(&mut random, 1e-3, 0.3); 2],
+                projection: crate::model::camera::Projection::Central,
             };
             let mut cache = OccluderCache::new(tile, tile.size[0] / 8.0);
             for sphere in 0..world.spheres().len() {
@@ -288,6 +289,7 @@ fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
                     center,
                     radius,
                     outside: center.length_squared() - radius * radius,
+                    projection: crate::model::camera::Projection::Central,
                 };
                 Active {
                     sphere,
@@ -295,6 +297,7 @@ fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
                     discriminant: silhouette(&cell, &ball),
                     along: cell.dot(center),
                     terminators: Terminators::Plain,
+                    is_dark: false,
                 }
             })
             .collect();

@@ -11,7 +11,7 @@ use crate::exact::classify::contents::Contents;
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
 pub(super) struct Front<S: Simd> {
-    /// In multiples of the ray.
+    /// In multiples of the ray, whose third component is 1.
     pub(super) nearest: f64x8<S>,
     /// The position of the sphere and one more, or zero.
     pub(super) first: f64x8<S>,
@@ -73,7 +73,13 @@ pub(super) fn front<S: Simd>(
                 }
                 let along = x * active.along.x + y * active.along.y + active.along.one;
                 let root = discriminant.max(zero).sqrt();
-                let t = if active.ball.outside > 0.0 {
+                let t = if active.ball.is_parallel() {
+                    if active.ball.outside > 0.0 {
+                        along - root
+                    } else {
+                        along + root
+                    }
+                } else if active.ball.outside > 0.0 {
                     covers &= along.simd_gt(0.0);
                     f64x8::splat(simd, active.ball.outside) / (along + root)
                 } else {

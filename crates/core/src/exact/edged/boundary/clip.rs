@@ -10,9 +10,20 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
     /// Axes of the sides.
     const SIDES: [(usize, f64); 4] = [(0, -0.5), (0, 0.5), (1, -0.5), (1, 0.5)];
     // What lies beyond a side is positive; behind the eye everything lies beyond one of them.
+    // Parallel rays see points beside fixed places: there only a point, not a direction, has a third
+    // component that counts, and that is 1.
+    let is_parallel = cell.is_parallel();
     let beyond = |(axis, side): (usize, f64), vector: DVec3| {
         let edge = cell.middle[axis] + side * cell.size[axis];
         side.signum() * (vector[axis] - edge * vector.z)
+    };
+    let direction = |vector: DVec3| match is_parallel {
+        true => vector.with_z(0.0),
+        false => vector,
+    };
+    let place = |point: DVec3| match is_parallel {
+        true => point.with_z(1.0),
+        false => point,
     };
     // Beside the cell, by so much of its side, nothing ends that lies in it.
     const BESIDE: f64 = 0.25;
@@ -20,8 +31,11 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
     let mut count = 0;
     let mut passes = false;
     for side in SIDES {
-        let (a, b) = (beyond(side, circle.right), beyond(side, circle.up));
-        let c = beyond(side, circle.middle);
+        let (a, b) = (
+            beyond(side, direction(circle.right)),
+            beyond(side, direction(circle.up)),
+        );
+        let c = beyond(side, place(circle.middle));
         let [Some(one), Some(other)] = zeros(a, b, c) else {
             if c >= 0.0 || c.is_nan() {
                 // All of it lies beyond.
@@ -31,7 +45,7 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
         };
         let across = 1 - side.0;
         for root in [one, other] {
-            let point = circle.at(root);
+            let point = place(circle.at(root));
             let slack = BESIDE * cell.size[across] * point.z;
             let is_beside = |end: f64| beyond((across, end), point) > slack;
             if is_beside(-0.5) || is_beside(0.5) {
@@ -46,7 +60,7 @@ pub(super) fn of_circle(cell: &Cell, circle: &Circle, pieces: &mut Vec<Piece>) {
         return;
     }
     between(&mut roots[..count], pieces, |e| {
-        let point = circle.at(e);
+        let point = place(circle.at(e));
         SIDES.iter().all(|&side| beyond(side, point) < 0.0)
     });
 }

@@ -27,8 +27,11 @@ impl Circle {
         }
     }
 
-    /// Where the rays from the eye touch a ball that it is outside of.
+    /// Where the rays touch a ball that they begin outside of.
     pub(super) fn limb(ball: &Ball) -> Self {
+        if ball.is_parallel() {
+            return Self::across(ball.center, DVec3::Z, ball.radius);
+        }
         let distance_sq = ball.center.length_squared();
         let share = ball.outside / distance_sq;
         let axis = ball.center * (1.0 / distance_sq.sqrt());
@@ -218,9 +221,18 @@ fn along_circle<S: Simd>(simd: S, circle: &Circle, [cos, sin]: [f64x8<S>; 2]) ->
 
 #[inline(always)]
 fn placed<S: Simd>(cell: &Cell, point: Vectors<S>, step: Vectors<S>) -> Trace<S> {
+    let (across, upward) = (1.0 / cell.size[0], 1.0 / cell.size[1]);
+    if cell.is_parallel() {
+        return Trace {
+            point,
+            x: (point.x - cell.middle.x) * across,
+            y: (point.y - cell.middle.y) * upward,
+            dx: step.x * across,
+            dy: step.y * upward,
+        };
+    }
     let inverse = (point.x * 0.0 + 1.0) / point.z;
     let (u, v) = (point.x * inverse, point.y * inverse);
-    let (across, upward) = (1.0 / cell.size[0], 1.0 / cell.size[1]);
     Trace {
         point,
         x: (u - cell.middle.x) * across,

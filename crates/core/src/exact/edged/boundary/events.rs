@@ -73,7 +73,11 @@ pub(super) fn value<S: Simd>(
                 Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
                 Function::Facing(sphere) => {
                     let ball = &contents.active[sphere].ball;
-                    if ball.outside > 0.0 {
+                    if ball.is_parallel() {
+                        // From inside, the far side is seen.
+                        let side = if ball.outside > 0.0 { -1.0 } else { 1.0 };
+                        (places.point.z - ball.center.z) * side
+                    } else if ball.outside > 0.0 {
                         places.point.dot_one(ball.center) - places.point.length_squared()
                     } else {
                         // From inside, all of it is seen.
@@ -91,7 +95,11 @@ pub(super) fn value<S: Simd>(
                 }
                 Function::Across(axis, side) => {
                     let edge = setting.cell.middle[axis] + side * setting.cell.size[axis];
-                    places.point.along(axis) - places.point.z * edge
+                    if setting.cell.is_parallel() {
+                        places.point.along(axis) - edge
+                    } else {
+                        places.point.along(axis) - places.point.z * edge
+                    }
                 }
                 Function::Rise => places.dy,
                 Function::Lit(sphere, light) => {
@@ -108,7 +116,7 @@ pub(super) fn value<S: Simd>(
                     let ball = &contents.active[sphere].ball;
                     let points =
                         Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-                    in_disc(simd, setting, caster, &points.place())
+                    in_disc(simd, setting, caster, &points.place(ball))
                 }
             }
         },

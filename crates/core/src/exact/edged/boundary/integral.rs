@@ -19,6 +19,7 @@ use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::numeric::polynomial::Linear;
 
 use super::setting::{
     Boundary, Curve, Edge, Goal, LEAST_SHARE, NONE, Path, SHARE_OF_ALL, Setting, Sum, Surface,
@@ -42,7 +43,16 @@ impl Boundary {
             let mut finish = Finish::new(scene, active.sphere, contents.pixel);
             missed +=
                 without_dark_highlight(simd, &mut finish, (scene, cell, contents), position, goal);
-            let reference = Reference::new(&active.discriminant, &active.along);
+            // Parallel rays meet whatever their lines do.
+            let along = match cell.is_parallel() {
+                true => &Linear {
+                    one: 1.0,
+                    x: 0.0,
+                    y: 0.0,
+                },
+                false => &active.along,
+            };
+            let reference = Reference::new(&active.discriminant, along);
             surfaces.push(Surface {
                 finish,
                 reference,

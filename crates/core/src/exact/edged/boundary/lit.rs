@@ -132,7 +132,7 @@ impl Boundary {
                     &active.ball,
                     ray(simd, setting.cell, places.x, places.y),
                 );
-                let place = points.place();
+                let place = points.place(&active.ball);
                 for (light, reach) in reach.iter().enumerate() {
                     let Reach::Past(casters) = reach else {
                         continue;
@@ -210,7 +210,7 @@ impl Boundary {
                     &active.ball,
                     ray(simd, setting.cell, places.x, places.y),
                 );
-                let place = points.place();
+                let place = points.place(&active.ball);
                 let is_own = curve.own[0] == sphere;
                 for (light, reach) in reach.iter().enumerate() {
                     let Reach::Past(casters) = reach else {

@@ -71,6 +71,9 @@ fn is_far(cell: &Cell, ball: &Ball) -> bool {
     const LARGEST: f64 = 0.9;
     /// Sides of a cell, at distance 1.
     const WIDEST: f64 = 0.1;
+    if ball.is_parallel() {
+        return true;
+    }
     let [width, height] = cell.size;
     ball.center.z > ball.radius
         && ball.radius < LARGEST * ball.center.length()
@@ -119,7 +122,8 @@ pub(super) fn ray_times<S: Simd>(cell: &Cell, at: &Homogeneous<S>, y: f64x8<S>) 
 }
 
 /// The normals of a ball where rays R with the roots w meet it, times its radius and the second numbers that
-/// are returned. The third are R·c + w.
+/// are returned. The third are R·c + w. For parallel rays, which are their places (u, v, 1) times the denominators,
+/// normals need no more than these.
 #[inline(always)]
 pub(super) fn normal_times<S: Simd>(
     simd: S,
@@ -127,6 +131,14 @@ pub(super) fn normal_times<S: Simd>(
     ray: &Vectors<S>,
     root: f64x8<S>,
 ) -> (Vectors<S>, f64x8<S>, f64x8<S>) {
+    if ball.is_parallel() {
+        let from_center = Vectors {
+            x: ray.x - ray.z * ball.center.x,
+            y: ray.y - ray.z * ball.center.y,
+            z: -root,
+        };
+        return (from_center, ray.z, ray.z);
+    }
     let center = Vectors::splat(simd, ball.center);
     let along = ray.dot_one(ball.center) + root;
     if ball.is_apart() {

@@ -11,6 +11,7 @@ use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
 use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{MIDDLE, RULE, doubt, error_estimate};
 use crate::exact::scene::InCamera;
+use crate::model::camera::Projection;
 
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
@@ -309,7 +310,14 @@ fn sign<S: Simd>(
     let inward = match (curve.edge, &curve.shape) {
         (Edge::Left, _) => return -1.0,
         (Edge::Right, _) => return 1.0,
-        (Edge::Limb, _) => contents.active[curve.own[0]].ball.center,
+        (Edge::Limb, _) => {
+            let ball = &contents.active[curve.own[0]].ball;
+            if ball.is_parallel() {
+                ball.center - point
+            } else {
+                ball.center
+            }
+        }
         (Edge::Seam, Shape::Circle(circle)) => {
             let [one, other] = curve.own.map(|own| contents.active[own].ball.center);
             let axis = one - other;
@@ -344,7 +352,10 @@ fn sign<S: Simd>(
         }
         _ => return 0.0,
     };
-    let x = inward.x * point.z - point.x * inward.z;
-    let y = inward.y * point.z - point.y * inward.z;
+    let (mut x, mut y) = (inward.x, inward.y);
+    if scene.projection == Projection::Central {
+        x = inward.x * point.z - point.x * inward.z;
+        y = inward.y * point.z - point.y * inward.z;
+    }
     (places.dx[MIDDLE] * y - places.dy[MIDDLE] * x).signum()
 }

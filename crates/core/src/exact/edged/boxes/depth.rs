@@ -37,7 +37,8 @@ impl<S: Simd> Function<S> {
     }
 }
 
-/// The reciprocals of the distances of a sphere along rays, in multiples of these, on boxes. Those of a plane are linear.
+/// The reciprocals of the distances of a sphere along rays, in multiples of these, on boxes: those of a plane are linear.
+/// Of parallel rays the distances themselves, with the other sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     middle: Eight,
@@ -58,7 +59,7 @@ impl Depth {
         range: [[0.0; 8]; 2],
     };
 
-    /// 1 / t = (B + √Q) / K, where rays miss as if they grazed.
+    /// 1 / t = (B + √Q) / K, where rays miss as if they grazed; −t for parallel rays.
     #[inline(always)]
     pub(super) fn new<S: Simd>(
         simd: S,
@@ -78,9 +79,16 @@ impl Depth {
         let inside = discriminant.max(least);
         let root = inside.sqrt();
         let by_root = f64x8::splat(simd, 0.5) / root;
-        let by_outside = 1.0 / active.ball.outside;
+        // For parallel rays √Q − c_z is what rises toward the eye.
+        let is_parallel = active.ball.is_parallel();
+        let by_outside = if is_parallel {
+            1.0
+        } else {
+            1.0 / active.ball.outside
+        };
+        let sign = if is_parallel { -1.0 } else { 1.0 };
         let zero = f64x8::splat(simd, 0.0);
-        let foot = boxes.x * along.x + boxes.y * along.y + along.one;
+        let foot = boxes.x * along.x + boxes.y * along.y + along.one * sign;
         let turned = 0.5 * ((along.x * width).abs() + (along.y * height).abs());
         let most = wide + bends.most();
         // √(Q + q) is no more than √Q + q / 2√Q, and √(Q − q) no less than √Q − q / √Q.

@@ -152,7 +152,8 @@ impl Boxes {
         for active in active {
             let along = &active.along;
             let half = 0.5 * (along.x.abs() + along.y.abs());
-            let is_ahead = active.ball.outside > 0.0 && along.one > half;
+            let is_ahead = active.ball.is_parallel() || along.one > half;
+            let is_ahead = active.ball.outside > 0.0 && is_ahead;
             if !is_ahead {
                 return false;
             }

@@ -70,26 +70,33 @@ impl<S: Simd> Surroundings<S> {
         let points = Points::new(simd, ball, ray);
         // At a silhouette normals turn fast; but not by more than about 1 across a box.
         let side = sides[0].max(sides[1]) / ball.radius;
-        let least = points.t * side + LEAST_GRAZING;
-        let toward_eye = (-points.normal.dot(&ray)).max(least);
+        let is_parallel = ball.is_parallel();
+        // How far points move for what rays do, as parts of these.
+        let scale = if is_parallel { one } else { points.t };
+        let least = scale * side + LEAST_GRAZING;
+        let toward_eye = (-points.normal.dot(&points.ray)).max(least);
         // P = t d stays on the sphere: n · dP = 0.
         let by_eye = one / toward_eye;
         let (slide_x, slide_y) = (points.normal.x * by_eye, points.normal.y * by_eye);
-        let mut along_x = ray.times(slide_x);
+        let mut along_x = points.ray.times(slide_x);
         along_x.x += 1.0;
-        let mut along_y = ray.times(slide_y);
+        let mut along_y = points.ray.times(slide_y);
         along_y.y += 1.0;
         let across = [
-            along_x.times(points.t * sides[0]),
-            along_y.times(points.t * sides[1]),
+            along_x.times(scale * sides[0]),
+            along_y.times(scale * sides[1]),
         ];
         let moved_sq = across[0].length_squared() + across[1].length_squared();
         let turn_sq = moved_sq * (1.0 / (ball.radius * ball.radius));
-        let slide = slide_x.abs() * (0.5 * sides[0]) + slide_y.abs() * (0.5 * sides[1]);
+        let mut slide = slide_x.abs() * (0.5 * sides[0]) + slide_y.abs() * (0.5 * sides[1]);
+        let mut slides = [slide_x * sides[0], slide_y * sides[1]];
+        if is_parallel {
+            // Without perspective.
+            (slide, slides) = (slide * 0.0, [slide * 0.0; 2]);
+        }
         let ray_length = points.ray_sq.sqrt();
         let (grazing, by_grazing) = (toward_eye / ray_length, by_eye * ray_length);
         let steepest = (grazing - turn_sq.sqrt() * RECEDING).max(grazing * LEAST_OF_GRAZING);
-        let slides = [slide_x * sides[0], slide_y * sides[1]];
         let (second, third) = Self::errors(
             simd,
             (turn_sq, slide),
@@ -97,7 +104,7 @@ impl<S: Simd> Surroundings<S> {
             is_cut,
         );
         Self {
-            place: ray.times(points.t),
+            place: points.place(ball),
             seconds: Self::seconds(
                 &points,
                 (&across, slides),
@@ -119,7 +126,7 @@ impl<S: Simd> Surroundings<S> {
     /// The second derivatives.
     ///
     /// With the point P = t d of a sphere with the normal n moving by P' and d by d', t' is t times the slide, and
-    /// P'' = d (|P'|² / (r (−n · d)) + 2 t'² / t) + 2 t' d'.
+    /// P'' = d (|P'|² / (r (−n · d)) + 2 t'² / t) + 2 t' d'. Parallel rays have no slide.
     #[inline(always)]
     fn seconds(
         points: &Points<S>,

@@ -138,6 +138,7 @@ fn powers_are_summed_up_along_chords() {
             discriminant,
             along: cell.dot(ball.center),
             terminators: Terminators::Plain,
+            is_dark: false,
         };
         let reference = Reference::new(&discriminant, &active.along);
         let rules = PowerRules::of(exponent, &mut Vec::new());

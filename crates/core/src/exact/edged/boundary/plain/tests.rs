@@ -67,12 +67,14 @@ fn sums_are_off_by_no_more_than_they_doubt() {
                 let cell = Cell {
                     middle: middle.extend(1.0),
                     size: [side; 2],
+                    projection: crate::model::camera::Projection::Central,
                 };
                 let radius = radius * center.length();
                 let ball = Ball {
                     center,
                     radius,
                     outside: center.length_squared() - radius * radius,
+                    projection: crate::model::camera::Projection::Central,
                 };
                 assert!(is_far(&cell, &ball));
                 let q = silhouette(&cell, &ball);
