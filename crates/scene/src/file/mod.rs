@@ -53,8 +53,8 @@ pub(crate) struct Image {
     pub(crate) height: Placed<ImageSide>,
 }
 
-/// The retina, given by its size and distance, by the horizontal field of view in degrees, or by the matrix of a
-/// camera in pixels, (0, 0) the center of the first one.
+/// The retina, given by its size and distance, by the horizontal field of view in degrees, by the matrix of a
+/// camera in pixels, (0, 0) the center of the first one, or by its width alone where all rays are parallel.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Lens {
@@ -70,6 +70,11 @@ pub(crate) enum Lens {
         fy: Placed<FocalLength>,
         cx: Placed<Coordinate>,
         cy: Placed<Coordinate>,
+    },
+    Parallel {
+        width: Placed<RetinaWidth>,
+        #[serde(default)]
+        shift: Placed<Shift>,
     },
 }
 

@@ -26,7 +26,7 @@ macro_rules! structures {
 
 structures! {
     Image: "image", "an image `(width: …, height: …)`";
-    Lens: "lens", "a lens: `Retina(width: …, distance: …)`, `Fov(…)` or `Matrix(fx: …, fy: …, cx: …, cy: …)`";
+    Lens: "lens", "a lens: `Retina(width: …, distance: …)`, `Fov(…)`, `Matrix(fx: …, fy: …, cx: …, cy: …)` or `Parallel(width: …)`";
     Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)`, `Frame(…)` or `Pose(…)`";
     Axes: "axes", "axes: `OpenCV`";
     Light: "light", "a light `Directional(toward: …)`";

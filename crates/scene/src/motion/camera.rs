@@ -59,8 +59,9 @@ impl CameraMotion {
         })
     }
 
-    /// Places a camera that frames; `false` where there is nothing to be framed.
-    pub(crate) fn frame(&mut self, spheres: &[Sphere], picture: &Picture) -> bool {
+    /// Places a camera that frames; returns the factor on the sizes of its lens, `None` where there is nothing to
+    /// be framed.
+    pub(crate) fn frame(&mut self, spheres: &[Sphere], picture: &Picture) -> Option<f64> {
         let angles = self.channels.angles();
         let turning = match self.turntable {
             Some(_) => Turning::Around,
@@ -68,11 +69,9 @@ impl CameraMotion {
             None => Turning::Freely,
         };
         let axes = axes_of_orbit(angles.map(|curve| curve.at(0.0)));
-        let Some(framing) = Framing::new(spheres, picture, turning, axes) else {
-            return false;
-        };
+        let framing = Framing::new(spheres, picture, turning, axes)?;
         self.channels.frame(&framing);
-        true
+        Some(framing.scale)
     }
 
     /// The frames of the animation, `None` for a still.

@@ -11,6 +11,10 @@
 //! On a turntable a sphere at height y passes on a circle of radius ρ around the axis: the largest
 //! n·p of it is n_y y + √(n_x² + n_z²) ρ, in the world's axes. For a camera that turns freely it
 //! is |n| |p|.
+//!
+//! What a parallel lens sees is as large from anywhere. There the lens is scaled: n is (1, 0, 0), and the
+//! largest n·p + r over fill·h is the scale. The camera stands twice as far back as puts all spheres
+//! before the plane through it.
 
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{Angle, Camera, Lens, Sphere};
@@ -54,6 +58,8 @@ pub(crate) struct Framing {
     pub(crate) distance: f64,
     /// Its displacement left and down, in multiples of the distance.
     pub(crate) aside: DVec2,
+    /// The factor on the sizes of the lens.
+    pub(crate) scale: f64,
 }
 
 impl Framing {
@@ -68,6 +74,9 @@ impl Framing {
         const SLACK: f64 = 1.0 + 1e-12;
         let target = middle(spheres)?;
         let lens = &picture.lens;
+        if lens.is_parallel() {
+            return Self::parallel(spheres, target, picture, turning, world_from_camera);
+        }
         let shift = lens.shift / lens.distance;
         let half_width = 0.5 * lens.width / lens.distance;
         let half = picture.fill * DVec2::new(half_width, half_width * picture.aspect);
@@ -78,18 +87,53 @@ impl Framing {
             (DVec3::new(0.0, -1.0, shift.y - half.y), half.y),
         ];
         let sides = sides.map(|(normal, half)| Side::new(world_from_camera * normal, half));
-        let needed = |sphere: &Sphere| {
-            let from_target = sphere.center() - target;
-            let distances = sides.map(|side| side.distance(from_target, sphere.radius(), turning));
-            distances.into_iter().fold(f64::NEG_INFINITY, f64::max)
-        };
-        let distance = spheres.par_iter().map(needed).reduce_with(f64::max)?;
+        let distance = needed(spheres, target, &sides, turning)?;
         Some(Self {
             target,
             distance: distance * SLACK,
             aside: shift,
+            scale: 1.0,
         })
     }
+
+    /// The same for a parallel lens, which is scaled.
+    fn parallel(
+        spheres: &[Sphere],
+        target: DVec3,
+        picture: &Picture,
+        turning: Turning,
+        world_from_camera: DMat3,
+    ) -> Option<Self> {
+        /// More than rounding moves an outline.
+        const SLACK: f64 = 1.0 + 1e-12;
+        let lens = &picture.lens;
+        let half_width = 0.5 * picture.fill * lens.width;
+        let sides = [
+            (DVec3::X, half_width),
+            (-DVec3::X, half_width),
+            (DVec3::Y, half_width * picture.aspect),
+            (-DVec3::Y, half_width * picture.aspect),
+        ];
+        let side = |(normal, half)| Side::new(world_from_camera * normal, half);
+        let scale = needed(spheres, target, &sides.map(side), turning)? * SLACK;
+        let distance = needed(spheres, target, &[side((-DVec3::Z, 0.5))], turning)?;
+        Some(Self {
+            target,
+            distance,
+            aside: lens.shift * (scale / distance),
+            scale,
+        })
+    }
+}
+
+/// The largest distance, or scale, that a sphere needs to be on the inner side of all sides.
+fn needed(spheres: &[Sphere], target: DVec3, sides: &[Side], turning: Turning) -> Option<f64> {
+    let of_sphere = |sphere: &Sphere| {
+        let from_target = sphere.center() - target;
+        let distance = |side: &Side| side.distance(from_target, sphere.radius(), turning);
+        sides.iter().map(distance).fold(f64::NEG_INFINITY, f64::max)
+    };
+    spheres.par_iter().map(of_sphere).reduce_with(f64::max)
 }
 
 /// A side of the picture.

@@ -160,12 +160,14 @@ impl Draft {
         }
         if let Some(fill) = self.fill {
             let picture = scene.picture(fill);
-            if !scene.motion.frame(scene.world.spheres(), &picture) {
+            let Some(scale) = scene.motion.frame(scene.world.spheres(), &picture) else {
                 let place = self.camera.start..token::token_end(text, self.camera.start);
                 let message = "expected spheres for a `Frame` camera, found none";
                 let fault = Fault::new(place, message);
                 return Err(SceneError::refused(path, text, vec![fault]));
-            }
+            };
+            scene.lens.width *= scale;
+            scene.lens.shift *= scale;
         }
         Ok(scene)
     }

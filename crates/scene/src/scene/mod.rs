@@ -119,10 +119,11 @@ impl Scene {
     /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens
     /// that has some of the world's spheres in its picture from any azimuth.
     ///
-    /// `None` for no spheres, and where the lens is shifted, so that no target is in the middle.
+    /// `None` for no spheres, for a parallel lens, whose picture no distance makes larger, and where the lens is shifted,
+    /// so that no target is in the middle.
     pub fn orbit_around(&self, spheres: Range<usize>, elevation: f64) -> Option<(DVec3, f64)> {
         const FILL: f64 = 0.9;
-        if self.lens.shift != DVec2::ZERO {
+        if self.lens.shift != DVec2::ZERO || self.lens.is_parallel() {
             return None;
         }
         let axes = axes_of_orbit([0.0, elevation, 0.0]);

@@ -35,6 +35,9 @@ pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Op
             };
             Some(intrinsics.lens(image.width.get()?.0, image.height.get()?.0))
         }
+        file::Lens::Parallel { width, shift } => {
+            Some(Lens::parallel(width.get()?.0, shift.get()?.0))
+        }
     }
 }
 
@@ -71,6 +74,14 @@ pub(crate) fn lens_as_written(lens: &Placed<file::Lens>) -> Option<String> {
             let [fx, fy] = [fx.get()?.0, fy.get()?.0];
             let [cx, cy] = [cx.get()?.0, cy.get()?.0];
             format!("Matrix(fx: {fx}, fy: {fy}, cx: {cx}, cy: {cy})")
+        }
+        file::Lens::Parallel { width, shift } => {
+            let (width, DVec2 { x, y }) = (width.get()?.0, shift.get()?.0);
+            if (x, y) == (0.0, 0.0) {
+                format!("Parallel(width: {width})")
+            } else {
+                format!("Parallel(width: {width}, shift: ({x}, {y}))")
+            }
         }
     })
 }
