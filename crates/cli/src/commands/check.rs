@@ -99,13 +99,18 @@ fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameEr
 
 fn lens(view: &View) -> String {
     let lens = view.lens;
-    let half_angle = libm::atan(0.5 * lens.width / (lens.distance * view.zoom));
-    let mut text = format!(
-        "retina {} wide at distance {}, {}° across",
-        short(lens.width),
-        short(lens.distance),
-        short(2.0 * half_angle.to_degrees())
-    );
+    let mut text = if lens.is_parallel() {
+        let (_, width) = view.screen_window();
+        format!("parallel rays, {} across", short(width))
+    } else {
+        let half_angle = libm::atan(0.5 * lens.width / (lens.distance * view.zoom));
+        format!(
+            "retina {} wide at distance {}, {}° across",
+            short(lens.width),
+            short(lens.distance),
+            short(2.0 * half_angle.to_degrees())
+        )
+    };
     if lens.shift != DVec2::ZERO {
         let (right, up) = (short(lens.shift.x), short(lens.shift.y));
         text.push_str(&format!(", shifted by ({right}, {up})"));

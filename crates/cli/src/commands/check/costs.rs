@@ -97,17 +97,22 @@ fn smaller_than_pixels(
     Some((place, short(size), short(pixel)))
 }
 
-/// The width of a pixel where a sphere is nearest to the eye; none behind the eye and inside of it.
+/// The width of a pixel where a sphere is nearest to the eye; none behind the eye and inside of it. Through a
+/// parallel lens it is the same anywhere.
 fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
     let from_eye = sphere.center() - view.camera.position;
     let ahead = from_eye.dot(view.camera.forward());
-    let distance = from_eye.length() - sphere.radius();
+    let distance = if view.lens.is_parallel() {
+        1.0
+    } else {
+        from_eye.length() - sphere.radius()
+    };
     (ahead > -sphere.radius() && distance > 0.0).then(|| distance * pixel_at_one(view))
 }
 
-/// The width of a pixel at a distance of 1.
+/// The width of a pixel at a distance of 1, or through a parallel lens at any.
 fn pixel_at_one(view: &View) -> f64 {
-    view.pixel_size() / (view.lens.distance * view.zoom)
+    view.pixel_size() / view.magnification()
 }
 
 #[cfg(test)]

@@ -65,7 +65,7 @@ struct Camera {
     projection: Projection,
     /// The side of a pixel on the retina, in scene units.
     pixel_size: f64,
-    /// The factor on the retina's distance, which the projection contains.
+    /// The factor on the retina's distance, or that a parallel lens's width is divided by, which the projection contains.
     zoom: f64,
     #[serde(rename = "R")]
     rotation: [[f64; 3]; 3],
@@ -83,6 +83,12 @@ enum Projection {
     Pinhole {
         #[serde(rename = "K")]
         matrix: [[f64; 3]; 3],
+    },
+    Parallel {
+        /// What a length of 1 across the axis of view spans.
+        pixels_per_unit: f64,
+        /// The pixel that the axis of view passes.
+        principal_point: [f64; 2],
     },
 }
 
@@ -205,9 +211,7 @@ impl<'a> Sidecar<'a> {
 impl Camera {
     fn of(view: &View, place: &Extrinsics) -> Self {
         Self {
-            projection: Projection::Pinhole {
-                matrix: rows(Intrinsics::of(view).matrix()),
-            },
+            projection: Projection::of(view),
             pixel_size: view.pixel_size(),
             zoom: view.zoom,
             rotation: rows(place.rotation),
@@ -215,6 +219,22 @@ impl Camera {
             position: numbers(right_handed(view.camera.position)),
             axes: "opencv",
             world: "right-handed, z negated",
+        }
+    }
+}
+
+impl Projection {
+    fn of(view: &View) -> Self {
+        let intrinsics = Intrinsics::of(view);
+        if view.lens.is_parallel() {
+            Self::Parallel {
+                pixels_per_unit: view.pixels_per_unit(),
+                principal_point: intrinsics.principal_point.to_array(),
+            }
+        } else {
+            Self::Pinhole {
+                matrix: rows(intrinsics.matrix()),
+            }
         }
     }
 }
