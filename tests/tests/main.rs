@@ -12,6 +12,7 @@ mod geometry;
 mod hits;
 mod invariance;
 mod layers;
+mod parallel;
 mod promise;
 mod python;
 mod reference;

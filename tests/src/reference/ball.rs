@@ -10,10 +10,13 @@ pub(crate) struct Ball {
     /// |center|² − radius², from twice as many digits: near a floor of radius 10⁶ the two agree in
     /// most of theirs. At most 0 where the viewpoint is inside or on the surface.
     pub(crate) power: f64,
+    /// The direction of all rays, where they are parallel: then a ray is told by where it begins, relative to the
+    /// viewpoint, in place of its direction.
+    pub(crate) forward: Option<DVec3>,
 }
 
 impl Ball {
-    pub(crate) fn new(center: DVec3, radius: f64, eye: DVec3) -> Self {
+    pub(crate) fn new(center: DVec3, radius: f64, eye: DVec3, forward: Option<DVec3>) -> Self {
         let mut power = Twice::default();
         let mut relative = DVec3::ZERO;
         for axis in 0..3 {
@@ -28,22 +31,56 @@ impl Ball {
             center: relative,
             radius,
             power: power.high + power.low,
+            forward,
         }
     }
 
+    /// Whether the one viewpoint of all rays lies inside.
     pub(crate) fn has_eye_inside(&self) -> bool {
-        self.power <= 0.0
+        self.forward.is_none() && self.power <= 0.0
+    }
+
+    /// Whether a ray begins inside.
+    pub(crate) fn begins_inside(&self, direction: DVec3) -> bool {
+        match self.forward {
+            None => self.power <= 0.0,
+            Some(_) => (self.center - direction).length() <= self.radius,
+        }
+    }
+
+    /// The radius of the circle in which the plane that parallel rays begin in cuts the ball.
+    pub(crate) fn cut_radius(&self) -> Option<f64> {
+        let along = self.center.dot(self.forward?);
+        let square = (self.radius - along) * (self.radius + along);
+        (square > 0.0).then(|| square.sqrt())
+    }
+
+    /// The point of a ray at `t` multiples of its direction.
+    pub(crate) fn point(&self, direction: DVec3, t: f64) -> DVec3 {
+        match self.forward {
+            None => direction * t,
+            Some(forward) => direction + forward * t,
+        }
     }
 
     /// Half the chord that the line through the viewpoint along `direction` cuts, squared;
     /// negative where it passes by. In scene units.
     pub(crate) fn chord_sq(&self, direction: DVec3) -> f64 {
+        if let Some(forward) = self.forward {
+            let from_ray = self.center - direction;
+            let aside = (from_ray - forward * from_ray.dot(forward)).length();
+            return (self.radius - aside) * (self.radius + aside);
+        }
         chord_sq(self.center, self.radius, self.power, direction.normalize())
     }
 
     /// Where the ray from the viewpoint meets the surface, in multiples of `direction`.
     pub(crate) fn hit(&self, direction: DVec3) -> Option<f64> {
         let chord_sq = self.chord_sq(direction);
+        if self.forward.is_some() {
+            let t = self.clamped_hit(direction, chord_sq);
+            return (chord_sq >= 0.0 && t > 0.0).then_some(t);
+        }
         if chord_sq < 0.0 || (!self.has_eye_inside() && self.center.dot(direction) <= 0.0) {
             return None;
         }
@@ -57,6 +94,15 @@ impl Ball {
     }
 
     fn clamped_hit(&self, direction: DVec3, chord_sq: f64) -> f64 {
+        if let Some(forward) = self.forward {
+            let along = (self.center - direction).dot(forward);
+            let half = chord_sq.max(0.0).sqrt();
+            return if self.begins_inside(direction) {
+                along + half
+            } else {
+                along - half
+            };
+        }
         let length = direction.length();
         let along = self.center.dot(direction) / length;
         let half = chord_sq.max(0.0).sqrt();

@@ -10,6 +10,8 @@ use super::patch::{Candidate, Patch};
 pub(crate) struct Signature {
     /// One more than the index in the patch's candidates; 0 for the background.
     pub(crate) seen: usize,
+    /// Whether that is its inner side.
+    is_inner: bool,
     /// The lights that reach the point, and those whose highlight does.
     lit: u64,
     shines: u64,
@@ -42,7 +44,7 @@ impl Patch<'_> {
 
     /// The point of a candidate at `t` multiples of a direction.
     pub(crate) fn spot(&self, candidate: &Candidate, direction: DVec3, t: f64) -> Spot {
-        let point = direction * t;
+        let point = candidate.ball.point(direction, t);
         let normal = candidate.ball.normal(point);
         match &self.stage.world.material(candidate.sphere).roughness {
             None => Spot {
@@ -63,8 +65,9 @@ impl Patch<'_> {
     }
 
     /// Half-way between a light and the direction toward the viewpoint.
-    pub(crate) fn half_way(light: DVec3, direction: DVec3) -> DVec3 {
-        (light - direction.normalize()).normalize_or_zero()
+    pub(crate) fn half_way(&self, light: DVec3, direction: DVec3) -> DVec3 {
+        let away = self.stage.forward.unwrap_or_else(|| direction.normalize());
+        (light - away).normalize_or_zero()
     }
 
     pub(crate) fn signature(&self, direction: DVec3) -> Signature {
@@ -82,7 +85,8 @@ impl Patch<'_> {
         let world = self.stage.world;
         let material = world.material(candidate.sphere);
         let albedo = world.albedo(candidate.sphere);
-        if candidate.ball.has_eye_inside() {
+        if candidate.ball.begins_inside(direction) {
+            signature.is_inner = true;
             return (signature, (albedo * world.ambient).extend(1.0));
         }
         let spot = self.spot(candidate, direction, t);
@@ -99,7 +103,7 @@ impl Patch<'_> {
                 scattered += light.intensity() * facing.powf(material.exponent);
             }
             if let Some(highlight) = &material.highlight {
-                let cosine = spot.normal.dot(Self::half_way(toward, direction));
+                let cosine = spot.normal.dot(self.half_way(toward, direction));
                 if cosine > 0.0 {
                     signature.shines |= 1 << number;
                     if is_asked {

@@ -150,8 +150,13 @@ impl Line<'_> {
                 self.seam_seeds(&candidate.ball, &other.ball, &mut seeds);
             }
         }
-        let mut look = |s: f64| self.patch.front(self.at(s)).map(|(index, _)| index);
-        let cuts = cut((self.low, self.high), seeds, extra, self.close(), &mut look);
+        let mut side = |s: f64| {
+            let (index, _) = self.patch.front(self.at(s))?;
+            let ball = &self.patch.candidates[index].ball;
+            Some((index, ball.begins_inside(self.at(s))))
+        };
+        let cuts = cut((self.low, self.high), seeds, extra, self.close(), &mut side);
+        let look = |s: f64| side(s).map(|(index, _)| index);
         let part = |pair: &[f64]| (pair[0], pair[1], look(0.5 * (pair[0] + pair[1])));
         cuts.windows(2).map(part).collect()
     }
@@ -159,6 +164,10 @@ impl Line<'_> {
     /// Where the line grazes a ball.
     fn outline_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
         if ball.has_eye_inside() {
+            return;
+        }
+        if ball.forward.is_some() {
+            self.circle_seeds(ball, seeds);
             return;
         }
         let (o, u, c) = (self.origin, self.along, ball.center);
@@ -188,6 +197,22 @@ impl Line<'_> {
         }
     }
 
+    /// Where a line of parallel rays grazes a ball, or enters the circle in which these begin inside.
+    fn circle_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
+        let Some(forward) = ball.forward else { return };
+        let to_center = ball.center - self.origin;
+        let to_center = to_center - forward * to_center.dot(forward);
+        let along_sq = self.along.length_squared();
+        let middle = to_center.dot(self.along) / along_sq;
+        let aside = (to_center - self.along * middle).length();
+        for radius in [Some(ball.radius), ball.cut_radius()].into_iter().flatten() {
+            let half = ((radius - aside) * (radius + aside) / along_sq).sqrt();
+            if half.is_finite() {
+                seeds.extend([middle - half, middle + half]);
+            }
+        }
+    }
+
     /// Where the line crosses the circle in which two balls intersect.
     fn seam_seeds(&self, a: &Ball, b: &Ball, seeds: &mut Vec<f64>) {
         let apart = a.center - b.center;
@@ -203,8 +228,23 @@ impl Line<'_> {
             let mixed = a.center.dot(d) * apart.dot(e) + a.center.dot(e) * apart.dot(d);
             d.dot(e) * m * m - m * mixed + a.power * apart.dot(d) * apart.dot(e)
         };
+        let roots = match a.forward {
+            None => quadratic_roots(form(u, u), 2.0 * form(o, u), form(o, o)),
+            Some(forward) => {
+                // p = o + s u + t f with t = (m − (o + s u) · apart) / q, q = f · apart.
+                let q = forward.dot(apart);
+                let (rest, slope) = (m - o.dot(apart), -u.dot(apart));
+                let (from, depth) = (o - a.center, a.center.dot(forward));
+                let outside = from.length_squared() - a.radius * a.radius;
+                quadratic_roots(
+                    q * q * u.length_squared() + slope * slope,
+                    2.0 * (q * q * u.dot(from) - q * depth * slope + rest * slope),
+                    q * q * outside - 2.0 * q * depth * rest + rest * rest,
+                )
+            }
+        };
         let lead = |s: f64| a.forced_hit(self.at(s)) - b.forced_hit(self.at(s));
-        for mut s in quadratic_roots(form(u, u), 2.0 * form(o, u), form(o, o)) {
+        for mut s in roots {
             // Secant steps on what counts: which is in front.
             let (mut before, mut value) = (s + 1e-7, lead(s));
             let mut value_before = lead(before);
@@ -250,7 +290,7 @@ impl Line<'_> {
             search(&|spot, _| spot.normal.dot(toward));
             if material.highlight.is_some() {
                 search(&|spot, u| {
-                    let half = Patch::half_way(toward, self.at(place(u)));
+                    let half = self.patch.half_way(toward, self.at(place(u)));
                     spot.normal.dot(half)
                 });
             }

@@ -15,27 +15,32 @@ const ROUNDING: f64 = 8.0 * 0.5 * f64::EPSILON;
 pub(crate) struct Stage<'world> {
     pub(crate) world: &'world World,
     pub(crate) view: View,
+    /// The direction of parallel rays.
+    pub(crate) forward: Option<DVec3>,
     pub(crate) balls: Vec<Ball>,
 }
 
 impl<'world> Stage<'world> {
     pub(crate) fn new(world: &'world World, view: &View) -> Self {
         let eye = view.camera.position;
+        let lens = &view.lens;
+        let forward = lens.is_parallel().then(|| view.camera.forward());
         let balls = world
             .spheres()
             .iter()
-            .map(|sphere| Ball::new(sphere.center(), sphere.radius(), eye))
+            .map(|sphere| Ball::new(sphere.center(), sphere.radius(), eye, forward))
             .collect();
         Self {
             world,
             view: *view,
+            forward,
             balls,
         }
     }
 }
 
 /// A part of a pixel: the directions `origin + s · right + t · up` for s, t in the given ranges,
-/// which lie in [−½, ½].
+/// which lie in [−½, ½]. Parallel rays are told by where they begin instead, relative to the viewpoint.
 pub(crate) struct Patch<'stage> {
     pub(crate) stage: &'stage Stage<'stage>,
     pub(crate) key: (u32, u32, i64),
@@ -61,14 +66,19 @@ pub(crate) struct Candidate {
 impl<'stage> Patch<'stage> {
     pub(crate) fn of_pixel(stage: &'stage Stage<'stage>, col: u32, row: u32) -> Self {
         let view = &stage.view;
-        let pixel = view.lens.width / f64::from(view.width);
+        let mut pixel = view.lens.width / f64::from(view.width);
         let from_middle = DVec2::new(
             f64::from(col) + 0.5 - 0.5 * f64::from(view.width),
             0.5 * f64::from(view.height) - 0.5 - f64::from(row),
         );
         let center = view.lens.shift + from_middle * pixel;
         let axes = view.camera.world_from_camera;
-        let origin = axes * center.extend(view.lens.distance * view.zoom);
+        let mut origin = axes * center.extend(view.lens.distance * view.zoom);
+        if stage.forward.is_some() {
+            pixel /= view.zoom;
+            let DVec2 { x, y } = center / view.zoom;
+            origin = axes.x_axis * x + axes.y_axis * y;
+        }
         let (right, up) = (axes.x_axis * pixel, axes.y_axis * pixel);
         let key = (col, row, view.frame);
         let half = DVec2::splat(0.5);
@@ -87,15 +97,20 @@ impl<'stage> Patch<'stage> {
         self.origin + self.right * point.x + self.up * point.y
     }
 
-    /// The point of the pixel's plane in a direction, if that lies ahead.
+    /// The point of the pixel's plane in a direction, if that lies ahead; with parallel rays that at which a point is
+    /// seen.
     pub(crate) fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let pixel_sq = self.right.length_squared();
+        if self.stage.forward.is_some() {
+            let offset = direction - self.origin;
+            return Some(DVec2::new(offset.dot(self.right), offset.dot(self.up)) / pixel_sq);
+        }
         let normal = self.right.cross(self.up);
         let scale = self.origin.dot(normal) / direction.dot(normal);
         if !(scale > 0.0 && scale.is_finite()) {
             return None;
         }
         let offset = direction * scale - self.origin;
-        let pixel_sq = self.right.length_squared();
         let point = DVec2::new(offset.dot(self.right), offset.dot(self.up)) / pixel_sq;
         Some(point)
     }
@@ -118,7 +133,7 @@ impl<'stage> Patch<'stage> {
             noise: 0.0,
             candidates: Vec::new(),
         };
-        let cone = patch.cone();
+        let cone = patch.beam();
         for (sphere, ball) in stage.balls.iter().enumerate() {
             if cone.may_see(ball) {
                 let casters = patch.casters(&cone, sphere);
@@ -130,7 +145,15 @@ impl<'stage> Patch<'stage> {
             }
         }
         // Directions are off in pixels, and normals of small, far balls in radii.
-        let pixel = right.length() / origin.length();
+        let size = match stage.forward {
+            None => origin.length(),
+            Some(_) => {
+                let far = |candidate: &Candidate| candidate.ball.center.length();
+                let far = patch.candidates.iter().map(far).fold(0.0, f64::max);
+                origin.length() + far
+            }
+        };
+        let pixel = right.length() / size;
         let ratio = |ball: &Ball| ball.center.length() / ball.radius;
         let ratios = patch
             .candidates
@@ -138,6 +161,18 @@ impl<'stage> Patch<'stage> {
             .map(|candidate| ratio(&candidate.ball));
         patch.noise = ROUNDING * (1.0 / pixel + ratios.fold(0.0, f64::max));
         patch
+    }
+
+    fn beam(&self) -> Beam {
+        let Some(forward) = self.stage.forward else {
+            return Beam::Cone(self.cone());
+        };
+        let size = (self.high - self.low).x * self.right.length();
+        Beam::Cylinder(Cylinder {
+            middle: self.direction(0.5 * (self.low + self.high)),
+            forward,
+            radius: size * (1.0 + SLACK) * std::f64::consts::FRAC_1_SQRT_2,
+        })
     }
 
     fn cone(&self) -> Cone {
@@ -154,17 +189,14 @@ impl<'stage> Patch<'stage> {
     }
 
     /// The spheres that reach the beam from the part of a sphere inside the cone toward a light.
-    fn casters(&self, cone: &Cone, sphere: usize) -> Vec<Vec<usize>> {
+    fn casters(&self, beam: &Beam, sphere: usize) -> Vec<Vec<usize>> {
         let world = self.stage.world;
         let ball = &self.stage.balls[sphere];
         if !world.shadows || ball.has_eye_inside() {
             return vec![Vec::new(); world.lights.len()];
         }
         // The part lies around this segment, within `around` of it.
-        let (near, far) = cone.distances(ball);
-        let around = far * cone.angle.sin() * (1.0 + SLACK) + SLACK * (far - near);
-        let start = cone.axis * (near * cone.angle.cos());
-        let end = cone.axis * far;
+        let ([start, end], around) = beam.part_of(ball);
         let reaches = |toward: DVec3, caster: &Ball| {
             let flat = |vector: DVec3| vector - toward * vector.dot(toward);
             let (from, way) = (flat(start - caster.center), flat(end - start));
@@ -189,6 +221,57 @@ impl<'stage> Patch<'stage> {
             .iter()
             .map(|light| of_light(light.toward()))
             .collect()
+    }
+}
+
+/// All rays of a patch.
+enum Beam {
+    Cone(Cone),
+    Cylinder(Cylinder),
+}
+
+impl Beam {
+    fn may_see(&self, ball: &Ball) -> bool {
+        match self {
+            Self::Cone(cone) => cone.may_see(ball),
+            Self::Cylinder(cylinder) => cylinder.may_see(ball),
+        }
+    }
+
+    /// The ends of a segment, and how far around it that part of a ball may lie which is seen.
+    fn part_of(&self, ball: &Ball) -> ([DVec3; 2], f64) {
+        match self {
+            Self::Cone(cone) => {
+                let (near, far) = cone.distances(ball);
+                let around = far * cone.angle.sin() * (1.0 + SLACK) + SLACK * (far - near);
+                let start = cone.axis * (near * cone.angle.cos());
+                ([start, cone.axis * far], around)
+            }
+            Self::Cylinder(cylinder) => {
+                let along = ball.center.dot(cylinder.forward);
+                let at = |t: f64| cylinder.middle + cylinder.forward * t;
+                let ends = [at(along - ball.radius), at(along)];
+                (ends, cylinder.radius + SLACK * ball.radius)
+            }
+        }
+    }
+}
+
+/// All parallel rays within a distance from an axis.
+struct Cylinder {
+    /// Where the axis begins.
+    middle: DVec3,
+    forward: DVec3,
+    radius: f64,
+}
+
+impl Cylinder {
+    fn may_see(&self, ball: &Ball) -> bool {
+        let from_axis = ball.center - self.middle;
+        let along = from_axis.dot(self.forward);
+        let aside = (from_axis - self.forward * along).length();
+        let slack = SLACK * ball.radius;
+        aside <= self.radius + ball.radius + slack && along >= -ball.radius - slack
     }
 }
 

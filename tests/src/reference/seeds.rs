@@ -31,7 +31,10 @@ impl Seeds {
         for (index, candidate) in candidates.iter().enumerate() {
             directions.push(candidate.ball.center);
             for other in &candidates[..index] {
-                directions.extend(outline_crossings(&candidate.ball, &other.ball));
+                directions.extend(match candidate.ball.forward {
+                    None => outline_crossings(&candidate.ball, &other.ball),
+                    Some(forward) => disc_crossings(&candidate.ball, &other.ball, forward),
+                });
             }
             if !candidate.ball.has_eye_inside() {
                 directions.extend(shadow_points(patch, candidate));
@@ -53,6 +56,16 @@ pub(crate) fn touching_lines(
     along: DVec3,
     across: DVec3,
 ) -> impl Iterator<Item = f64> {
+    if ball.forward.is_some() {
+        let across_sq = across.length_squared();
+        let middle = (ball.center - origin).dot(across) / across_sq;
+        let radii = [Some(ball.radius), ball.cut_radius()].into_iter().flatten();
+        let lines = radii.flat_map(|radius| {
+            let half = radius / across_sq.sqrt();
+            [middle - half, middle + half]
+        });
+        return lines.collect::<Vec<_>>().into_iter();
+    }
     let (n, m) = (origin.cross(along), across.cross(along));
     let form = |a: DVec3, b: DVec3| {
         ball.center.dot(a) * ball.center.dot(b) - ball.radius * ball.radius * a.dot(b)
@@ -60,7 +73,7 @@ pub(crate) fn touching_lines(
     let (a, half_b, c) = (form(m, m), form(n, m), form(n, n));
     let root = (half_b * half_b - a * c).max(0.0).sqrt();
     let sum = -(half_b + root.copysign(half_b));
-    [sum / a, c / sum].into_iter()
+    vec![sum / a, c / sum].into_iter()
 }
 
 /// The two directions in which the outlines of two balls cross: those of the unit vectors d with
@@ -154,7 +167,7 @@ fn peaks(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
             let mut point = ball.center;
             // Each step brings it nearer by about radius / distance.
             for _ in 0..40 {
-                point = ball.center + Patch::half_way(light.toward(), point) * ball.radius;
+                point = ball.center + patch.half_way(light.toward(), point) * ball.radius;
             }
             point
         })

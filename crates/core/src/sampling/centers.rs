@@ -4,9 +4,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
+use super::groups::{Group, Groups};
 use super::light::{Looks, Shading};
 use super::rays::Place;
-use super::trace::{DISTANCE_ERROR, Group, Groups, Sight, Tracer};
+use super::trace::{DISTANCE_ERROR, Sight, Tracer};
 use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::bits::set_bits;

@@ -4,9 +4,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 use glam::DVec3;
 
+use super::groups::{Group, Groups};
 use super::rays::Place;
 use super::shadow::Shadows;
-use super::trace::{Group, Groups, Sight};
+use super::trace::Sight;
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;

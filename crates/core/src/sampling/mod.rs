@@ -7,6 +7,7 @@
 //! however it is cut into tiles.
 
 mod centers;
+mod groups;
 mod light;
 mod parallel;
 mod rays;

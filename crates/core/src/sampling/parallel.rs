@@ -6,9 +6,10 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::DVec3;
 
+use super::groups::Groups;
 use super::rays::Place;
 use super::tile_balls::TileBall;
-use super::trace::{Groups, Sight, Tracer};
+use super::trace::{Sight, Tracer};
 use crate::hit::outcome::Hit;
 use crate::model::ray::Ray;
 use crate::numeric::bits::set_bits;

@@ -156,6 +156,7 @@ impl Rays {
     pub(super) fn bundle(&self, tile: Tile) -> Bundle {
         if self.projection() == Projection::Parallel {
             return Bundle {
+                projection: Projection::Parallel,
                 cone: None,
                 rows: self.rows(tile),
                 shortest: 1.0,
@@ -176,6 +177,7 @@ impl Rays {
         let (center_length, reach) = (center.length(), half.length());
         let (shortest, longest) = (center_length - reach, center_length + reach);
         Bundle {
+            projection: Projection::Central,
             cone: self.cone(center, center_length, reach),
             rows: self.rows(tile),
             shortest: shortest.max(center.z) * (1.0 / WIDER),
@@ -221,6 +223,7 @@ impl Rays {
 /// The bounds of all rays of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bundle {
+    pub(super) projection: Projection,
     /// Around them; none where it would be wider than is worth having, and for parallel rays.
     pub(super) cone: Option<Cone>,
     pub(super) rows: Rows,

@@ -4,8 +4,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8};
 use glam::{DVec2, DVec3};
 
+use super::groups::Groups;
 use super::tile_balls::TileBall;
-use super::trace::{DISTANCE_ERROR, Groups, Sight};
+use super::trace::{DISTANCE_ERROR, Sight};
 use crate::model::camera::Projection;
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;

@@ -7,12 +7,13 @@ use fearless_simd::{Level, Simd, dispatch, mask64x8};
 use glam::DVec3;
 
 use super::centers::{Centers, Seen};
+use super::groups::Groups;
 use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
 use super::shadow::{Scale, Shadows};
 use super::sums::{Sample, Sums};
 use super::tile_balls::{TileBall, TileBalls};
-use super::trace::{Groups, RayRow, Tracer};
+use super::trace::{RayRow, Tracer};
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
@@ -206,7 +207,10 @@ impl<'scene> Supersampling<'scene> {
         }: &mut Scratch,
     ) -> Option<u64> {
         let bundle = self.rays.bundle(tile);
-        let cells = self.rays.cells_on_unit();
+        let mut cells = self.rays.cells_on_unit();
+        if self.rays.projection() == Projection::Parallel {
+            cells *= libm::scalbn(1.0, self.index.length_exponent());
+        }
         balls.gather(simd, cells, &bundle, self.index.balls(tile));
         let first = balls.list.first()?;
         let mut sampler = self.sampler(tile, balls, first, (shadow_cells, geometry));

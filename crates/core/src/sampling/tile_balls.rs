@@ -7,6 +7,7 @@ use fearless_simd::{Simd, f64x8};
 
 use super::rays::{Bundle, Cone, Rows};
 use crate::hit::ball::Ball;
+use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
@@ -47,7 +48,7 @@ impl TileBall {
     }
 
     /// `cells` is how many samples lie side by side on a length of 1 at the distance of 1, or through a parallel lens
-    /// at any.
+    /// on a unit of the balls' lengths at any.
     #[inline(always)]
     fn new(ball: &Ball, bundle: &Bundle, cells: f64, rows: u8) -> Self {
         let radius_sq = ball.radius * ball.radius;
@@ -55,6 +56,10 @@ impl TileBall {
             bundle.shortest
         } else {
             bundle.longest
+        };
+        let distance_sq = match bundle.projection {
+            Projection::Central => ball.outside.abs(),
+            Projection::Parallel => 1.0,
         };
         Self {
             ball: *ball,
@@ -67,7 +72,7 @@ impl TileBall {
                 RIM * radius_sq
             },
             root_sign: if ball.outside < 0.0 { 1.0 } else { -1.0 },
-            has_many_samples: PI * (cells * cells) * radius_sq > FEW_SAMPLES * ball.outside.abs(),
+            has_many_samples: PI * (cells * cells) * radius_sq > FEW_SAMPLES * distance_sq,
             rows,
         }
     }

@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
 use glam::DVec3;
 
+use super::groups::{Group, Groups};
 use super::rays::{LEAST_SQUARE, Place, Rays};
 use super::tile_balls::{TileBall, TileBalls};
 use crate::numeric::bits::set_bits;
@@ -26,51 +27,6 @@ pub(super) struct Tracer<'tile> {
     pub(super) tile: Tile,
     /// Balls that were asked whether eight rays meet them.
     pub(super) tests: u64,
-}
-
-/// Rays that see the same ball, as bits.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Group<'tile> {
-    pub(super) ball: &'tile TileBall,
-    pub(super) lanes: u64,
-}
-
-/// The balls that eight rays see, each once. Apart from [`Sight`], which moves.
-pub(super) struct Groups<'tile> {
-    list: [Group<'tile>; LANES],
-    count: usize,
-}
-
-impl<'tile> Groups<'tile> {
-    /// No groups, and a ball for their places.
-    pub(super) fn new(ball: &'tile TileBall) -> Self {
-        Self {
-            list: [Group { ball, lanes: 0 }; LANES],
-            count: 0,
-        }
-    }
-
-    pub(super) fn clear(&mut self) {
-        self.count = 0;
-    }
-
-    /// Adds a ray that sees a ball.
-    pub(super) fn add(&mut self, ball: &'tile TileBall, lane: usize) {
-        let mut known = self.list[..self.count].iter_mut();
-        if let Some(group) = known.find(|group| group.ball.index() == ball.index()) {
-            group.lanes |= 1 << lane;
-            return;
-        }
-        self.list[self.count] = Group {
-            ball,
-            lanes: 1 << lane,
-        };
-        self.count += 1;
-    }
-
-    pub(super) fn as_slice(&self) -> &[Group<'tile>] {
-        &self.list[..self.count]
-    }
 }
 
 /// The points that eight rays see; lanes that see nothing hold any numbers. Cold functions get copies:

@@ -81,6 +81,29 @@ impl MovingSphere<'_> {
         is_known.then(|| (one.min(other), one.max(other)))
     }
 
+    /// Returns whether the plane in which parallel rays begin cuts the sphere at a place that changes: the cut is no part of
+    /// the sphere.
+    fn is_cut_in_motion(&self) -> bool {
+        /// More than rounding, of the center's distance and the radius.
+        const STILL: f64 = 1e-12;
+        let [first, ..] = self.views;
+        if !first.lens.is_parallel() {
+            return false;
+        }
+        let radius = self.sphere.radius();
+        let centers = self.views.each_ref().map(|view| self.center(view));
+        let slack = STILL * (centers[0].length() + radius);
+        let moves = centers
+            .iter()
+            .any(|center| (center.z - centers[0].z).abs() > slack);
+        let [low, high] = centers
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], center| {
+                [low.min(center.z), high.max(center.z)]
+            });
+        moves && low < radius && high > -radius
+    }
+
     /// The center of the sphere in the camera's frame.
     fn center(&self, view: &View) -> DVec3 {
         let from_eye = self.sphere.center() - view.camera.position;
@@ -94,6 +117,9 @@ impl MovingSphere<'_> {
     /// up to half of the radius behind the surface, farther where the surface turns away.
     pub(super) fn travel(&self, view: &View, middle: DVec2, side: f64) -> Option<f64> {
         let (point, image, is_hit) = self.point_and_image(view, middle)?;
+        if self.is_cut_in_motion() {
+            return Some(f64::INFINITY);
+        }
         let mut longest: f64 = 0.0;
         for point in [Some(point), image].into_iter().flatten() {
             let mut before = None;

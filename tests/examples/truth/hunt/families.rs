@@ -3,8 +3,8 @@
 use super::draft::Draft;
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
-    highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
-    terminator_at_rim, touching, triple_points, wide_lenses,
+    highlights, long_lenses, many_lights, ordinary, parallel_lenses, planes_that_cut, rough, seams,
+    shutters, slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use crate::numbers::Numbers;
 
@@ -100,6 +100,16 @@ pub(super) const FAMILIES: [Family; 23] = [
     Family {
         name: "seams",
         draft: seams,
+        rarity: 1,
+    },
+    Family {
+        name: "parallel lenses",
+        draft: parallel_lenses,
+        rarity: 1,
+    },
+    Family {
+        name: "planes that cut",
+        draft: planes_that_cut,
         rarity: 1,
     },
     Family {

@@ -7,6 +7,7 @@ use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use super::active::{Active, Terminators};
+use super::coincidence::{ALIKE, has_same_outline, hides_all, is_along_view, is_at_eye};
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
@@ -58,9 +59,9 @@ pub(crate) struct Contents {
     /// be resolved, which are left out.
     pub(crate) rounding: f64,
     /// Whether rays begin inside of a sphere that casts shadows, so that no light gets to what they see.
-    is_enclosed: bool,
+    pub(super) is_enclosed: bool,
     /// Spheres of which some parallel rays of the cell begin inside, and others not.
-    cut: Vec<(usize, Ball)>,
+    pub(super) cut: Vec<(usize, Ball)>,
     /// Whether edges of the cell are not known because of these.
     pub(crate) is_mixed: bool,
     hidden: HiddenSpheres,
@@ -73,10 +74,7 @@ const NARROWEST: f64 = 1e-7;
 
 /// A bound of what rounding moves points by, relative to the largest numbers that they are computed from:
 /// some units in the last place.
-const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
-
-/// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
-const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+pub(super) const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
 /// rounding moves such a line by, in sides of a cell: it is a double root.
@@ -194,7 +192,13 @@ impl Contents {
                     Reach::Nowhere
                 };
                 let axis = active.terminators.axis(scene, light);
-                if let (Some(axis), Reach::Past(_)) = (axis, &reach) {
+                let is_aligned = cell.is_parallel() && axis.is_some_and(is_along_view);
+                let reach = match axis {
+                    // It faces away from all that rays see.
+                    Some(axis) if is_aligned && axis.z > 0.0 => Reach::Nowhere,
+                    _ => reach,
+                };
+                if let (Some(axis), Reach::Past(_), false) = (axis, &reach, is_aligned) {
                     let terminator = terminator(cell, &active.ball, axis);
                     if terminator.may_vanish() {
                         self.conics
@@ -205,80 +209,6 @@ impl Contents {
             }
         }
         self.rounding += unresolved;
-    }
-
-    /// Takes in a sphere that the plane cuts in which parallel rays begin. As the cell sees it the ball is then one that
-    /// all rays begin outside of, or inside; returns false where it is not seen, or not known yet.
-    fn take_cut(
-        &mut self,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        (sphere, ball): (usize, &mut Ball),
-    ) -> bool {
-        let z = ball.center.z;
-        let mut inside = silhouette(cell, ball);
-        let (at_center, spread) = (inside.one, inside.spread());
-        inside.one -= z * z;
-        let size = cell.extent() + ball.center.length() + ball.radius;
-        let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
-            + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
-        if inside.one + spread + slack < 0.0 {
-            // Rays meet its outer side, or pass it.
-            ball.outside = z;
-            return z > 0.0;
-        }
-        if inside.one - spread - slack > 0.0 {
-            self.is_enclosed |= scene.world.shadows;
-            return true;
-        }
-        self.cut.push((sphere, *ball));
-        false
-    }
-
-    /// Adds the spheres of which some rays of the cell begin inside: there, where nothing else lies inside of one, its
-    /// inner side is what a dark ball before all else would be, behind whose outline its outer side is seen.
-    fn add_caps(&mut self, scene: &InCamera<'_>, cell: &Cell) {
-        let [(sphere, ball)] = self.cut[..] else {
-            self.is_mixed = !self.cut.is_empty();
-            return;
-        };
-        let reaches_in = |active: &Active| {
-            let apart = (active.ball.center - ball.center).length();
-            apart < (active.ball.radius + ball.radius) * (1.0 + GEOMETRY_SLACK)
-        };
-        if self.active.iter().any(reaches_in) || self.is_enclosed {
-            self.is_mixed = true;
-            return;
-        }
-        let z = ball.center.z;
-        let radius = ((ball.radius - z) * (ball.radius + z)).max(0.0).sqrt();
-        let size = cell.size[0].min(cell.size[1]);
-        // Rounding moves the outline of a thin cap by more than the plane.
-        let moved = ROUNDINGS * (ball.center.length() + ball.radius) * ball.radius;
-        self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
-        let outer = Ball { outside: z, ..ball };
-        let cap = Ball {
-            center: ball.center.with_z(-(2.0 * ball.radius + radius)),
-            radius,
-            outside: f64::MIN_POSITIVE,
-            ..ball
-        };
-        for (ball, is_dark) in [(outer, false), (cap, true)] {
-            if is_dark || z > 0.0 {
-                self.active.push(Active {
-                    sphere,
-                    ball,
-                    discriminant: silhouette(cell, &ball),
-                    along: cell.along(ball.center),
-                    terminators: if is_dark {
-                        Terminators::Plain
-                    } else {
-                        Terminators::of(scene, sphere, self.pixel)
-                    },
-                    is_dark,
-                });
-            }
-        }
     }
 
     /// Adds the curves in which an active sphere intersects those before it.
@@ -345,8 +275,12 @@ impl Contents {
                 Projection::Parallel => 1.0,
             };
             let size = cell.size[0].min(cell.size[1]) * distance;
+            let hides_itself = cell.is_parallel() && is_at_eye(in_camera.toward);
             for &sphere in found {
                 let (center, radius) = scene.center(sphere as usize);
+                if hides_itself && center.z >= radius {
+                    continue;
+                }
                 let mut known = self.occluders[first..].iter();
                 if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
                     continue;
@@ -431,34 +365,6 @@ impl Contents {
             length * bumps.cells() > most * active.ball.radius
         })
     }
-}
-
-/// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
-/// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
-fn has_same_outline(one: &Ball, other: &Ball) -> bool {
-    if one.outside <= 0.0 || other.outside <= 0.0 {
-        return false;
-    }
-    if one.is_parallel() {
-        let slack = ALIKE * (one.center.length() + other.center.length() + one.radius);
-        let aside = (one.center - other.center).truncate();
-        return (one.radius - other.radius).abs() <= slack && aside.length() <= slack;
-    }
-    let far = [one, other].map(|ball| ball.center.length());
-    let slack = ALIKE * far[0] * far[1];
-    (one.radius * far[1] - other.radius * far[0]).abs() <= slack
-        && (one.center * far[1] - other.center * far[0]).length() <= slack
-}
-
-/// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow
-/// ends where the ball's own dark side begins, which edges must not be left to tell.
-fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
-    /// Of the radius, more than rounding.
-    const ALIKE: f64 = 1e-12;
-    let offset = center - ball.center;
-    let ahead = offset.dot(toward);
-    let aside = (offset - toward * ahead).length();
-    ahead > 0.0 && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
 }
 
 /// A bound of the width of a sphere's silhouette on the retina at distance 1; infinite where the sphere comes

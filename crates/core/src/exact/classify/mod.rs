@@ -1,7 +1,9 @@
 //! The spheres, edges and lights that pixels and their parts may see.
 
 pub(crate) mod active;
+pub(crate) mod coincidence;
 pub(crate) mod contents;
+mod cut;
 pub(crate) mod discriminant;
 mod hardness;
 mod hidden;

@@ -13,6 +13,7 @@ use super::quadrature::total;
 
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
+use crate::exact::classify::coincidence::is_along_view;
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::part::{GiveUp, Part};
@@ -71,6 +72,9 @@ impl Boundary {
                     self.add_levels(one, &surface.reference, conic);
                 }
             }
+        }
+        if cell.is_parallel() {
+            self.add_outlines_as_terminators(scene, contents, &mut surfaces);
         }
         // Between lines on bumps more may happen than their errors tell.
         let is_bumpy = |active: &Active| active.terminators == Terminators::Anywhere;
@@ -192,6 +196,37 @@ impl Boundary {
             Ok(part)
         } else {
             Err(GiveUp::NotFinite)
+        }
+    }
+
+    /// Takes outlines for terminators of lights that are where parallel rays come from: powers of n·l that are not whole
+    /// begin there.
+    #[inline(never)]
+    fn add_outlines_as_terminators(
+        &mut self,
+        scene: &InCamera<'_>,
+        contents: &Contents,
+        surfaces: &mut [Surface],
+    ) {
+        let lights = scene.lights.len();
+        for (kind, conic) in &contents.conics {
+            let Kind::Silhouette(one) = *kind else {
+                continue;
+            };
+            for light in 0..lights {
+                let reaches = matches!(contents.reach[one * lights + light], Reach::Past(_));
+                let axis = contents.active[one].terminators.axis(scene, light);
+                if !reaches || !axis.is_some_and(is_along_view) {
+                    continue;
+                }
+                let surface = &mut surfaces[one];
+                surface.terminators |= 1 << light;
+                if surface.is_singular(1 << light) {
+                    let exponent = surface.finish.reflectance.exponents()[0];
+                    surface.rules = PowerRules::of(exponent, &mut self.rules);
+                    self.add_levels(one, &surface.reference, conic);
+                }
+            }
         }
     }
 

@@ -1,0 +1,50 @@
+//! Edges that coincide, which crossings cannot tell apart.
+
+use glam::DVec3;
+
+use crate::edges::cell::Ball;
+use crate::numeric::rounding::UNIT_ROUNDOFF;
+
+/// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
+pub(super) const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+
+/// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
+/// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
+pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
+    if one.outside <= 0.0 || other.outside <= 0.0 {
+        return false;
+    }
+    if one.is_parallel() {
+        let slack = ALIKE * (one.center.length() + other.center.length() + one.radius);
+        let aside = (one.center - other.center).truncate();
+        return (one.radius - other.radius).abs() <= slack && aside.length() <= slack;
+    }
+    let far = [one, other].map(|ball| ball.center.length());
+    let slack = ALIKE * far[0] * far[1];
+    (one.radius * far[1] - other.radius * far[0]).abs() <= slack
+        && (one.center * far[1] - other.center * far[0]).length() <= slack
+}
+
+/// Returns whether parallel rays go along a terminator's axis: then it is an outline, and no edge of its own. Beside the
+/// outline it leaves less than the square of this of a radius.
+pub(crate) fn is_along_view(axis: DVec3) -> bool {
+    const ALONG: f64 = 1e-9;
+    axis.truncate().length_squared() < ALONG * ALONG
+}
+
+/// Returns whether parallel rays come from where a light is, but for rounding: then spheres hide their own shadows.
+pub(super) fn is_at_eye(toward: DVec3) -> bool {
+    const ALONG: f64 = 4e-15;
+    toward.z < 0.0 && toward.truncate().length() < ALONG
+}
+
+/// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow
+/// ends where the ball's own dark side begins, which edges must not be left to tell.
+pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
+    /// Of the radius, more than rounding.
+    const ALIKE: f64 = 1e-12;
+    let offset = center - ball.center;
+    let ahead = offset.dot(toward);
+    let aside = (offset - toward * ahead).length();
+    ahead > 0.0 && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
+}

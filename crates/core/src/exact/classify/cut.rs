@@ -1,0 +1,84 @@
+//! Spheres that the plane cuts in which parallel rays begin.
+
+use super::active::{Active, Terminators};
+use super::contents::{Contents, ROUNDINGS};
+use crate::edges::cell::{Ball, Cell};
+use crate::edges::silhouette::silhouette;
+use crate::exact::scene::InCamera;
+use crate::numeric::rounding::GEOMETRY_SLACK;
+
+impl Contents {
+    /// Takes in a sphere that the plane cuts in which parallel rays begin. As the cell sees it the ball is then one that
+    /// all rays begin outside of, or inside; returns false where it is not seen, or not known yet.
+    pub(super) fn take_cut(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        (sphere, ball): (usize, &mut Ball),
+    ) -> bool {
+        let z = ball.center.z;
+        let mut inside = silhouette(cell, ball);
+        let (at_center, spread) = (inside.one, inside.spread());
+        inside.one -= z * z;
+        let size = cell.extent() + ball.center.length() + ball.radius;
+        let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
+            + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
+        if inside.one + spread + slack < 0.0 {
+            // Rays meet its outer side, or pass it.
+            ball.outside = z;
+            return z > 0.0;
+        }
+        if inside.one - spread - slack > 0.0 {
+            self.is_enclosed |= scene.world.shadows;
+            return true;
+        }
+        self.cut.push((sphere, *ball));
+        false
+    }
+
+    /// Adds the spheres of which some rays of the cell begin inside: there, where nothing else lies inside of one, its
+    /// inner side is what a dark ball before all else would be, behind whose outline its outer side is seen.
+    pub(super) fn add_caps(&mut self, scene: &InCamera<'_>, cell: &Cell) {
+        let [(sphere, ball)] = self.cut[..] else {
+            self.is_mixed = !self.cut.is_empty();
+            return;
+        };
+        let reaches_in = |active: &Active| {
+            let apart = (active.ball.center - ball.center).length();
+            apart < (active.ball.radius + ball.radius) * (1.0 + GEOMETRY_SLACK)
+        };
+        if self.active.iter().any(reaches_in) || self.is_enclosed {
+            self.is_mixed = true;
+            return;
+        }
+        let z = ball.center.z;
+        let radius = ((ball.radius - z) * (ball.radius + z)).max(0.0).sqrt();
+        let size = cell.size[0].min(cell.size[1]);
+        // Rounding moves the outline of a thin cap by more than the plane.
+        let moved = ROUNDINGS * (ball.center.length() + ball.radius) * ball.radius;
+        self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
+        let outer = Ball { outside: z, ..ball };
+        let cap = Ball {
+            center: ball.center.with_z(-(2.0 * ball.radius + radius)),
+            radius,
+            outside: f64::MIN_POSITIVE,
+            ..ball
+        };
+        for (ball, is_dark) in [(outer, false), (cap, true)] {
+            if is_dark || z > 0.0 {
+                self.active.push(Active {
+                    sphere,
+                    ball,
+                    discriminant: silhouette(cell, &ball),
+                    along: cell.along(ball.center),
+                    terminators: if is_dark {
+                        Terminators::Plain
+                    } else {
+                        Terminators::of(scene, sphere, self.pixel)
+                    },
+                    is_dark,
+                });
+            }
+        }
+    }
+}
