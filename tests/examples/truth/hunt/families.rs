@@ -1,6 +1,7 @@
 //! Families of small random scenes, each hard in its own way.
 
 use super::draft::Draft;
+use super::parallel::{parallel_lenses, planes_that_cut};
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
     highlights, long_lenses, many_lights, ordinary, parallel_lenses, planes_that_cut, rough, seams,
@@ -16,7 +17,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 23] = [
+pub(super) const FAMILIES: [Family; 25] = [
     Family {
         name: "ordinary",
         draft: ordinary,

@@ -7,6 +7,7 @@ mod draft;
 mod families;
 mod options;
 mod page;
+mod parallel;
 mod pixels;
 mod random;
 mod reduce;

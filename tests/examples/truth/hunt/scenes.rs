@@ -4,10 +4,10 @@ use super::draft::{Draft, OPEN, SIDE};
 use crate::numbers::Numbers;
 
 /// The distance of the lens, in pixels, that a family takes if the lens is not what is hard.
-const DISTANCE: f64 = 50.0;
+pub(super) const DISTANCE: f64 = 50.0;
 
 /// A place in the picture, at a depth.
-fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
+pub(super) fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
     let half = 0.4 * f64::from(SIDE) / DISTANCE * depth;
     [
         numbers.between(-half, half),
@@ -344,84 +344,6 @@ pub(super) fn rough(numbers: &mut Numbers, grain: &str) -> Draft {
         let depth = DISTANCE * numbers.between(0.9, 1.2);
         let center = place(numbers, depth);
         draft.sphere(center, numbers.between(3.0, 12.0));
-    }
-    draft
-}
-
-/// Scenes of other families through a parallel lens, each sphere where it is seen at a depth of 100.
-pub(super) fn parallel_lenses(numbers: &mut Numbers) -> Draft {
-    let family = numbers.either(&[
-        ordinary,
-        touching,
-        coincident,
-        triple_points,
-        grazing_shadows,
-        terminator_at_rim,
-        exponents,
-        highlights,
-        floors,
-        crowds,
-        slivers,
-        aligned_grids,
-        many_lights,
-        seams,
-    ]);
-    let mut draft = family(numbers);
-    if numbers.below(2) == 0 {
-        draft
-            .spheres
-            .iter_mut()
-            .for_each(|sphere| *sphere = flattened(sphere));
-    }
-    draft.head[1] = parallel_lens(numbers);
-    // A light at the camera, exactly.
-    if numbers.below(5) == 0 {
-        draft.light([0.0, 0.0, -1.0], 0.5);
-    }
-    draft
-}
-
-/// A parallel lens in whose picture a unit is about half a pixel, or a pixel.
-fn parallel_lens(numbers: &mut Numbers) -> String {
-    let width = f64::from(SIDE) * numbers.between(1.0, 3.0);
-    let shift = numbers.between(-5.0, 5.0);
-    let shift = numbers.either(&[0.0, 0.0, 1.0]) * shift;
-    format!("lens: Parallel(width: {width}, shift: ({shift}, 0))")
-}
-
-/// A sphere that parallel rays see where those of a pinhole saw it, and as large.
-fn flattened(sphere: &str) -> String {
-    const DEPTH: f64 = 100.0;
-    let is_number = |part: &&str| part.parse::<f64>().is_ok();
-    let parts = sphere.split(['(', ')', ',', ' ', ':']).filter(is_number);
-    let numbers: Vec<f64> = parts.filter_map(|part| part.parse().ok()).collect();
-    let [x, y, z, radius] = numbers[..] else {
-        return sphere.to_owned();
-    };
-    if z < radius {
-        return sphere.to_owned();
-    }
-    let [x, y, radius] = [x, y, radius].map(|length| length * (DEPTH / z));
-    format!(
-        "(center: ({x}, {y}, {}), radius: {radius}, material: \"m\")",
-        z.max(radius)
-    )
-}
-
-/// Balls that the plane cuts in which parallel rays begin, others behind and before it.
-pub(super) fn planes_that_cut(numbers: &mut Numbers) -> Draft {
-    let lights = numbers.below(2) + 1;
-    let mut draft = Draft::new(numbers, DISTANCE, lights);
-    draft.head[1] = parallel_lens(numbers);
-    let exponent = numbers.either(&["1", "1", "2", "0.5"]);
-    draft.material = format!("albedo: (0.9, 0.6, 0.3), exponent: {exponent}");
-    for _ in 0..numbers.below(4) + 1 {
-        let [x, y, _] = place(numbers, 100.0);
-        let depth = numbers.between(-12.0, 25.0);
-        let radius = numbers.between(2.0, 16.0);
-        // Some touch the plane.
-        let depth = numbers.either(&[depth, depth, depth, radius, -radius]);
-        draft.sphere([x, y, depth], radius);
     }
     draft
 }
