@@ -70,7 +70,7 @@ pub(crate) struct Contents {
 /// The width, in sides of a cell, below which the silhouette of a sphere is not resolved: rounding moves the
 /// roots of a discriminant, whose coefficients are of the order of the cell, by the square root of some units
 /// in the last place, 1e-8. Such a sphere covers less than 1e-14 of the cell.
-const NARROWEST: f64 = 1e-7;
+pub(super) const NARROWEST: f64 = 1e-7;
 
 /// A bound of what rounding moves points by, relative to the largest numbers that they are computed from:
 /// some units in the last place.

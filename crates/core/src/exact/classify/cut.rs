@@ -1,7 +1,7 @@
 //! Spheres that the plane cuts in which parallel rays begin.
 
 use super::active::{Active, Terminators};
-use super::contents::{Contents, ROUNDINGS};
+use super::contents::{Contents, NARROWEST, ROUNDINGS};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::InCamera;
@@ -64,8 +64,14 @@ impl Contents {
             outside: f64::MIN_POSITIVE,
             ..ball
         };
+        let width = 2.0 * radius / size;
+        let is_resolved = width > NARROWEST;
+        if !is_resolved {
+            self.rounding += width * width;
+        }
         for (ball, is_dark) in [(outer, false), (cap, true)] {
-            if is_dark || z > 0.0 {
+            let is_seen = if is_dark { is_resolved } else { z > 0.0 };
+            if is_seen {
                 self.active.push(Active {
                     sphere,
                     ball,

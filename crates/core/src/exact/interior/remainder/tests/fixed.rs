@@ -32,6 +32,11 @@ impl Fixed {
         Self(if number < 0.0 { -size } else { size })
     }
 
+    /// The vector (0, 0, 1).
+    pub(super) fn axis() -> [Self; 3] {
+        [0.0, 0.0, 1.0].map(Self::new)
+    }
+
     pub(super) fn sqrt(&self) -> Self {
         let square = UBig::try_from(self.0.clone() << PLACES).expect("it is not negative");
         Self(square.sqrt().into())

@@ -47,6 +47,15 @@ fn rules_miss_no_more_of_monomials() {
 /// pixel against its average in 256-bit arithmetic, by five samples and more, and at loose tolerances by one.
 #[test]
 fn nothing_is_farther_from_its_average_than_is_proved() {
+    hold(Place::new);
+}
+
+#[test]
+fn nothing_that_parallel_rays_see_is_farther_from_its_average_than_is_proved() {
+    hold(Place::of_parallel_rays);
+}
+
+fn hold(place: impl Fn(&mut Random, [f64; 2]) -> Place) {
     const PLACES: usize = 1500;
     let nodes = fixed::gauss(20);
     let mut random = Random(15);
@@ -54,7 +63,7 @@ fn nothing_is_farther_from_its_average_than_is_proved() {
     for (tolerances, tight) in [([-8.0, -4.0], 0.1), ([-4.0, -1.0], 0.05)] {
         let (mut proved, mut largest) = (0, 0.0_f64);
         while proved < PLACES {
-            let place = Place::new(&mut random, tolerances);
+            let place = place(&mut random, tolerances);
             let pixel = place.pixel();
             if pixel.alpha < 1.0 || !place.is_lit() {
                 continue;

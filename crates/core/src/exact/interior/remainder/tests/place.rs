@@ -35,6 +35,7 @@ pub(super) struct Place {
     exponent: f64,
     highlight: Option<(f64, u32)>,
     tolerance: f64,
+    is_parallel: bool,
 }
 
 impl Place {
@@ -70,6 +71,26 @@ impl Place {
             exponent: EXPONENTS[which(EXPONENTS.len(), random)],
             highlight: has_highlight.then(|| (random.number(), 1 << which(9, random))),
             tolerance,
+            is_parallel: false,
+        }
+    }
+
+    /// One that parallel rays see.
+    pub(super) fn of_parallel_rays(random: &mut Random, tolerances: [f64; 2]) -> Self {
+        let place = Self::new(random, tolerances);
+        let mut log = |low: f64, high: f64| libm::pow(10.0, low + (high - low) * random.number());
+        let (graze, size) = (log(-5.0, 0.0), log(-3.0, 0.3));
+        let (radius, far) = (log(-3.0, 3.0), log(-4.5, 4.0));
+        let turn = std::f64::consts::TAU * random.number();
+        let aside = DVec2::new(libm::cos(turn), libm::sin(turn)) * (radius * (1.0 - graze));
+        let middle = place.middle * (radius * far);
+        Self {
+            center: (middle - aside).extend(radius * (1.0 + far)),
+            radius,
+            middle,
+            size: size * graze * radius,
+            is_parallel: true,
+            ..place
         }
     }
 
@@ -92,7 +113,7 @@ impl Place {
             camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
             lens: Lens {
                 width: self.size,
-                distance: 1.0,
+                distance: if self.is_parallel { f64::INFINITY } else { 1.0 },
                 shift: self.middle,
             },
             zoom: 1.0,
@@ -117,9 +138,16 @@ impl Place {
     /// Whether the ball faces the light in the middle of the pixel.
     pub(super) fn is_lit(&self) -> bool {
         let sphere = Sphere::new(self.center, self.radius).unwrap();
-        let ray = Ray {
-            origin: DVec3::ZERO,
-            direction: self.middle.extend(1.0),
+        let ray = if self.is_parallel {
+            Ray {
+                origin: self.middle.extend(0.0),
+                direction: DVec3::Z,
+            }
+        } else {
+            Ray {
+                origin: DVec3::ZERO,
+                direction: self.middle.extend(1.0),
+            }
         };
         sphere
             .hit(&ray)
@@ -149,6 +177,9 @@ impl Place {
 
     /// The light that a ray meets.
     fn light(&self, ray: &[Fixed; 3], toward: &[Fixed; 3]) -> Fixed {
+        if self.is_parallel {
+            return self.light_of(&self.parallel_normal(ray), &Fixed::axis(), toward);
+        }
         let center = self.center.to_array().map(Fixed::new);
         let radius = Fixed::new(self.radius);
         let ray_sq = dot(ray, ray);
@@ -158,16 +189,31 @@ impl Place {
         let t = &outside / &(&along + &root);
         let normal = |axis: usize| &(&(&t * &ray[axis]) - &center[axis]) / &radius;
         let normal = [normal(0), normal(1), normal(2)];
-        let cosine = dot(&normal, toward);
+        self.light_of(&normal, ray, toward)
+    }
+
+    /// The normal that a parallel ray meets.
+    fn parallel_normal(&self, ray: &[Fixed; 3]) -> [Fixed; 3] {
+        let center = self.center.to_array().map(Fixed::new);
+        let radius = Fixed::new(self.radius);
+        let (a, b) = (&ray[0] - &center[0], &ray[1] - &center[1]);
+        let square = &(&(&radius * &radius) - &(&a * &a)) - &(&b * &b);
+        let depth = &Fixed::new(0.0) - &square.sqrt();
+        [&a / &radius, &b / &radius, &depth / &radius]
+    }
+
+    /// The light of a point with this normal, seen along a direction.
+    fn light_of(&self, normal: &[Fixed; 3], ray: &[Fixed; 3], toward: &[Fixed; 3]) -> Fixed {
+        let cosine = dot(normal, toward);
         let mut light = cosine.powi(self.exponent as u32);
         if self.exponent.fract() != 0.0 {
             light = &light * &cosine.sqrt();
         }
         if let Some((strength, shininess)) = self.highlight {
-            let length = ray_sq.sqrt();
+            let length = dot(ray, ray).sqrt();
             let half = |axis: usize| &toward[axis] - &(&ray[axis] / &length);
             let half = [half(0), half(1), half(2)];
-            let cosine = &dot(&normal, &half) / &dot(&half, &half).sqrt();
+            let cosine = &dot(normal, &half) / &dot(&half, &half).sqrt();
             let highlight = &Fixed::new(strength) * &cosine.powi(shininess);
             light = &light + &highlight;
         }
