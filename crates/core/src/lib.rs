@@ -38,7 +38,7 @@ pub use model::ray::Ray;
 pub use model::rotation::{RotationError, nearest_rotation};
 pub use model::sphere::{Sphere, SphereError};
 pub use model::view::View;
-pub use model::world::{MaterialId, World};
+pub use model::world::{LightPart, MaterialId, World};
 pub use numeric::angle::Angle;
 pub use picture::geometry::{
     Axes, Depth, Geometry, GeometrySettings, Precision, Quantities, Quantity,

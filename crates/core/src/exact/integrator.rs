@@ -8,7 +8,7 @@ use super::budget::Allowance;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::scene::{InCamera, MOST_LIGHTS};
-use super::{Scratch, tile_pixels};
+use super::{LitTile, Scratch, tile_pixels};
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
@@ -53,14 +53,14 @@ const FEW_SAMPLES: NonZeroU32 = NonZeroU32::new(1).unwrap();
 /// numbers of twice the precision may lose and still have all places of a double.
 const FAR: f64 = (1_u64 << 25) as f64;
 
-/// Memory for a thread, with a part for each group of lights.
+/// Memory for a thread.
 #[derive(Debug, Default)]
-pub(crate) struct GroupScratch(Vec<Scratch>);
+pub(crate) struct GroupScratch(Scratch);
 
 impl GroupScratch {
     /// The units that the pixel at a place of the last tile has cost.
     pub(crate) fn cost_of(&self, place: usize) -> u64 {
-        self.0.iter().map(|group| group.costs.of(place)).sum()
+        self.0.lit.iter().map(|lit| lit.costs.of(place)).sum()
     }
 }
 
@@ -127,42 +127,39 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn integrate(
         &self,
         tile: Tile,
-        GroupScratch(scratch): &mut GroupScratch,
+        scratch: &mut GroupScratch,
         pixels: &mut Vec<Pixel>,
     ) -> Work {
         let candidates = self.index.indices(tile);
-        scratch.resize_with(self.groups.len(), Scratch::default);
-        let first = pixels.len();
-        let mut of_group = Vec::new();
-        let mut work = Work::default();
-        let mut unknown = 0;
-        for (number, (context, scratch)) in self.groups.iter().zip(scratch).enumerate() {
-            let target = if number == 0 {
-                &mut *pixels
-            } else {
-                of_group.clear();
-                &mut of_group
-            };
-            scratch.prepare(context, &candidates);
-            scratch.costs.clear(tile.count());
-            unknown |= if self.is_moderate && scratch.are_balls_moderate() {
-                dispatch!(self.level, simd => tile_pixels(simd, context, tile, &candidates, scratch, target))
-            } else {
-                target.extend(std::iter::repeat_n(
-                    context.empty_pixel(),
-                    tile.count() as usize,
-                ));
-                !0
-            };
-            work += scratch.take_work();
-            if number > 0 {
-                for (pixel, more) in pixels[first..].iter_mut().zip(&of_group) {
-                    add(pixel, more);
-                }
+        integrate_each(&[self], tile, &candidates, scratch, |_, found| {
+            pixels.extend_from_slice(found);
+        })
+    }
+
+    /// The sum of a tile's pixels under all groups of lights.
+    fn sum<'lit>(
+        &self,
+        tile: Tile,
+        candidates: &[usize],
+        lit: &'lit mut [LitTile],
+    ) -> &'lit [Pixel] {
+        let Some((
+            LitTile {
+                pixels, unknown, ..
+            },
+            others,
+        )) = lit.split_first_mut()
+        else {
+            return &[];
+        };
+        for other in others {
+            *unknown |= other.unknown;
+            for (pixel, more) in pixels.iter_mut().zip(&other.pixels) {
+                add(pixel, more);
             }
         }
         // What one group is over its share, another may be below.
-        for pixel in &mut pixels[first..] {
+        for pixel in &mut *pixels {
             if pixel.error <= self.tolerance {
                 pixel.status = Status::Met;
             }
@@ -170,16 +167,16 @@ impl<'scene> Exact<'scene> {
 
         // The last rung: samples, which see exactly but miss what lies between them.
         if !candidates.is_empty() {
-            for place in set_bits(unknown).take_while(|&place| (place as u64) < tile.count()) {
+            for place in set_bits(*unknown).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
                     col: tile.col + place as u32 % tile.width,
                     row: tile.row + place as u32 / tile.width,
                     frame: self.groups[0].view.frame,
                 };
-                pixels[first + place] = self.sampled(key, &candidates);
+                pixels[place] = self.sampled(key, candidates);
             }
         }
-        work
+        pixels
     }
 
     /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them.
@@ -229,23 +226,69 @@ impl<'scene> Exact<'scene> {
         [least, most]
     }
 
-    /// Writes the tile's pixels into the band of a picture that contains it; returns what they cost.
-    pub(crate) fn paint(
-        &self,
-        tile: Tile,
-        scratch: &mut GroupScratch,
-        band: &mut Band<'_>,
-    ) -> Work {
-        if self.index.balls(tile).next().is_some() {
-            let mut pixels = Vec::with_capacity((tile.width * tile.height) as usize);
-            let work = self.integrate(tile, scratch, &mut pixels);
-            band.write(tile, &pixels);
-            return work;
-        }
-        // Most pictures have empty tiles. Only the first group of lights has a background.
-        band.write_same(tile, &self.groups[0].empty_pixel());
-        Work::default()
+    /// True where the same was found out of what both see.
+    pub(crate) fn shares_index(&self, other: &Self) -> bool {
+        self.index.shares_lists(&other.index)
     }
+}
+
+/// Writes a tile's pixels into the bands of several pictures that contain it; returns what they cost.
+///
+/// The pictures have the view and its index in common; their lights differ.
+pub(crate) fn paint_each(
+    pictures: &mut [(&Exact<'_>, &mut Band<'_>)],
+    tile: Tile,
+    scratch: &mut GroupScratch,
+) -> Work {
+    let Some((first, _)) = pictures.first() else {
+        return Work::default();
+    };
+    let candidates = first.index.indices(tile);
+    if candidates.is_empty() {
+        // Most pictures have empty tiles. Only the first group of lights has a background.
+        for (exact, band) in pictures {
+            band.write_same(tile, &exact.groups[0].empty_pixel());
+        }
+        return Work::default();
+    }
+    let integrators: Vec<&Exact<'_>> = pictures.iter().map(|(exact, _)| *exact).collect();
+    integrate_each(&integrators, tile, &candidates, scratch, |index, pixels| {
+        pictures[index].1.write(tile, pixels);
+    })
+}
+
+/// Calls `write` with the number of each of some integrators, and the tile's pixels; returns what they cost.
+///
+/// The integrators have the view and its index in common.
+fn integrate_each(
+    integrators: &[&Exact<'_>],
+    tile: Tile,
+    candidates: &[usize],
+    GroupScratch(scratch): &mut GroupScratch,
+    mut write: impl FnMut(usize, &[Pixel]),
+) -> Work {
+    let Some(first) = integrators.first() else {
+        return Work::default();
+    };
+    let contexts = integrators.iter().flat_map(|exact| &exact.groups);
+    let contexts: Vec<&Context<'_>> = contexts.collect();
+    scratch.prepare(contexts[0], candidates);
+    scratch.begin(&contexts, tile);
+    if first.is_moderate && scratch.are_balls_moderate() {
+        dispatch!(first.level, simd => tile_pixels(simd, &contexts, tile, candidates, scratch));
+    } else {
+        for lit in &mut scratch.lit {
+            lit.unknown = !0;
+        }
+    }
+    let work = scratch.take_work();
+    let mut rest = &mut scratch.lit[..];
+    for (index, exact) in integrators.iter().enumerate() {
+        let lit;
+        (lit, rest) = std::mem::take(&mut rest).split_at_mut(exact.groups.len());
+        write(index, exact.sum(tile, candidates, lit));
+    }
+    work
 }
 
 /// Adds the light of another group.

@@ -34,7 +34,7 @@ use fearless_simd::prelude::*;
 use self::budget::{FILLED, TileCosts};
 use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
-use self::classify::row::{Coverage, Sight, classify_row, sight};
+use self::classify::seen::SeenRow;
 use self::context::Context;
 use self::edged::cell::{EdgedPixel, Workspace};
 use self::interior::fill::fill;
@@ -50,13 +50,21 @@ use crate::picture::tile::Tile;
 struct Scratch {
     /// The candidates of a tile.
     balls: Vec<Ball>,
-    coverages: Vec<Coverage>,
-    /// The spheres that a pixel may see.
-    spheres: Vec<(usize, Ball)>,
-    /// The spheres that fill pixels of a row, and these pixels bit by bit.
-    filled: Vec<(usize, u64)>,
+    seen: SeenRow,
     edged: Workspace,
+    /// The last tile, under one group of lights after the other.
+    lit: Vec<LitTile>,
+}
+
+/// A tile under one group of lights.
+#[derive(Debug)]
+struct LitTile {
+    cache: OccluderCache,
+    /// In the order of [`Tile::pixels`].
+    pixels: Vec<Pixel>,
     costs: TileCosts,
+    /// The pixels of which nothing is known, bit by bit.
+    unknown: u64,
 }
 
 impl Scratch {
@@ -65,6 +73,13 @@ impl Scratch {
         let balls = candidates.iter().map(|&sphere| context.scene.ball(sphere));
         self.balls.clear();
         self.balls.extend(balls);
+    }
+
+    /// Begins with a tile under some groups of lights: with empty pixels.
+    fn begin(&mut self, contexts: &[&Context<'_>], tile: Tile) {
+        self.lit.clear();
+        let lit = contexts.iter().map(|context| LitTile::new(context, tile));
+        self.lit.extend(lit);
     }
 
     /// Whether the numbers of all candidates are moderate enough for edges in doubles.
@@ -78,115 +93,101 @@ impl Scratch {
     }
 }
 
-/// Appends the pixels of a tile under one group of lights; returns those of which nothing is known, bit by
-/// bit in the order of [`Tile::pixels`].
-#[inline(always)]
-fn tile_pixels<S: Simd>(
-    simd: S,
-    context: &Context<'_>,
-    tile: Tile,
-    candidates: &[usize],
-    scratch: &mut Scratch,
-    pixels: &mut Vec<Pixel>,
-) -> u64 {
-    let first = pixels.len();
-    pixels.extend(std::iter::repeat_n(
-        context.empty_pixel(),
-        tile.count() as usize,
-    ));
-    if candidates.is_empty() {
-        return 0;
-    }
-    let pixel_size = context
-        .cell(Tile {
+impl LitTile {
+    /// Empty pixels.
+    fn new(context: &Context<'_>, tile: Tile) -> Self {
+        let one = Tile {
             width: 1,
             height: 1,
             ..tile
-        })
-        .size[0];
-    let mut cache = OccluderCache::new(context.cell(tile), pixel_size);
-    let mut unknown = 0;
+        };
+        let mut costs = TileCosts::default();
+        costs.clear(tile.count());
+        Self {
+            cache: OccluderCache::new(context.cell(tile), context.cell(one).size[0]),
+            pixels: vec![context.empty_pixel(); tile.count() as usize],
+            costs,
+            unknown: 0,
+        }
+    }
+}
+
+/// Computes the pixels of a tile that was begun, under all groups of lights: these have the view in common, and what
+/// it sees is found out once.
+#[inline(always)]
+fn tile_pixels<S: Simd>(
+    simd: S,
+    contexts: &[&Context<'_>],
+    tile: Tile,
+    candidates: &[usize],
+    scratch: &mut Scratch,
+) {
+    let Scratch {
+        balls,
+        seen,
+        edged,
+        lit,
+    } = scratch;
+    let Some(first) = contexts.first() else {
+        return;
+    };
+    if candidates.is_empty() {
+        return;
+    }
     for row in 0..tile.height {
         for left in (0..tile.width).step_by(8) {
-            let place = row * tile.width + left;
             let start = Tile {
                 col: tile.col + left,
                 row: tile.row + row,
                 width: (tile.width - left).min(8),
                 height: 1,
             };
-            let pixels = &mut pixels[first + place as usize..][..start.width as usize];
-            let of_row = row_pixels(
-                simd,
-                context,
-                (start, place as usize),
-                candidates,
-                (scratch, &mut cache),
-                pixels,
-            );
-            unknown |= of_row << place;
+            edged.work.candidate_tests += candidates.len() as u64 * u64::from(start.width);
+            seen.see(simd, first, start, (candidates, balls));
+            let place = (row * tile.width + left) as usize;
+            for (context, lit) in contexts.iter().zip(&mut *lit) {
+                row_pixels(simd, context, (start, place), seen, (edged, lit));
+            }
         }
     }
-    scratch.edged.work.candidate_tests += cache.tests;
-    unknown
+    for lit in lit {
+        edged.work.candidate_tests += lit.cache.tests;
+    }
 }
 
-/// Writes up to eight pixels of a row, which are empty so far and begin at a place of their tile; returns those of
-/// which nothing is known.
+/// Writes up to eight pixels of a row, which are empty so far and begin at a place of their tile.
 #[inline(always)]
 fn row_pixels<S: Simd>(
     simd: S,
     context: &Context<'_>,
     (row, place): (Tile, usize),
-    candidates: &[usize],
-    (scratch, cache): (&mut Scratch, &mut OccluderCache),
-    pixels: &mut [Pixel],
-) -> u64 {
-    let Scratch {
-        balls,
-        coverages,
-        spheres,
-        filled,
-        edged,
+    seen: &SeenRow,
+    (edged, lit): (&mut Workspace, &mut LitTile),
+) {
+    let LitTile {
+        cache,
+        pixels,
         costs,
-    } = scratch;
-    edged.work.candidate_tests += candidates.len() as u64 * u64::from(row.width);
-    coverages.clear();
-    simd.vectorize(
-        #[inline(always)]
-        || classify_row(simd, context, row, (candidates, balls), coverages),
-    );
+        unknown,
+    } = lit;
+    let pixels = &mut pixels[place..][..row.width as usize];
     let pixel = |lane: usize| Tile {
         col: row.col + lane as u32,
         width: 1,
         ..row
     };
-    let mut unknown = 0;
 
     // Pixels that see no sphere are empty already; those with edges climb alone.
-    filled.clear();
-    for (lane, target) in pixels.iter_mut().enumerate() {
-        match sight(context, pixel(lane), lane, coverages, spheres) {
-            Sight::Nothing => {}
-            Sight::Filled(sphere) => match filled.iter_mut().find(|known| known.0 == sphere) {
-                Some((_, lanes)) => *lanes |= 1 << lane,
-                None => filled.push((sphere, 1 << lane)),
-            },
-            Sight::Edges => {
-                match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
-                    Ok(known) => *target = known,
-                    Err(_) => unknown |= 1 << lane,
-                }
-                costs.add(place + lane, edged.budget.spent());
-            }
+    for (lane, spheres) in seen.edged() {
+        match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
+            Ok(known) => pixels[lane] = known,
+            Err(_) => *unknown |= 1 << (place + lane),
         }
+        costs.add(place + lane, edged.budget.spent());
     }
 
     // Pixels that one sphere fills climb together, until a light has an edge in them, or bends too much.
-    for &(sphere, which) in &*filled {
-        let Some(coverage) = coverages.iter().find(|one| one.sphere == sphere) else {
-            continue;
-        };
+    for (coverage, which) in seen.filled() {
         let of_sphere = FilledRow {
             start: pixel(0),
             which,
@@ -194,7 +195,8 @@ fn row_pixels<S: Simd>(
         };
         let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
         edged.work.samples += done.samples;
-        let is_rough = context.scene.world.material(sphere).roughness.is_some();
+        let material = context.scene.world.material(coverage.sphere);
+        let is_rough = material.roughness.is_some();
         for lane in set_bits(which) {
             costs.add(
                 place + lane,
@@ -202,15 +204,14 @@ fn row_pixels<S: Simd>(
             );
         }
         for lane in set_bits(done.hard) {
-            let spheres = [(sphere, coverage.ball)];
+            let spheres = [(coverage.sphere, coverage.ball)];
             match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
                 Ok(known) => pixels[lane] = known,
-                Err(_) => unknown |= 1 << lane,
+                Err(_) => *unknown |= 1 << (place + lane),
             }
             costs.add(place + lane, edged.budget.spent());
         }
     }
-    unknown
 }
 
 /// The rungs for a pixel with edges.

@@ -1,5 +1,7 @@
 //! The world that is rendered.
 
+use std::sync::Arc;
+
 use super::albedos::Albedos;
 use super::color::Color;
 use super::light::DirectionalLight;
@@ -8,6 +10,8 @@ use super::sphere::Sphere;
 use crate::model::color::is_grey;
 
 /// Everything that a camera may see, and its light.
+///
+/// Copies share the spheres until one of them gets more.
 #[derive(Clone, Debug)]
 pub struct World {
     /// The lights; none leaves only the ambient light.
@@ -18,6 +22,12 @@ pub struct World {
     pub background: Color,
     /// True where spheres keep the light from each other.
     pub shadows: bool,
+    surfaces: Arc<Surfaces>,
+}
+
+/// The spheres of a world, and their materials.
+#[derive(Clone, Debug, Default)]
+struct Surfaces {
     spheres: Vec<Sphere>,
     material_ids: Vec<MaterialId>,
     materials: Vec<Material>,
@@ -36,6 +46,15 @@ struct Painted {
     is_grey: bool,
 }
 
+/// A part of a world's light: the sum of the pictures under all parts is the picture.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub enum LightPart {
+    /// The ambient light, and the background.
+    Ambient,
+    /// The light with this index, and its shadows.
+    Light(usize),
+}
+
 /// One of a world's materials.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct MaterialId(u32);
@@ -48,19 +67,50 @@ impl World {
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: true,
-            spheres: Vec::new(),
-            material_ids: Vec::new(),
-            materials: Vec::new(),
-            is_used: Vec::new(),
-            painted: Vec::new(),
+            surfaces: Arc::default(),
         }
+    }
+
+    /// The parts of the light: each of the lights, then what is left without them.
+    pub fn light_parts(&self) -> impl Iterator<Item = LightPart> + use<> {
+        let lights = (0..self.lights.len()).map(LightPart::Light);
+        lights.chain([LightPart::Ambient])
+    }
+
+    /// The same spheres under a part of the light, with all else off. Without ambient light the background is black.
+    ///
+    /// # Panics
+    /// When there is no light with that index.
+    #[must_use]
+    pub fn under(&self, part: LightPart) -> Self {
+        let (lights, [ambient, background]) = match part {
+            LightPart::Ambient => (Vec::new(), [self.ambient, self.background]),
+            LightPart::Light(index) => (vec![self.lights[index]], [Color::ZERO; 2]),
+        };
+        Self {
+            lights,
+            ambient,
+            background,
+            shadows: self.shadows,
+            surfaces: Arc::clone(&self.surfaces),
+        }
+    }
+
+    /// True where both have the same spheres, not merely equal ones.
+    pub(crate) fn shares_spheres(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.surfaces, &other.surfaces)
+    }
+
+    fn surfaces_mut(&mut self) -> &mut Surfaces {
+        Arc::make_mut(&mut self.surfaces)
     }
 
     /// Adds a material that spheres of this world may have.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
-        let id = MaterialId(self.materials.len() as u32);
-        self.materials.push(material);
-        self.is_used.push(false);
+        let surfaces = self.surfaces_mut();
+        let id = MaterialId(surfaces.materials.len() as u32);
+        surfaces.materials.push(material);
+        surfaces.is_used.push(false);
         id
     }
 
@@ -69,9 +119,10 @@ impl World {
     /// # Panics
     /// When `material` is not of this world.
     pub fn add_sphere(&mut self, sphere: Sphere, material: MaterialId) {
-        self.note_use(material);
-        self.spheres.push(sphere);
-        self.material_ids.push(material);
+        let surfaces = self.surfaces_mut();
+        surfaces.note_use(material);
+        surfaces.spheres.push(sphere);
+        surfaces.material_ids.push(material);
     }
 
     /// Adds many spheres of one material behind those that are there, at the price of a copy at
@@ -88,12 +139,13 @@ impl World {
         if spheres.is_empty() {
             return;
         }
-        self.note_use(material);
-        let first = self.spheres.len();
+        let surfaces = self.surfaces_mut();
+        surfaces.note_use(material);
+        let first = surfaces.spheres.len();
         let count = spheres.len();
         if let Some(albedos) = albedos {
             assert_eq!(albedos.len(), count, "an albedo for every sphere");
-            self.painted.push(Painted {
+            surfaces.painted.push(Painted {
                 first,
                 is_grey: albedos.are_grey(),
                 albedos,
@@ -101,71 +153,56 @@ impl World {
         }
         if first < count {
             // The few go before the many: there is never a second copy of the many.
-            spheres.splice(0..0, self.spheres.drain(..));
-            self.spheres = spheres;
+            spheres.splice(0..0, surfaces.spheres.drain(..));
+            surfaces.spheres = spheres;
         } else {
-            self.spheres.append(&mut spheres);
+            surfaces.spheres.append(&mut spheres);
         }
-        self.material_ids.reserve_exact(count);
-        self.material_ids.resize(first + count, material);
-    }
-
-    fn note_use(&mut self, material: MaterialId) {
-        assert!(
-            (material.0 as usize) < self.materials.len(),
-            "the material of another world"
-        );
-        self.is_used[material.0 as usize] = true;
+        surfaces.material_ids.reserve_exact(count);
+        surfaces.material_ids.resize(first + count, material);
     }
 
     /// The spheres in the order in which they were added.
     pub fn spheres(&self) -> &[Sphere] {
-        &self.spheres
+        &self.surfaces.spheres
     }
 
     /// The material of the sphere with this index.
     pub fn material(&self, sphere: usize) -> &Material {
-        &self.materials[self.material_ids[sphere].0 as usize]
+        self.surfaces.material(sphere)
     }
 
     /// The albedo of the sphere with this index: its own, or its material's.
     #[inline]
     pub fn albedo(&self, sphere: usize) -> Color {
-        if self.painted.is_empty() {
-            self.material(sphere).albedo
+        if self.surfaces.painted.is_empty() {
+            self.surfaces.material(sphere).albedo
         } else {
-            self.own_albedo(sphere)
+            self.surfaces.own_albedo(sphere)
         }
     }
 
     /// True where some spheres have albedos of their own.
     pub fn has_own_albedos(&self) -> bool {
-        !self.painted.is_empty()
+        !self.surfaces.painted.is_empty()
     }
 
     /// True where some sphere has bumps.
     pub fn has_bumps(&self) -> bool {
-        let materials = self.materials.iter().zip(&self.is_used);
+        let materials = self.surfaces.materials.iter().zip(&self.surfaces.is_used);
         materials
             .into_iter()
             .any(|(material, used)| *used && material.roughness.is_some())
     }
 
-    fn own_albedo(&self, sphere: usize) -> Color {
-        let after = self.painted.partition_point(|some| some.first <= sphere);
-        let own = self.painted[..after].last();
-        own.and_then(|some| some.albedos.get(sphere - some.first))
-            .unwrap_or(self.material(sphere).albedo)
-    }
-
     /// The materials in the order in which they were added.
     pub fn materials(&self) -> &[Material] {
-        &self.materials
+        &self.surfaces.materials
     }
 
     /// The place of a sphere's material among the materials.
     pub fn material_index(&self, sphere: usize) -> u32 {
-        self.material_ids[sphere].0
+        self.surfaces.material_ids[sphere].0
     }
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
@@ -174,10 +211,18 @@ impl World {
         let [mut dark, mut bright] = [background; 2];
         let lights = self.lights.iter().map(|light| light.intensity());
         let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
-        let highlights = self.materials.iter().filter_map(|one| one.highlight);
+        let highlights = self
+            .surfaces
+            .materials
+            .iter()
+            .filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
-        let of_materials = self.materials.iter().map(|material| material.albedo);
-        let own = self.painted.iter();
+        let of_materials = self
+            .surfaces
+            .materials
+            .iter()
+            .map(|material| material.albedo);
+        let own = self.surfaces.painted.iter();
         let own = own
             .flat_map(|some| (0..some.albedos.len()).filter_map(|index| some.albedos.get(index)));
         for albedo in of_materials.chain(own) {
@@ -195,16 +240,39 @@ impl World {
     /// True where the spheres' light has no color, whatever the background has.
     pub fn has_grey_spheres(&self) -> bool {
         let used = self
+            .surfaces
             .materials
             .iter()
-            .zip(&self.is_used)
+            .zip(&self.surfaces.is_used)
             .filter(|(_, used)| **used);
         is_grey(self.ambient)
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && used
                 .into_iter()
                 .all(|(material, _)| is_grey(material.albedo))
-            && self.painted.iter().all(|some| some.is_grey)
+            && self.surfaces.painted.iter().all(|some| some.is_grey)
+    }
+}
+
+impl Surfaces {
+    fn note_use(&mut self, material: MaterialId) {
+        assert!(
+            (material.0 as usize) < self.materials.len(),
+            "the material of another world"
+        );
+        self.is_used[material.0 as usize] = true;
+    }
+
+    #[inline]
+    fn material(&self, sphere: usize) -> &Material {
+        &self.materials[self.material_ids[sphere].0 as usize]
+    }
+
+    fn own_albedo(&self, sphere: usize) -> Color {
+        let after = self.painted.partition_point(|some| some.first <= sphere);
+        let own = self.painted[..after].last();
+        own.and_then(|some| some.albedos.get(sphere - some.first))
+            .unwrap_or(self.material(sphere).albedo)
     }
 }
 

@@ -26,7 +26,7 @@ impl Renderer<'_> {
         progress: &Progress<'_>,
     ) -> Result<Vec<VisibleArea>, Cancelled> {
         let index = ViewIndex::new(&self.visibility, view, Method::Tolerance(tolerance).into());
-        let areas = Areas::new(self.world, &self.visibility, view, index, tolerance);
+        let areas = Areas::new(&self.world, &self.visibility, view, index, tolerance);
         let bands = (0..view.height)
             .into_par_iter()
             .step_by(Tile::SIDE as usize);

@@ -2,8 +2,9 @@
 
 use super::approach::Approach;
 use super::settings::Settings;
-use crate::exact::integrator::{Exact, GroupScratch};
+use crate::exact::integrator::{Exact, GroupScratch, paint_each};
 use crate::model::exposure::Exposure;
+use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::band::Band;
 use crate::picture::geometry::Written;
@@ -11,6 +12,7 @@ use crate::picture::pixel::{Method, Work};
 use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
 use crate::sampling::{self, Supersampling};
+use crate::search::grid::RayPoints;
 use crate::search::view_index::ViewIndex;
 use crate::search::visibility::Visibility;
 use crate::time::exact::ExactOverTime;
@@ -33,6 +35,28 @@ pub(super) struct Scratch {
     pub(super) sampled: sampling::Scratch,
 }
 
+/// What was found out of the spheres of a view, for others who look at the same.
+#[derive(Default)]
+pub(super) struct Indices<'scene>(Vec<(RayPoints, ViewIndex<'scene>)>);
+
+impl<'scene> Indices<'scene> {
+    /// The index of a view for rays through such points; all views that are asked for are the same, and so are the
+    /// spheres.
+    fn of(
+        &mut self,
+        visibility: &'scene Visibility<'scene>,
+        view: &View,
+        points: RayPoints,
+    ) -> ViewIndex<'scene> {
+        if let Some((_, known)) = self.0.iter().find(|(known, _)| *known == points) {
+            return known.of(visibility);
+        }
+        let index = ViewIndex::new(visibility, view, points);
+        self.0.push((points, index.clone()));
+        index
+    }
+}
+
 impl<'scene> Integrator<'scene> {
     /// The integrator that `settings` ask for.
     pub(super) fn new(
@@ -40,6 +64,7 @@ impl<'scene> Integrator<'scene> {
         visibility: &'scene Visibility<'scene>,
         exposure: &Exposure<'scene>,
         settings: &Settings,
+        indices: &mut Indices<'scene>,
     ) -> Self {
         let method = Approach::of(world, settings).method;
         let alpha = settings.alpha;
@@ -57,7 +82,7 @@ impl<'scene> Integrator<'scene> {
                 }
             };
         }
-        let index = ViewIndex::new(visibility, view, method.into());
+        let index = indices.of(visibility, view, method.into());
         match method {
             Method::Tolerance(tolerance) => {
                 let exact = Exact::new(world, view, &index, tolerance, alpha);
@@ -80,10 +105,7 @@ impl<'scene> Integrator<'scene> {
     ) -> Result<Work, Cancelled> {
         let Scratch { exact, sampled } = scratch;
         match self {
-            Self::Exact(integrator) => {
-                let paint = |tile, band: &mut _| integrator.paint(tile, exact, band);
-                paint_tiles(band, progress, paint)
-            }
+            Self::Exact(integrator) => paint_exact(&mut [(integrator, band)], exact, progress),
             Self::Sampled(integrator) => {
                 let paint = |tile, band: &mut _| {
                     let work = integrator.paint(tile, sampled, band);
@@ -98,6 +120,59 @@ impl<'scene> Integrator<'scene> {
             Self::SampledOverTime(integrator) => integrator.paint_band(band, sampled, progress),
         }
     }
+}
+
+/// Writes the same band of several pictures that have the view in common, and what samples of the last one see that
+/// tell it; returns what they cost.
+pub(super) fn paint_bands<'scene>(
+    pictures: Vec<(&Integrator<'scene>, &mut Band<'_>)>,
+    scratch: &mut Scratch,
+    progress: &Progress<'_>,
+    mut geometry: Option<Written<'_>>,
+) -> Result<Work, Cancelled> {
+    let mut work = Work::default();
+    let mut together: Vec<(&Exact<'_>, &mut Band<'_>)> = Vec::new();
+    let last = pictures.len().saturating_sub(1);
+    for (number, (integrator, band)) in pictures.into_iter().enumerate() {
+        match integrator {
+            Integrator::Exact(exact)
+                if together
+                    .first()
+                    .is_none_or(|(one, _)| one.shares_index(exact)) =>
+            {
+                together.push((exact, band));
+            }
+            _ => {
+                let geometry = if number == last {
+                    geometry.take()
+                } else {
+                    None
+                };
+                work += integrator.paint_band(band, scratch, progress, geometry)?;
+            }
+        }
+    }
+    work += paint_exact(&mut together, &mut scratch.exact, progress)?;
+    Ok(work)
+}
+
+/// Writes the same band of several pictures that have the view and its index in common, tile by tile.
+fn paint_exact(
+    pictures: &mut [(&Exact<'_>, &mut Band<'_>)],
+    scratch: &mut GroupScratch,
+    progress: &Progress<'_>,
+) -> Result<Work, Cancelled> {
+    let mut work = Work::default();
+    let Some(area) = pictures.first().map(|(_, band)| band.area) else {
+        return Ok(work);
+    };
+    for tile in area.tiles() {
+        work += paint_each(pictures, tile, scratch);
+        if progress(tile.count() * pictures.len() as u64).is_break() {
+            return Err(Cancelled);
+        }
+    }
+    Ok(work)
 }
 
 /// Writes a band tile by tile.

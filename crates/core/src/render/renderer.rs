@@ -6,11 +6,11 @@ use std::sync::{Mutex, PoisonError};
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
 use super::approach::Approach;
-use super::integrator::{Integrator, Scratch};
+use super::integrator::{Indices, Integrator, Scratch};
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
 use crate::model::view::View;
-use crate::model::world::World;
+use crate::model::world::{LightPart, World};
 use crate::picture::image::{Channels, Image, Layout};
 use crate::picture::pixel::Work;
 use crate::picture::progress::{Cancelled, Progress};
@@ -20,7 +20,8 @@ use crate::search::visibility::Visibility;
 /// A world that is ready to be rendered: what does not depend on the view is done once.
 #[derive(Clone, Debug)]
 pub struct Renderer<'world> {
-    pub(super) world: &'world World,
+    /// A copy that shares the spheres, for its light may be a part of theirs.
+    pub(super) world: World,
     pub(super) visibility: Visibility<'world>,
 }
 
@@ -28,8 +29,22 @@ impl<'world> Renderer<'world> {
     /// Prepares a world.
     pub fn new(world: &'world World) -> Self {
         Self {
-            world,
+            world: world.clone(),
             visibility: Visibility::new(world),
+        }
+    }
+
+    /// Prepares the same world under a part of its light, and shares what was found out of the spheres.
+    ///
+    /// Its pictures are those of [`World::under`].
+    ///
+    /// # Panics
+    /// When there is no light with that index.
+    #[must_use]
+    pub fn under(&self, part: LightPart) -> Self {
+        Self {
+            world: self.world.under(part),
+            visibility: self.visibility.under(part),
         }
     }
 
@@ -103,21 +118,31 @@ impl<'world> Renderer<'world> {
         exposure: &Exposure<'a>,
         settings: &Settings,
     ) -> Integrator<'a> {
-        Integrator::new(self.world, &self.visibility, exposure, settings)
+        self.integrator_with(exposure, settings, &mut Indices::default())
+    }
+
+    /// The same, with what was found out of this view.
+    pub(super) fn integrator_with<'a>(
+        &'a self,
+        exposure: &Exposure<'a>,
+        settings: &Settings,
+        indices: &mut Indices<'a>,
+    ) -> Integrator<'a> {
+        Integrator::new(&self.world, &self.visibility, exposure, settings, indices)
     }
 
     /// The world, and what is known of it.
     pub(super) fn parts(&self) -> (&World, &Visibility<'_>) {
-        (self.world, &self.visibility)
+        (&self.world, &self.visibility)
     }
 
     /// The picture of a view, without its pixels.
     pub(super) fn layout(&self, view: &View, settings: &Settings) -> Layout {
         Layout {
             size: (view.width, view.height),
-            channels: Channels::of(self.world, settings.alpha),
+            channels: Channels::of(&self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: Approach::of(self.world, settings).uniform,
+            uniform: Approach::of(&self.world, settings).uniform,
         }
     }
 }

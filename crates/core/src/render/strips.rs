@@ -4,10 +4,11 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::centers::Centers;
-use super::integrator::{Integrator, Scratch};
+use super::integrator::{Indices, Integrator, Scratch, paint_bands};
 use super::renderer::Renderer;
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
+use crate::picture::band::Band;
 use crate::picture::geometry::{Geometry, GeometrySettings};
 use crate::picture::image::{Image, Layout};
 use crate::picture::pixel::Work;
@@ -48,22 +49,38 @@ pub trait Strip {
     fn end(self: Box<Self>);
 }
 
-/// A window of a picture that any number of threads render together, strip by strip, so that
-/// a picture of any height needs little memory.
+/// A window of a picture, or of several of one view, that any number of threads render together, strip by
+/// strip, so that a picture of any height needs little memory.
 ///
 /// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may start
 /// on the next picture while other threads end theirs.
 pub struct Rendering<'a> {
-    integrator: Integrator<'a>,
-    /// The rays through the centers of pixels, where somebody asks for what they see.
+    /// At least one.
+    pictures: Vec<Picture<'a>>,
+    /// The rays through the centers of pixels, where somebody asks for what they see; they come with the last
+    /// picture.
     centers: Option<Centers<'a>>,
-    /// The whole picture.
-    layout: Layout,
+    /// Columns and rows of the whole picture.
+    size: (u32, u32),
     window: Window,
     /// Rows of a strip, but the last.
     rows: u32,
     /// The index of the first strip that no thread has begun.
     next: AtomicU32,
+}
+
+/// One of the pictures that are rendered together.
+struct Picture<'a> {
+    integrator: Integrator<'a>,
+    /// The whole picture.
+    layout: Layout,
+}
+
+/// Memory of strips that are no longer needed.
+#[derive(Default)]
+struct Spent {
+    parts: Vec<Image>,
+    geometry: Option<Geometry>,
 }
 
 impl Renderer<'_> {
@@ -99,7 +116,27 @@ impl Renderer<'_> {
         bands: u32,
         geometry: Option<&GeometrySettings>,
     ) -> Rendering<'a> {
-        let exposure = exposure.into();
+        Rendering::of_each(&[self], exposure.into(), window, settings, bands, geometry)
+    }
+}
+
+impl<'a> Rendering<'a> {
+    /// Prepares the rendering of the same window of several pictures, which go to a sink each: those of renderers that
+    /// are others of one of them [`under`](Renderer::under) a part of its light. What the view sees is found out
+    /// once for all of them. With `geometry` the last one gets what the rays through the centers of its pixels see.
+    ///
+    /// Each picture is the one that its renderer makes alone.
+    ///
+    /// # Panics
+    /// When there is no renderer, when they have not the same spheres, or when the window is not inside the picture.
+    pub fn of_each(
+        renderers: &[&'a Renderer<'_>],
+        exposure: Exposure<'a>,
+        window: Window,
+        settings: &Settings,
+        bands: u32,
+        geometry: Option<&GeometrySettings>,
+    ) -> Self {
         let view = exposure.view();
         let is_inside = |first: u32, length: u32, all: u32| {
             first.checked_add(length).is_some_and(|end| end <= all)
@@ -109,15 +146,33 @@ impl Renderer<'_> {
                 && is_inside(window.row, window.height, view.height),
             "{window:?} is outside"
         );
-        let integrator = self.integrator(&exposure, settings);
-        let (integrator, centers) = match geometry {
-            Some(geometry) => Centers::with(self, &exposure, integrator, *geometry),
-            None => (integrator, None),
-        };
-        Rendering {
-            integrator,
+        let (last, others) = renderers.split_last().expect("a renderer at least");
+        let mut others = others.iter();
+        assert!(
+            others.all(|other| other.world.shares_spheres(&last.world)),
+            "spheres of other worlds"
+        );
+        let mut indices = Indices::default();
+        let pictures = renderers.iter().map(|renderer| Picture {
+            integrator: renderer.integrator_with(&exposure, settings, &mut indices),
+            layout: renderer.layout(view, settings),
+        });
+        let mut pictures: Vec<Picture<'a>> = pictures.collect();
+        let mut centers = None;
+        if let Some(geometry) = geometry
+            && let Some(picture) = pictures.pop()
+        {
+            let (integrator, found) = Centers::with(last, &exposure, picture.integrator, *geometry);
+            centers = found;
+            pictures.push(Picture {
+                integrator,
+                ..picture
+            });
+        }
+        Self {
+            pictures,
             centers,
-            layout: self.layout(view, settings),
+            size: (view.width, view.height),
             window,
             rows: bands.max(1).saturating_mul(BAND_ROWS),
             next: AtomicU32::new(0),
@@ -143,12 +198,32 @@ impl Rendering<'_> {
     ///
     /// # Errors
     /// [`Cancelled`] when the work of this thread has ended so.
+    ///
+    /// # Panics
+    /// Where several pictures are rendered together.
     pub fn help(
         &self,
         sink: &dyn Sink,
         progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
     ) -> Result<Work, Cancelled> {
-        let work = self.render_strips(sink, progress);
+        self.help_each(&[sink], progress)
+    }
+
+    /// Renders strips of all pictures, as [`Self::help`] does, to a sink for each of them. What one sink does not want
+    /// others still get, until no sink wants more.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when the work of this thread has ended so.
+    ///
+    /// # Panics
+    /// When there are not as many sinks as pictures.
+    pub fn help_each(
+        &self,
+        sinks: &[&dyn Sink],
+        progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
+    ) -> Result<Work, Cancelled> {
+        assert_eq!(sinks.len(), self.pictures.len(), "a sink for each picture");
+        let work = self.render_strips(sinks, progress);
         work.inspect_err(|Cancelled| self.begin_no_more())
     }
 
@@ -179,30 +254,33 @@ impl Rendering<'_> {
     }
 
     /// Renders strips until none is left to begin.
-    fn render_strips(&self, sink: &dyn Sink, progress: &Progress<'_>) -> Result<Work, Cancelled> {
-        let (picture_width, picture_height) = self.layout.size;
+    fn render_strips(
+        &self,
+        sinks: &[&dyn Sink],
+        progress: &Progress<'_>,
+    ) -> Result<Work, Cancelled> {
+        let (picture_width, picture_height) = self.size;
         let columns = whole_tiles(self.window.col, self.window.width, picture_width);
         let mut scratch = Scratch::default();
-        let mut spent = (None, None);
+        let mut spent = Spent::default();
         let mut work = Work::default();
         while let Some((index, strip)) = self.next() {
             let rows = whole_tiles(strip.row, strip.height, picture_height);
-            let mut sink = sink.begin(index).ok_or(Cancelled)?;
+            let strips = sinks.iter().map(|sink| sink.begin(index));
+            let mut strips: Vec<Option<Box<dyn Strip + '_>>> = strips.collect();
+            if strips.iter().all(Option::is_none) {
+                return Err(Cancelled);
+            }
             for col in columns.clone().step_by(PART_COLUMNS as usize) {
                 let width = PART_COLUMNS.min(columns.end - col);
-                let size = (width, rows.end - rows.start);
-                let layout = Layout {
-                    size,
-                    ..self.layout
+                let area = Window {
+                    col,
+                    row: rows.start,
+                    width,
+                    height: rows.end - rows.start,
                 };
-                let mut part = Image::new(layout, spent.0);
-                let mut geometry = self
-                    .centers
-                    .as_ref()
-                    .map(|centers| Geometry::new(size, &centers.settings, spent.1.take()));
-                let first = (col, rows.start);
-                let parts = (&mut part, geometry.as_mut());
-                work += self.paint(first, parts, &mut scratch, progress)?;
+                let (parts, geometry, cost) = self.parts(area, spent, &mut scratch, progress)?;
+                work += cost;
                 let inside = strip.col.max(col)..(strip.col + strip.width).min(col + width);
                 let in_part = Window {
                     col: inside.start - col,
@@ -211,43 +289,78 @@ impl Rendering<'_> {
                     height: strip.height,
                 };
                 let first = inside.start - strip.col;
-                let is_whole = (in_part.width, in_part.height) == size;
+                let is_whole = (in_part.width, in_part.height) == (area.width, area.height);
                 let geometry = geometry.map(|geometry| geometry.cut(in_part));
-                if let Some(geometry) = &geometry {
-                    sink.add_geometry(first, geometry);
+                if let (Some(geometry), Some(Some(last))) = (&geometry, strips.last_mut()) {
+                    last.add_geometry(first, geometry);
                 }
-                if is_whole {
-                    sink.add(first, &part);
-                } else {
-                    sink.add(first, &part.cut(in_part));
+                for (strip, part) in strips.iter_mut().zip(&parts) {
+                    let Some(strip) = strip else { continue };
+                    if is_whole {
+                        strip.add(first, part);
+                    } else {
+                        strip.add(first, &part.cut(in_part));
+                    }
                 }
-                spent = (Some(part), geometry);
+                spent = Spent { parts, geometry };
             }
-            sink.end();
+            for strip in strips.into_iter().flatten() {
+                strip.end();
+            }
         }
         Ok(work)
     }
 
-    /// Writes a part of a picture, whose first pixel is there, band by band; returns what it costs.
+    /// The parts of all pictures in an area of whole tiles, in memory that is no longer needed, what the centers of
+    /// its pixels see, and what they cost.
+    fn parts(
+        &self,
+        area: Window,
+        spent: Spent,
+        scratch: &mut Scratch,
+        progress: &Progress<'_>,
+    ) -> Result<(Vec<Image>, Option<Geometry>, Work), Cancelled> {
+        let size = (area.width, area.height);
+        let mut memory = spent.parts.into_iter();
+        let parts = self.pictures.iter().map(|picture| {
+            let layout = Layout {
+                size,
+                ..picture.layout
+            };
+            Image::new(layout, memory.next())
+        });
+        let mut parts: Vec<Image> = parts.collect();
+        let centers = self.centers.as_ref();
+        let mut geometry =
+            centers.map(|centers| Geometry::new(size, &centers.settings, spent.geometry));
+        let first = (area.col, area.row);
+        let written = (&mut parts[..], geometry.as_mut());
+        let work = self.paint(first, written, scratch, progress)?;
+        Ok((parts, geometry, work))
+    }
+
+    /// Writes a part of each picture, whose first pixel is there, band by band; returns what it costs.
     fn paint(
         &self,
         (col, row): (u32, u32),
-        (part, mut geometry): (&mut Image, Option<&mut Geometry>),
+        (parts, mut geometry): (&mut [Image], Option<&mut Geometry>),
         scratch: &mut Scratch,
         progress: &Progress<'_>,
     ) -> Result<Work, Cancelled> {
         let mut work = Work::default();
-        let height = part.height();
+        let height = parts[0].height();
         for first in (0..height).step_by(BAND_ROWS as usize) {
             let rows = first..height.min(first + BAND_ROWS);
-            let mut band = part.band_mut((col, row), rows);
-            let area = band.area;
+            let bands = parts.iter_mut();
+            let bands = bands.map(|part| part.band_mut((col, row), rows.clone()));
+            let mut bands: Vec<Band<'_>> = bands.collect();
+            let area = bands[0].area;
             let written = geometry
                 .as_deref_mut()
                 .map(|geometry| ((col, row), geometry));
-            work += self
-                .integrator
-                .paint_band(&mut band, scratch, progress, written)?;
+            let pictures = self.pictures.iter().map(|picture| &picture.integrator);
+            let pictures = pictures.zip(&mut bands).collect();
+            work += paint_bands(pictures, scratch, progress, written)?;
             if let (Some(centers), Some(geometry)) = (&self.centers, geometry.as_deref_mut()) {
                 work += centers.see(area, &mut scratch.sampled, ((col, row), geometry));
             }

@@ -11,7 +11,7 @@ use crate::numeric::lanes::LANES;
 use crate::picture::pixel::Method;
 
 /// The points of the retina that rays go through.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum RayPoints {
     /// Any.
     All,

@@ -104,6 +104,21 @@ impl<'world> ViewIndex<'world> {
         }
     }
 
+    /// The same of another visibility of the same spheres: what was found out is shared.
+    pub(crate) fn of<'other>(&self, visibility: &'other Visibility<'other>) -> ViewIndex<'other> {
+        ViewIndex {
+            visibility,
+            viewpoint: self.viewpoint,
+            length_exponent: self.length_exponent,
+            lists: Arc::clone(&self.lists),
+        }
+    }
+
+    /// True where both share what was found out.
+    pub(crate) fn shares_lists(&self, other: &ViewIndex<'_>) -> bool {
+        Arc::ptr_eq(&self.lists, &other.lists)
+    }
+
     /// The memory that it takes, in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let of_lists = match self.lists.as_ref() {

@@ -11,7 +11,7 @@ use super::occluders::Occluders;
 use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
-use crate::model::world::World;
+use crate::model::world::{LightPart, World};
 
 /// Lengths whose squares are far from over- and underflow.
 const MODERATE: Range<f64> = 1e-35..1e35;
@@ -93,6 +93,20 @@ impl<'world> Visibility<'world> {
             lights,
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
+        }
+    }
+
+    /// The same for a part of the light.
+    pub(crate) fn under(&self, part: LightPart) -> Self {
+        let light = match part {
+            LightPart::Ambient => None,
+            // There is none in a world without shadows.
+            LightPart::Light(index) => self.lights.get(index),
+        };
+        Self {
+            hierarchy: self.hierarchy.clone(),
+            lights: light.cloned().into_iter().collect(),
+            ..*self
         }
     }
 

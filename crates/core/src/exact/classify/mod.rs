@@ -13,4 +13,5 @@ pub(crate) mod occluder_cache;
 pub(crate) mod occluders;
 pub(crate) mod patch;
 pub(crate) mod row;
+pub(crate) mod seen;
 mod shade_mask;

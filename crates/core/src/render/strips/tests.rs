@@ -1,3 +1,5 @@
+mod lights;
+
 use std::num::NonZeroU32;
 use std::sync::atomic::AtomicU64;
 use std::sync::{Barrier, Mutex};
