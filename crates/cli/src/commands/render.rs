@@ -17,6 +17,7 @@ use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
+use crate::sequence::parts::PicturePart;
 use crate::sequence::pattern::Pattern;
 use crate::sequence::render::render;
 use crate::sequence::request::Request;
@@ -32,21 +33,24 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     let request = request(arguments, &threads, console)?;
 
     interrupt::listen(console);
-    prepare(&request.pattern.path(request.frames.first()))?;
+    prepare(&request.path(request.frames.first(), 0))?;
 
     let (form, quiet) = (arguments.progress, arguments.quiet);
-    let progress = Progress::new(console, form, quiet, request.frames.count());
+    let progress = Progress::new(console, form, quiet, request.pictures());
     let outcome = render(&request, &threads, &progress);
     progress.finish();
     let outcome = outcome?;
-    if outcome.frames > 1
-        && request.pattern.is_numbered()
+    // A frame has one picture, or one for each light.
+    let is_single = request.parts.len() == 1;
+    let noun = if is_single { "frame" } else { "picture" };
+    if outcome.pictures > 1
+        && (request.pattern.is_numbered() || !is_single)
         && !quiet
-        && let Some(total) = messages::total(&outcome)
+        && let Some(total) = messages::total(&outcome, noun)
     {
         console.result(&total);
     }
-    Ok(conclusion(&outcome, console))
+    Ok(conclusion(&outcome, noun, console))
 }
 
 /// Reads the scene and checks what can be before anything is rendered.
@@ -80,6 +84,10 @@ pub(super) fn request(
     if arguments.sidecar {
         check_sidecars(&pattern, &frames, &arguments.scene)?;
     }
+    let parts = match arguments.per_light {
+        true => PicturePart::each(scene.world(), &[]).map_err(Failure::Usage)?,
+        false => vec![PicturePart::whole()],
+    };
     Ok(Request {
         size: arguments.size,
         window: arguments.region,
@@ -94,6 +102,7 @@ pub(super) fn request(
         scene,
         scene_path: arguments.scene.clone(),
         frames,
+        parts,
         pattern,
         encoding,
         centers,
@@ -174,6 +183,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     for (is_given, option) in [
         (arguments.skip_existing, "--skip-existing"),
         (arguments.sidecar, "--sidecar"),
+        (arguments.per_light, "--per-light"),
     ] {
         if is_given && format == Format::Apng {
             let message =
@@ -201,13 +211,13 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
 }
 
 /// Tells how a run has ended, and returns its exit code.
-fn conclusion(outcome: &Outcome, console: &Console) -> u8 {
+fn conclusion(outcome: &Outcome, noun: &str, console: &Console) -> u8 {
     if outcome.interrupted {
-        console.warn(&format!("interrupted: {}", messages::counts(outcome)));
+        console.warn(&format!("interrupted: {}", messages::counts(outcome, noun)));
         status::INTERRUPTED
     } else if !outcome.failed.is_empty() {
-        if outcome.frames > 1 {
-            console.warn(&messages::counts(outcome));
+        if outcome.pictures > 1 {
+            console.warn(&messages::counts(outcome, noun));
         }
         status::FAILURE
     } else if outcome.is_over_tolerance() {

@@ -40,15 +40,16 @@ pub(super) struct Shot<'a> {
 }
 
 impl Digests {
-    /// The digests of pictures of a world, hashed on the threads of the current rayon pool.
+    /// The digests of pictures of a world whose spheres have these hashes.
     pub(super) fn new(
         world: &World,
+        spheres: &[Hash],
         settings: &Settings,
         encoding: Encoding,
         centers: Option<&CenterChannels>,
     ) -> Self {
         let mut shared = Feed(Hasher::new_derive_key(PURPOSE));
-        shared.world(world);
+        shared.world(world, spheres);
         shared.settings(settings);
         shared.encoding(encoding);
         // Files without them have the digests that they had before there were any.
@@ -111,7 +112,7 @@ impl Feed {
         }
     }
 
-    fn world(&mut self, world: &World) {
+    fn world(&mut self, world: &World, spheres: &[Hash]) {
         self.vector(world.ambient);
         self.vector(world.background);
         self.integer(world.shadows);
@@ -121,7 +122,7 @@ impl Feed {
         let materials = world.materials().iter();
         materials.for_each(|material| self.material(material));
         self.count(world.spheres().len());
-        for hash in hashes_of_spheres(world) {
+        for hash in spheres {
             self.0.update(hash.as_bytes());
         }
     }
@@ -255,8 +256,9 @@ impl Feed {
     }
 }
 
-/// The hashes of some spheres at a time, each with its material and its color.
-fn hashes_of_spheres(world: &World) -> Vec<Hash> {
+/// The hashes of some spheres at a time, each with its material and its color, made on the threads of the current
+/// rayon pool.
+pub(super) fn hashes_of_spheres(world: &World) -> Vec<Hash> {
     let parts = world.spheres().par_chunks(SPHERES).enumerate();
     let hash = |(part, spheres): (usize, &[Sphere])| {
         let mut bytes = Vec::with_capacity(SPHERES * 36);

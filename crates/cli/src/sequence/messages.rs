@@ -28,11 +28,11 @@ pub(super) fn result(path: &str, summary: &Summary, clipped: u64, time: Duration
 }
 
 /// The line of results of all files together, in the form of a file's own; `None` where none was
-/// written.
-pub(crate) fn total(outcome: &Outcome) -> Option<String> {
-    let frames = counted(outcome.written, "frame");
+/// written. `noun` is the word for one of them.
+pub(crate) fn total(outcome: &Outcome, noun: &str) -> Option<String> {
+    let files = counted(outcome.written, noun);
     let summary = outcome.total.as_ref()?;
-    Some(result(&frames, summary, outcome.clipped, outcome.time))
+    Some(result(&files, summary, outcome.clipped, outcome.time))
 }
 
 /// The line of results of a file that was there.
@@ -40,16 +40,17 @@ pub(super) fn skipped(path: &Path) -> String {
     format!("{}: skipped, complete and of this scene", path.display())
 }
 
-/// The number of frames that were written, and those that failed, in the form that `--frames` reads.
-pub(crate) fn counts(outcome: &Outcome) -> String {
+/// The number of files that were written, whose word is `noun`, and the frames that failed, in the form that `--frames`
+/// reads.
+pub(crate) fn counts(outcome: &Outcome, noun: &str) -> String {
     let Outcome {
-        frames,
+        pictures,
         written,
         skipped,
         failed,
         ..
     } = outcome;
-    let mut counts = format!("{written} of {frames} frames written");
+    let mut counts = format!("{written} of {pictures} {noun}s written");
     if *skipped > 0 {
         counts.push_str(&format!(", {skipped} skipped"));
     }
@@ -139,11 +140,11 @@ mod tests {
             ..Outcome::default()
         };
         assert_eq!(
-            total(&outcome).unwrap(),
+            total(&outcome, "frame").unwrap(),
             "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, \
              37 pixels clipped, 0.012 s"
         );
-        assert_eq!(total(&Outcome::default()), None);
+        assert_eq!(total(&Outcome::default(), "frame"), None);
         for (bounds, share) in [
             (599, "99 %"),
             (360, "60 %"),

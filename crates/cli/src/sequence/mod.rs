@@ -6,6 +6,7 @@ mod digest;
 pub(crate) mod frames;
 pub(crate) mod messages;
 pub(crate) mod outcome;
+pub(crate) mod parts;
 pub(crate) mod pattern;
 mod pipeline;
 pub(crate) mod render;

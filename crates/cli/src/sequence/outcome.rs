@@ -14,11 +14,11 @@ use crate::terminal::progress::Progress;
 /// The outcome of a sequence.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outcome {
-    /// Frames that were asked for.
-    pub(crate) frames: u64,
-    /// Frames whose files were written.
+    /// Pictures that were asked for: as a rule one for each frame.
+    pub(crate) pictures: u64,
+    /// Pictures whose files were written.
     pub(crate) written: u64,
-    /// Frames whose files were there.
+    /// Pictures whose files were there.
     pub(crate) skipped: u64,
     /// Frames that could not be rendered or written.
     pub(crate) failed: Vec<i32>,

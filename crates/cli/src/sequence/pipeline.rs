@@ -30,7 +30,10 @@ const STRIPS_BYTES: u64 = 1 << 27;
 pub(super) struct Pipeline<'a> {
     pub(super) request: &'a Request,
     pub(super) progress: &'a Progress<'a>,
-    pub(super) encoder: Encoder,
+    /// One for each picture of a frame.
+    pub(super) encoders: Vec<Encoder>,
+    /// The number of pictures of a frame that are rendered together, at most.
+    pub(super) together: usize,
     pub(super) buffer: ReorderBuffer,
     pub(super) clock: Clock,
     pub(super) failures: Failures,
@@ -41,6 +44,8 @@ pub(super) struct Pipeline<'a> {
 /// A picture that is on its way to its file.
 pub(super) struct Order {
     pub(super) facts: Facts,
+    /// Which of the frame's pictures it is.
+    pub(super) part: usize,
     pub(super) path: PathBuf,
     /// The file to write; `None` where all frames are one file.
     pub(super) file: Option<TemporaryFile>,
@@ -57,23 +62,36 @@ impl<'a> Pipeline<'a> {
         threads: usize,
         progress: &'a Progress<'a>,
     ) -> Result<Self, Failure> {
-        let form = request.form()?.unwrap_or(Form {
-            region: Region::all(Size {
-                width: 1,
-                height: 1,
-            }),
-            channels: Channels::Grey,
-            alpha: false,
-            centers: None,
-        });
-        let encoder = Encoder::new(request.encoding, form);
-        let capacity = capacity(&encoder)?;
+        let nothing = || {
+            let form = Form {
+                region: Region::all(Size {
+                    width: 1,
+                    height: 1,
+                }),
+                channels: Channels::Grey,
+                alpha: false,
+                centers: None,
+            };
+            vec![form; request.parts.len()]
+        };
+        let forms = request.forms()?.unwrap_or_else(nothing).into_iter();
+        let encoders = forms.map(|form| Encoder::new(request.encoding, form));
+        let encoders: Vec<Encoder> = encoders.collect();
+        let largest = encoders.iter().max_by_key(|encoder| encoder.strip_bytes());
+        let mut capacity = largest.map_or(Ok(1), capacity)?;
+        let together = largest.map_or(1, |encoder| together(encoder, encoders.len()));
+        if together > 1 {
+            // Of all of them strips come at a time, and those after them shall not wait.
+            let pieces = u64::from(encoders[0].pieces());
+            capacity = capacity.max(2 * together as u64 * pieces);
+        }
         // Without all of its frames there is no animation.
         let is_fatal = request.fail_fast || request.is_animation();
         Ok(Self {
             request,
             progress,
-            encoder,
+            encoders,
+            together,
             buffer: ReorderBuffer::new(capacity),
             clock: Clock::new(threads),
             failures: Failures::new(is_fatal),
@@ -90,6 +108,20 @@ impl<'a> Pipeline<'a> {
     pub(super) fn fail(&self, frame: i32, path: &Path, failure: &Failure) {
         self.failures.add(frame, path, failure, self.progress);
     }
+}
+
+/// The number of pictures of a frame that are rendered together, so that what the view sees is found out once for
+/// them: no more than fit into the memory for them, twice.
+fn together(encoder: &Encoder, parts: usize) -> usize {
+    /// More save hardly any time, and the files of all of them are open.
+    const MOST: usize = 12;
+    const BYTES: u64 = 1 << 29;
+    let picture = encoder.strip_bytes() * u64::from(encoder.pieces());
+    let fitting = BYTES / (2 * picture).max(1);
+    usize::try_from(fitting)
+        .unwrap_or(MOST)
+        .min(MOST)
+        .clamp(1, parts.max(1))
 }
 
 /// The number of strips that may be between rendering and file, at least 2; refuses pictures that are

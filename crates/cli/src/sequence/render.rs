@@ -30,7 +30,7 @@ pub(crate) fn render(
     progress: &Progress<'_>,
 ) -> Result<Outcome, Failure> {
     let pipeline = Pipeline::new(request, threads.current_num_threads(), progress)?;
-    let (sender, receiver) = sync_channel(WAITING_PICTURES);
+    let (sender, receiver) = sync_channel(WAITING_PICTURES * pipeline.together);
     let written = thread::scope(|scope| {
         let writer = scope.spawn(|| {
             if request.is_animation() {
@@ -41,19 +41,19 @@ pub(crate) fn render(
         });
         threads.install(|| {
             let _closing = pipeline.buffer.closing();
-            let renderer = OnceLock::new();
-            let mut source = Source::new(&pipeline, &renderer, sender);
+            let renderers = OnceLock::new();
+            let mut source = Source::new(&pipeline, &renderers, sender);
             workers::run(|| source.next());
         });
         let written = writer.join();
         written.unwrap_or_else(|panic| panic::resume_unwind(panic))
     });
-    let (frames, skipped) = (request.frames.count(), pipeline.skipped.into_inner());
+    let (pictures, skipped) = (request.pictures(), pipeline.skipped.into_inner());
     Ok(Outcome {
-        frames,
+        pictures,
         skipped,
         failed: pipeline.failures.into_frames(),
-        interrupted: interrupt::requested() && written.written + skipped < frames,
+        interrupted: interrupt::requested() && written.written + skipped < pictures,
         ..written
     })
 }

@@ -6,6 +6,7 @@ use marbles_core::{Settings, View, Window};
 use marbles_scene::Scene;
 
 use super::frames::FrameList;
+use super::parts::PicturePart;
 use super::pattern::Pattern;
 use crate::base::failure::Failure;
 use crate::base::region::{Region, shown};
@@ -26,6 +27,8 @@ pub(crate) struct Request {
     pub(crate) window: Option<Window>,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) settings: Settings,
+    /// The pictures of each frame, at least one.
+    pub(crate) parts: Vec<PicturePart>,
     pub(crate) pattern: Pattern,
     pub(crate) encoding: Encoding,
     /// The channels of the files besides the pictures.
@@ -62,8 +65,18 @@ impl Request {
         self.size.map_or(view, |size| size.resize(view))
     }
 
-    /// The form of all pictures; `None` where no frame has a view.
-    pub(super) fn form(&self) -> Result<Option<Form>, Failure> {
+    /// The number of pictures.
+    pub(crate) fn pictures(&self) -> u64 {
+        self.frames.count() * self.parts.len() as u64
+    }
+
+    /// The file of a picture of a frame.
+    pub(crate) fn path(&self, frame: i32, part: usize) -> PathBuf {
+        self.parts[part].path(self.pattern.path(frame))
+    }
+
+    /// The forms of the pictures of a frame, the same for all frames; `None` where no frame has a view.
+    pub(super) fn forms(&self) -> Result<Option<Vec<Form>>, Failure> {
         let views = self.frames.iter();
         let mut views = views.filter_map(|frame| self.scene.view(frame).ok());
         // All frames have the same size.
@@ -71,13 +84,12 @@ impl Request {
             return Ok(None);
         };
         let region = self.region(Size::of(&self.resized(view)))?;
-        let form = Form::new(
-            region,
-            self.scene.world(),
-            self.settings.alpha,
-            self.centers,
-        );
-        Ok(Some(form))
+        let form = |part: &PicturePart| {
+            let centers = self.centers.filter(|_| part.has_centers());
+            let world = part.of(self.scene.world());
+            Form::new(region, &world, self.settings.alpha, centers)
+        };
+        Ok(Some(self.parts.iter().map(form).collect()))
     }
 
     /// The part of a picture of this size that is rendered.

@@ -1,6 +1,7 @@
 //! The source of pictures: which frame comes next, and all that is made ready for it.
 
 use std::collections::VecDeque;
+use std::iter::Peekable;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -8,9 +9,9 @@ use std::sync::atomic::Ordering;
 use std::sync::mpsc::{SyncSender, channel};
 
 use blake3::Hash;
-use marbles_core::{Exposure, Renderer, Rendering};
+use marbles_core::{Renderer, Rendering, Sink};
 
-use super::digest::{Digests, Shot};
+use super::digest::{self, Digests, hashes_of_spheres};
 use super::messages;
 use super::pipeline::{Order, Pipeline};
 use super::strip_encoder::PictureEncoder;
@@ -26,38 +27,48 @@ use crate::formats::{load, sidecar};
 /// Gives pictures to render, and orders to write them.
 pub(super) struct Source<'a> {
     pipeline: &'a Pipeline<'a>,
-    /// Ready as soon as a frame is.
-    renderer: &'a OnceLock<Renderer<'a>>,
+    /// Ready as soon as a frame is; one for each picture of a frame.
+    renderers: &'a OnceLock<Vec<Renderer<'a>>>,
     writer: SyncSender<Order>,
-    frames: Box<dyn Iterator<Item = i32> + Send + 'a>,
-    /// Frames that another process is rendering.
-    postponed: VecDeque<i32>,
-    digests: Digests,
+    shots: Peekable<Box<dyn Iterator<Item = Shot> + Send + 'a>>,
+    /// Pictures that another process is rendering.
+    postponed: VecDeque<Shot>,
+    /// One for each picture of a frame.
+    digests: Vec<Digests>,
     left_over: LeftOver,
     /// The number of pictures that were begun.
     begun: u64,
 }
 
-/// A picture that threads render together.
+/// A picture that is to be taken.
+#[derive(Clone, Copy, Debug)]
+struct Shot {
+    frame: i32,
+    /// Which of the frame's pictures it is.
+    part: usize,
+}
+
+/// Pictures of a frame that threads render together.
 pub(super) struct InFlight<'a> {
     rendering: Rendering<'a>,
-    picture: PictureEncoder<'a>,
+    pictures: Vec<PictureEncoder<'a>>,
     pipeline: &'a Pipeline<'a>,
 }
 
-/// The decision about a frame.
-enum Decision<'a> {
-    Render(Box<Wanted<'a>>),
+/// The decision about a picture.
+enum Decision {
+    Render(Box<Wanted>),
     /// Its file is there.
     Skip,
     /// Another process is writing its file.
     Wait,
 }
 
-/// A frame that is wanted.
-struct Wanted<'a> {
-    exposure: Exposure<'a>,
+/// A picture that is wanted.
+struct Wanted {
     facts: Facts,
+    part: usize,
+    path: PathBuf,
     /// The file to write; `None` where all frames are one file.
     file: Option<TemporaryFile>,
 }
@@ -66,63 +77,109 @@ impl<'a> Source<'a> {
     /// Begins before the first frame. Orders go to `writer`.
     pub(super) fn new(
         pipeline: &'a Pipeline<'a>,
-        renderer: &'a OnceLock<Renderer<'a>>,
+        renderers: &'a OnceLock<Vec<Renderer<'a>>>,
         writer: SyncSender<Order>,
     ) -> Self {
         let request = pipeline.request;
+        let parts = request.parts.len();
+        let shots = request
+            .frames
+            .iter()
+            .flat_map(move |frame| (0..parts).map(move |part| Shot { frame, part }));
+        let shots: Box<dyn Iterator<Item = Shot> + Send + 'a> = Box::new(shots);
         let world = request.scene.world();
+        let spheres = hashes_of_spheres(world);
+        let digests = request.parts.iter().map(|part| {
+            let centers = request.centers.filter(|_| part.has_centers());
+            let (settings, encoding) = (&request.settings, request.encoding);
+            Digests::new(
+                &part.of(world),
+                &spheres,
+                settings,
+                encoding,
+                centers.as_ref(),
+            )
+        });
         Self {
             pipeline,
-            renderer,
+            renderers,
             writer,
-            frames: Box::new(request.frames.iter()),
+            shots: shots.peekable(),
             postponed: VecDeque::new(),
-            digests: Digests::new(
-                world,
-                &request.settings,
-                request.encoding,
-                request.centers.as_ref(),
-            ),
+            digests: digests.collect(),
             left_over: LeftOver::default(),
             begun: 0,
         }
     }
 
-    /// The next picture that is to be rendered, after its order; `None` when there are no more, or no
-    /// more are wanted.
+    /// The next pictures that are to be rendered together, after their orders; `None` when there are no more, or
+    /// no more are wanted.
     pub(super) fn next(&mut self) -> Option<InFlight<'a>> {
-        while !self.pipeline.stop() {
-            let next = self.frames.next();
-            let is_postponed = next.is_none();
-            let frame = next.or_else(|| self.postponed.pop_front())?;
-            let path = self.pipeline.request.pattern.path(frame);
-            match self.decide(frame, &path, is_postponed) {
-                Ok(Decision::Render(wanted)) => return self.begin(*wanted, path),
-                Ok(Decision::Wait) => self.postponed.push_back(frame),
+        let mut wanted: Vec<Wanted> = Vec::new();
+        let mut most = 1;
+        while !self.pipeline.stop() && wanted.len() < most {
+            let of_frame = wanted.first().map(|wanted| wanted.facts.frame);
+            let Some((shot, has_waited)) = self.next_shot(of_frame) else {
+                break;
+            };
+            let path = self.pipeline.request.path(shot.frame, shot.part);
+            match self.decide(shot, &path, has_waited) {
+                Ok(Decision::Render(picture)) => {
+                    wanted.push(*picture);
+                    most = self.together(shot.frame);
+                }
+                Ok(Decision::Wait) => self.postponed.push_back(shot),
                 Ok(Decision::Skip) => {
                     self.pipeline.skipped.fetch_add(1, Ordering::Relaxed);
                     self.pipeline.progress.result(&messages::skipped(&path));
                     self.pipeline.progress.leave_out();
                 }
                 Err(failure) => {
-                    self.pipeline.fail(frame, &path, &failure);
+                    self.pipeline.fail(shot.frame, &path, &failure);
                     self.pipeline.progress.leave_out();
                 }
             }
         }
-        None
+        match wanted.is_empty() || self.pipeline.stop() {
+            true => None,
+            false => self.begin(wanted),
+        }
     }
 
-    /// Begins the file of a frame, unless it is there or another process writes it.
+    /// The next picture, of this frame where one is given, and whether it was postponed.
+    fn next_shot(&mut self, of_frame: Option<i32>) -> Option<(Shot, bool)> {
+        let is_of_frame = |shot: &Shot| of_frame.is_none_or(|frame| shot.frame == frame);
+        if self.shots.peek().is_some() {
+            return Some((self.shots.next_if(is_of_frame)?, false));
+        }
+        let is_next = self.postponed.front().is_some_and(is_of_frame);
+        Some((self.postponed.pop_front().filter(|_| is_next)?, true))
+    }
+
+    /// The number of pictures of a frame that are rendered together. Those of a moving camera keep so much of what it
+    /// sees that they are rendered one by one.
+    fn together(&self, frame: i32) -> usize {
+        let Pipeline {
+            request, together, ..
+        } = self.pipeline;
+        if *together == 1 {
+            return 1;
+        }
+        let view = request.view(frame).ok();
+        let moves = view.is_some_and(|view| !request.scene.exposure(&view).poses().is_empty());
+        if moves { 1 } else { *together }
+    }
+
+    /// Begins the file of a picture, unless it is there or another process writes it.
     ///
     /// A process that has waited once begins it all the same: another one that stands still would else
     /// keep all others from the end, and both write the same.
     fn decide(
         &mut self,
-        frame: i32,
+        Shot { frame, part }: Shot,
         path: &Path,
         has_waited: bool,
-    ) -> Result<Decision<'a>, Failure> {
+    ) -> Result<Decision, Failure> {
         let request = self.pipeline.request;
         let view = request.view(frame)?;
         let exposure = request.scene.exposure(&view);
@@ -131,7 +188,7 @@ impl<'a> Source<'a> {
             frame,
             frames_per_second: request.frames_per_second,
             method: request.settings.method,
-            digest: self.digests.of(&Shot {
+            digest: self.digests[part].of(&digest::Shot {
                 exposure: &exposure,
                 frame,
                 // Other files do not tell it, and an animated one keeps no digest.
@@ -141,7 +198,7 @@ impl<'a> Source<'a> {
                 },
             }),
         };
-        let encoder = &self.pipeline.encoder;
+        let encoder = &self.pipeline.encoders[part];
         let files = encoder.files(path, &facts.digest);
         let sidecar = request.sidecar.then(|| sidecar::beside(path));
         for path in files.iter().map(|(path, _)| path).chain(&sidecar) {
@@ -168,59 +225,91 @@ impl<'a> Source<'a> {
             Some(file)
         };
         Ok(Decision::Render(Box::new(Wanted {
-            exposure,
             facts,
+            part,
+            path: path.to_owned(),
             file,
         })))
     }
 
-    /// Orders that a frame be written, and makes it ready to be rendered; `None` when the writer has
+    /// Orders that pictures of a frame be written, and makes them ready to be rendered; `None` when the writer has
     /// ended.
-    fn begin(&mut self, wanted: Wanted<'a>, path: PathBuf) -> Option<InFlight<'a>> {
-        let Wanted {
-            exposure,
-            facts,
-            file,
-        } = wanted;
+    fn begin(&mut self, wanted: Vec<Wanted>) -> Option<InFlight<'a>> {
         let pipeline = self.pipeline;
         let Pipeline {
-            request,
-            progress,
-            encoder,
+            request, progress, ..
+        } = pipeline;
+        let renderers = self.renderers.get_or_init(|| {
+            let world = request.scene.world();
+            progress.prepare(world.spheres().len());
+            let renderer = Renderer::new(world);
+            let parts = request.parts.iter();
+            let parts = parts.map(|part| match part.light {
+                Some(light) => renderer.under(light),
+                None => renderer.clone(),
+            });
+            parts.collect()
+        });
+        let parts: Vec<usize> = wanted.iter().map(|picture| picture.part).collect();
+        let (first, last) = (*parts.first()?, *parts.last()?);
+        let exposure = request.scene.exposure(&wanted[0].facts.view);
+        let encoder = &pipeline.encoders[first];
+        let region = encoder.form.region;
+        let mut pictures = Vec::new();
+        for picture in wanted {
+            pictures.push(self.order(picture)?);
+            progress.begin(self.begun, region.size().pixels());
+            self.begun += 1;
+        }
+        let renderers: Vec<&Renderer<'_>> = parts.iter().map(|&part| &renderers[part]).collect();
+        Some(InFlight {
+            rendering: Rendering::of_each(
+                &renderers,
+                exposure,
+                region.window,
+                &request.settings,
+                encoder.bands(),
+                // The part that has them is the last.
+                pipeline.encoders[last].geometry().as_ref(),
+            ),
+            pictures,
+            pipeline,
+        })
+    }
+
+    /// Orders that a picture be written; returns the encoder of its strips.
+    fn order(&self, wanted: Wanted) -> Option<PictureEncoder<'a>> {
+        let Pipeline {
+            encoders,
             buffer,
             clock,
             ..
-        } = pipeline;
+        } = self.pipeline;
+        let Wanted {
+            facts,
+            part,
+            path,
+            file,
+        } = wanted;
+        let encoder = &encoders[part];
         let first_piece = self.begun * u64::from(encoder.pieces());
         let (sender, finished) = channel();
         let order = Order {
             facts,
+            part,
             path,
             file,
             end: first_piece + u64::from(encoder.pieces()),
             finished,
         };
         self.writer.send(order).ok()?;
-
-        let world = request.scene.world();
-        let renderer = self.renderer.get_or_init(|| {
-            progress.prepare(world.spheres().len());
-            Renderer::new(world)
-        });
-        let region = encoder.form.region;
-        progress.begin(self.begun, region.size().pixels());
-        self.begun += 1;
-        Some(InFlight {
-            rendering: renderer.begin_with_geometry(
-                exposure,
-                region.window,
-                &request.settings,
-                encoder.bands(),
-                encoder.geometry().as_ref(),
-            ),
-            picture: PictureEncoder::new(encoder, buffer, first_piece, clock, sender),
-            pipeline,
-        })
+        Some(PictureEncoder::new(
+            encoder,
+            buffer,
+            first_piece,
+            clock,
+            sender,
+        ))
     }
 }
 
@@ -242,7 +331,9 @@ impl SharedWork for InFlight<'_> {
 
     fn help(&self) -> ControlFlow<()> {
         let stop = || self.pipeline.stop();
-        let rendered = self.rendering.help(&self.picture, &|pixels| {
+        let sinks = self.pictures.iter().map(|picture| picture as &dyn Sink);
+        let sinks: Vec<&dyn Sink> = sinks.collect();
+        let rendered = self.rendering.help_each(&sinks, &|pixels| {
             self.pipeline.progress.advance(pixels);
             if stop() {
                 ControlFlow::Break(())
@@ -250,7 +341,7 @@ impl SharedWork for InFlight<'_> {
                 ControlFlow::Continue(())
             }
         });
-        // Where the writer wants nothing more of this picture, the next one is rendered.
+        // Where the writer wants nothing more of these pictures, the next ones are rendered.
         if rendered.is_err() && (stop() || self.pipeline.buffer.is_closed()) {
             ControlFlow::Break(())
         } else {

@@ -52,6 +52,7 @@ fn write_file(
 ) -> Result<(Summary, u64, Duration), Unwritten> {
     let Order {
         facts,
+        part,
         path,
         file,
         finished,
@@ -60,10 +61,11 @@ fn write_file(
     let Pipeline {
         request,
         progress,
-        encoder,
+        encoders,
         buffer,
         ..
     } = pipeline;
+    let encoder = &encoders[part];
     let file = file.ok_or(Unwritten::Stopped)?;
     let end: Cell<Option<Finished>> = Cell::new(None);
     let summary = || {
@@ -76,7 +78,7 @@ fn write_file(
         let summary = summary().ok_or(Fault::Stopped)?;
         if request.sidecar {
             // Where the picture is there, its sidecar is.
-            write_sidecar(&facts, &path, &summary, pipeline).map_err(Fault::Failed)?;
+            write_sidecar(&facts, part, &path, &summary, pipeline).map_err(Fault::Failed)?;
         }
         Ok(())
     };
@@ -102,16 +104,20 @@ fn write_file(
 /// Writes the sidecar of the picture at `path`.
 fn write_sidecar(
     facts: &Facts,
+    part: usize,
     path: &Path,
     summary: &Summary,
     pipeline: &Pipeline<'_>,
 ) -> Result<(), Failure> {
     let Pipeline {
-        request, encoder, ..
+        request, encoders, ..
     } = pipeline;
     let view = request.view(facts.frame)?;
-    let sidecar = Sidecar::of(&request.scene, &request.scene_path, facts.frame, &view);
-    let region = &encoder.form.region;
+    let mut sidecar = Sidecar::of(&request.scene, &request.scene_path, facts.frame, &view);
+    if let Some(light) = request.parts[part].light {
+        sidecar = sidecar.under(light);
+    }
+    let region = &encoders[part].form.region;
     let sidecar = sidecar.with_results(region, facts.method, summary, &facts.digest);
     let path = sidecar::beside(path);
     let text = sidecar.text().map_err(|error| Failure::at(&path, &error))?;
@@ -124,10 +130,12 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
     let Pipeline {
         request,
         progress,
-        encoder,
+        encoders,
         buffer,
         ..
     } = pipeline;
+    // Its frames have one picture each.
+    let encoder = &encoders[0];
     let _closing = buffer.closing();
     let mut outcome = Outcome::default();
     let path = request.pattern.path(request.frames.first());

@@ -13,6 +13,7 @@ mod farm;
 mod files;
 mod folder;
 #[cfg(target_os = "linux")]
+mod lights;
 mod memory;
 mod merge;
 mod png_codes;

@@ -24,6 +24,7 @@ Examples:
   marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
+  marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr: each light alone
   marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
 
 Exit codes:
@@ -88,6 +89,11 @@ pub(crate) struct RenderArguments {
     /// Leave the background out, and store how much of each pixel the spheres cover
     #[arg(long)]
     pub(crate) alpha: bool,
+
+    /// Render each light alone, with its shadows, into NAME.light-KEY.png and so on, KEY its number from 1, and
+    /// ambient light and background into NAME.ambient.png: the sum is the picture
+    #[arg(long)]
+    pub(crate) per_light: bool,
 
     /// Bits of a number in a PNG, 8 or 16 [default: 8, and 16 with --linear]
     #[arg(long, value_name = "BITS", value_parser = bits)]

@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 use blake3::Hash;
 use glam::{DMat3, DVec3};
 use marbles_core::{
-    DirectionalLight, Extrinsics, Intrinsics, Method, Summary, View, Window, World, right_handed,
+    DirectionalLight, Extrinsics, Intrinsics, LightPart, Method, Summary, View, Window, World,
+    right_handed,
 };
 use marbles_scene::Scene;
 use serde::Serialize;
@@ -160,6 +161,18 @@ impl<'a> Sidecar<'a> {
             rendered: None,
             version: env!("CARGO_PKG_VERSION"),
         }
+    }
+
+    /// The same of a picture under a part of the light.
+    pub(crate) fn under(mut self, part: LightPart) -> Self {
+        self.lights = match part {
+            LightPart::Ambient => Vec::new(),
+            LightPart::Light(index) => self.lights.drain(..).skip(index).take(1).collect(),
+        };
+        if part != LightPart::Ambient {
+            (self.ambient, self.background) = ([0.0; 3], [0.0; 3]);
+        }
+        self
     }
 
     /// The same with what is known of a part of the picture that was rendered.

@@ -33,7 +33,13 @@ const PNG: Encoding = Encoding::Png(PLAIN);
 
 fn digest_with(centers: Option<&CenterChannels>) -> Hash {
     let scene = Scene::parse(SCENE, Path::new("a.ron")).unwrap();
-    let digests = Digests::new(scene.world(), &SETTINGS, PNG, centers);
+    let digests = Digests::new(
+        scene.world(),
+        &hashes_of_spheres(scene.world()),
+        &SETTINGS,
+        PNG,
+        centers,
+    );
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(2).unwrap()),
         frame: 2,
@@ -68,7 +74,13 @@ fn channels_change_the_digest() {
 
 fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Hash {
     let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
-    let digests = Digests::new(scene.world(), settings, encoding, None);
+    let digests = Digests::new(
+        scene.world(),
+        &hashes_of_spheres(scene.world()),
+        settings,
+        encoding,
+        None,
+    );
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(frame).unwrap()),
         frame,

@@ -1,0 +1,130 @@
+//! The pictures of a frame: one under all light, or one for each part of it.
+
+use std::collections::HashSet;
+use std::ffi::OsString;
+use std::path::PathBuf;
+
+use marbles_core::{LightPart, World};
+
+/// A picture of a frame.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) struct PicturePart {
+    /// The part of the light that it is taken under; `None` for all of it.
+    pub(crate) light: Option<LightPart>,
+    /// What its file's name has before the ending, and the frame's has not.
+    inserted: String,
+}
+
+impl PicturePart {
+    /// The picture under all light.
+    pub(crate) fn whole() -> Self {
+        Self {
+            light: None,
+            inserted: String::new(),
+        }
+    }
+
+    /// A picture for each part of a world's light, whose lights have these names: `.light-KEY` comes before the
+    /// ending, where KEY is the light's name or else its number from 1, and `.ambient` for what is left.
+    pub(crate) fn each(world: &World, names: &[Option<&str>]) -> Result<Vec<Self>, String> {
+        let mut keys = HashSet::new();
+        let part = |light| {
+            let inserted = match light {
+                LightPart::Light(index) => {
+                    let name = names.get(index).copied().flatten();
+                    let key = name.map_or_else(|| (index + 1).to_string(), file_safe);
+                    if !keys.insert(key.clone()) {
+                        return Err(format!("two lights would share the file of `{key}`"));
+                    }
+                    format!(".light-{key}")
+                }
+                LightPart::Ambient => ".ambient".to_owned(),
+            };
+            Ok(Self {
+                light: Some(light),
+                inserted,
+            })
+        };
+        world.light_parts().map(part).collect()
+    }
+
+    /// What the picture shows of a world.
+    pub(crate) fn of(&self, world: &World) -> World {
+        match self.light {
+            Some(light) => world.under(light),
+            None => world.clone(),
+        }
+    }
+
+    /// Returns whether the picture has what the centers of pixels see, which is the same under all lights.
+    pub(crate) fn has_centers(&self) -> bool {
+        matches!(self.light, None | Some(LightPart::Ambient))
+    }
+
+    /// The file of the picture, in place of the one at `path`.
+    pub(crate) fn path(&self, path: PathBuf) -> PathBuf {
+        if self.inserted.is_empty() {
+            return path;
+        }
+        let mut name = OsString::from(path.file_stem().unwrap_or_default());
+        name.push(&self.inserted);
+        if let Some(ending) = path.extension() {
+            name.push(".");
+            name.push(ending);
+        }
+        path.with_file_name(name)
+    }
+}
+
+/// A light's name with a dash for every character that file names had better not contain.
+fn file_safe(name: &str) -> String {
+    let safe = |letter: char| match letter {
+        '-' | '_' => letter,
+        _ if letter.is_alphanumeric() => letter,
+        _ => '-',
+    };
+    name.chars().map(safe).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use glam::DVec3;
+    use marbles_core::DirectionalLight;
+
+    use super::*;
+
+    fn world() -> World {
+        let mut world = World::new();
+        for _ in 0..2 {
+            let light = DirectionalLight::new(DVec3::Y, DVec3::ONE);
+            world.lights.extend(light);
+        }
+        world
+    }
+
+    #[test]
+    fn files_are_named_after_their_lights() {
+        let parts = PicturePart::each(&world(), &[Some("key / warm"), None]).unwrap();
+        let paths = parts.iter().map(|part| part.path("a/b.0001.exr".into()));
+        let paths: Vec<PathBuf> = paths.collect();
+        let expected = [
+            "a/b.0001.light-key---warm.exr",
+            "a/b.0001.light-2.exr",
+            "a/b.0001.ambient.exr",
+        ];
+        assert_eq!(paths, expected.map(PathBuf::from));
+        assert_eq!(
+            PicturePart::whole().path("a.png".into()),
+            Path::new("a.png")
+        );
+    }
+
+    #[test]
+    fn no_two_lights_share_a_file() {
+        for names in [[Some("2"), None], [Some("a b"), Some("a-b")]] {
+            assert!(PicturePart::each(&world(), &names).is_err());
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Pictures under one light each.
+
+use std::fs;
+
+use crate::folder::{Folder, code, text};
+
+/// The scene of `balls`, with what comes before its spheres left open.
+fn balls(light: &str) -> String {
+    format!(
+        "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (0, 0, -6)), {light}
+         materials: {{ \"red\": (albedo: (0.75, 0.25, 0.125), highlight: (strength: 0.25, shininess: 9)) }},
+         spheres: [(center: (0, 0, 0), radius: 1, material: \"red\"),
+                   (center: (1.25, 0.75, -0.5), radius: 0.5)])"
+    )
+}
+
+const LIGHTS: [&str; 3] = [
+    "Directional(toward: (-1, 1, -1), intensity: 0.5)",
+    "Directional(toward: (1, 0.5, -1), intensity: (0.5, 0.25, 0.125))",
+    "Directional(toward: (0.5, 2, -1), intensity: 0.25)",
+];
+const SURROUNDINGS: &str = "ambient: 0.0625, background: (0.125, 0.25, 0.5),";
+
+/// A folder with the scene under all light, and one scene for each part of it.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    let write = |name: &str, light: &str| {
+        fs::write(folder.path(&format!("{name}.ron")), balls(light)).unwrap();
+    };
+    write(
+        "all",
+        &format!("{SURROUNDINGS} lights: [{}],", LIGHTS.join(", ")),
+    );
+    write("ambient", SURROUNDINGS);
+    for (number, light) in (1..).zip(LIGHTS) {
+        write(&format!("light-{number}"), &format!("lights: [{light}],"));
+    }
+    folder
+}
+
+fn run(folder: &Folder, arguments: &str) -> String {
+    let output = folder.run(arguments);
+    assert_eq!(code(&output), 0, "{arguments}: {}", text(&output.stderr));
+    text(&output.stdout)
+}
+
+const KEYS: [&str; 4] = ["light-1", "light-2", "light-3", "ambient"];
+
+#[test]
+fn each_file_is_that_of_the_scene_with_this_light() {
+    let folder = folder();
+    for (ending, options) in [
+        ("png", ""),
+        ("png", "--samples 3 --alpha --bits 16"),
+        ("exr", "--error-channel --region 3,5,30,20"),
+        ("npy", "--error-channel --tolerance 1e-5"),
+    ] {
+        let all = format!("render all.ron --per-light -o a.{ending} {options}");
+        let lines = run(&folder, &all);
+        assert_eq!(lines.lines().count(), 5, "{lines}");
+        assert!(lines.contains("\n4 pictures: "), "{lines}");
+        for key in KEYS {
+            run(
+                &folder,
+                &format!("render {key}.ron -o b.{key}.{ending} {options}"),
+            );
+            let [found, expected] = ["a", "b"].map(|name| {
+                let bytes = fs::read(folder.path(&format!("{name}.{key}.{ending}")));
+                bytes.unwrap()
+            });
+            assert!(found == expected, "{key}.{ending} {options}");
+        }
+    }
+    assert!(!folder.path("a.png").exists());
+}
+
+#[test]
+fn pictures_of_lights_are_resumed_one_by_one() {
+    let folder = folder();
+    let render = "render all.ron --per-light --sidecar -o a.####.png --frames 1 --skip-existing";
+    run(&folder, render);
+    let whole = fs::read(folder.path("a.0001.light-2.png")).unwrap();
+    fs::remove_file(folder.path("a.0001.light-2.png")).unwrap();
+    let lines = run(&folder, render);
+    assert_eq!(lines.matches("skipped").count(), 3, "{lines}");
+    assert_eq!(fs::read(folder.path("a.0001.light-2.png")).unwrap(), whole);
+    assert!(
+        run(
+            &folder,
+            &render.replace("all.ron", "all.ron --tolerance 1e-2")
+        )
+        .contains("4 pictures")
+    );
+
+    // Each sidecar tells its own light.
+    let sidecar =
+        |key: &str| fs::read_to_string(folder.path(&format!("a.0001.{key}.json"))).unwrap();
+    let (second, ambient) = (sidecar("light-2"), sidecar("ambient"));
+    assert!(
+        second.contains("\"intensity\": [0.5, 0.25, 0.125]"),
+        "{second}"
+    );
+    assert_eq!(second.matches("\"toward\"").count(), 1);
+    assert!(second.contains("\"ambient\": [0.0, 0.0, 0.0]"), "{second}");
+    assert!(
+        ambient.contains("\"lights\": []") && ambient.contains("[0.125, 0.25, 0.5]"),
+        "{ambient}"
+    );
+}
+
+#[test]
+fn what_centers_see_comes_with_the_ambient_light() {
+    let folder = folder();
+    run(
+        &folder,
+        "render all.ron --per-light -o a.npy --channels depth,id",
+    );
+    run(&folder, "render ambient.ron -o b.npy --channels depth,id");
+    for file in ["channels", "id"] {
+        let [found, expected] = [format!("a.ambient_{file}"), format!("b_{file}")]
+            .map(|name| fs::read(folder.path(&format!("{name}.npy"))).unwrap());
+        assert!(found == expected, "{file}");
+        assert!(!folder.path(&format!("a.light-1_{file}.npy")).exists());
+    }
+}
+
+#[test]
+fn all_lights_of_all_frames_are_not_one_file() {
+    let folder = folder();
+    let output = folder.run("render all.ron --per-light -o a.apng");
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("--per-light is for files of one frame each"));
+}
