@@ -108,7 +108,6 @@ impl<'world> ViewIndex<'world> {
     pub(crate) fn of<'other>(&self, visibility: &'other Visibility<'other>) -> ViewIndex<'other> {
         ViewIndex {
             visibility,
-            viewpoint: self.viewpoint,
             length_exponent: self.length_exponent,
             lists: Arc::clone(&self.lists),
         }

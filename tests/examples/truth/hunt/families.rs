@@ -4,8 +4,8 @@ use super::draft::Draft;
 use super::parallel::{parallel_lenses, planes_that_cut};
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
-    highlights, long_lenses, many_lights, ordinary, parallel_lenses, planes_that_cut, rough, seams,
-    shutters, slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
+    highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
+    terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use crate::numbers::Numbers;
 
