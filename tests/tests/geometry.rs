@@ -118,8 +118,35 @@ fn touching() -> Vec<(World, View)> {
     vec![(world(&tangent), ahead), (world(&around), ahead)]
 }
 
+/// The same through parallel lenses: a floor, tiny spheres, a crowd, and spheres that the plane cuts.
+fn parallel() -> Vec<(World, View)> {
+    let through = |(world, view): (World, View), width: f64| {
+        let lens = Lens::parallel(width, DVec2::new(0.1 * width, 0.0));
+        (world, View { lens, ..view })
+    };
+    let [floor, aside] = floors().try_into().ok().unwrap();
+    let [tiny] = tiny().try_into().ok().unwrap();
+    let [crowd, far] = crowd().try_into().ok().unwrap();
+    let cut = [
+        (DVec3::new(0.1, 0.0, 0.3), 1.0),
+        (DVec3::new(-0.3, 0.2, -0.4), 0.8),
+    ];
+    vec![
+        through(floor, 8.0),
+        through(aside, 30.0),
+        through(tiny, 1.7e-5),
+        through(crowd, 6.0),
+        through(far, 6e7),
+        through(
+            (world(&cut), view(DVec3::ZERO, [10.0, 20.0, 30.0], 1.0)),
+            4.0,
+        ),
+    ]
+}
+
 fn scenes() -> Vec<(&'static str, World, View)> {
     let named = [
+        ("parallel", parallel()),
         ("floor", floors()),
         ("tiny", tiny()),
         ("crowd", crowd()),
@@ -154,6 +181,9 @@ fn truth(world: &World, ray: &Ray) -> Option<(usize, ExactPoint)> {
 /// The ray through the center of a pixel, and its point of the retina.
 fn center_ray(view: &View, col: usize, row: u32) -> (Ray, DVec3) {
     let center = view.cell_center(col as u64, u64::from(row), 1);
+    if view.lens.is_parallel() {
+        return (view.ray(center), (center / view.zoom).extend(1.0));
+    }
     let retina = center.extend(view.lens.distance * view.zoom);
     (view.ray(center), retina)
 }
@@ -217,6 +247,7 @@ fn judge(
         };
         let depth = match settings.depth {
             Depth::Axis => point.distance().times(retina.z),
+            Depth::Ray if view.lens.is_parallel() => point.distance(),
             Depth::Ray => point.length(),
         };
         hold(0, depth, found(Quantity::Depth, 0, col));
@@ -225,7 +256,11 @@ fn judge(
             let (position, along) = if settings.axes == Axes::World {
                 (point.position(axis), DVec3::AXES[axis])
             } else {
-                let position = point.distance().times(retina[axis] * signs[axis]);
+                let position = if axis < 2 && view.lens.is_parallel() {
+                    Exact::number(retina[axis] * signs[axis])
+                } else {
+                    point.distance().times(retina[axis] * signs[axis])
+                };
                 (position, camera.col(axis) * signs[axis])
             };
             hold(1, position, found(Quantity::Position, axis, col));

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use glam::DVec3;
 use marbles_scene::Scene;
 
 use crate::python;
@@ -144,5 +145,39 @@ fn a_scene_with_matrix_and_pose_of_a_sidecar_has_the_same_picture() {
         let values = (0..240).flat_map(|row| one.row(row).iter().zip(other.row(row)));
         let largest = values.fold(0.0, |most: f64, (one, other)| most.max((one - other).abs()));
         assert!(largest < 1e-9, "{largest}");
+    }
+}
+
+/// A parallel camera has no K: `pixels_per_unit` · (x, y) + `principal_point` is where points are seen.
+#[test]
+fn a_parallel_sidecar_tells_where_points_are_seen() {
+    let camera = [
+        "Parallel(width: 8, shift: (0.5, -0.25))",
+        "Free(position: (1, 2, 3), pan: 20, tilt: -10, roll: 5)",
+        "2",
+    ];
+    let folder = Folder::new();
+    let text = scene(camera, "ambient: 1");
+    let [_, sidecar] = folder.render(&text, "--samples 1");
+    let sidecar = fs::read_to_string(sidecar).unwrap();
+    assert!(sidecar.contains("\"kind\": \"parallel\""), "{sidecar}");
+    assert!(!sidecar.contains("\"K\""), "{sidecar}");
+    let member = |name| -> Vec<f64> {
+        let values = numbers(&sidecar, name);
+        values.iter().map(|value| value.parse().unwrap()).collect()
+    };
+    let (scale, middle) = (member("pixels_per_unit")[0], member("principal_point"));
+    let (rotation, translation) = (member("R"), member("t"));
+    assert_eq!(scale, 80.0);
+    let view = parse(&text).view(1).unwrap();
+    for point in [DVec3::new(1.5, 2.5, 9.0), DVec3::new(0.0, 1.0, 5.0)] {
+        let right_handed = [point.x, point.y, -point.z];
+        let along = |row: usize| {
+            let terms = (0..3).map(|axis| rotation[3 * row + axis] * right_handed[axis]);
+            terms.sum::<f64>() + translation[row]
+        };
+        let expected = view.project(point).unwrap() - 0.5;
+        assert!((scale * along(0) + middle[0] - expected.x).abs() < 1e-9);
+        assert!((scale * along(1) + middle[1] - expected.y).abs() < 1e-9);
     }
 }

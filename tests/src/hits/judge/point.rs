@@ -113,6 +113,16 @@ fn root(number: &BigInt) -> BigInt {
 }
 
 impl Exact {
+    /// A double.
+    pub fn number(value: f64) -> Self {
+        let (mantissa, exponent) = mantissa_and_exponent(value);
+        Self {
+            numerator: BigInt::from(mantissa),
+            denominator: BigInt::from(1),
+            exponent,
+        }
+    }
+
     /// The product with a double.
     pub fn times(mut self, factor: f64) -> Self {
         let (mantissa, exponent) = mantissa_and_exponent(factor);

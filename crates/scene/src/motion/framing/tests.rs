@@ -32,6 +32,14 @@ fn reach(scene: &Scene, view: &View) -> f64 {
     let size = DVec2::new(f64::from(view.width), f64::from(view.height));
     let mut reach = 0.0_f64;
     for sphere in scene.world().spheres() {
+        if view.lens.is_parallel() {
+            let ahead = (sphere.center() - eye).dot(view.camera.forward());
+            assert!(ahead > sphere.radius(), "the plane cuts a sphere");
+            let pixel = view.project(sphere.center()).expect("it is ahead");
+            let aside = (pixel - 0.5 * size).abs() + sphere.radius() * view.pixels_per_unit();
+            reach = reach.max((aside / (0.5 * size)).max_element());
+            continue;
+        }
         let to_center = sphere.center() - eye;
         let distance = to_center.length();
         assert!(distance > sphere.radius(), "an eye inside a sphere");
@@ -71,7 +79,9 @@ fn scene(random: &mut Random, lens: &str, camera: &str, animation: &str) -> Scen
     Scene::parse(&text, Path::new("a.ron")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-const LENSES: [&str; 5] = [
+const LENSES: [&str; 7] = [
+    "Parallel(width: 3)",
+    "Parallel(width: 200, shift: (40, -90))",
     "Fov(3)",
     "Fov(50)",
     "Fov(130)",
