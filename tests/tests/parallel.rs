@@ -113,8 +113,11 @@ fn a_ball_that_the_plane_cuts_shows_its_inner_side() {
 fn nothing_behind_the_plane_is_seen() {
     let spheres = [(DVec3::new(0.0, 0.0, -3.0), 1.0), (DVec3::Z * -1.0, 1.0)];
     let world = world(&spheres, DVec3::Z);
-    let image = render(&world, &view(DVec3::ZERO, 4.0), 1e-3);
-    assert_eq!(sums(&image, &view(DVec3::ZERO, 4.0)), (0.0, 0.0, 0.0));
+    let view = view(DVec3::ZERO, 4.0);
+    let (light, covered, claimed) = sums(&render(&world, &view, 1e-3), &view);
+    assert_eq!((light, covered), (0.0, 0.0));
+    // Rounding leaves open whether the plane cuts the second.
+    assert!(claimed < 1e-6, "{claimed}");
 }
 
 /// Zoom divides the width, and a shift moves the picture by as much of it.
