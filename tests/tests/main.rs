@@ -13,6 +13,7 @@ mod hits;
 mod invariance;
 mod layers;
 mod parallel;
+mod photometric;
 mod promise;
 mod python;
 mod reference;

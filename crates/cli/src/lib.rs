@@ -61,6 +61,7 @@ fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
         Command::Merge(arguments) => commands::merge::run(&arguments, console),
         Command::Report(arguments) => commands::report::run(&arguments, console),
         Command::Spheres(arguments) => commands::spheres::run(&arguments, console),
+        Command::Dataset(arguments) => commands::dataset::run(&arguments, console),
         Command::Farm(arguments) => commands::farm::run(&arguments, console),
         Command::New(arguments) => commands::new::run(&arguments, console),
         Command::Completions(arguments) => commands::completions::run(&arguments, console),

@@ -4,6 +4,7 @@ pub(crate) mod args;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
+pub(crate) mod dataset;
 pub(crate) mod farm;
 pub(crate) mod man;
 pub(crate) mod merge;

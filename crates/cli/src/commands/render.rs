@@ -211,7 +211,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
 }
 
 /// Tells how a run has ended, and returns its exit code.
-fn conclusion(outcome: &Outcome, noun: &str, console: &Console) -> u8 {
+pub(super) fn conclusion(outcome: &Outcome, noun: &str, console: &Console) -> u8 {
     if outcome.interrupted {
         console.warn(&format!("interrupted: {}", messages::counts(outcome, noun)));
         status::INTERRUPTED

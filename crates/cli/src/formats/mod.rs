@@ -9,6 +9,7 @@ pub(crate) mod form;
 pub(crate) mod frame_rate;
 mod half;
 pub(crate) mod load;
+pub(crate) mod mat;
 pub(crate) mod npy;
 pub(crate) mod picture;
 pub(crate) mod png;

@@ -11,8 +11,16 @@ use marbles_core::{LightPart, World};
 pub(crate) struct PicturePart {
     /// The part of the light that it is taken under; `None` for all of it.
     pub(crate) light: Option<LightPart>,
-    /// What its file's name has before the ending, and the frame's has not.
-    inserted: String,
+    name: Name,
+}
+
+/// The name of a picture's file.
+#[derive(Clone, Debug, Eq, PartialEq)]
+enum Name {
+    /// The frame's, with this before its ending.
+    Inserted(String),
+    /// This one, in the same folder.
+    Whole(String),
 }
 
 impl PicturePart {
@@ -20,7 +28,7 @@ impl PicturePart {
     pub(crate) fn whole() -> Self {
         Self {
             light: None,
-            inserted: String::new(),
+            name: Name::Inserted(String::new()),
         }
     }
 
@@ -42,10 +50,18 @@ impl PicturePart {
             };
             Ok(Self {
                 light: Some(light),
-                inserted,
+                name: Name::Inserted(inserted),
             })
         };
         world.light_parts().map(part).collect()
+    }
+
+    /// The picture under one of the lights, in a file of this name.
+    pub(crate) fn named(light: LightPart, name: String) -> Self {
+        Self {
+            light: Some(light),
+            name: Name::Whole(name),
+        }
     }
 
     /// What the picture shows of a world.
@@ -63,16 +79,19 @@ impl PicturePart {
 
     /// The file of the picture, in place of the one at `path`.
     pub(crate) fn path(&self, path: PathBuf) -> PathBuf {
-        if self.inserted.is_empty() {
-            return path;
+        match &self.name {
+            Name::Inserted(part) if part.is_empty() => path,
+            Name::Inserted(part) => {
+                let mut name = OsString::from(path.file_stem().unwrap_or_default());
+                name.push(part);
+                if let Some(ending) = path.extension() {
+                    name.push(".");
+                    name.push(ending);
+                }
+                path.with_file_name(name)
+            }
+            Name::Whole(name) => path.with_file_name(name),
         }
-        let mut name = OsString::from(path.file_stem().unwrap_or_default());
-        name.push(&self.inserted);
-        if let Some(ending) = path.extension() {
-            name.push(".");
-            name.push(ending);
-        }
-        path.with_file_name(name)
     }
 }
 
@@ -119,6 +138,8 @@ mod tests {
             PicturePart::whole().path("a.png".into()),
             Path::new("a.png")
         );
+        let named = PicturePart::named(LightPart::Light(0), "001.png".to_owned());
+        assert_eq!(named.path("a/x.png".into()), Path::new("a/001.png"));
     }
 
     #[test]

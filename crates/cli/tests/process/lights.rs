@@ -1,4 +1,4 @@
-//! Pictures under one light each.
+//! Pictures under one light each, and data sets of them.
 
 use std::fs;
 
@@ -130,4 +130,54 @@ fn all_lights_of_all_frames_are_not_one_file() {
     let output = folder.run("render all.ron --per-light -o a.apng");
     assert_eq!(code(&output), 2);
     assert!(text(&output.stderr).contains("--per-light is for files of one frame each"));
+}
+
+#[test]
+fn a_data_set_has_the_files_that_its_readers_expect() {
+    let folder = folder();
+    let dataset = "dataset all.ron -o set --layout diligent";
+    let lines = run(&folder, dataset);
+    assert!(
+        lines.contains("\n3 pictures: ") && !lines.contains("clipped"),
+        "{lines}"
+    );
+    let expected = "001.png 002.png 003.png Normal_gt.mat Normal_gt.png filenames.txt \
+                    light_directions.txt light_intensities.txt mask.png normal.txt";
+    assert_eq!(folder.names("set").join(" "), expected);
+    let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
+    assert_eq!(read("filenames.txt"), "001.png\n002.png\n003.png\n");
+    // White is 0.5 at most: all light is doubled.
+    assert_eq!(
+        read("light_intensities.txt"),
+        "1 1 1\n1 0.5 0.25\n0.5 0.5 0.5\n"
+    );
+    let directions = read("light_directions.txt");
+    let first = 1.0 / 3.0_f64.sqrt();
+    assert!(
+        directions.starts_with(&format!("{} ", -first)),
+        "{directions}"
+    );
+    assert_eq!(directions.matches('\n').count(), 3);
+    let normals = read("normal.txt");
+    assert_eq!(normals.lines().count(), 50 * 37);
+    assert!(normals.starts_with("0 0 0\n") && normals.ends_with("\n0 0 0"));
+
+    // Each picture is that of the scene with its light, brighter by one stop.
+    run(
+        &folder,
+        "render light-2.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+    );
+    let [found, alone] = ["set/002.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert!(found == alone);
+
+    // What is there is left alone, and what is not is made again.
+    fs::remove_file(folder.path("set/002.png")).unwrap();
+    let lines = run(&folder, &format!("{dataset} --skip-existing"));
+    assert_eq!(lines.matches("skipped").count(), 2, "{lines}");
+    assert_eq!(folder.names("set").join(" "), expected);
+
+    let output = folder.run("dataset ambient.ron -o other --layout diligent");
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("ambient.ron: the scene has no lights"));
+    assert!(!folder.path("other").exists());
 }

@@ -2,6 +2,7 @@
 
 mod check;
 mod compare;
+mod dataset;
 mod farm;
 mod manual;
 mod merge;
@@ -16,6 +17,7 @@ use clap::{Parser, Subcommand};
 
 pub(crate) use self::check::CheckArguments;
 pub(crate) use self::compare::CompareArguments;
+pub(crate) use self::dataset::{DatasetArguments, LayoutForm};
 pub(crate) use self::farm::{Engine, FarmArguments, JobArguments};
 pub(crate) use self::manual::{CompletionsArguments, ManArguments};
 pub(crate) use self::merge::MergeArguments;
@@ -42,6 +44,7 @@ pub(crate) enum Command {
     Merge(MergeArguments),
     Report(ReportArguments),
     Spheres(SpheresArguments),
+    Dataset(DatasetArguments),
     Farm(FarmArguments),
     New(NewArguments),
     Completions(CompletionsArguments),

@@ -1,0 +1,83 @@
+//! The arguments of `marbles dataset`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::values::{threads, tolerance_above_zero};
+use crate::base::size::Size;
+use crate::terminal::progress::ProgressForm;
+
+const EXAMPLES: &str = "\
+Examples:
+  marbles dataset studio.ron -o studio --layout diligent
+  marbles dataset studio.ron -o studio --layout diligent --skip-existing   go on where it ended
+
+Files of the layout `diligent`, in the camera's axes: x right, y up, z toward the viewer:
+  001.png, 002.png, …   a picture under each light alone, without ambient light and background: 16 bit,
+                        in proportion to light, scaled so that none is clipped
+  filenames.txt         their names
+  light_directions.txt  unit vectors toward the lights
+  light_intensities.txt red, green and blue of the lights in the pictures' numbers, in which the
+                        largest code is 1: a white surface that faces a light has its intensity
+  mask.png              255 where the center of a pixel sees a sphere
+  Normal_gt.mat         the normals there, an array `Normal_gt` of doubles, height × width × 3
+  normal.txt            the same, three numbers a line, row by row
+  Normal_gt.png         the same to look at
+
+Exit codes:
+  0  everything is written, and every pixel met the tolerance
+  1  something failed, or some pixel did not meet the tolerance
+  2  the command line or the scene file is wrong
+  130  interrupted";
+
+/// A kind of data set.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum LayoutForm {
+    /// That of DiLiGenT: distant lights
+    Diligent,
+}
+
+/// Write a data set for photometric stereo: a picture under each light, and the true normals
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct DatasetArguments {
+    /// Scene file
+    pub(crate) scene: PathBuf,
+
+    /// Folder of the files
+    #[arg(short, long, value_name = "FOLDER")]
+    pub(crate) output: PathBuf,
+
+    /// Names and kinds of the files
+    #[arg(long, value_name = "LAYOUT")]
+    pub(crate) layout: LayoutForm,
+
+    /// Frame of the scene [default: the first]
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub(crate) frame: Option<i32>,
+
+    /// Bring every channel of every pixel within E of its exact value, before it is scaled and rounded
+    #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero)]
+    pub(crate) tolerance: f64,
+
+    /// Size of the pictures in pixels, in place of the scene's
+    #[arg(long, value_name = "WxH")]
+    pub(crate) size: Option<Size>,
+
+    /// Leave out pictures that are complete and made from the same scene and settings
+    #[arg(long)]
+    pub(crate) skip_existing: bool,
+
+    /// Render on N threads; the files are the same for every N [default: one per core]
+    #[arg(long, value_name = "N", value_parser = threads)]
+    pub(crate) threads: Option<usize>,
+
+    /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
+    #[arg(long, value_name = "FORM")]
+    pub(crate) progress: Option<ProgressForm>,
+
+    /// Print nothing but errors and warnings, and progress only where --progress asks for it
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,53 @@
+//! A data set for photometric stereo, and the normals that least squares find in it.
+
+use std::fs;
+use std::path::Path;
+use std::process::ExitCode;
+
+use crate::python;
+
+/// OpenCV from version 5 on is not asked for elsewhere either.
+const PACKAGES: [&str; 3] = ["numpy", "scipy", "opencv-python-headless<5"];
+
+#[test]
+fn least_squares_find_the_normals_of_a_data_set() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("photometric");
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/photometric.ron");
+    let mut arguments = vec!["marbles".into(), "dataset".into(), scene.into_os_string()];
+    arguments.extend(["-o".into(), folder.clone().into_os_string()]);
+    arguments.extend(["--layout", "diligent", "--quiet"].map(Into::into));
+    assert_eq!(marbles_cli::run(arguments), ExitCode::SUCCESS);
+    python::run("photometric_stereo.py", &PACKAGES, &[&folder]);
+}
+
+/// The lines of a page of the documents between the last fence of Python and its end.
+fn last_python(page: &str) -> &str {
+    let (_, rest) = page.rsplit_once("```python\n").unwrap();
+    rest.split_once("```").unwrap().0
+}
+
+#[test]
+fn the_recipe_for_lens_noise_and_response_runs() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("recipe");
+    let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut arguments = vec!["marbles".into(), "render".into()];
+    arguments.push(repository.join("scenes/first.ron").into_os_string());
+    arguments.extend(["-o".into(), folder.join("first.npy").into_os_string()]);
+    arguments.extend(["--size", "240x160", "--sidecar", "--quiet"].map(Into::into));
+    assert_eq!(marbles_cli::run(arguments), ExitCode::SUCCESS);
+    let page = fs::read_to_string(repository.join("docs/ground-truth.md")).unwrap();
+    fs::write(folder.join("recipe.py"), last_python(&page)).unwrap();
+    python::run(
+        "run_in_folder.py",
+        &["numpy"],
+        &[&folder, Path::new("recipe.py")],
+    );
+}
+
+#[test]
+fn the_page_shows_the_script_that_is_run() {
+    let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let script = fs::read_to_string(tests.join("tests/photometric_stereo.py")).unwrap();
+    let page = fs::read_to_string(tests.join("../docs/ground-truth.md")).unwrap();
+    assert!(page.contains(script.trim()));
+}
