@@ -1,6 +1,6 @@
 //! The spheres that may keep a light from one sphere, as discs across the light.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3};
 
@@ -34,8 +34,8 @@ type Kept = Option<Box<[Disc]>>;
 #[derive(Clone, Debug)]
 pub(crate) struct DiscCache<'world> {
     occluders: Occluders<'world>,
-    /// One for each sphere, or none in worlds of very many.
-    kept: Box<[OnceLock<Kept>]>,
+    /// One for each sphere, or none in worlds of very many; copies share what they find.
+    kept: Arc<[OnceLock<Kept>]>,
 }
 
 /// The largest error of points of a sphere where its discs are asked for.
