@@ -34,12 +34,12 @@ impl PicturePart {
 
     /// A picture for each part of a world's light, whose lights have these names: `.light-KEY` comes before the
     /// ending, where KEY is the light's name or else its number from 1, and `.ambient` for what is left.
-    pub(crate) fn each(world: &World, names: &[Option<&str>]) -> Result<Vec<Self>, String> {
+    pub(crate) fn each(world: &World, names: &[Option<String>]) -> Result<Vec<Self>, String> {
         let mut keys = HashSet::new();
         let part = |light| {
             let inserted = match light {
                 LightPart::Light(index) => {
-                    let name = names.get(index).copied().flatten();
+                    let name = names.get(index).and_then(Option::as_deref);
                     let key = name.map_or_else(|| (index + 1).to_string(), file_safe);
                     if !keys.insert(key.clone()) {
                         return Err(format!("two lights would share the file of `{key}`"));
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn files_are_named_after_their_lights() {
-        let parts = PicturePart::each(&world(), &[Some("key / warm"), None]).unwrap();
+        let parts = PicturePart::each(&world(), &[Some("key / warm".to_owned()), None]).unwrap();
         let paths = parts.iter().map(|part| part.path("a/b.0001.exr".into()));
         let paths: Vec<PathBuf> = paths.collect();
         let expected = [
@@ -145,6 +145,7 @@ mod tests {
     #[test]
     fn no_two_lights_share_a_file() {
         for names in [[Some("2"), None], [Some("a b"), Some("a-b")]] {
+            let names = names.map(|name| name.map(str::to_owned));
             assert!(PicturePart::each(&world(), &names).is_err());
         }
     }
