@@ -24,7 +24,7 @@ pub(crate) struct InCamera<'scene> {
     /// The number of channels of light that are computed: 1 in a world without color, whose channels are
     /// the same.
     pub(crate) channels: usize,
-    pub(crate) visibility: &'scene Visibility<'scene>,
+    pub(crate) visibility: Visibility<'scene>,
     pub(crate) world_from_camera: DMat3,
     pub(crate) viewpoint: DVec3,
     camera_from_world: DMat3,
@@ -74,7 +74,7 @@ impl Light {
 impl<'scene> InCamera<'scene> {
     pub(crate) fn new(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         channels: Channels,
         group: usize,
@@ -96,7 +96,7 @@ impl<'scene> InCamera<'scene> {
             let is_far = distance_sq > radius_sq * WIDER && radius_sq > 0.0;
             !is_far && sphere.outside(viewpoint) <= 0.0
         };
-        let of_group = world.lights.iter().enumerate();
+        let of_group = visibility.lights().iter().enumerate();
         let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
         let lights = of_group.map(|(index, light)| {
             let toward = camera_from_world * light.toward();
@@ -112,7 +112,7 @@ impl<'scene> InCamera<'scene> {
         Self {
             world,
             channels: channels.count(),
-            visibility,
+            visibility: visibility.clone(),
             world_from_camera,
             viewpoint,
             is_enclosed: world.shadows && spheres.any(encloses),
@@ -130,12 +130,12 @@ impl<'scene> InCamera<'scene> {
     /// The same without lights.
     pub(crate) fn without_lights(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         channels: Channels,
     ) -> Self {
         // A group after the last one.
-        let group = world.lights.len() / MOST_LIGHTS + 1;
+        let group = visibility.lights().len() / MOST_LIGHTS + 1;
         Self::new(world, visibility, view, channels, group)
     }
 

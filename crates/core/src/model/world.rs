@@ -10,8 +10,11 @@ use crate::model::color::is_grey;
 /// Everything that a camera may see, and its light.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The lights; none leaves only the ambient light.
+    /// The lights, unless a picture has its own; none leaves only the ambient light.
     pub lights: Vec<DirectionalLight>,
+    /// True where some picture's own lights ([`crate::Exposure::with_lights`]) may have a color, so that all pictures
+    /// have three channels.
+    pub has_colored_lights: bool,
     /// Light from everywhere, which no shadow stops.
     pub ambient: Color,
     /// Radiance where no sphere is seen.
@@ -45,6 +48,7 @@ impl World {
     pub fn new() -> Self {
         Self {
             lights: Vec::new(),
+            has_colored_lights: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: true,
@@ -169,10 +173,14 @@ impl World {
     }
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
-    /// lights and their highlights are at their highest.
-    pub(crate) fn range_of_light(&self, background: Color) -> [Color; 2] {
+    /// of some lights and their highlights are at their highest.
+    pub(crate) fn range_of_light(
+        &self,
+        lights: &[DirectionalLight],
+        background: Color,
+    ) -> [Color; 2] {
         let [mut dark, mut bright] = [background; 2];
-        let lights = self.lights.iter().map(|light| light.intensity());
+        let lights = lights.iter().map(|light| light.intensity());
         let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
         let highlights = self.materials.iter().filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
@@ -200,6 +208,7 @@ impl World {
             .zip(&self.is_used)
             .filter(|(_, used)| **used);
         is_grey(self.ambient)
+            && !self.has_colored_lights
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && used
                 .into_iter()

@@ -37,11 +37,11 @@ impl<'scene> Integrator<'scene> {
     /// The integrator that `settings` ask for.
     pub(super) fn new(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         exposure: &Exposure<'scene>,
         settings: &Settings,
     ) -> Self {
-        let method = Approach::of(world, settings).method;
+        let method = Approach::of(world, visibility.lights(), settings).method;
         let alpha = settings.alpha;
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {

@@ -9,7 +9,6 @@ use super::approach::Approach;
 use super::integrator::{Integrator, Scratch};
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
-use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::image::{Channels, Image, Layout};
 use crate::picture::pixel::Work;
@@ -75,7 +74,7 @@ impl<'world> Renderer<'world> {
         progress: &Progress<'_>,
     ) -> Result<Image, Cancelled> {
         let integrator = self.integrator(exposure, settings);
-        let mut image = Image::new(self.layout(exposure.view(), settings), spent);
+        let mut image = Image::new(self.layout(exposure, settings), spent);
         // One by one: bands differ in what they cost, and threads that wait for the last take longer than
         // all handing over.
         let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
@@ -103,21 +102,29 @@ impl<'world> Renderer<'world> {
         exposure: &Exposure<'a>,
         settings: &Settings,
     ) -> Integrator<'a> {
-        Integrator::new(self.world, &self.visibility, exposure, settings)
+        match exposure.lights() {
+            None => Integrator::new(self.world, &self.visibility, exposure, settings),
+            Some(lights) => {
+                let visibility = self.visibility.with_lights(self.world, lights.into());
+                Integrator::new(self.world, &visibility, exposure, settings)
+            }
+        }
     }
 
     /// The world, and what is known of it.
-    pub(super) fn parts(&self) -> (&World, &Visibility<'_>) {
+    pub(super) fn parts(&self) -> (&'world World, &Visibility<'world>) {
         (self.world, &self.visibility)
     }
 
-    /// The picture of a view, without its pixels.
-    pub(super) fn layout(&self, view: &View, settings: &Settings) -> Layout {
+    /// The picture of an exposure, without its pixels.
+    pub(super) fn layout(&self, exposure: &Exposure<'_>, settings: &Settings) -> Layout {
+        let view = exposure.view();
+        let lights = exposure.lights().unwrap_or(self.visibility.lights());
         Layout {
             size: (view.width, view.height),
             channels: Channels::of(self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: Approach::of(self.world, settings).uniform,
+            uniform: Approach::of(self.world, lights, settings).uniform,
         }
     }
 }

@@ -117,7 +117,7 @@ impl Renderer<'_> {
         Rendering {
             integrator,
             centers,
-            layout: self.layout(view, settings),
+            layout: self.layout(&exposure, settings),
             window,
             rows: bands.max(1).saturating_mul(BAND_ROWS),
             next: AtomicU32::new(0),

@@ -9,6 +9,7 @@ use super::shadow::Shadows;
 use super::trace::{Group, Groups, Sight};
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::model::color::Color;
+use crate::model::light::DirectionalLight;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
 use crate::model::world::World;
@@ -23,6 +24,7 @@ pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 #[derive(Clone, Debug)]
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
+    lights: Vec<DirectionalLight>,
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
@@ -41,10 +43,11 @@ pub(super) fn splat<S: Simd, const CHANNELS: usize>(simd: S, color: Color) -> Li
 }
 
 impl<'scene> Shading<'scene> {
-    pub(super) fn new(world: &'scene World, frame: i64) -> Self {
+    pub(super) fn new(world: &'scene World, lights: &[DirectionalLight], frame: i64) -> Self {
         let materials = world.materials();
         Self {
             world,
+            lights: lights.to_vec(),
             frame,
             is_smooth: materials
                 .iter()
@@ -77,7 +80,7 @@ impl<'scene> Shading<'scene> {
         let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
         let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
         let mut mirrored: Light<S, CHANNELS> = splat(simd, Color::ZERO);
-        for (index, light) in world.lights.iter().enumerate() {
+        for (index, light) in self.lights.iter().enumerate() {
             let cosine = points.cosine(light.toward());
             let mut lit = cosine.simd_gt(0.0) & outer;
             if !lit.any_true() {

@@ -70,7 +70,7 @@ impl<'scene> Supersampling<'scene> {
             channels: Channels::of(world, alpha),
             alpha,
             rays: Rays::new(view, samples.get()),
-            shading: Shading::new(world, view.frame),
+            shading: Shading::new(world, index.visibility.lights(), view.frame),
             view: *view,
             centers: None,
             is_dark: false,
@@ -269,7 +269,7 @@ impl<'scene> Supersampling<'scene> {
                 let length = libm::scalbn(1.0, self.index.length_exponent());
                 let sizes = (length, self.rays.tile_side());
                 let viewpoint = self.view.camera.position;
-                Shadows::new(self.index.visibility, viewpoint, sizes, cells)
+                Shadows::new(&self.index.visibility, viewpoint, sizes, cells)
             }),
         }
     }

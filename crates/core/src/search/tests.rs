@@ -127,7 +127,7 @@ fn midpoints_agree(few: &ViewIndex<'_>, view: &View, hierarchy: Option<&Hierarch
     for divisions in 1..=5 {
         let samples = NonZeroU32::new(divisions).unwrap();
         let points = RayPoints::Midpoints(samples);
-        let crowd = ViewIndex::with_hierarchy(few.visibility, view, points, hierarchy);
+        let crowd = ViewIndex::with_hierarchy(&few.visibility, view, points, hierarchy);
         for tile in tiles_of(view) {
             let cells = |first: u32, count: u32| {
                 let cell = u64::from(first) * u64::from(divisions);

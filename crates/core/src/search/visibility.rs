@@ -21,14 +21,17 @@ const MODERATE: Range<f64> = 1e-35..1e35;
 /// more the sorting of all spheres does.
 const CROWD: usize = 1 << 15;
 
-/// The spheres of a world, and for every light those that may keep it from a point.
+/// The spheres of a world, its lights, and for every light those that may keep it from a point; copies share it
+/// all.
 #[derive(Clone, Debug)]
 pub(crate) struct Visibility<'world> {
     spheres: &'world [Sphere],
     /// In a world of shadows, or of very many spheres.
     pub(super) hierarchy: Option<Arc<Hierarchy>>,
+    /// The lights, which may be others than the world's.
+    lights: Arc<[DirectionalLight]>,
     /// One for each light; none in a world without shadows.
-    lights: Vec<DiscCache<'world>>,
+    occluders: Arc<[DiscCache<'world>]>,
     /// True where squares of all lengths are far from over- and underflow.
     is_moderate: bool,
     extent: Extent,
@@ -73,27 +76,38 @@ impl<'world> Visibility<'world> {
     /// Prepares the search in a world.
     pub(crate) fn new(world: &'world World) -> Self {
         let spheres = world.spheres();
-        let lights = if world.shadows {
-            &world.lights[..]
-        } else {
-            &[]
-        };
-        let is_asked = !lights.is_empty() || spheres.len() >= CROWD;
-        let hierarchy = is_asked.then(|| Arc::new(Hierarchy::new(spheres)));
-        let of_light = |light: &DirectionalLight| {
-            let hierarchy = hierarchy.clone()?;
-            let occluders = Occluders::new(spheres, hierarchy, light.toward());
-            Some(DiscCache::new(occluders))
-        };
-        let lights = lights.iter().filter_map(of_light).collect();
+        let casts_shadows = world.shadows && !world.lights.is_empty();
+        let is_asked = casts_shadows || spheres.len() >= CROWD;
         let extent = Extent::new(spheres);
-        Self {
+        let unlit = Self {
             spheres,
-            hierarchy,
-            lights,
+            hierarchy: is_asked.then(|| Arc::new(Hierarchy::new(spheres))),
+            lights: Arc::new([]),
+            occluders: Arc::new([]),
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
+        };
+        unlit.with_lights(world, world.lights.as_slice().into())
+    }
+
+    /// The same world under other lights, as many as it has.
+    pub(crate) fn with_lights(&self, world: &World, lights: Arc<[DirectionalLight]>) -> Self {
+        let casting = if world.shadows { &lights[..] } else { &[] };
+        let of_light = |light: &DirectionalLight| {
+            let hierarchy = self.hierarchy.clone()?;
+            let occluders = Occluders::new(self.spheres, hierarchy, light.toward());
+            Some(DiscCache::new(occluders))
+        };
+        Self {
+            occluders: casting.iter().filter_map(of_light).collect(),
+            lights,
+            ..self.clone()
         }
+    }
+
+    /// The lights.
+    pub(crate) fn lights(&self) -> &[DirectionalLight] {
+        &self.lights
     }
 
     /// The hierarchy that finds what a view sees, where asking sphere by sphere takes too long.
@@ -114,7 +128,7 @@ impl<'world> Visibility<'world> {
 
     /// The spheres as the light with this index sees them.
     pub(crate) fn light(&self, index: usize) -> &DiscCache<'world> {
-        &self.lights[index]
+        &self.occluders[index]
     }
 
     /// Says whether any sphere but the one with the index `except` stands between a point of that
@@ -129,7 +143,7 @@ impl<'world> Visibility<'world> {
         point_error: f64,
         except: usize,
     ) -> bool {
-        let occluders = self.lights[light].occluders();
+        let occluders = self.occluders[light].occluders();
         occluders.any(to_light.origin, point_error, |index| {
             self.hides(index, to_light, point_error, except)
         })
@@ -161,7 +175,7 @@ impl<'world> Visibility<'world> {
         around: f64,
         holds: impl FnMut(usize) -> bool,
     ) -> bool {
-        let occluders = self.lights[light].occluders();
+        let occluders = self.occluders[light].occluders();
         let heights = points.iter().map(|&point| occluders.height(point));
         let lowest = heights.fold(f64::INFINITY, f64::min) - around;
         occluders.any_within(points, around, lowest, holds)

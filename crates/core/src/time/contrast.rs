@@ -2,6 +2,7 @@
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use crate::model::light::DirectionalLight;
 use crate::model::world::World;
 
 /// The differences of light, and of coverage, that something may make in any channel.
@@ -14,8 +15,8 @@ pub(super) struct Contrast {
 }
 
 impl Contrast {
-    pub(super) fn new(world: &World) -> Self {
-        let lights = world.lights.iter();
+    pub(super) fn new(world: &World, lights: &[DirectionalLight]) -> Self {
+        let lights = lights.iter();
         let lights: f64 = lights.map(|light| light.intensity().max_element()).sum();
         let white = world.ambient.max_element() + lights;
         let spheres = (0..world.spheres().len()).into_par_iter();

@@ -21,7 +21,8 @@ fn world() -> World {
 
 fn approach(tolerance: f64, alpha: bool) -> Approach {
     let method = Method::Tolerance(tolerance);
-    Approach::of(&world(), &Settings { method, alpha })
+    let world = world();
+    Approach::of(&world, &world.lights, &Settings { method, alpha })
 }
 
 fn samples(per_side: u32) -> Method {

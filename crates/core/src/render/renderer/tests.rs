@@ -11,6 +11,7 @@ use crate::model::color::Color;
 use crate::model::light::DirectionalLight;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
+use crate::model::view::View;
 use crate::numeric::angle::Angle;
 use crate::picture::pixel::{Method, Status};
 
