@@ -123,11 +123,16 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
     let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
     rows.push(("lights", world.lights.len().to_string()));
-    for light in world.lights.iter().take(LIGHTS_LISTED) {
-        rows.push(("", directional(light)));
+    let names = &scene.description().lights;
+    for (light, name) in world.lights.iter().zip(names).take(LIGHTS_LISTED) {
+        let name = name.as_ref().map(|name| format!("{name:?} "));
+        rows.push(("", name.unwrap_or_default() + &directional(light)));
     }
     if world.lights.len() > LIGHTS_LISTED {
         rows.push(("", "…".to_owned()));
+    }
+    if scene.has_moving_lights() {
+        rows.push(("", "they move: here they are in the first frame".to_owned()));
     }
     let shadows = if world.shadows { "on" } else { "off" };
     rows.push(("shadows", shadows.to_owned()));

@@ -58,6 +58,19 @@ impl Digests {
         Self { shared }
     }
 
+    /// The same where the lights have names, which sidecars tell; without any, nothing changes.
+    pub(super) fn with_names(mut self, names: &[Option<String>]) -> Self {
+        if names.iter().any(Option::is_some) {
+            for name in names {
+                self.shared.maybe(name.as_ref(), |feed, name| {
+                    feed.count(name.len());
+                    feed.0.update(name.as_bytes());
+                });
+            }
+        }
+        self
+    }
+
     /// The digest of one of them.
     pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
@@ -73,6 +86,10 @@ impl Digests {
         for Pose { camera, zoom } in exposure.poses() {
             feed.camera(&camera);
             feed.number(zoom);
+        }
+        // None where the world's are those of all frames.
+        if let Some(lights) = exposure.lights() {
+            lights.iter().for_each(|light| feed.light(light));
         }
         feed.0.finalize()
     }

@@ -82,7 +82,8 @@ impl<'a> Source<'a> {
                 &request.settings,
                 request.encoding,
                 request.centers.as_ref(),
-            ),
+            )
+            .with_names(&request.scene.description().lights),
             left_over: LeftOver::default(),
             begun: 0,
         }

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::camera::{Animation, Axes, Camera, Ease, Key};
-use super::{Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
+use super::camera::{Animation, Axes, Camera, Ease, Key, Turned};
+use super::{Attached, Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
 
@@ -30,6 +30,7 @@ structures! {
     Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)`, `Frame(…)` or `Pose(…)`";
     Axes: "axes", "axes: `OpenCV`";
     Light: "light", "a light `Directional(toward: …)`";
+    Attached: "thing that a light is attached to", "what a light is attached to: `Camera`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
     Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
@@ -40,6 +41,7 @@ structures! {
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element` or `Value`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
+    Turned: "thing that turns", "what turns: `Camera` or `Lights`";
     Key: "key", "a key `(frame: …)`";
     Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
 }

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+mod lights;
 mod opencv;
 
 use glam::{DVec2, DVec3};
@@ -62,6 +63,7 @@ fn what_is_left_out_has_its_default() {
         *scene.description(),
         Description {
             materials: Vec::new(),
+            lights: Vec::new(),
             camera: "Free",
             animation: None,
             lens: String::from("Fov(90)"),

@@ -14,4 +14,4 @@ pub(crate) use quantity::{
     Shininess, Shutter, Strength, Turns, Zoom,
 };
 pub(crate) use rotation::Rotation;
-pub(crate) use words::{ColumnName, FileName, Flag, MaterialName};
+pub(crate) use words::{ColumnName, FileName, Flag, LightName, MaterialName};

@@ -32,7 +32,7 @@ pub(crate) struct Sidecar<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<Part>,
     camera: Camera,
-    lights: Vec<Light>,
+    lights: Vec<Light<'a>>,
     ambient: [f64; 3],
     background: [f64; 3],
     /// The seeds of rough materials, by the materials' names.
@@ -87,9 +87,9 @@ enum Projection {
 }
 
 #[derive(Debug, Serialize)]
-struct Light {
-    /// `null`, for scenes give lights no names.
-    name: Option<String>,
+struct Light<'a> {
+    /// `null` where the scene gives it none.
+    name: Option<&'a str>,
     #[serde(flatten)]
     place: LightPlace,
     intensity: [f64; 3],
@@ -137,7 +137,10 @@ impl<'a> Sidecar<'a> {
         let world = scene.world();
         let place = Extrinsics::of(&view.camera);
         let name = path.file_name().unwrap_or(path.as_os_str());
-        let lights = world.lights.iter();
+        let lights = scene.lights(view);
+        let names = scene.description().lights.iter();
+        let lights = lights.iter().zip(names);
+        let lights = lights.map(|(light, name)| Light::of(light, name.as_deref(), &place));
         Self {
             scene: name.to_string_lossy().into_owned(),
             frame,
@@ -147,7 +150,7 @@ impl<'a> Sidecar<'a> {
             },
             region: None,
             camera: Camera::of(view, &place),
-            lights: lights.map(|light| Light::of(light, &place)).collect(),
+            lights: lights.collect(),
             ambient: numbers(world.ambient),
             background: numbers(world.background),
             seeds: seeds(world, &scene.description().materials),
@@ -219,10 +222,10 @@ impl Camera {
     }
 }
 
-impl Light {
-    fn of(light: &DirectionalLight, place: &Extrinsics) -> Self {
+impl<'a> Light<'a> {
+    fn of(light: &DirectionalLight, name: Option<&'a str>, place: &Extrinsics) -> Self {
         Self {
-            name: None,
+            name,
             place: LightPlace::Directional {
                 toward: numbers(right_handed(light.toward())),
                 toward_camera: numbers(place.direction(light.toward())),

@@ -69,6 +69,7 @@ fn channels_change_the_digest() {
 fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Hash {
     let scene = Scene::parse(text, Path::new("a.ron")).unwrap();
     let digests = Digests::new(scene.world(), settings, encoding, None);
+    let digests = digests.with_names(&scene.description().lights);
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(frame).unwrap()),
         frame,
@@ -98,6 +99,9 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("shadows: true", "shadows: false"),
         ("toward: (-1", "toward: (-2"),
         ("intensity: 0.5", "intensity: 0.25"),
+        ("intensity: 0.5", "intensity: 0.5, name: \"key\""),
+        ("intensity: 0.5", "intensity: 0.5, name: \"rim\""),
+        ("intensity: 0.5", "intensity: 0.5, attached: Camera"),
         ("albedo: 0.5", "albedo: (0.5, 0.5, 0.25)"),
         ("exponent: 2", "exponent: 3"),
         ("strength: 0.6", "strength: 0.7"),
