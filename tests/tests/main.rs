@@ -12,6 +12,7 @@ mod geometry;
 mod hits;
 mod invariance;
 mod layers;
+mod point_lights;
 mod promise;
 mod python;
 mod reference;

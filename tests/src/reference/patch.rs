@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use marbles_core::{View, World};
 
 use super::ball::Ball;
+use super::lamp::Lamp;
 
 /// Slack of the search for spheres, in units of what is compared: far above rounding.
 const SLACK: f64 = 1e-7;
@@ -16,6 +17,7 @@ pub(crate) struct Stage<'world> {
     pub(crate) world: &'world World,
     pub(crate) view: View,
     pub(crate) balls: Vec<Ball>,
+    pub(crate) lamps: Vec<Lamp>,
 }
 
 impl<'world> Stage<'world> {
@@ -30,6 +32,7 @@ impl<'world> Stage<'world> {
             world,
             view: *view,
             balls,
+            lamps: world.lights.iter().map(|light| Lamp::new(light, eye)).collect(),
         }
     }
 }
@@ -184,11 +187,21 @@ impl<'stage> Patch<'stage> {
                 .map(|(index, _)| index)
                 .collect()
         };
-        world
-            .lights
-            .iter()
-            .map(|light| of_light(light.toward()))
-            .collect()
+        let of_near = || {
+            // Anything may lie between.
+            let others = self.stage.balls.iter().enumerate();
+            others
+                .filter(|(index, _)| *index != sphere)
+                .filter(|(_, caster)| caster.center != ball.center || caster.radius != ball.radius)
+                .map(|(index, _)| index)
+                .collect()
+        };
+        let lamps = self.stage.lamps.iter();
+        let casters = lamps.map(|lamp| match lamp {
+            Lamp::Far(toward) => of_light(*toward),
+            Lamp::Near { .. } => of_near(),
+        });
+        casters.collect()
     }
 }
 

@@ -5,7 +5,7 @@ mod costs;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
+use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View};
 use marbles_scene::{CloudDescription, FrameError, Scene};
 
 use super::args::CheckArguments;
@@ -126,7 +126,7 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
     let names = &scene.description().lights;
     for (light, name) in world.lights.iter().zip(names).take(LIGHTS_LISTED) {
         let name = name.as_ref().map(|name| format!("{name:?} "));
-        rows.push(("", name.unwrap_or_default() + &directional(light)));
+        rows.push(("", name.unwrap_or_default() + &placed(light)));
     }
     if world.lights.len() > LIGHTS_LISTED {
         rows.push(("", "…".to_owned()));
@@ -183,9 +183,23 @@ fn bounds(spheres: &[Sphere]) -> Vec<(&'static str, String)> {
     rows.into_iter().flatten().collect()
 }
 
-fn directional(light: &DirectionalLight) -> String {
-    let (toward, intensity) = (vector(light.toward()), color(light.intensity()));
-    format!("toward {toward}, intensity {intensity}")
+fn placed(light: &Light) -> String {
+    let intensity = color(light.intensity());
+    match light {
+        Light::Directional(light) => {
+            format!("toward {}, intensity {intensity}", vector(light.toward()))
+        }
+        Light::Point(light) => {
+            let position = vector(light.position());
+            let reference = short(light.reference());
+            match light.falloff() {
+                LightFalloff::InverseSquare => {
+                    format!("at {position}, intensity {intensity} at distance {reference}")
+                }
+                LightFalloff::None => format!("at {position}, intensity {intensity} everywhere"),
+            }
+        }
+    }
 }
 
 fn duration(scene: &Scene) -> String {

@@ -6,8 +6,8 @@
 use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
-    Camera, DirectionalLight, Exposure, Grain, Highlight, Lens, Material, Method, Pose, Roughness,
-    Settings, Sphere, View, World,
+    Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Pose,
+    Roughness, Settings, Sphere, View, World,
 };
 use rayon::prelude::*;
 
@@ -143,9 +143,20 @@ impl Feed {
         }
     }
 
-    fn light(&mut self, light: &DirectionalLight) {
-        self.vector(light.toward());
-        self.vector(light.intensity());
+    fn light(&mut self, light: &Light) {
+        match light {
+            Light::Directional(light) => {
+                self.vector(light.toward());
+                self.vector(light.intensity());
+            }
+            Light::Point(light) => {
+                self.0.update(b"point light");
+                self.vector(light.position());
+                self.vector(light.intensity());
+                self.integer(light.falloff() == LightFalloff::None);
+                self.number(light.reference());
+            }
+        }
     }
 
     fn material(&mut self, material: &Material) {

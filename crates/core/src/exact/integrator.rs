@@ -214,12 +214,12 @@ impl<'scene> Exact<'scene> {
     /// dark, and where all lights and their highlights are at their highest.
     fn range_of_light(&self, candidates: &[usize]) -> [Color; 2] {
         let world = self.world;
-        let lights = self.index.visibility.lights().iter();
-        let lights = lights.map(|light| light.intensity());
-        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
         let background = self.groups[0].background;
         let [mut least, mut most] = [background; 2];
         for &sphere in candidates {
+            let lights = self.index.visibility.lights().iter();
+            let lights = lights.map(|light| light.brightest_on(&world.spheres()[sphere]));
+            let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
             let albedo = world.albedo(sphere);
             let highlight = world.material(sphere).highlight;
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);

@@ -3,14 +3,18 @@
 use glam::{DMat3, DVec3};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use super::classify::patch::Patch;
 use crate::edges::cell::Ball;
-use crate::edges::shadow::Caster;
+use crate::edges::shadow::{Caster, Cone};
+use crate::light::reflection::NearLight;
 use crate::model::color::Color;
+use crate::model::light::Light as WorldLight;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::rounding::WIDER;
 use crate::picture::image::Channels;
+use crate::search::point_occluders::enclosing;
 use crate::search::visibility::Visibility;
 
 /// Lights that are integrated at a time, further ones in further groups: as many as cosines are kept of for
@@ -30,9 +34,11 @@ pub(crate) struct InCamera<'scene> {
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
     balls: Vec<Ball>,
-    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no light
+    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no directional light
     /// gets there.
     pub(crate) is_enclosed: bool,
+    /// Whether some lights of the group are point lights, which not all rungs know.
+    pub(crate) has_near_lights: bool,
     /// The lights of the group.
     pub(crate) lights: Vec<Light>,
     /// The light of the surroundings, which counts with the first group.
@@ -57,6 +63,10 @@ pub(crate) struct Light {
     /// Unit vectors across.
     pub(crate) right: DVec3,
     pub(crate) up: DVec3,
+    /// The place of a point light, whose vectors mean nothing.
+    pub(crate) near: Option<NearLight>,
+    /// Whether the light gets nowhere that the eye sees, as spheres are around one of them alone.
+    pub(crate) is_shut_off: bool,
 }
 
 impl Light {
@@ -67,7 +77,17 @@ impl Light {
             radius,
             right: self.right,
             up: self.up,
+            cone: self
+                .near
+                .map(|near| Cone::new(near.position, center, radius)),
         }
+    }
+
+    /// A bound of the factor by which intensity is larger anywhere on a patch.
+    pub(crate) fn most_on(&self, patch: &Patch) -> f64 {
+        self.near.map_or(1.0, |near| {
+            near.most_from(patch.distance_from(near.position))
+        })
     }
 }
 
@@ -98,27 +118,49 @@ impl<'scene> InCamera<'scene> {
         };
         let of_group = visibility.lights().iter().enumerate();
         let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
-        let lights = of_group.map(|(index, light)| {
-            let toward = camera_from_world * light.toward();
-            let (right, up) = toward.any_orthonormal_pair();
-            Light {
-                index,
-                intensity: light.intensity(),
-                toward,
-                right,
-                up,
+        let is_enclosed = world.shadows && spheres.any(encloses);
+        let lights = of_group.map(|(index, light)| match light {
+            WorldLight::Directional(light) => {
+                let toward = camera_from_world * light.toward();
+                let (right, up) = toward.any_orthonormal_pair();
+                Light {
+                    index,
+                    intensity: light.intensity(),
+                    toward,
+                    right,
+                    up,
+                    near: None,
+                    is_shut_off: is_enclosed,
+                }
+            }
+            WorldLight::Point(light) => {
+                let position = camera_from_world * (light.position() - viewpoint);
+                let around_light = visibility.point_light(index);
+                let around_light = around_light.map(|occluders| occluders.enclosing());
+                Light {
+                    index,
+                    intensity: light.intensity(),
+                    toward: DVec3::Z,
+                    right: DVec3::X,
+                    up: DVec3::Y,
+                    near: Some(NearLight::new(light, position)),
+                    is_shut_off: around_light
+                        .is_some_and(|around| around != enclosing(world.spheres(), viewpoint)),
+                }
             }
         });
+        let lights: Vec<Light> = lights.collect();
         Self {
             world,
             channels: channels.count(),
             visibility: visibility.clone(),
             world_from_camera,
             viewpoint,
-            is_enclosed: world.shadows && spheres.any(encloses),
+            is_enclosed,
+            has_near_lights: lights.iter().any(|light| light.near.is_some()),
             camera_from_world,
             balls,
-            lights: lights.collect(),
+            lights,
             ambient: if group == 0 {
                 world.ambient
             } else {

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use super::camera::Camera;
-use super::light::DirectionalLight;
+use super::light::Light;
 use super::view::View;
 
 /// The place of a camera at a moment.
@@ -31,7 +31,7 @@ pub trait Motion: Debug + Send + Sync {
 pub struct Exposure<'motion> {
     view: View,
     motion: Option<Arc<dyn Motion + 'motion>>,
-    lights: Option<Arc<[DirectionalLight]>>,
+    lights: Option<Arc<[Light]>>,
 }
 
 impl<'motion> Exposure<'motion> {
@@ -45,7 +45,7 @@ impl<'motion> Exposure<'motion> {
     }
 
     /// The same under these lights in place of the world's, as many as the world has.
-    pub fn with_lights(self, lights: Vec<DirectionalLight>) -> Self {
+    pub fn with_lights(self, lights: Vec<Light>) -> Self {
         Self {
             lights: Some(lights.into()),
             ..self
@@ -53,7 +53,7 @@ impl<'motion> Exposure<'motion> {
     }
 
     /// The lights that take the place of the world's; none where these count.
-    pub fn lights(&self) -> Option<&[DirectionalLight]> {
+    pub fn lights(&self) -> Option<&[Light]> {
         self.lights.as_deref()
     }
 

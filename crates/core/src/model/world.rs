@@ -2,7 +2,7 @@
 
 use super::albedos::Albedos;
 use super::color::Color;
-use super::light::DirectionalLight;
+use super::light::Light;
 use super::material::Material;
 use super::sphere::Sphere;
 use crate::model::color::is_grey;
@@ -11,7 +11,7 @@ use crate::model::color::is_grey;
 #[derive(Clone, Debug)]
 pub struct World {
     /// The lights, unless a picture has its own; none leaves only the ambient light.
-    pub lights: Vec<DirectionalLight>,
+    pub lights: Vec<Light>,
     /// True where some picture's own lights ([`crate::Exposure::with_lights`]) may have a color, so that all pictures
     /// have three channels.
     pub has_colored_lights: bool,
@@ -174,13 +174,9 @@ impl World {
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
     /// of some lights and their highlights are at their highest.
-    pub(crate) fn range_of_light(
-        &self,
-        lights: &[DirectionalLight],
-        background: Color,
-    ) -> [Color; 2] {
+    pub(crate) fn range_of_light(&self, lights: &[Light], background: Color) -> [Color; 2] {
         let [mut dark, mut bright] = [background; 2];
-        let lights = lights.iter().map(|light| light.intensity());
+        let lights = lights.iter().map(|light| self.brightest(light));
         let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
         let highlights = self.materials.iter().filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
@@ -193,6 +189,17 @@ impl World {
             bright = bright.max(albedo * (self.ambient + lights) + lights * strength);
         }
         [dark, bright]
+    }
+
+    /// A bound of the radiance that a light makes of a white surface on the outer side of any sphere.
+    fn brightest(&self, light: &Light) -> Color {
+        if light.point().is_none() {
+            return light.intensity();
+        }
+        let spheres = self.spheres.iter();
+        spheres.fold(Color::ZERO, |most, sphere| {
+            most.max(light.brightest_on(sphere))
+        })
     }
 
     /// True where nothing that can be seen has a color, so that one channel tells all.

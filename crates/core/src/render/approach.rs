@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use super::settings::Settings;
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::world::World;
 use crate::picture::image::Uniform;
 use crate::picture::pixel::{Evidence, Method, Status};
@@ -23,7 +23,7 @@ const PREVIEWS: [(f64, NonZeroU32); 2] =
 impl Approach {
     /// The one that `settings` ask for in a world under some lights. Where the tolerance is no less than the whole contrast of the world, samples
     /// meet it, whatever they miss.
-    pub(super) fn of(world: &World, lights: &[DirectionalLight], settings: &Settings) -> Self {
+    pub(super) fn of(world: &World, lights: &[Light], settings: &Settings) -> Self {
         match settings.method {
             Method::Samples(samples) => Self {
                 method: settings.method,
@@ -53,7 +53,7 @@ impl Approach {
 }
 
 /// The largest difference between what pixels may show, in any channel; alpha is one.
-fn contrast(world: &World, lights: &[DirectionalLight], alpha: bool) -> f64 {
+fn contrast(world: &World, lights: &[Light], alpha: bool) -> f64 {
     let (background, of_alpha) = if alpha {
         (Color::ZERO, 1.0)
     } else {

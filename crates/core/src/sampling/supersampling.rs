@@ -70,7 +70,7 @@ impl<'scene> Supersampling<'scene> {
             channels: Channels::of(world, alpha),
             alpha,
             rays: Rays::new(view, samples.get()),
-            shading: Shading::new(world, index.visibility.lights(), view.frame),
+            shading: Shading::new(world, view, index),
             view: *view,
             centers: None,
             is_dark: false,

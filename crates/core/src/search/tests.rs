@@ -14,7 +14,7 @@ use super::visibility::Visibility;
 use crate::hit::outcome::Hit;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -50,9 +50,7 @@ fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) 
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
     }
     for toward in [random.point(), DVec3::Y, random.point()] {
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
+        world.lights.extend(Light::directional(toward, Color::ONE));
     }
     world
 }
@@ -190,7 +188,7 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
                 for (number, light) in world.lights.iter().enumerate() {
                     let to_light = Ray {
                         origin: ray.at(hit.t),
-                        direction: light.toward(),
+                        direction: light.toward().unwrap(),
                     };
                     let error = ray.point_error(hit.t);
                     let expected = spheres.iter().enumerate().any(|(caster, sphere)| {

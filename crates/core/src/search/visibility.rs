@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::discs::DiscCache;
 use super::hierarchy::Hierarchy;
 use super::occluders::Occluders;
-use crate::model::light::DirectionalLight;
+use super::point_occluders::PointOccluders;
+use crate::model::light::Light;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::world::World;
@@ -29,12 +30,19 @@ pub(crate) struct Visibility<'world> {
     /// In a world of shadows, or of very many spheres.
     pub(super) hierarchy: Option<Arc<Hierarchy>>,
     /// The lights, which may be others than the world's.
-    lights: Arc<[DirectionalLight]>,
+    lights: Arc<[Light]>,
     /// One for each light; none in a world without shadows.
-    occluders: Arc<[DiscCache<'world>]>,
+    occluders: Arc<[Occlusion<'world>]>,
     /// True where squares of all lengths are far from over- and underflow.
     is_moderate: bool,
     extent: Extent,
+}
+
+/// What may keep a light from points.
+#[derive(Clone, Debug)]
+enum Occlusion<'world> {
+    Discs(DiscCache<'world>),
+    Point(PointOccluders<'world>),
 }
 
 /// Bounds of all spheres together.
@@ -91,12 +99,20 @@ impl<'world> Visibility<'world> {
     }
 
     /// The same world under other lights, as many as it has.
-    pub(crate) fn with_lights(&self, world: &World, lights: Arc<[DirectionalLight]>) -> Self {
+    pub(crate) fn with_lights(&self, world: &World, lights: Arc<[Light]>) -> Self {
         let casting = if world.shadows { &lights[..] } else { &[] };
-        let of_light = |light: &DirectionalLight| {
+        let of_light = |light: &Light| {
             let hierarchy = self.hierarchy.clone()?;
-            let occluders = Occluders::new(self.spheres, hierarchy, light.toward());
-            Some(DiscCache::new(occluders))
+            Some(match light {
+                Light::Directional(light) => {
+                    let occluders = Occluders::new(self.spheres, hierarchy, light.toward());
+                    Occlusion::Discs(DiscCache::new(occluders))
+                }
+                Light::Point(light) => {
+                    let occluders = PointOccluders::new(self.spheres, hierarchy, light.position());
+                    Occlusion::Point(occluders)
+                }
+            })
         };
         Self {
             occluders: casting.iter().filter_map(of_light).collect(),
@@ -106,7 +122,7 @@ impl<'world> Visibility<'world> {
     }
 
     /// The lights.
-    pub(crate) fn lights(&self) -> &[DirectionalLight] {
+    pub(crate) fn lights(&self) -> &[Light] {
         &self.lights
     }
 
@@ -126,9 +142,23 @@ impl<'world> Visibility<'world> {
         self.spheres
     }
 
-    /// The spheres as the light with this index sees them.
+    /// The spheres as the directional light with this index sees them.
+    ///
+    /// # Panics
+    /// Where it is a point light.
     pub(crate) fn light(&self, index: usize) -> &DiscCache<'world> {
-        &self.occluders[index]
+        match &self.occluders[index] {
+            Occlusion::Discs(discs) => discs,
+            Occlusion::Point(_) => unreachable!("the discs of a point light"),
+        }
+    }
+
+    /// The spheres as the point light with this index sees them; none in a world without shadows, or for another light.
+    pub(crate) fn point_light(&self, index: usize) -> Option<&PointOccluders<'world>> {
+        match self.occluders.get(index)? {
+            Occlusion::Discs(_) => None,
+            Occlusion::Point(occluders) => Some(occluders),
+        }
     }
 
     /// Says whether any sphere but the one with the index `except` stands between a point of that
@@ -143,7 +173,7 @@ impl<'world> Visibility<'world> {
         point_error: f64,
         except: usize,
     ) -> bool {
-        let occluders = self.occluders[light].occluders();
+        let occluders = self.light(light).occluders();
         occluders.any(to_light.origin, point_error, |index| {
             self.hides(index, to_light, point_error, except)
         })
@@ -175,7 +205,7 @@ impl<'world> Visibility<'world> {
         around: f64,
         holds: impl FnMut(usize) -> bool,
     ) -> bool {
-        let occluders = self.occluders[light].occluders();
+        let occluders = self.light(light).occluders();
         let heights = points.iter().map(|&point| occluders.height(point));
         let lowest = heights.fold(f64::INFINITY, f64::min) - around;
         occluders.any_within(points, around, lowest, holds)

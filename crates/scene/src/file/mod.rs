@@ -14,8 +14,8 @@ use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, ColumnName, Coordinate, Exponent, FieldOfView, FileName, Flag, FocalLength,
-    GrainSize, ImageSide, LightName, MaterialName, Point, Radius, RetinaDistance, RetinaWidth,
-    Scale, Seed, Shift, Shininess, Strength, ValueRange, Zoom,
+    GrainSize, ImageSide, LightName, MaterialName, Point, Radius, Reference, RetinaDistance,
+    RetinaWidth, Scale, Seed, Shift, Shininess, Strength, ValueRange, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -86,12 +86,33 @@ pub(crate) enum Light {
         #[serde(default = "white")]
         intensity: Placed<Color>,
     },
+    Point {
+        #[serde(default, deserialize_with = "present")]
+        name: Option<Placed<LightName>>,
+        position: Placed<Point>,
+        #[serde(default, deserialize_with = "present")]
+        attached: Option<Placed<Attached>>,
+        #[serde(default = "white")]
+        intensity: Placed<Color>,
+        #[serde(default)]
+        falloff: Placed<Falloff>,
+        #[serde(default)]
+        reference: Placed<Reference>,
+    },
+}
+
+/// The way in which a point light falls off with the distance.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+pub(crate) enum Falloff {
+    #[default]
+    InverseSquare,
+    None,
 }
 
 impl Light {
     /// The light's name with its place, if it has one.
     pub(crate) fn placed_name(&self) -> Option<&Placed<LightName>> {
-        let Self::Directional { name, .. } = self;
+        let (Self::Directional { name, .. } | Self::Point { name, .. }) = self;
         name.as_ref()
     }
 
@@ -101,13 +122,16 @@ impl Light {
     }
 
     pub(crate) fn is_attached(&self) -> bool {
-        let Self::Directional { attached, .. } = self;
+        let (Self::Directional { attached, .. } | Self::Point { attached, .. }) = self;
         attached.is_some()
     }
 
     /// The channels that keys of this light may name.
     pub(crate) fn channels(&self) -> &'static [&'static str] {
-        &["toward", "intensity"]
+        match self {
+            Self::Directional { .. } => &["toward", "intensity"],
+            Self::Point { .. } => &["position", "intensity"],
+        }
     }
 }
 

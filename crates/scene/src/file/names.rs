@@ -3,7 +3,9 @@
 use serde::{Deserialize, Deserializer};
 
 use super::camera::{Animation, Axes, Camera, Ease, Key, Turned};
-use super::{Attached, Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
+use super::{
+    Attached, Cloud, Falloff, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere,
+};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
 
@@ -29,7 +31,8 @@ structures! {
     Lens: "lens", "a lens: `Retina(width: …, distance: …)`, `Fov(…)` or `Matrix(fx: …, fy: …, cx: …, cy: …)`";
     Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)`, `Frame(…)` or `Pose(…)`";
     Axes: "axes", "axes: `OpenCV`";
-    Light: "light", "a light `Directional(toward: …)`";
+    Light: "light", "a light: `Directional(toward: …)` or `Point(position: …)`";
+    Falloff: "falloff", "a falloff: `InverseSquare` or `None`";
     Attached: "thing that a light is attached to", "what a light is attached to: `Camera`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
 use marbles_core::{Pose, Sphere};
 
 use super::channels::{Channels, Keys};
@@ -75,6 +76,11 @@ impl CameraMotion {
         };
         self.channels.frame(&framing);
         true
+    }
+
+    /// The camera's target, at rest; the origin where it has none.
+    pub(crate) fn target(&self) -> DVec3 {
+        self.channels.target()
     }
 
     /// The frames of the animation, `None` for a still.

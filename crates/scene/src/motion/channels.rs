@@ -63,6 +63,11 @@ impl Channels {
         })
     }
 
+    /// The target where no time has passed; the origin where there is none.
+    pub(super) fn target(&self) -> DVec3 {
+        self.target.at(0.0)
+    }
+
     /// Azimuth, elevation and roll of an orbit.
     pub(super) fn angles(&self) -> [&Curve; 3] {
         [&self.azimuth, &self.elevation, &self.roll]

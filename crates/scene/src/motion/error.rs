@@ -22,4 +22,7 @@ pub enum FrameFault {
     /// The light with this number, from 0 on, has come to the zero vector between keys.
     #[error("light {} has no direction", .0 + 1)]
     LightNowhere(usize),
+    /// The light with this number, from 0 on, is beyond the range of numbers.
+    #[error("light {} is infinitely far away", .0 + 1)]
+    LightTooFar(usize),
 }

@@ -1,7 +1,7 @@
 //! The lights of a scene over time: at rest, through keys, on a turntable, and attached to the camera.
 
 use glam::DVec3;
-use marbles_core::{Angle, Camera, DirectionalLight};
+use marbles_core::{Angle, Camera, DirectionalLight, Light as CoreLight, LightFalloff, PointLight};
 
 use super::channels::{Keys, PointCurve};
 use super::checks;
@@ -24,11 +24,22 @@ pub(crate) struct Lights {
 #[derive(Clone, Debug)]
 struct Light {
     name: Option<String>,
-    /// The direction toward it, in the axes of the world or of the camera.
+    kind: Kind,
+    /// The direction toward it, or its position, in the axes of the world or of the camera.
     place: PointCurve,
     intensity: PointCurve,
     /// Whether it moves with the camera.
     is_attached: bool,
+}
+
+/// The kind of a light.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Directional,
+    Point {
+        falloff: LightFalloff,
+        reference: f64,
+    },
 }
 
 impl Lights {
@@ -82,38 +93,74 @@ impl Lights {
         turntable.map_or(frame, |turntable| turntable.looped(frame))
     }
 
-    /// As many lights, all of them above, for frames that have none.
-    pub(crate) fn somewhere(&self) -> Vec<DirectionalLight> {
-        let light = |_: &Light| DirectionalLight::new(DVec3::Y, DVec3::ZERO);
+    /// As many lights, all of them dark and above, for frames that have none.
+    pub(crate) fn somewhere(&self) -> Vec<CoreLight> {
+        let light = |_: &Light| DirectionalLight::new(DVec3::Y, DVec3::ZERO).map(CoreLight::from);
         self.lights.iter().filter_map(light).collect()
     }
 
-    /// The lights in frame `frame`, in which the camera is here.
+    /// The lights in frame `frame`, in which the camera is here. Those of a turntable turn about the vertical axis
+    /// through `target`.
     pub(crate) fn at(
         &self,
         frame: i32,
         camera: &Camera,
-    ) -> Result<Vec<DirectionalLight>, FrameError> {
-        let time = f64::from(frame);
-        let turned = self.turntable.as_ref().map_or(DVec3::Z, |turntable| {
+        target: DVec3,
+    ) -> Result<Vec<CoreLight>, FrameError> {
+        let forward = self.turntable.as_ref().map(|turntable| {
             let angle = Angle::from_degrees(turntable.azimuth_degrees(frame));
             let still = Angle::from_degrees(0.0);
             Camera::free(DVec3::ZERO, angle, still, still).forward()
         });
         let at = |(index, light): (usize, &Light)| {
-            let place = light.place.at(time);
-            let toward = if light.is_attached {
-                camera.world_from_camera * place
-            } else if self.turntable.is_some() {
-                about_the_vertical(place, turned)
-            } else {
-                place
-            };
-            let light = DirectionalLight::new(toward, light.intensity.at(time));
-            let fault = FrameFault::LightNowhere(index);
-            light.ok_or(FrameError { frame, fault })
+            let fault = light.kind.fault(index);
+            let placed = light.at(f64::from(frame), camera, forward, target);
+            placed.ok_or(FrameError { frame, fault })
         };
         self.lights.iter().enumerate().map(at).collect()
+    }
+}
+
+impl Light {
+    /// The light at a time; `None` where it has no place. What z is turned to by a turntable is `forward`.
+    fn at(
+        &self,
+        time: f64,
+        camera: &Camera,
+        forward: Option<DVec3>,
+        target: DVec3,
+    ) -> Option<CoreLight> {
+        let place = self.place.at(time);
+        let turned = |vector: DVec3| forward.map_or(vector, |to| about_the_vertical(vector, to));
+        let intensity = self.intensity.at(time);
+        match self.kind {
+            Kind::Directional => {
+                let toward = if self.is_attached {
+                    camera.world_from_camera * place
+                } else {
+                    turned(place)
+                };
+                DirectionalLight::new(toward, intensity).map(CoreLight::from)
+            }
+            Kind::Point { falloff, reference } => {
+                let position = match forward {
+                    _ if self.is_attached => camera.position + camera.world_from_camera * place,
+                    Some(_) => target + turned(place - target),
+                    None => place,
+                };
+                PointLight::new(position, intensity, falloff, reference).map(CoreLight::from)
+            }
+        }
+    }
+}
+
+impl Kind {
+    /// What is wrong with a light of this kind that has no place.
+    fn fault(self, index: usize) -> FrameFault {
+        match self {
+            Self::Directional => FrameFault::LightNowhere(index),
+            Self::Point { .. } => FrameFault::LightTooFar(index),
+        }
     }
 }
 
@@ -125,30 +172,65 @@ fn about_the_vertical(vector: DVec3, forward: DVec3) -> DVec3 {
 
 /// A light of the file and its keys.
 fn light(light: &Placed<file::Light>, keys: &[&Key]) -> Option<Light> {
-    let file::Light::Directional {
-        name,
-        toward,
-        attached,
-        intensity,
-    } = light.value.as_ref()?;
-    let name = optional(name, |name| Some(name.0.clone()));
-    let attached = optional(attached, |attached| Some(*attached));
-    let direction = toward.get()?.0;
-    if direction == DVec3::ZERO {
-        let message = "expected a direction `(x, y, z)`, found the zero vector";
-        return refuse(toward.place.clone(), message);
-    }
-    let name = name?;
+    let light = light.value.as_ref()?;
+    let (name, attached, intensity) = match light {
+        file::Light::Directional {
+            name,
+            attached,
+            intensity,
+            ..
+        }
+        | file::Light::Point {
+            name,
+            attached,
+            intensity,
+            ..
+        } => (name, attached, intensity),
+    };
+    let name = optional(name, |name| Some(name.0.clone()))?;
+    let attached = optional(attached, |attached| Some(*attached))?;
     let own = |key: &&&Key| {
         let keyed = key.light.as_ref().and_then(|name| name.value.as_ref());
         keyed.is_some_and(|keyed| Some(&keyed.0) == name.as_ref())
     };
     let keys = Keys(keys.iter().filter(own).copied().collect());
+    let (kind, place) = kind(light, &keys)?;
     let intensity = intensity.get()?.0;
     Some(Light {
-        place: keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0)),
+        kind,
+        place,
         intensity: keys.vectors(intensity, |key| Some(key.intensity.as_ref()?.get()?.0)),
-        is_attached: attached?.is_some(),
+        is_attached: attached.is_some(),
         name,
     })
+}
+
+/// The kind of a light, and its place over time.
+fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
+    match light {
+        file::Light::Directional { toward, .. } => {
+            let direction = toward.get()?.0;
+            if direction == DVec3::ZERO {
+                let message = "expected a direction `(x, y, z)`, found the zero vector";
+                return refuse(toward.place.clone(), message);
+            }
+            let place = keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0));
+            Some((Kind::Directional, place))
+        }
+        file::Light::Point {
+            position,
+            falloff,
+            reference,
+            ..
+        } => {
+            let falloff = match falloff.get()? {
+                file::Falloff::InverseSquare => LightFalloff::InverseSquare,
+                file::Falloff::None => LightFalloff::None,
+            };
+            let reference = reference.get()?.0;
+            let position = position.get()?.0;
+            let place = keys.vectors(position, |key| Some(key.position.as_ref()?.get()?.0));
+            Some((Kind::Point { falloff, reference }, place))
+        }
+    }
 }

@@ -6,7 +6,7 @@ use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, DirectionalLight, Exposure, Lens, Pose, View, World};
+use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, View, World};
 
 use crate::motion::{
     CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
@@ -67,7 +67,7 @@ impl Scene {
             self.motion.pose(frame, -0.5 * shutter)?;
             self.motion.pose(frame, 0.5 * shutter)?;
         }
-        self.lights.at(frame, &camera)?;
+        self.lights.at(frame, &camera, self.motion.target())?;
         Ok(View {
             camera,
             lens: self.lens,
@@ -99,10 +99,14 @@ impl Scene {
     }
 
     /// The lights in a view of a frame, which may have another size, in the world's axes.
-    pub fn lights(&self, view: &View) -> Vec<DirectionalLight> {
+    pub fn lights(&self, view: &View) -> Vec<Light> {
         let frame = i32::try_from(view.frame).ok();
-        let lights = frame.and_then(|frame| self.lights.at(frame, &view.camera).ok());
+        let lights = frame.and_then(|frame| self.lights_at(frame, &view.camera).ok());
         lights.unwrap_or_else(|| self.world.lights.clone())
+    }
+
+    fn lights_at(&self, frame: i32, camera: &Camera) -> Result<Vec<Light>, FrameError> {
+        self.lights.at(frame, camera, self.motion.target())
     }
 
     /// Returns whether the lights of frames may differ from those of others: through keys, on a turntable, or attached
@@ -112,13 +116,12 @@ impl Scene {
     }
 
     /// The lights of the first frame; of a frame without a view, those that a camera at the origin sees.
-    fn first_lights(&self) -> Vec<DirectionalLight> {
+    fn first_lights(&self) -> Vec<Light> {
         let first = self.frames().map_or(1, |frames| *frames.start());
         let camera = self.motion.pose(first, 0.0).map(|pose| pose.camera);
         let none = Angle::from_degrees(0.0);
         let camera = camera.unwrap_or_else(|_| Camera::free(DVec3::ZERO, none, none, none));
-        self.lights
-            .at(first, &camera)
+        self.lights_at(first, &camera)
             .unwrap_or_else(|_| self.lights.somewhere())
     }
 

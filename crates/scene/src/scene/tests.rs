@@ -97,7 +97,7 @@ fn surfaces_have_their_defaults() {
         seed: 0,
     });
     assert_eq!(world.material(3).roughness, roughness);
-    assert_eq!(world.lights[0].toward(), DVec3::Y);
+    assert_eq!(world.lights[0].toward(), Some(DVec3::Y));
     assert_eq!(world.lights[0].intensity(), DVec3::ONE);
     assert_eq!(scene.description().materials.len(), 3);
 }

@@ -1,6 +1,7 @@
 //! Families of small random scenes, each hard in its own way.
 
 use super::draft::Draft;
+use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, floors, grazing_shadows, highlights, long_lenses,
     many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps, terminator_at_rim,
@@ -16,7 +17,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 21] = [
+pub(super) const FAMILIES: [Family; 25] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -90,6 +91,26 @@ pub(super) const FAMILIES: [Family; 21] = [
     Family {
         name: "many lights",
         draft: many_lights,
+        rarity: 1,
+    },
+    Family {
+        name: "near lights",
+        draft: near_lights,
+        rarity: 1,
+    },
+    Family {
+        name: "lights between spheres",
+        draft: lights_between_spheres,
+        rarity: 1,
+    },
+    Family {
+        name: "lights inside",
+        draft: lights_inside,
+        rarity: 1,
+    },
+    Family {
+        name: "grazing cones",
+        draft: grazing_cones,
         rarity: 1,
     },
     Family {

@@ -8,6 +8,7 @@ mod families;
 mod options;
 mod page;
 mod pixels;
+mod point_lights;
 mod random;
 mod reduce;
 mod report;

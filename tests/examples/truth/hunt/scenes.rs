@@ -4,10 +4,10 @@ use super::draft::{Draft, OPEN, SIDE};
 use crate::numbers::Numbers;
 
 /// The distance of the lens, in pixels, that a family takes if the lens is not what is hard.
-const DISTANCE: f64 = 50.0;
+pub(super) const DISTANCE: f64 = 50.0;
 
 /// A place in the picture, at a depth.
-fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
+pub(super) fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
     let half = 0.4 * f64::from(SIDE) / DISTANCE * depth;
     [
         numbers.between(-half, half),
@@ -16,7 +16,7 @@ fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
     ]
 }
 
-fn add_balls(numbers: &mut Numbers, draft: &mut Draft, count: usize, sizes: [f64; 2]) {
+pub(super) fn add_balls(numbers: &mut Numbers, draft: &mut Draft, count: usize, sizes: [f64; 2]) {
     for _ in 0..count {
         let depth = numbers.between(60.0, 200.0);
         let center = place(numbers, depth);

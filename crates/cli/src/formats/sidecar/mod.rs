@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 use blake3::Hash;
 use glam::{DMat3, DVec3};
 use marbles_core::{
-    DirectionalLight, Extrinsics, Intrinsics, Method, Summary, View, Window, World, right_handed,
+    Extrinsics, Intrinsics, Light as WorldLight, LightFalloff, Method, Summary, View, Window,
+    World, right_handed,
 };
 use marbles_scene::Scene;
 use serde::Serialize;
@@ -102,6 +103,13 @@ enum LightPlace {
     Directional {
         toward: [f64; 3],
         toward_camera: [f64; 3],
+    },
+    Point {
+        position: [f64; 3],
+        position_camera: [f64; 3],
+        falloff: &'static str,
+        /// The distance at which a white surface has the radiance `intensity`.
+        reference: f64,
     },
 }
 
@@ -223,12 +231,23 @@ impl Camera {
 }
 
 impl<'a> Light<'a> {
-    fn of(light: &DirectionalLight, name: Option<&'a str>, place: &Extrinsics) -> Self {
+    fn of(light: &WorldLight, name: Option<&'a str>, place: &Extrinsics) -> Self {
         Self {
             name,
-            place: LightPlace::Directional {
-                toward: numbers(right_handed(light.toward())),
-                toward_camera: numbers(place.direction(light.toward())),
+            place: match light {
+                WorldLight::Directional(light) => LightPlace::Directional {
+                    toward: numbers(right_handed(light.toward())),
+                    toward_camera: numbers(place.direction(light.toward())),
+                },
+                WorldLight::Point(light) => LightPlace::Point {
+                    position: numbers(right_handed(light.position())),
+                    position_camera: numbers(place.point(light.position())),
+                    falloff: match light.falloff() {
+                        LightFalloff::InverseSquare => "inverse square",
+                        LightFalloff::None => "none",
+                    },
+                    reference: light.reference(),
+                },
             },
             intensity: numbers(light.intensity()),
         }

@@ -11,7 +11,7 @@ use crate::edges::tests::{
 use crate::exact::scene::Light;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -81,6 +81,8 @@ fn light_from(toward: DVec3) -> Light {
         toward,
         right,
         up,
+        near: None,
+        is_shut_off: false,
     }
 }
 
@@ -157,9 +159,7 @@ fn cloud(random: &mut Random, count: usize) -> World {
     let floor = Sphere::new(DVec3::new(0.0, -1001.0, 3.0), 1000.0).unwrap();
     world.add_sphere(floor, white);
     for toward in [direction(random), DVec3::Y, direction(random)] {
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
+        world.lights.extend(Light::directional(toward, Color::ONE));
     }
     world
 }

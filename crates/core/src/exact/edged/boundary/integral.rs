@@ -101,10 +101,11 @@ impl Boundary {
                     (circle, Edge::Seam, [one, other])
                 }
                 Kind::Terminator(one, light) => {
-                    let Some(axis) = actives[one].terminators.axis(scene, light) else {
+                    let ball = &actives[one].ball;
+                    let Some(plane) = actives[one].terminators.plane(scene, ball, light) else {
                         continue;
                     };
-                    let circle = Circle::terminator(&actives[one].ball, axis);
+                    let circle = Circle::terminator(ball, &plane);
                     (circle, Edge::Terminator(light), [one, NONE])
                 }
             };
