@@ -32,7 +32,7 @@ impl Lamp {
     }
 
     /// The unit vector toward it from a point, and the factor of its intensity there.
-    pub(crate) fn from(&self, point: DVec3) -> (DVec3, f64) {
+    pub(crate) fn seen_from(&self, point: DVec3) -> (DVec3, f64) {
         match *self {
             Self::Far(toward) => (toward, 1.0),
             Self::Near {
@@ -61,7 +61,7 @@ impl Lamp {
     /// Between two points the surface of a ball is met where one of them alone is inside, or where the line cuts it
     /// between them.
     pub(crate) fn shadow(&self, caster: &Ball, point: DVec3) -> (f64, bool) {
-        let (toward, _) = self.from(point);
+        let (toward, _) = self.seen_from(point);
         let (chord_sq, is_ahead) = caster.shadow(point, toward);
         let Self::Near { position, .. } = *self else {
             return (chord_sq, is_ahead);

@@ -90,9 +90,12 @@ impl Patch<'_> {
         let (mut scattered, mut mirrored) = (world.ambient, DVec3::ZERO);
         for (number, light) in world.lights.iter().enumerate() {
             let lamp = &self.stage.lamps[number];
-            let (toward, factor) = lamp.from(spot.point);
+            let (toward, factor) = lamp.seen_from(spot.point);
             let facing = spot.normal.dot(toward);
-            if facing <= 0.0 || lamp.is_inside(&candidate.ball) || self.is_shadowed(candidate, number, spot.point) {
+            if facing <= 0.0
+                || lamp.is_inside(&candidate.ball)
+                || self.is_shadowed(candidate, number, spot.point)
+            {
                 continue;
             }
             signature.lit |= 1 << number;

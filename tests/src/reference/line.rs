@@ -246,14 +246,14 @@ impl Line<'_> {
             zeros(&nodes, &values, &mut |u| value(&spot(u), u), &mut found);
         };
         for (lamp, casters) in self.patch.stage.lamps.iter().zip(&candidate.casters) {
-            search(&|spot, _| spot.normal.dot(lamp.from(spot.point).0));
+            search(&|spot, _| spot.normal.dot(lamp.seen_from(spot.point).0));
             if material.highlight.is_some() {
                 search(&|spot, u| {
-                    let half = Patch::half_way(lamp.from(spot.point).0, self.at(place(u)));
+                    let half = Patch::half_way(lamp.seen_from(spot.point).0, self.at(place(u)));
                     spot.normal.dot(half)
                 });
             }
-            let facing = |spot: &Spot| spot.normal.dot(lamp.from(spot.point).0);
+            let facing = |spot: &Spot| spot.normal.dot(lamp.seen_from(spot.point).0);
             if spots.iter().all(|spot| facing(spot) < -0.3) {
                 continue;
             }

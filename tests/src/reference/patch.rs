@@ -32,7 +32,11 @@ impl<'world> Stage<'world> {
             world,
             view: *view,
             balls,
-            lamps: world.lights.iter().map(|light| Lamp::new(light, eye)).collect(),
+            lamps: world
+                .lights
+                .iter()
+                .map(|light| Lamp::new(light, eye))
+                .collect(),
         }
     }
 }

@@ -146,7 +146,9 @@ fn near_shadow_points(
     // The point of the lit side in a direction from the light.
     let land = |way: DVec3| own.hit(way).map(|t| position + way * t);
     let mut points = Vec::new();
-    let discs = casters.iter().map(|&caster| seen(&patch.stage.balls[caster]));
+    let discs = casters
+        .iter()
+        .map(|&caster| seen(&patch.stage.balls[caster]));
     let discs: Vec<Ball> = discs.filter(|disc| !disc.has_eye_inside()).collect();
     for disc in &discs {
         points.extend(land(disc.center));
@@ -201,7 +203,7 @@ fn peaks(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
             let mut point = ball.center;
             // Each step brings it nearer by about radius / distance.
             for _ in 0..40 {
-                point = ball.center + Patch::half_way(lamp.from(point).0, point) * ball.radius;
+                point = ball.center + Patch::half_way(lamp.seen_from(point).0, point) * ball.radius;
             }
             point
         })

@@ -59,7 +59,7 @@ impl Light {
                 (cosine, viewed.half_cosine(self.toward, cosine), None)
             }
             Some(near) => {
-                let (toward, factor) = near.from_points(&points.place());
+                let (toward, factor) = near.seen_from(&points.place());
                 let cosine = viewed.cosine_of_each(&toward);
                 (
                     cosine,

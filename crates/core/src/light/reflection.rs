@@ -54,7 +54,7 @@ impl NearLight {
 
     /// The unit vectors from points toward the light, and the factors of its intensity there.
     #[inline(always)]
-    pub(crate) fn from_points<S: Simd>(&self, points: &Vectors<S>) -> (Vectors<S>, f64x8<S>) {
+    pub(crate) fn seen_from<S: Simd>(&self, points: &Vectors<S>) -> (Vectors<S>, f64x8<S>) {
         let simd = points.x.simd;
         let way = Vectors::splat(simd, self.position).minus(points);
         let one = f64x8::splat(simd, 1.0);

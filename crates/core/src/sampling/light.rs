@@ -157,7 +157,7 @@ impl<'scene> Shading<'scene> {
                 let from_eye = sight.point.times(f64x8::splat(simd, self.length));
                 let from_eye_to_light = light.position() - self.viewpoint;
                 let near = NearLight::new(light, from_eye_to_light);
-                let (toward, factor) = near.from_points(&from_eye);
+                let (toward, factor) = near.seen_from(&from_eye);
                 let cosine = points.cosine_of_each(&toward);
                 let mut lit = cosine.simd_gt(0.0).to_bitmask() & asked;
                 for group in groups.as_slice() {

@@ -177,3 +177,6 @@ fn reaching_boxes(boxes: &Boxes, beam: &Beam) -> BoxTest {
     }
     tested
 }
+
+#[cfg(test)]
+mod tests;

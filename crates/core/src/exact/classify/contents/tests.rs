@@ -11,7 +11,7 @@ use crate::edges::tests::{
 use crate::exact::scene::Light;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::Light;
+use crate::model::light::Light as WorldLight;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -159,7 +159,9 @@ fn cloud(random: &mut Random, count: usize) -> World {
     let floor = Sphere::new(DVec3::new(0.0, -1001.0, 3.0), 1000.0).unwrap();
     world.add_sphere(floor, white);
     for toward in [direction(random), DVec3::Y, direction(random)] {
-        world.lights.extend(Light::directional(toward, Color::ONE));
+        world
+            .lights
+            .extend(WorldLight::directional(toward, Color::ONE));
     }
     world
 }

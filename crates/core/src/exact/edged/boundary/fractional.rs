@@ -258,7 +258,7 @@ impl<S: Simd> Integrand<'_, '_, S> {
             None => diffuse.of(normal[0].dot_one(self.light.toward)),
             Some(near) => {
                 let points = Points::new(simd, &active.ball, ray.times(one / at.denominator));
-                let (toward, factor) = near.from_points(&points.place());
+                let (toward, factor) = near.seen_from(&points.place());
                 diffuse.of(normal[0].dot(&toward)) * factor
             }
         };

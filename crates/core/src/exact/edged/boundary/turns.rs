@@ -25,7 +25,7 @@ impl Turn {
     pub(super) fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
         let facing = match &self.near {
             None => normal.dot_one(self.toward),
-            Some(near) => normal.dot(&near.from_points(&at.place()).0),
+            Some(near) => normal.dot(&near.seen_from(&at.place()).0),
         };
         if self.of_spot {
             facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
