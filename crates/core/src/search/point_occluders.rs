@@ -5,13 +5,16 @@
 
 use std::sync::Arc;
 
+use fearless_simd::prelude::*;
+use fearless_simd::{Level, Simd, dispatch, f64x8};
 use glam::DVec3;
 
-use super::hierarchy::boxes::Boxes;
-use super::hierarchy::order::WIDTH;
+use super::hierarchy::boxes::{Boxes, Group, doubles};
 use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
+use crate::numeric::bits::set_bits;
+use crate::numeric::vectors::Vectors;
 
 /// The spheres as a point light sees them.
 #[derive(Clone, Debug)]
@@ -21,6 +24,8 @@ pub(crate) struct PointOccluders<'world> {
     position: DVec3,
     /// The spheres that the light is inside of, or on whose surface it lies.
     enclosing: Arc<[usize]>,
+    /// The instructions that the processor has.
+    level: Level,
 }
 
 /// All that lies between a point and a ball.
@@ -84,6 +89,7 @@ impl<'world> PointOccluders<'world> {
             spheres,
             hierarchy,
             position,
+            level: Level::new(),
         }
     }
 
@@ -95,20 +101,33 @@ impl<'world> PointOccluders<'world> {
     /// Says whether something holds for any sphere that may reach into a beam from the light, but for those around the
     /// light; each is asked once.
     pub(crate) fn any_in(&self, beam: &Beam, mut holds: impl FnMut(usize) -> bool) -> bool {
+        self.any_of(beam, &mut holds)
+    }
+
+    fn any_of(&self, beam: &Beam, holds: &mut dyn FnMut(usize) -> bool) -> bool {
+        dispatch!(self.level, simd => self.any_lanes(simd, beam, holds))
+    }
+
+    #[inline(always)]
+    fn any_lanes<S: Simd>(
+        &self,
+        simd: S,
+        beam: &Beam,
+        holds: &mut dyn FnMut(usize) -> bool,
+    ) -> bool {
         self.hierarchy.any(
-            |boxes| reaching_boxes(boxes, beam),
-            |group| {
-                let mut indices = self.hierarchy.indices(group).iter();
-                indices.any(|&index| {
-                    if !is_sphere(index) {
-                        return false;
+            |boxes| reaching_boxes(simd, boxes, beam),
+            |number| {
+                let reaching = reaching_spheres(simd, self.hierarchy.group(number), beam);
+                let indices = self.hierarchy.indices(number);
+                for place in set_bits(reaching) {
+                    let index = indices[place] as usize;
+                    if is_sphere(indices[place]) && !self.enclosing.contains(&index) && holds(index)
+                    {
+                        return true;
                     }
-                    let index = index as usize;
-                    let sphere = &self.spheres[index];
-                    beam.is_reached_by(sphere.center(), sphere.radius())
-                        && !self.enclosing.contains(&index)
-                        && holds(index)
-                })
+                }
+                false
             },
         )
     }
@@ -161,21 +180,51 @@ pub(crate) fn enclosing(spheres: &[Sphere], point: DVec3) -> Vec<usize> {
 }
 
 /// The boxes that may reach into a beam; those first that are nearest to the apex.
-fn reaching_boxes(boxes: &Boxes, beam: &Beam) -> BoxTest {
-    let mut tested = BoxTest {
-        may: 0,
-        keys: [0.0; WIDTH],
-    };
-    for place in 0..WIDTH {
-        let corner = |side: &[[f32; WIDTH]; 3]| {
-            DVec3::from_array([0, 1, 2].map(|axis| f64::from(side[axis][place])))
-        };
-        let (low, high) = (corner(&boxes.low), corner(&boxes.high));
-        let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-        tested.may |= u8::from(beam.is_reached_by(center, half.length())) << place;
-        tested.keys[place] = (center - beam.apex).dot(beam.axis) - half.length();
+#[inline(always)]
+fn reaching_boxes<S: Simd>(simd: S, boxes: &Boxes, beam: &Beam) -> BoxTest {
+    let zero = f64x8::splat(simd, 0.0);
+    let (mut center, mut half_sq) = ([zero; 3], zero);
+    for (axis, center) in center.iter_mut().enumerate() {
+        let low = doubles(simd, &boxes.low[axis]);
+        let high = doubles(simd, &boxes.high[axis]);
+        let half = (high - low) * 0.5;
+        *center = (low + high) * 0.5;
+        half_sq += half * half;
     }
-    tested
+    let (reaching, begin) = reached_lanes(simd, beam, center, half_sq.sqrt());
+    BoxTest {
+        may: reaching,
+        keys: begin.into(),
+    }
+}
+
+/// The spheres of a group that may reach into a beam, as bits; places without a sphere may seem to.
+#[inline(always)]
+fn reaching_spheres<S: Simd>(simd: S, group: &Group, beam: &Beam) -> u8 {
+    let [x, y, z] = &group.center;
+    let center = [doubles(simd, x), doubles(simd, y), doubles(simd, z)];
+    reached_lanes(simd, beam, center, doubles(simd, &group.radius)).0
+}
+
+/// What [`Beam::is_reached_by`] says of eight balls, as bits, and where along the beam they begin.
+#[inline(always)]
+fn reached_lanes<S: Simd>(
+    simd: S,
+    beam: &Beam,
+    center: [f64x8<S>; 3],
+    radius: f64x8<S>,
+) -> (u8, f64x8<S>) {
+    let from_apex = Vectors::from_array(center).minus(&Vectors::splat(simd, beam.apex));
+    let along = from_apex.dot_one(beam.axis);
+    let axis = Vectors::splat(simd, beam.axis);
+    let aside_sq = from_apex.minus(&axis.times(along)).length_squared();
+    let distance = from_apex.length_squared().sqrt();
+    let reach = radius + (distance + radius) * SLACK;
+    let end = reach + (beam.length + beam.around);
+    let is_beyond = distance.simd_gt(end)
+        | along.simd_lt(-reach)
+        | (aside_sq.sqrt() * beam.cosine - along * beam.sine).simd_gt(reach);
+    (!(is_beyond.to_bitmask() as u8), along - reach)
 }
 
 #[cfg(test)]
