@@ -14,7 +14,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use marbles_core::{
-    Color, DirectionalLight, Image, Material, Method, Renderer, Settings, Sphere, View, World,
+    Color, Image, Light, Material, Method, Renderer, Settings, Sphere, View, World,
 };
 use marbles_scene::Scene;
 
@@ -200,7 +200,7 @@ fn scattered(count: u32, radius: impl Fn(f64) -> f64) -> World {
         let sphere = Sphere::new(200.0 * point + 400.0 * DVec3::Z, radius(random()));
         world.add_sphere(sphere.expect("radii are positive"), white);
     }
-    let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+    let light = Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
     world.lights.extend(light);
     world
 }

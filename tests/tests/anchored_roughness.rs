@@ -1,9 +1,7 @@
 //! A rough ball keeps its bumps while the camera goes around it.
 
 use glam::DVec3;
-use marbles_core::{
-    Angle, Camera, Color, DirectionalLight, Grain, Material, Roughness, Sphere, View, World,
-};
+use marbles_core::{Angle, Camera, Color, Grain, Light, Material, Roughness, Sphere, View, World};
 
 use crate::studio::{around_retina_point, looking_forward, picture};
 
@@ -27,7 +25,7 @@ fn ball_of_normals(grain: Grain, sign: f64) -> World {
     for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
         world
             .lights
-            .extend(DirectionalLight::new(sign * axis, Color::from(axis)));
+            .extend(Light::directional(sign * axis, Color::from(axis)));
     }
     world
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use marbles_core::{
-    Color, DirectionalLight, Evidence, Grain, Highlight, Material, Roughness, Sphere, Status, World,
+    Color, Evidence, Grain, Highlight, Light, Material, Roughness, Sphere, Status, World,
 };
 use marbles_tests::reference::Reference;
 
@@ -46,9 +46,7 @@ fn no_pixel_of_many_lights_is_over_that_claims_to_be_within() {
             let angle = f64::from(index) * 2.4;
             let toward = DVec3::new(libm::cos(angle), libm::sin(angle), -0.3);
             let intensity = Color::splat(1.0 / f64::from(count));
-            world
-                .lights
-                .extend(DirectionalLight::new(toward, intensity));
+            world.lights.extend(Light::directional(toward, intensity));
         }
         for tolerance in [1e-3, 1e-6] {
             let image = exact_picture(&world, &looking_forward(30, 30, 40.0), tolerance, false);
@@ -268,9 +266,7 @@ fn bumps_are_within_loose_claims() {
         }
         for toward in [DVec3::new(-1.0, 0.8, -1.0), DVec3::new(1.0, 0.3, -0.4)] {
             let intensity = Color::splat(0.5);
-            world
-                .lights
-                .extend(DirectionalLight::new(toward, intensity));
+            world.lights.extend(Light::directional(toward, intensity));
         }
         let view = looking_forward(48, 48, 30.0);
         let truth = picture(&world, &view, SIDE, false);
@@ -313,7 +309,7 @@ fn random_samples_of_fine_bumps_are_within_their_claims() {
     });
     let ball = Sphere::new(DVec3::new(0.0, 0.0, 40.0), 9.0).unwrap();
     world.add_sphere(ball, material);
-    let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+    let light = Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
     world.lights.extend(light);
     let view = looking_forward(6, 6, 60.0);
     let truth = picture(&world, &view, SIDE, false);

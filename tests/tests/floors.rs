@@ -2,7 +2,7 @@
 //! arithmetic of 256 binary places.
 
 use glam::DVec3;
-use marbles_core::{Angle, Camera, Color, DirectionalLight, Sphere, View, World};
+use marbles_core::{Angle, Camera, Color, Light, Sphere, View, World};
 use num_bigint::BigInt;
 
 use crate::studio::{looking_forward, matte, picture, single_pixel};
@@ -93,9 +93,7 @@ fn world(balls: &[(DVec3, f64, f64)]) -> World {
         let material = world.add_material(matte(Color::splat(albedo)));
         world.add_sphere(Sphere::new(center, radius).unwrap(), material);
     }
-    world
-        .lights
-        .extend(DirectionalLight::new(TOWARD, Color::ONE));
+    world.lights.extend(Light::directional(TOWARD, Color::ONE));
     world.ambient = Color::splat(AMBIENT);
     world
 }

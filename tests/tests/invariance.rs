@@ -2,8 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, Color, DirectionalLight, Grain, Highlight, Lens, Material, Roughness, Sphere,
-    View, World,
+    Angle, Camera, Color, Grain, Highlight, Lens, Light, Material, Roughness, Sphere, View, World,
 };
 
 use crate::studio::{exact_picture, looking_forward, picture, pixels};
@@ -62,7 +61,7 @@ fn world(change: Change, rough: bool) -> World {
     }
     for (toward, intensity) in [((-1.0, 1.5, -0.7), 0.8), ((2.0, 0.4, -1.0), 0.3)] {
         let toward = change.vector(DVec3::from(toward));
-        world.lights.extend(DirectionalLight::new(
+        world.lights.extend(Light::directional(
             toward,
             Color::new(1.0, 0.8, 0.6) * intensity,
         ));

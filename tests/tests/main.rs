@@ -14,6 +14,7 @@ mod invariance;
 mod layers;
 mod parallel;
 mod photometric;
+mod point_lights;
 mod promise;
 mod python;
 mod reference;

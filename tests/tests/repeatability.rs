@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use marbles_core::{
-    Angle, Camera, Color, DirectionalLight, Grain, Highlight, Image, Material, Roughness, Sphere,
-    World,
+    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Roughness, Sphere, World,
 };
 
 use crate::studio::{exact_picture, looking_forward, picture};
@@ -33,9 +32,7 @@ fn everything() -> World {
     }
     for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(2.0, 0.5, -0.3)] {
         let intensity = Color::new(0.5, 0.6, 0.7) * toward.x.abs();
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, intensity));
+        world.lights.extend(Light::directional(toward, intensity));
     }
     world.ambient = Color::splat(0.03);
     world.background = Color::new(0.0, 0.1, 0.2);

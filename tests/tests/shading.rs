@@ -1,7 +1,7 @@
 //! The light of single points, computed here from the model's formula and plain geometry.
 
 use glam::DVec3;
-use marbles_core::{Color, DirectionalLight, Highlight, Image, Material, Sphere, World};
+use marbles_core::{Color, Highlight, Image, Light, Material, Sphere, World};
 
 use crate::studio::{looking_forward, picture, pixels, world_of};
 
@@ -57,7 +57,7 @@ fn every_term_of_the_formula_counts() {
         let mut world = World::new();
         let id = world.add_material(material);
         world.add_sphere(Sphere::new(CENTER, RADIUS).unwrap(), id);
-        let add = |&(toward, intensity)| DirectionalLight::new(toward, intensity);
+        let add = |&(toward, intensity)| Light::directional(toward, intensity);
         world.lights.extend(lights.iter().filter_map(add));
         world.ambient = ambient;
         let view = looking_forward(40, 40, 80.0);

@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, Color, DirectionalLight, Image, Lens, Material, Method, Renderer, Settings,
-    Sphere, View, World,
+    Angle, Camera, Color, Image, Lens, Light, Material, Method, Renderer, Settings, Sphere, View,
+    World,
 };
 
 pub(crate) const GREY_HALF: Color = Color::splat(0.5);
@@ -28,7 +28,7 @@ pub(crate) fn world_of(balls: &[(DVec3, f64, Color)], towards: &[DVec3]) -> Worl
     }
     let lights = towards
         .iter()
-        .map(|&toward| DirectionalLight::new(toward, Color::ONE).unwrap());
+        .map(|&toward| Light::directional(toward, Color::ONE).unwrap());
     world.lights.extend(lights);
     world
 }

@@ -30,7 +30,7 @@ pub use model::albedos::Albedos;
 pub use model::camera::{Camera, Lens};
 pub use model::color::Color;
 pub use model::exposure::{Exposure, Motion, Pose};
-pub use model::light::DirectionalLight;
+pub use model::light::{DirectionalLight, Light, LightFalloff, PointLight};
 pub use model::material::{Grain, Highlight, Material, Roughness};
 pub use model::opencv::{Extrinsics, Intrinsics, right_handed};
 pub use model::outline::{Ellipse, Outline};

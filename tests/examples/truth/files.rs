@@ -6,7 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec3;
-use marbles_core::{View, World};
+use marbles_core::{Light, View, World};
 use rayon::prelude::*;
 
 use crate::numbers::Numbers;
@@ -132,7 +132,10 @@ fn near_something(world: &World, view: &View, numbers: &mut Numbers) -> Option<(
     let lights = world.lights.len();
     let choice = (numbers.uniform() * (lights + 1) as f64) as usize;
     if let Some(light) = world.lights.get(choice) {
-        let away = -light.toward();
+        let away = match light {
+            Light::Directional(light) => -light.toward(),
+            Light::Point(light) => (point - light.position()).normalize_or_zero(),
+        };
         let others = world.spheres().iter().enumerate();
         let landing = others
             .filter(|(other, _)| *other != index)

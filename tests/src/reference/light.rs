@@ -93,14 +93,18 @@ impl Patch<'_> {
         signature.cell = spot.cell;
         let (mut scattered, mut mirrored) = (world.ambient, DVec3::ZERO);
         for (number, light) in world.lights.iter().enumerate() {
-            let toward = light.toward();
+            let lamp = &self.stage.lamps[number];
+            let (toward, factor) = lamp.seen_from(spot.point);
             let facing = spot.normal.dot(toward);
-            if facing <= 0.0 || self.is_shadowed(candidate, number, spot.point) {
+            if facing <= 0.0
+                || lamp.is_inside(&candidate.ball)
+                || self.is_shadowed(candidate, number, spot.point)
+            {
                 continue;
             }
             signature.lit |= 1 << number;
             if is_asked {
-                scattered += light.intensity() * facing.powf(material.exponent);
+                scattered += light.intensity() * factor * facing.powf(material.exponent);
             }
             if let Some(highlight) = &material.highlight {
                 let cosine = spot.normal.dot(self.half_way(toward, direction));
@@ -108,7 +112,7 @@ impl Patch<'_> {
                     signature.shines |= 1 << number;
                     if is_asked {
                         let shine = highlight.strength * cosine.powf(highlight.shininess);
-                        mirrored += light.intensity() * shine;
+                        mirrored += light.intensity() * factor * shine;
                     }
                 }
             }
@@ -117,9 +121,9 @@ impl Patch<'_> {
     }
 
     fn is_shadowed(&self, candidate: &Candidate, light: usize, point: DVec3) -> bool {
-        let toward = self.stage.world.lights[light].toward();
+        let lamp = &self.stage.lamps[light];
         candidate.casters[light].iter().any(|&caster| {
-            let (chord_sq, is_ahead) = self.stage.balls[caster].shadow(point, toward);
+            let (chord_sq, is_ahead) = lamp.shadow(&self.stage.balls[caster], point);
             is_ahead && chord_sq >= 0.0
         })
     }

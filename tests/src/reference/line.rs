@@ -285,21 +285,22 @@ impl Line<'_> {
                 .collect();
             zeros(&nodes, &values, &mut |u| value(&spot(u), u), &mut found);
         };
-        for (light, casters) in world.lights.iter().zip(&candidate.casters) {
-            let toward = light.toward();
-            search(&|spot, _| spot.normal.dot(toward));
+        for (lamp, casters) in self.patch.stage.lamps.iter().zip(&candidate.casters) {
+            search(&|spot, _| spot.normal.dot(lamp.seen_from(spot.point).0));
             if material.highlight.is_some() {
                 search(&|spot, u| {
+                    let toward = lamp.seen_from(spot.point).0;
                     let half = self.patch.half_way(toward, self.at(place(u)));
                     spot.normal.dot(half)
                 });
             }
-            if spots.iter().all(|spot| spot.normal.dot(toward) < -0.3) {
+            let facing = |spot: &Spot| spot.normal.dot(lamp.seen_from(spot.point).0);
+            if spots.iter().all(|spot| facing(spot) < -0.3) {
                 continue;
             }
             for &caster in casters {
                 let caster = &self.patch.stage.balls[caster];
-                search(&|spot, _| caster.shadow(spot.point, toward).0);
+                search(&|spot, _| lamp.shadow(caster, spot.point).0);
             }
         }
         if let Some(rough) = &material.roughness

@@ -13,6 +13,7 @@
 
 mod across;
 mod ball;
+mod lamp;
 mod light;
 mod line;
 mod noise;

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use marbles_core::{View, World};
 
 use super::ball::Ball;
+use super::lamp::Lamp;
 
 /// Slack of the search for spheres, in units of what is compared: far above rounding.
 const SLACK: f64 = 1e-7;
@@ -18,6 +19,7 @@ pub(crate) struct Stage<'world> {
     /// The direction of parallel rays.
     pub(crate) forward: Option<DVec3>,
     pub(crate) balls: Vec<Ball>,
+    pub(crate) lamps: Vec<Lamp>,
 }
 
 impl<'world> Stage<'world> {
@@ -35,6 +37,11 @@ impl<'world> Stage<'world> {
             view: *view,
             forward,
             balls,
+            lamps: world
+                .lights
+                .iter()
+                .map(|light| Lamp::new(light, eye))
+                .collect(),
         }
     }
 }
@@ -216,11 +223,21 @@ impl<'stage> Patch<'stage> {
                 .map(|(index, _)| index)
                 .collect()
         };
-        world
-            .lights
-            .iter()
-            .map(|light| of_light(light.toward()))
-            .collect()
+        let of_near = || {
+            // Anything may lie between.
+            let others = self.stage.balls.iter().enumerate();
+            others
+                .filter(|(index, _)| *index != sphere)
+                .filter(|(_, caster)| caster.center != ball.center || caster.radius != ball.radius)
+                .map(|(index, _)| index)
+                .collect()
+        };
+        let lamps = self.stage.lamps.iter();
+        let casters = lamps.map(|lamp| match lamp {
+            Lamp::Far(toward) => of_light(*toward),
+            Lamp::Near { .. } => of_near(),
+        });
+        casters.collect()
     }
 }
 

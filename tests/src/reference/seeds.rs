@@ -4,9 +4,9 @@
 //! lines between may still find.
 
 use glam::{DVec2, DVec3};
-use marbles_core::DirectionalLight;
 
 use super::ball::Ball;
+use super::lamp::Lamp;
 use super::patch::{Candidate, Patch};
 
 /// Points of the edge of a shadow that are projected, beside its center.
@@ -99,9 +99,15 @@ fn shadow_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
     let ball = &candidate.ball;
     let mut points = Vec::new();
     let stage = patch.stage;
-    let lights = &stage.world.lights;
-    for (index, (light, casters)) in lights.iter().zip(&candidate.casters).enumerate() {
-        let toward = light.toward();
+    let lamps = &stage.lamps;
+    for (index, (lamp, casters)) in lamps.iter().zip(&candidate.casters).enumerate() {
+        let toward = match *lamp {
+            Lamp::Far(toward) => toward,
+            Lamp::Near { position, .. } => {
+                points.extend(near_shadow_points(patch, candidate, position, casters));
+                continue;
+            }
+        };
         let (x, y) = toward.any_orthonormal_pair();
         // The point of the lit side that has this place in the plane of the light.
         let land = |place: DVec3| {
@@ -128,10 +134,53 @@ fn shadow_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
                 }
             }
         }
-        let meets = |other: &DirectionalLight| toward.cross(other.toward()).normalize_or_zero();
-        for other in lights[..index].iter().map(meets) {
+        let meets = |other: &Lamp| match other {
+            Lamp::Far(other) => Some(toward.cross(*other).normalize_or_zero()),
+            Lamp::Near { .. } => None,
+        };
+        for other in lamps[..index].iter().filter_map(meets) {
             points.push(ball.center + other * ball.radius);
             points.push(ball.center - other * ball.radius);
+        }
+    }
+    points
+}
+
+/// Points of the edges of shadows that a light at a point makes on a candidate, their middles, and where these edges
+/// cross each other and the terminator.
+fn near_shadow_points(
+    patch: &Patch<'_>,
+    candidate: &Candidate,
+    position: DVec3,
+    casters: &[usize],
+) -> Vec<DVec3> {
+    let seen = |ball: &Ball| Ball::new(ball.center, ball.radius, position, None);
+    let own = seen(&candidate.ball);
+    // The point of the lit side in a direction from the light.
+    let land = |way: DVec3| own.hit(way).map(|t| position + way * t);
+    let mut points = Vec::new();
+    let discs = casters
+        .iter()
+        .map(|&caster| seen(&patch.stage.balls[caster]));
+    let discs: Vec<Ball> = discs.filter(|disc| !disc.has_eye_inside()).collect();
+    for disc in &discs {
+        points.extend(land(disc.center));
+        let (x, y) = disc.center.normalize().any_orthonormal_pair();
+        let share = disc.power / disc.center.length_squared();
+        let radius = disc.radius * share.sqrt();
+        for step in 0..EDGE_POINTS {
+            let angle = std::f64::consts::TAU * f64::from(step) / f64::from(EDGE_POINTS);
+            let edge = x * angle.cos() + y * angle.sin();
+            points.extend(land(disc.center * share + edge * radius));
+        }
+    }
+    if discs.len() <= MANY {
+        let all: Vec<&Ball> = discs.iter().chain([&own]).collect();
+        for (number, a) in all.iter().enumerate() {
+            for b in &all[..number] {
+                let crossings = outline_crossings(a, b);
+                points.extend(crossings.into_iter().filter_map(land));
+            }
         }
     }
     points
@@ -163,11 +212,12 @@ fn peaks(patch: &Patch<'_>) -> impl Iterator<Item = DVec3> {
     let candidates = patch.candidates.iter().filter(shiny);
     candidates.flat_map(move |candidate| {
         let ball = &candidate.ball;
-        world.lights.iter().map(move |light| {
+        patch.stage.lamps.iter().map(move |lamp| {
             let mut point = ball.center;
             // Each step brings it nearer by about radius / distance.
             for _ in 0..40 {
-                point = ball.center + patch.half_way(light.toward(), point) * ball.radius;
+                let toward = lamp.seen_from(point).0;
+                point = ball.center + patch.half_way(toward, point) * ball.radius;
             }
             point
         })

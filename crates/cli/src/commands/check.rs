@@ -5,7 +5,7 @@ mod costs;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, DirectionalLight, Sphere, View};
+use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View};
 use marbles_scene::{CloudDescription, FrameError, Scene};
 
 use super::args::CheckArguments;
@@ -128,11 +128,16 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
     let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
     rows.push(("lights", world.lights.len().to_string()));
-    for light in world.lights.iter().take(LIGHTS_LISTED) {
-        rows.push(("", directional(light)));
+    let names = &scene.description().lights;
+    for (light, name) in world.lights.iter().zip(names).take(LIGHTS_LISTED) {
+        let name = name.as_ref().map(|name| format!("{name:?} "));
+        rows.push(("", name.unwrap_or_default() + &placed(light)));
     }
     if world.lights.len() > LIGHTS_LISTED {
         rows.push(("", "…".to_owned()));
+    }
+    if scene.has_moving_lights() {
+        rows.push(("", "they move: here they are in the first frame".to_owned()));
     }
     let shadows = if world.shadows { "on" } else { "off" };
     rows.push(("shadows", shadows.to_owned()));
@@ -183,9 +188,23 @@ fn bounds(spheres: &[Sphere]) -> Vec<(&'static str, String)> {
     rows.into_iter().flatten().collect()
 }
 
-fn directional(light: &DirectionalLight) -> String {
-    let (toward, intensity) = (vector(light.toward()), color(light.intensity()));
-    format!("toward {toward}, intensity {intensity}")
+fn placed(light: &Light) -> String {
+    let intensity = color(light.intensity());
+    match light {
+        Light::Directional(light) => {
+            format!("toward {}, intensity {intensity}", vector(light.toward()))
+        }
+        Light::Point(light) => {
+            let position = vector(light.position());
+            let reference = short(light.reference());
+            match light.falloff() {
+                LightFalloff::InverseSquare => {
+                    format!("at {position}, intensity {intensity} at distance {reference}")
+                }
+                LightFalloff::None => format!("at {position}, intensity {intensity} everywhere"),
+            }
+        }
+    }
 }
 
 fn duration(scene: &Scene) -> String {

@@ -85,7 +85,10 @@ pub(super) fn request(
         check_sidecars(&pattern, &frames, &arguments.scene)?;
     }
     let parts = match arguments.per_light {
-        true => PicturePart::each(scene.world(), &[]).map_err(Failure::Usage)?,
+        true => {
+            let names = &scene.description().lights;
+            PicturePart::each(scene.world(), names).map_err(Failure::Usage)?
+        }
         false => vec![PicturePart::whole()],
     };
     Ok(Request {

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use blake3::Hash;
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, DirectionalLight, Image, Lens, Material, Method, Settings, Sphere, View, World,
+    Angle, Camera, Image, Lens, Light, Material, Method, Settings, Sphere, View, World,
 };
 
 use super::encoder::{Encoder, Layout, block, samples};
@@ -134,7 +134,7 @@ pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
     world.add_sphere(Sphere::new(4.0 * DVec3::Z, 1.0).unwrap(), material);
     world.background = background;
     let toward = DVec3::new(-1.0, 1.0, -1.0);
-    let light = DirectionalLight::new(toward, DVec3::splat(intensity)).unwrap();
+    let light = Light::directional(toward, DVec3::splat(intensity)).unwrap();
     world.lights.push(light);
     let settings = Settings {
         method: Method::Samples(NonZeroU32::new(3).unwrap()),

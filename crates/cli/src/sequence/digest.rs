@@ -6,8 +6,8 @@
 use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
-    Camera, DirectionalLight, Exposure, Grain, Highlight, Lens, Material, Method, Pose, Roughness,
-    Settings, Sphere, View, World,
+    Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Pose,
+    Roughness, Settings, Sphere, View, World,
 };
 use rayon::prelude::*;
 
@@ -59,6 +59,19 @@ impl Digests {
         Self { shared }
     }
 
+    /// The same where the lights have names, which sidecars tell; without any, nothing changes.
+    pub(super) fn with_names(mut self, names: &[Option<String>]) -> Self {
+        if names.iter().any(Option::is_some) {
+            for name in names {
+                self.shared.maybe(name.as_ref(), |feed, name| {
+                    feed.count(name.len());
+                    feed.0.update(name.as_bytes());
+                });
+            }
+        }
+        self
+    }
+
     /// The digest of one of them.
     pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
@@ -74,6 +87,10 @@ impl Digests {
         for Pose { camera, zoom } in exposure.poses() {
             feed.camera(&camera);
             feed.number(zoom);
+        }
+        // None where the world's are those of all frames.
+        if let Some(lights) = exposure.lights() {
+            lights.iter().for_each(|light| feed.light(light));
         }
         feed.0.finalize()
     }
@@ -127,9 +144,20 @@ impl Feed {
         }
     }
 
-    fn light(&mut self, light: &DirectionalLight) {
-        self.vector(light.toward());
-        self.vector(light.intensity());
+    fn light(&mut self, light: &Light) {
+        match light {
+            Light::Directional(light) => {
+                self.vector(light.toward());
+                self.vector(light.intensity());
+            }
+            Light::Point(light) => {
+                self.0.update(b"point light");
+                self.vector(light.position());
+                self.vector(light.intensity());
+                self.integer(light.falloff() == LightFalloff::None);
+                self.number(light.reference());
+            }
+        }
     }
 
     fn material(&mut self, material: &Material) {

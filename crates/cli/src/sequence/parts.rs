@@ -72,6 +72,15 @@ impl PicturePart {
         }
     }
 
+    /// The names of the lights that the picture shows, of those of a world's.
+    pub(crate) fn names_of<'a>(&self, names: &'a [Option<String>]) -> &'a [Option<String>] {
+        match self.light {
+            Some(LightPart::Light(index)) => names.get(index..=index).unwrap_or_default(),
+            Some(LightPart::Ambient) => &[],
+            None => names,
+        }
+    }
+
     /// Returns whether the picture has what the centers of pixels see, which is the same under all lights.
     pub(crate) fn has_centers(&self) -> bool {
         matches!(self.light, None | Some(LightPart::Ambient))
@@ -110,14 +119,14 @@ mod tests {
     use std::path::Path;
 
     use glam::DVec3;
-    use marbles_core::DirectionalLight;
+    use marbles_core::Light;
 
     use super::*;
 
     fn world() -> World {
         let mut world = World::new();
         for _ in 0..2 {
-            let light = DirectionalLight::new(DVec3::Y, DVec3::ONE);
+            let light = Light::directional(DVec3::Y, DVec3::ONE);
             world.lights.extend(light);
         }
         world

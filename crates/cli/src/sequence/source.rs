@@ -89,6 +89,7 @@ impl<'a> Source<'a> {
         let shots: Box<dyn Iterator<Item = Shot> + Send + 'a> = Box::new(shots);
         let world = request.scene.world();
         let spheres = hashes_of_spheres(world);
+        let names = &request.scene.description().lights;
         let digests = request.parts.iter().map(|part| {
             let centers = request.centers.filter(|_| part.has_centers());
             let (settings, encoding) = (&request.settings, request.encoding);
@@ -99,6 +100,7 @@ impl<'a> Source<'a> {
                 encoding,
                 centers.as_ref(),
             )
+            .with_names(part.names_of(names))
         });
         Self {
             pipeline,

@@ -65,7 +65,7 @@ impl<'scene> Areas<'scene> {
     /// Prepares a view, whose pixels may each be off by `tolerance`, all spheres together.
     pub(crate) fn new(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         index: ViewIndex<'scene>,
         tolerance: f64,

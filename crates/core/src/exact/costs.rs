@@ -40,15 +40,16 @@ impl Finish {
         }
         let Self { reflectance, .. } = self;
         let viewed = self.viewed(points, &points.normal);
-        let cosine = viewed.cosine(light.toward);
+        let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
+        let factor = factor.unwrap_or(f64x8::splat(simd, 1.0));
         let falloff = &reflectance.diffuse;
         let [brightest, _] = reflectance.brightest(light.intensity);
-        let height = falloff.of_clamped(highest_cosine(simd, cosine, turn)) * brightest;
+        let height = falloff.of_clamped(highest_cosine(simd, cosine, turn)) * brightest * factor;
         let is_turning = (turn_sq * falloff.exponent).simd_gt(2.0 * most);
         let mut found = (is_turning & height.simd_gt(negligible)).to_bitmask();
         if let Some((strength, falloff)) = &reflectance.highlight {
-            let half_cosine = viewed.half_cosine(light.toward, cosine);
-            let height = falloff.of_clamped(highest_cosine(simd, half_cosine, turn)) * *strength;
+            let highest = highest_cosine(simd, half_cosine, turn);
+            let height = falloff.of_clamped(highest) * *strength * factor;
             let is_turning = (turn_sq * falloff.exponent).simd_gt(2.0 * most);
             found |= (is_turning & height.simd_gt(negligible)).to_bitmask();
         }
@@ -170,6 +171,11 @@ impl Finish {
             (turn, scale) = (0.0, -one);
         }
         for light in &scene.lights {
+            if light.near.is_some() {
+                // Light comes from anywhere.
+                jumps |= mask64x8::splat(simd, strength * light.intensity.max_element() > 0.0);
+                continue;
+            }
             let along = direction.dot_one(light.toward) * scale;
             let sine_sq = (along * -0.5 + (0.5 + 0.5 * turn)).max(zero).min(one);
             let height = falloff.of_clamped(sine_sq.sqrt());

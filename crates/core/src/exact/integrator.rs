@@ -72,8 +72,8 @@ impl<'scene> Exact<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let count = world.lights.len().div_ceil(MOST_LIGHTS).max(1);
-        let lights = world.lights.iter();
+        let count = index.visibility.lights().len().div_ceil(MOST_LIGHTS).max(1);
+        let lights = index.visibility.lights().iter();
         let lights = lights.map(|light| light.intensity().max_element());
         let contrast = 1.0
             + world.ambient.max_element()
@@ -81,7 +81,7 @@ impl<'scene> Exact<'scene> {
             + lights.sum::<f64>();
         let channels = Channels::of(world, alpha);
         let context = |group| Context {
-            scene: InCamera::new(world, index.visibility, view, channels, group),
+            scene: InCamera::new(world, &index.visibility, view, channels, group),
             view: *view,
             tolerance: tolerance / count as f64,
             is_proved: true,
@@ -211,11 +211,12 @@ impl<'scene> Exact<'scene> {
     /// dark, and where all lights and their highlights are at their highest.
     fn range_of_light(&self, candidates: &[usize]) -> [Color; 2] {
         let world = self.world;
-        let lights = world.lights.iter().map(|light| light.intensity());
-        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
         let background = self.groups[0].background;
         let [mut least, mut most] = [background; 2];
         for &sphere in candidates {
+            let lights = self.index.visibility.lights().iter();
+            let lights = lights.map(|light| light.brightest_on(&world.spheres()[sphere]));
+            let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
             let albedo = world.albedo(sphere);
             let highlight = world.material(sphere).highlight;
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);

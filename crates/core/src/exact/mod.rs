@@ -188,6 +188,18 @@ fn row_pixels<S: Simd>(
 
     // Pixels that one sphere fills climb together, until a light has an edge in them, or bends too much.
     for (coverage, which) in seen.filled() {
+        // Rules for pixels that one sphere fills know no point lights.
+        if context.scene.has_near_lights && coverage.ball.outside > 0.0 {
+            for lane in set_bits(which) {
+                let spheres = [(coverage.sphere, coverage.ball)];
+                match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
+                    Ok(known) => pixels[lane] = known,
+                    Err(_) => *unknown |= 1 << lane,
+                }
+                costs.add(place + lane, edged.budget.spent());
+            }
+            continue;
+        }
         let of_sphere = FilledRow {
             start: pixel(0),
             which,

@@ -17,6 +17,8 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) t: f64x8<S>,
     /// Unit outward normals.
     pub(crate) normal: Vectors<S>,
+    /// The center and the radius of the sphere, where rays are parallel: places follow from normals there.
+    parallel: Option<(DVec3, f64)>,
 }
 
 impl<S: Simd> Points<S> {
@@ -34,6 +36,7 @@ impl<S: Simd> Points<S> {
             ray_sq: zero,
             t: zero,
             normal: nothing,
+            parallel: None,
         }
     }
 
@@ -56,6 +59,7 @@ impl<S: Simd> Points<S> {
                 ray_sq: one,
                 t: root * -1.0 + ball.center.z,
                 normal: from_center.times(one * (1.0 / ball.radius)),
+                parallel: Some((ball.center, ball.radius)),
             };
         }
         let ray_sq = ray.length_squared();
@@ -75,6 +79,7 @@ impl<S: Simd> Points<S> {
                 ray_sq,
                 t,
                 normal,
+                parallel: None,
             }
         } else {
             let discriminant = along * along - ray_sq * ball.outside;
@@ -86,17 +91,20 @@ impl<S: Simd> Points<S> {
                 ray_sq,
                 t,
                 normal: from_center.times(one * (1.0 / ball.radius)),
+                parallel: None,
             }
         }
     }
 
-    /// The points, in the camera's frame; of this ball.
+    /// The points, in the camera's frame.
     #[inline(always)]
-    pub(crate) fn place(&self, ball: &Ball) -> Vectors<S> {
-        if ball.is_parallel() {
-            let from_center = self.normal.times(self.t * 0.0 + ball.radius);
-            return Vectors::splat(self.t.simd, ball.center).plus(&from_center);
+    pub(crate) fn place(&self) -> Vectors<S> {
+        match self.parallel {
+            Some((center, radius)) => {
+                let from_center = self.normal.times(self.t * 0.0 + radius);
+                Vectors::splat(self.t.simd, center).plus(&from_center)
+            }
+            None => self.ray.times(self.t),
         }
-        self.ray.times(self.t)
     }
 }

@@ -3,15 +3,19 @@
 use glam::{DMat3, DVec3};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use super::classify::patch::Patch;
 use crate::edges::cell::Ball;
-use crate::edges::shadow::Caster;
+use crate::edges::shadow::{Caster, Cone};
+use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::model::light::Light as WorldLight;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::rounding::WIDER;
 use crate::picture::image::Channels;
+use crate::search::point_occluders::enclosing;
 use crate::search::visibility::Visibility;
 
 /// Lights that are integrated at a time, further ones in further groups: as many as cosines are kept of for
@@ -25,16 +29,18 @@ pub(crate) struct InCamera<'scene> {
     /// The number of channels of light that are computed: 1 in a world without color, whose channels are
     /// the same.
     pub(crate) channels: usize,
-    pub(crate) visibility: &'scene Visibility<'scene>,
+    pub(crate) visibility: Visibility<'scene>,
     pub(crate) world_from_camera: DMat3,
     pub(crate) viewpoint: DVec3,
     pub(crate) projection: Projection,
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
     balls: Vec<Ball>,
-    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no light
+    /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no directional light
     /// gets there.
     pub(crate) is_enclosed: bool,
+    /// Whether some lights of the group are point lights, which not all rungs know.
+    pub(crate) has_near_lights: bool,
     /// The lights of the group.
     pub(crate) lights: Vec<Light>,
     /// The light of the surroundings, which counts with the first group.
@@ -59,6 +65,10 @@ pub(crate) struct Light {
     /// Unit vectors across.
     pub(crate) right: DVec3,
     pub(crate) up: DVec3,
+    /// The place of a point light, whose vectors mean nothing.
+    pub(crate) near: Option<NearLight>,
+    /// Whether the light gets nowhere that the eye sees, as spheres are around one of them alone.
+    pub(crate) is_shut_off: bool,
 }
 
 impl Light {
@@ -69,14 +79,24 @@ impl Light {
             radius,
             right: self.right,
             up: self.up,
+            cone: self
+                .near
+                .map(|near| Cone::new(near.position, center, radius)),
         }
+    }
+
+    /// A bound of the factor by which intensity is larger anywhere on a patch.
+    pub(crate) fn most_on(&self, patch: &Patch) -> f64 {
+        self.near.map_or(1.0, |near| {
+            near.most_from(patch.distance_from(near.position))
+        })
     }
 }
 
 impl<'scene> InCamera<'scene> {
     pub(crate) fn new(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         channels: Channels,
         group: usize,
@@ -100,33 +120,59 @@ impl<'scene> InCamera<'scene> {
             let is_far = distance_sq > radius_sq * WIDER && radius_sq > 0.0;
             !is_far && sphere.outside(viewpoint) <= 0.0
         };
-        let of_group = world.lights.iter().enumerate();
+        let of_group = visibility.lights().iter().enumerate();
         let of_group = of_group.skip(group * MOST_LIGHTS).take(MOST_LIGHTS);
-        let lights = of_group.map(|(index, light)| {
-            let toward = camera_from_world * light.toward();
-            let (right, up) = toward.any_orthonormal_pair();
-            Light {
-                index,
-                intensity: light.intensity(),
-                toward,
-                right,
-                up,
+        // Of parallel rays some may begin inside of a sphere, and others not.
+        let has_point_lights = visibility.lights().iter().any(|it| it.point().is_some());
+        let around_eye = if has_point_lights && projection == Projection::Central {
+            enclosing(world.spheres(), viewpoint)
+        } else {
+            Vec::new()
+        };
+        let is_enclosed =
+            world.shadows && projection == Projection::Central && spheres.any(encloses);
+        let lights = of_group.map(|(index, light)| match light {
+            WorldLight::Directional(light) => {
+                let toward = camera_from_world * light.toward();
+                let (right, up) = toward.any_orthonormal_pair();
+                Light {
+                    index,
+                    intensity: light.intensity(),
+                    toward,
+                    right,
+                    up,
+                    near: None,
+                    is_shut_off: is_enclosed,
+                }
+            }
+            WorldLight::Point(light) => {
+                let position = camera_from_world * (light.position() - viewpoint);
+                let around_light = visibility.point_light(index);
+                let around_light = around_light.map(|occluders| occluders.enclosing());
+                Light {
+                    index,
+                    intensity: light.intensity(),
+                    toward: DVec3::Z,
+                    right: DVec3::X,
+                    up: DVec3::Y,
+                    near: Some(NearLight::new(light, position)),
+                    is_shut_off: around_light.is_some_and(|around| around != around_eye),
+                }
             }
         });
+        let lights: Vec<Light> = lights.collect();
         Self {
             world,
             channels: channels.count(),
-            visibility,
+            visibility: visibility.clone(),
             world_from_camera,
             viewpoint,
             projection,
-            // Of parallel rays some may begin inside of a sphere, and others not.
-            is_enclosed: world.shadows
-                && projection == Projection::Central
-                && spheres.any(encloses),
+            is_enclosed,
+            has_near_lights: lights.iter().any(|light| light.near.is_some()),
             camera_from_world,
             balls,
-            lights: lights.collect(),
+            lights,
             ambient: if group == 0 {
                 world.ambient
             } else {
@@ -138,12 +184,12 @@ impl<'scene> InCamera<'scene> {
     /// The same without lights.
     pub(crate) fn without_lights(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         channels: Channels,
     ) -> Self {
         // A group after the last one.
-        let group = world.lights.len() / MOST_LIGHTS + 1;
+        let group = visibility.lights().len() / MOST_LIGHTS + 1;
         Self::new(world, visibility, view, channels, group)
     }
 

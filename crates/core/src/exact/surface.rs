@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::points::Points;
-use super::scene::{InCamera, MOST_LIGHTS};
+use super::scene::{InCamera, Light, MOST_LIGHTS};
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::PixelKey;
@@ -42,6 +42,32 @@ impl<S: Simd> HalfCosines<S> {
         self.powers[light] = self.powers[light].max(power);
         self.lowest[light] = self.lowest[light].min(half_cosine);
         self.highest[light] = self.highest[light].max(half_cosine);
+    }
+}
+
+impl Light {
+    /// n · l and n · h of points as the eye sees them, and the factors of a point light's intensity.
+    #[inline(always)]
+    pub(super) fn on_points<S: Simd>(
+        &self,
+        points: &Points<S>,
+        viewed: &ViewedPoints<'_, S>,
+    ) -> (f64x8<S>, f64x8<S>, Option<f64x8<S>>) {
+        match &self.near {
+            None => {
+                let cosine = viewed.cosine(self.toward);
+                (cosine, viewed.half_cosine(self.toward, cosine), None)
+            }
+            Some(near) => {
+                let (toward, factor) = near.seen_from(&points.place());
+                let cosine = viewed.cosine_of_each(&toward);
+                (
+                    cosine,
+                    viewed.half_cosine_of_each(&toward, cosine),
+                    Some(factor),
+                )
+            }
+        }
     }
 }
 
@@ -117,9 +143,20 @@ impl Finish {
         for (index, light) in scene.lights.iter().enumerate() {
             if lights >> index & 1 == 1 {
                 let sum = &mut sum[..scene.channels];
-                let (toward, intensity) = (light.toward, light.intensity);
-                let cosine = viewed.cosine(toward);
-                let half_cosine = viewed.half_cosine(toward, cosine);
+                let intensity = light.intensity;
+                let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
+                if let Some(factor) = factor {
+                    let mut own = [f64x8::splat(simd, 0.0); 3];
+                    let own = &mut own[..scene.channels];
+                    if diffuse >> index & 1 == 1 {
+                        reflectance.add_diffuse(reflectance.albedo * intensity, cosine, None, own);
+                    }
+                    reflectance.add_highlight(intensity, half_cosine, None, own);
+                    for (sum, own) in sum.iter_mut().zip(own) {
+                        *sum += *own * factor;
+                    }
+                    continue;
+                }
                 if diffuse >> index & 1 == 1 {
                     reflectance.add_diffuse(reflectance.albedo * intensity, cosine, None, sum);
                 }
@@ -154,11 +191,20 @@ impl Finish {
             if lit[index] == 0 {
                 continue;
             }
-            let (toward, intensity) = (light.toward, light.intensity);
-            let cosine = viewed.cosine(toward);
-            let half_cosine = viewed.half_cosine(toward, cosine);
+            let intensity = light.intensity;
+            let (cosine, half_cosine, factor) = light.on_points(points, &viewed);
             let lit = Some(cosine.simd_gt(0.0) & mask64x8::from_bitmask(simd, lit[index]));
             let sum = &mut sum[..scene.channels];
+            if let Some(factor) = factor {
+                let mut own = [f64x8::splat(simd, 0.0); 3];
+                let own = &mut own[..scene.channels];
+                reflectance.add_diffuse(reflectance.albedo * intensity, cosine, lit, own);
+                reflectance.add_highlight(intensity, half_cosine, lit, own);
+                for (sum, own) in sum.iter_mut().zip(own) {
+                    *sum += *own * factor;
+                }
+                continue;
+            }
             reflectance.add_diffuse(reflectance.albedo * intensity, cosine, lit, sum);
             let power = reflectance.add_highlight(intensity, half_cosine, lit, sum);
             if let (Some(halves), Some(power)) = (&mut halves, power) {

@@ -15,6 +15,7 @@ use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
 use crate::model::color::Color;
+use crate::model::light::PointLight;
 use crate::model::material::Material;
 use crate::numeric::power::Power;
 use crate::numeric::vectors::Vectors;
@@ -33,6 +34,47 @@ pub(crate) struct Reflectance {
     pub(crate) diffuse: Falloff,
     /// Its strength and falloff.
     pub(crate) highlight: Option<(f64, Falloff)>,
+}
+
+/// A light at a point, in the frame of the points that it lights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NearLight {
+    pub(crate) position: DVec3,
+    /// The distance at which its intensity is what it is said to be, where it falls off with the distance.
+    reference: Option<f64>,
+}
+
+impl NearLight {
+    pub(crate) fn new(light: &PointLight, position: DVec3) -> Self {
+        Self {
+            position,
+            reference: light.falls_off_from(),
+        }
+    }
+
+    /// The unit vectors from points toward the light, and the factors of its intensity there.
+    #[inline(always)]
+    pub(crate) fn seen_from<S: Simd>(&self, points: &Vectors<S>) -> (Vectors<S>, f64x8<S>) {
+        let simd = points.x.simd;
+        let way = Vectors::splat(simd, self.position).minus(points);
+        let one = f64x8::splat(simd, 1.0);
+        let least = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let inverse = one / way.length_squared().max(least).sqrt();
+        let factor = match self.reference {
+            Some(reference) => (inverse * reference) * (inverse * reference),
+            None => one,
+        };
+        (way.times(inverse), factor)
+    }
+
+    /// A bound of the factor of its intensity at a distance and beyond.
+    pub(crate) fn most_from(&self, distance: f64) -> f64 {
+        self.reference.map_or(1.0, |reference| {
+            let ratio = reference / distance.max(0.0);
+            // An infinite one would make darkness no number.
+            (ratio * ratio).min(f64::MAX.sqrt())
+        })
+    }
 }
 
 /// Points as the eye sees them.
@@ -196,6 +238,24 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
         let length_sq = (along * 2.0 + 2.0).max(least);
         (cosine + self.view_cosine) / length_sq.sqrt()
+    }
+
+    /// [`Self::half_cosine`] for points with unit vectors of their own toward a light.
+    #[inline(always)]
+    pub(crate) fn half_cosine_of_each(&self, toward: &Vectors<S>, cosine: f64x8<S>) -> f64x8<S> {
+        if !self.has_highlight {
+            return f64x8::splat(cosine.simd, 0.0);
+        }
+        let along = self.ray.dot(toward) * self.scale;
+        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
+        let length_sq = (along * 2.0 + 2.0).max(least);
+        (cosine + self.view_cosine) / length_sq.sqrt()
+    }
+
+    /// [`Self::cosine`] for points with unit vectors of their own toward a light.
+    #[inline(always)]
+    pub(crate) fn cosine_of_each(&self, toward: &Vectors<S>) -> f64x8<S> {
+        self.normal.dot(toward)
     }
 
     /// The change of [`Self::half_cosine`] where the normals change by this, and the view does not.

@@ -4,6 +4,7 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 use super::camera::Camera;
+use super::light::Light;
 use super::view::View;
 
 /// The place of a camera at a moment.
@@ -25,11 +26,12 @@ pub trait Motion: Debug + Send + Sync {
     fn is_smooth(&self) -> bool;
 }
 
-/// A view, and the motion of its camera while the shutter is open.
+/// A view, the motion of its camera while the shutter is open, and its lights where these are not the world's.
 #[derive(Clone, Debug)]
 pub struct Exposure<'motion> {
     view: View,
     motion: Option<Arc<dyn Motion + 'motion>>,
+    lights: Option<Arc<[Light]>>,
 }
 
 impl<'motion> Exposure<'motion> {
@@ -38,7 +40,21 @@ impl<'motion> Exposure<'motion> {
         Self {
             view,
             motion: Some(Arc::new(motion)),
+            lights: None,
         }
+    }
+
+    /// The same under these lights in place of the world's, as many as the world has.
+    pub fn with_lights(self, lights: Vec<Light>) -> Self {
+        Self {
+            lights: Some(lights.into()),
+            ..self
+        }
+    }
+
+    /// The lights that take the place of the world's; none where these count.
+    pub fn lights(&self) -> Option<&[Light]> {
+        self.lights.as_deref()
     }
 
     /// The view in the middle of the time.
@@ -103,6 +119,7 @@ impl From<&View> for Exposure<'_> {
         Self {
             view: *view,
             motion: None,
+            lights: None,
         }
     }
 }

@@ -56,6 +56,11 @@ impl Extrinsics {
         }
     }
 
+    /// A point of the (left-handed) world in OpenCV's axes.
+    pub fn point(&self, position: DVec3) -> DVec3 {
+        self.rotation * right_handed(position) + self.translation
+    }
+
     /// A direction of the (left-handed) world in OpenCV's axes.
     pub fn direction(&self, toward: DVec3) -> DVec3 {
         self.rotation * right_handed(toward)

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::albedos::Albedos;
 use super::color::Color;
-use super::light::DirectionalLight;
+use super::light::Light;
 use super::material::Material;
 use super::sphere::Sphere;
 use crate::model::color::is_grey;
@@ -14,8 +14,11 @@ use crate::model::color::is_grey;
 /// Copies share the spheres until one of them gets more.
 #[derive(Clone, Debug)]
 pub struct World {
-    /// The lights; none leaves only the ambient light.
-    pub lights: Vec<DirectionalLight>,
+    /// The lights, unless a picture has its own; none leaves only the ambient light.
+    pub lights: Vec<Light>,
+    /// True where some picture's own lights ([`crate::Exposure::with_lights`]) may have a color, so that all pictures
+    /// have three channels.
+    pub has_colored_lights: bool,
     /// Light from everywhere, which no shadow stops.
     pub ambient: Color,
     /// Radiance where no sphere is seen.
@@ -64,6 +67,7 @@ impl World {
     pub fn new() -> Self {
         Self {
             lights: Vec::new(),
+            has_colored_lights: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: true,
@@ -92,6 +96,7 @@ impl World {
             ambient,
             background,
             shadows: self.shadows,
+            has_colored_lights: self.has_colored_lights && part != LightPart::Ambient,
             surfaces: Arc::clone(&self.surfaces),
         }
     }
@@ -206,10 +211,10 @@ impl World {
     }
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all
-    /// lights and their highlights are at their highest.
-    pub(crate) fn range_of_light(&self, background: Color) -> [Color; 2] {
+    /// of some lights and their highlights are at their highest.
+    pub(crate) fn range_of_light(&self, lights: &[Light], background: Color) -> [Color; 2] {
         let [mut dark, mut bright] = [background; 2];
-        let lights = self.lights.iter().map(|light| light.intensity());
+        let lights = lights.iter().map(|light| self.brightest(light));
         let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
         let highlights = self
             .surfaces
@@ -232,6 +237,17 @@ impl World {
         [dark, bright]
     }
 
+    /// A bound of the radiance that a light makes of a white surface on the outer side of any sphere.
+    fn brightest(&self, light: &Light) -> Color {
+        if light.point().is_none() {
+            return light.intensity();
+        }
+        let spheres = self.spheres().iter();
+        spheres.fold(Color::ZERO, |most, sphere| {
+            most.max(light.brightest_on(sphere))
+        })
+    }
+
     /// True where nothing that can be seen has a color, so that one channel tells all.
     pub fn is_grey(&self) -> bool {
         is_grey(self.background) && self.has_grey_spheres()
@@ -246,6 +262,7 @@ impl World {
             .zip(&self.surfaces.is_used)
             .filter(|(_, used)| **used);
         is_grey(self.ambient)
+            && !self.has_colored_lights
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && used
                 .into_iter()

@@ -4,6 +4,7 @@ use std::num::NonZeroU32;
 
 use super::settings::Settings;
 use crate::model::color::Color;
+use crate::model::light::Light;
 use crate::model::world::World;
 use crate::picture::image::Uniform;
 use crate::picture::pixel::{Evidence, Method, Status};
@@ -20,16 +21,16 @@ const PREVIEWS: [(f64, NonZeroU32); 2] =
     [(2.5, NonZeroU32::MIN), (1.0, NonZeroU32::new(2).unwrap())];
 
 impl Approach {
-    /// The one that `settings` ask for. Where the tolerance is no less than the whole contrast of the world, samples
+    /// The one that `settings` ask for in a world under some lights. Where the tolerance is no less than the whole contrast of the world, samples
     /// meet it, whatever they miss.
-    pub(super) fn of(world: &World, settings: &Settings) -> Self {
+    pub(super) fn of(world: &World, lights: &[Light], settings: &Settings) -> Self {
         match settings.method {
             Method::Samples(samples) => Self {
                 method: settings.method,
                 uniform: Supersampling::uniform(samples),
             },
             Method::Tolerance(tolerance) => {
-                let contrast = contrast(world, settings.alpha);
+                let contrast = contrast(world, lights, settings.alpha);
                 let preview = PREVIEWS
                     .iter()
                     .find(|(times, _)| times * contrast <= tolerance);
@@ -52,13 +53,13 @@ impl Approach {
 }
 
 /// The largest difference between what pixels may show, in any channel; alpha is one.
-fn contrast(world: &World, alpha: bool) -> f64 {
+fn contrast(world: &World, lights: &[Light], alpha: bool) -> f64 {
     let (background, of_alpha) = if alpha {
         (Color::ZERO, 1.0)
     } else {
         (world.background, 0.0)
     };
-    let [dark, bright] = world.range_of_light(background);
+    let [dark, bright] = world.range_of_light(lights, background);
     (bright - dark).max_element().max(of_alpha)
 }
 

@@ -44,7 +44,7 @@ impl<'scene> Indices<'scene> {
     /// spheres.
     fn of(
         &mut self,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         view: &View,
         points: RayPoints,
     ) -> ViewIndex<'scene> {
@@ -61,12 +61,12 @@ impl<'scene> Integrator<'scene> {
     /// The integrator that `settings` ask for.
     pub(super) fn new(
         world: &'scene World,
-        visibility: &'scene Visibility<'scene>,
+        visibility: &Visibility<'scene>,
         exposure: &Exposure<'scene>,
         settings: &Settings,
         indices: &mut Indices<'scene>,
     ) -> Self {
-        let method = Approach::of(world, settings).method;
+        let method = Approach::of(world, visibility.lights(), settings).method;
         let alpha = settings.alpha;
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {

@@ -1,7 +1,7 @@
 //! A picture in one piece.
 
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
@@ -9,7 +9,7 @@ use super::approach::Approach;
 use super::integrator::{Indices, Integrator, Scratch};
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
-use crate::model::view::View;
+use crate::model::light::Light;
 use crate::model::world::{LightPart, World};
 use crate::picture::image::{Channels, Image, Layout};
 use crate::picture::pixel::Work;
@@ -23,6 +23,8 @@ pub struct Renderer<'world> {
     /// A copy that shares the spheres, for its light may be a part of theirs.
     pub(super) world: World,
     pub(super) visibility: Visibility<'world>,
+    /// The part of the light that it renders; none where it is all.
+    part: Option<LightPart>,
 }
 
 impl<'world> Renderer<'world> {
@@ -31,6 +33,7 @@ impl<'world> Renderer<'world> {
         Self {
             world: world.clone(),
             visibility: Visibility::new(world),
+            part: None,
         }
     }
 
@@ -45,6 +48,7 @@ impl<'world> Renderer<'world> {
         Self {
             world: self.world.under(part),
             visibility: self.visibility.under(part),
+            part: Some(part),
         }
     }
 
@@ -90,7 +94,7 @@ impl<'world> Renderer<'world> {
         progress: &Progress<'_>,
     ) -> Result<Image, Cancelled> {
         let integrator = self.integrator(exposure, settings);
-        let mut image = Image::new(self.layout(exposure.view(), settings), spent);
+        let mut image = Image::new(self.layout(exposure, settings), spent);
         // One by one: bands differ in what they cost, and threads that wait for the last take longer than
         // all handing over.
         let bands = image.bands_mut(Tile::SIDE).with_max_len(1);
@@ -128,21 +132,40 @@ impl<'world> Renderer<'world> {
         settings: &Settings,
         indices: &mut Indices<'a>,
     ) -> Integrator<'a> {
-        Integrator::new(&self.world, &self.visibility, exposure, settings, indices)
+        match self.lights_of(exposure) {
+            None => Integrator::new(&self.world, &self.visibility, exposure, settings, indices),
+            Some(lights) => {
+                let visibility = self.visibility.with_lights(&self.world, lights);
+                Integrator::new(&self.world, &visibility, exposure, settings, indices)
+            }
+        }
+    }
+
+    /// The lights of an exposure that take the place of the world's: those of the part of the light that this renders.
+    fn lights_of(&self, exposure: &Exposure<'_>) -> Option<Arc<[Light]>> {
+        let lights = exposure.lights()?;
+        Some(match self.part {
+            None => lights.into(),
+            Some(LightPart::Ambient) => Arc::new([]),
+            Some(LightPart::Light(index)) => Arc::new([lights[index]]),
+        })
     }
 
     /// The world, and what is known of it.
-    pub(super) fn parts(&self) -> (&World, &Visibility<'_>) {
+    pub(super) fn parts(&self) -> (&World, &Visibility<'world>) {
         (&self.world, &self.visibility)
     }
 
-    /// The picture of a view, without its pixels.
-    pub(super) fn layout(&self, view: &View, settings: &Settings) -> Layout {
+    /// The picture of an exposure, without its pixels.
+    pub(super) fn layout(&self, exposure: &Exposure<'_>, settings: &Settings) -> Layout {
+        let view = exposure.view();
+        let of_frame = self.lights_of(exposure);
+        let lights = of_frame.as_deref().unwrap_or(self.visibility.lights());
         Layout {
             size: (view.width, view.height),
             channels: Channels::of(&self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: Approach::of(&self.world, settings).uniform,
+            uniform: Approach::of(&self.world, lights, settings).uniform,
         }
     }
 }

@@ -155,7 +155,7 @@ impl<'a> Rendering<'a> {
         let mut indices = Indices::default();
         let pictures = renderers.iter().map(|renderer| Picture {
             integrator: renderer.integrator_with(&exposure, settings, &mut indices),
-            layout: renderer.layout(view, settings),
+            layout: renderer.layout(&exposure, settings),
         });
         let mut pictures: Vec<Picture<'a>> = pictures.collect();
         let mut centers = None;

@@ -8,14 +8,24 @@ use super::groups::{Group, Groups};
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::Sight;
-use crate::light::reflection::{Reflectance, ViewedPoints};
+use crate::light::reflection::{NearLight, Reflectance, ViewedPoints};
 use crate::model::color::Color;
+use crate::model::light::{Light as WorldLight, PointLight};
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
+use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
+use crate::search::view_index::ViewIndex;
+
+/// A point light, and the rays, as bits, that see what it may reach.
+struct PointLit<'world> {
+    index: usize,
+    light: &'world PointLight,
+    asked: u64,
+}
 
 /// Light of eight rays, in one channel or in three.
 pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
@@ -24,6 +34,10 @@ pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 #[derive(Clone, Debug)]
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
+    lights: Vec<WorldLight>,
+    viewpoint: DVec3,
+    /// Of the balls' unit of length, in those of the world.
+    length: f64,
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
@@ -42,11 +56,14 @@ pub(super) fn splat<S: Simd, const CHANNELS: usize>(simd: S, color: Color) -> Li
 }
 
 impl<'scene> Shading<'scene> {
-    pub(super) fn new(world: &'scene World, frame: i64) -> Self {
+    pub(super) fn new(world: &'scene World, view: &View, index: &ViewIndex<'_>) -> Self {
         let materials = world.materials();
         Self {
             world,
-            frame,
+            lights: index.visibility.lights().to_vec(),
+            viewpoint: view.camera.position,
+            length: libm::scalbn(1.0, index.length_exponent()),
+            frame: view.frame,
             is_smooth: materials
                 .iter()
                 .all(|material| material.roughness.is_none()),
@@ -78,7 +95,21 @@ impl<'scene> Shading<'scene> {
         let points = ViewedPoints::new(&normal, &sight.direction, sight.length_sq, has_highlight);
         let mut diffuse: Light<S, CHANNELS> = splat(simd, world.ambient);
         let mut mirrored: Light<S, CHANNELS> = splat(simd, Color::ZERO);
-        for (index, light) in world.lights.iter().enumerate() {
+        for (index, light) in self.lights.iter().enumerate() {
+            let light = match light {
+                WorldLight::Directional(light) => light,
+                WorldLight::Point(light) => {
+                    let lit = PointLit {
+                        index,
+                        light,
+                        asked: outer.to_bitmask(),
+                    };
+                    let seen = (sight, groups, &*looks);
+                    let sums = (&mut diffuse, &mut mirrored);
+                    self.add_point_light(simd, lit, &points, seen, shadows, sums);
+                    continue;
+                }
+            };
             let cosine = points.cosine(light.toward());
             let mut lit = cosine.simd_gt(0.0) & outer;
             if !lit.any_true() {
@@ -104,6 +135,64 @@ impl<'scene> Shading<'scene> {
             diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
         }
         diffuse
+    }
+
+    /// Adds the light of a point light.
+    #[inline(never)]
+    fn add_point_light<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        PointLit {
+            index,
+            light,
+            asked,
+        }: PointLit<'_>,
+        points: &ViewedPoints<'_, S>,
+        (sight, groups, looks): (&Sight<S>, &Groups<'_>, &Looks<'_>),
+        shadows: &mut Option<Shadows<'_>>,
+        (diffuse, mirrored): (&mut Light<S, CHANNELS>, &mut Light<S, CHANNELS>),
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let from_eye = sight.point.times(f64x8::splat(simd, self.length));
+                let from_eye_to_light = light.position() - self.viewpoint;
+                let near = NearLight::new(light, from_eye_to_light);
+                let (toward, factor) = near.seen_from(&from_eye);
+                let cosine = points.cosine_of_each(&toward);
+                let mut lit = cosine.simd_gt(0.0).to_bitmask() & asked;
+                for group in groups.as_slice() {
+                    let sphere = &self.world.spheres()[group.ball.index()];
+                    if sphere.outside(light.position()) <= 0.0 {
+                        lit &= !group.lanes;
+                    }
+                }
+                if lit == 0 {
+                    return;
+                }
+                if let Some(shadows) = shadows {
+                    lit = shadows.lit_by_point(simd, index, sight, groups, lit);
+                }
+                let lit = mask64x8::from_bitmask(simd, lit);
+                let half_cosine = points.half_cosine_of_each(&toward, cosine);
+                let mut own_diffuse: Light<S, CHANNELS> = splat(simd, Color::ZERO);
+                let mut own_mirrored: Light<S, CHANNELS> = splat(simd, Color::ZERO);
+                for look in &looks.list[..looks.count] {
+                    let lit = Some(lit & mask64x8::from_bitmask(simd, look.lanes));
+                    let reflectance = look.reflectance;
+                    let intensity = light.intensity();
+                    reflectance.add_diffuse(intensity, cosine, lit, &mut own_diffuse);
+                    reflectance.add_highlight(intensity, half_cosine, lit, &mut own_mirrored);
+                }
+                for channel in 0..CHANNELS {
+                    // Where nothing is lit the factor may be anything.
+                    let zero = f64x8::splat(simd, 0.0);
+                    let factor = lit.select(factor, zero);
+                    diffuse[channel] += own_diffuse[channel] * factor;
+                    mirrored[channel] += own_mirrored[channel] * factor;
+                }
+            },
+        )
     }
 
     /// Takes the albedos from the spheres that have their own.

@@ -119,12 +119,41 @@ impl<'scene> Shadows<'scene> {
         reached
     }
 
+    /// Those of some rays, as bits, that see a point which the point light with this index reaches; they see outer
+    /// sides that face the light.
+    ///
+    /// Exact as [`Self::lit`] is.
+    #[inline(never)]
+    pub(super) fn lit_by_point<S: Simd>(
+        &self,
+        simd: S,
+        index: usize,
+        sight: &Sight<S>,
+        groups: &Groups<'_>,
+        asked: u64,
+    ) -> u64 {
+        let Some(occluders) = self.visibility.point_light(index) else {
+            return asked;
+        };
+        let (points, errors) = self.places(simd, sight);
+        let mut reached = asked;
+        for group in groups.as_slice() {
+            for lane in set_bits(group.lanes & asked) {
+                let sphere = group.ball.index();
+                if occluders.is_blocked(points.lane(lane), errors[lane], sphere) {
+                    reached &= !(1 << lane);
+                }
+            }
+        }
+        reached
+    }
+
     /// The points that are seen, as [`Ray::at`] computes them.
     ///
     /// Each is off by the error of its distance, [`DISTANCE_ERROR`] times at most √3 times the
     /// largest component, and by what [`Ray::point_error`] says of the rounding.
     #[inline(always)]
-    fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> LitPoints<S> {
+    fn places<S: Simd>(&self, simd: S, sight: &Sight<S>) -> (Vectors<S>, f64x8<S>) {
         /// As in [`Ray::point_error`].
         const ROUNDING: f64 = 7.0 * UNIT_ROUNDOFF;
         let from_eye = sight.point.times(f64x8::splat(simd, self.scale.length));
@@ -132,10 +161,17 @@ impl<'scene> Shadows<'scene> {
         let (x, y, z) = (from_eye.x.abs(), from_eye.y.abs(), from_eye.z.abs());
         let largest = x.max(y).max(z);
         let rounding = (largest + self.viewpoint.abs().max_element()) * ROUNDING;
+        (points, largest * (2.0 * DISTANCE_ERROR) + rounding)
+    }
+
+    /// The points that are seen, across a light as well.
+    #[inline(always)]
+    fn points<S: Simd>(&self, simd: S, light: usize, sight: &Sight<S>) -> LitPoints<S> {
+        let (points, errors) = self.places(simd, sight);
         let (right, up) = self.visibility.light(light).axes();
         LitPoints {
             points,
-            errors: largest * (2.0 * DISTANCE_ERROR) + rounding,
+            errors,
             right: points.dot_one(right),
             up: points.dot_one(up),
         }

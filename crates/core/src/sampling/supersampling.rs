@@ -72,7 +72,7 @@ impl<'scene> Supersampling<'scene> {
             channels: Channels::of(world, alpha),
             alpha,
             rays: Rays::new(view, samples.get()),
-            shading: Shading::new(world, view.frame),
+            shading: Shading::new(world, view, index),
             view: *view,
             centers: None,
             is_dark: false,
@@ -278,7 +278,7 @@ impl<'scene> Supersampling<'scene> {
                     projection: self.rays.projection(),
                 };
                 let viewpoint = self.view.camera.position;
-                Shadows::new(self.index.visibility, viewpoint, size, cells)
+                Shadows::new(&self.index.visibility, viewpoint, size, cells)
             }),
         }
     }

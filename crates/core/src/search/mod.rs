@@ -13,6 +13,7 @@ pub(crate) mod grid;
 mod hierarchy;
 mod mask;
 mod occluders;
+pub(crate) mod point_occluders;
 mod screen_bounds;
 pub(crate) mod shadow_cells;
 mod tile_lists;

@@ -14,7 +14,7 @@ use super::visibility::Visibility;
 use crate::hit::outcome::Hit;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -50,9 +50,7 @@ fn world_of(balls: impl IntoIterator<Item = (DVec3, f64)>, random: &mut Random) 
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
     }
     for toward in [random.point(), DVec3::Y, random.point()] {
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
+        world.lights.extend(Light::directional(toward, Color::ONE));
     }
     world
 }
@@ -127,7 +125,7 @@ fn midpoints_agree(few: &ViewIndex<'_>, view: &View, hierarchy: Option<&Hierarch
     for divisions in 1..=5 {
         let samples = NonZeroU32::new(divisions).unwrap();
         let points = RayPoints::Midpoints(samples);
-        let crowd = ViewIndex::with_hierarchy(few.visibility, view, points, hierarchy);
+        let crowd = ViewIndex::with_hierarchy(&few.visibility, view, points, hierarchy);
         for tile in tiles_of(view) {
             let cells = |first: u32, count: u32| {
                 let cell = u64::from(first) * u64::from(divisions);
@@ -189,7 +187,7 @@ fn agrees_with_asking_all(world: &World, random: &mut Random) {
                 for (number, light) in world.lights.iter().enumerate() {
                     let to_light = Ray {
                         origin: ray.at(hit.t),
-                        direction: light.toward(),
+                        direction: light.toward().unwrap(),
                     };
                     let error = ray.point_error(hit.t);
                     let expected = spheres.iter().enumerate().any(|(caster, sphere)| {

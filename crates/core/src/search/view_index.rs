@@ -26,7 +26,7 @@ use crate::picture::tile::Tile;
 /// A world as one view sees it, ready to be asked tile by tile; copies share what was found out.
 #[derive(Clone, Debug)]
 pub(crate) struct ViewIndex<'world> {
-    pub(crate) visibility: &'world Visibility<'world>,
+    pub(crate) visibility: Visibility<'world>,
     /// Lengths of the balls are those of the world times 2 to the power of minus this.
     length_exponent: i32,
     lists: Arc<Lists>,
@@ -70,17 +70,13 @@ impl<'index> Iterator for Balls<'index> {
 
 impl<'world> ViewIndex<'world> {
     /// The index of a view, for rays that go through such points.
-    pub(crate) fn new(
-        visibility: &'world Visibility<'world>,
-        view: &View,
-        points: RayPoints,
-    ) -> Self {
+    pub(crate) fn new(visibility: &Visibility<'world>, view: &View, points: RayPoints) -> Self {
         Self::with_hierarchy(visibility, view, points, visibility.hierarchy_of_crowd())
     }
 
     /// The index that a hierarchy of the spheres finds, or that asking one after the other finds.
     pub(super) fn with_hierarchy(
-        visibility: &'world Visibility<'world>,
+        visibility: &Visibility<'world>,
         view: &View,
         points: RayPoints,
         hierarchy: Option<&Hierarchy>,
@@ -98,16 +94,16 @@ impl<'world> ViewIndex<'world> {
             _ => Lists::few(spheres, view, length_exponent),
         };
         Self {
-            visibility,
+            visibility: visibility.clone(),
             length_exponent,
             lists: Arc::new(lists),
         }
     }
 
     /// The same of another visibility of the same spheres: what was found out is shared.
-    pub(crate) fn of<'other>(&self, visibility: &'other Visibility<'other>) -> ViewIndex<'other> {
+    pub(crate) fn of<'other>(&self, visibility: &Visibility<'other>) -> ViewIndex<'other> {
         ViewIndex {
-            visibility,
+            visibility: visibility.clone(),
             length_exponent: self.length_exponent,
             lists: Arc::clone(&self.lists),
         }

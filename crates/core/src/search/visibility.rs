@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::discs::DiscCache;
 use super::hierarchy::Hierarchy;
 use super::occluders::Occluders;
-use crate::model::light::DirectionalLight;
+use super::point_occluders::PointOccluders;
+use crate::model::light::Light;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::model::world::{LightPart, World};
@@ -21,17 +22,27 @@ const MODERATE: Range<f64> = 1e-35..1e35;
 /// more the sorting of all spheres does.
 const CROWD: usize = 1 << 15;
 
-/// The spheres of a world, and for every light those that may keep it from a point.
+/// The spheres of a world, its lights, and for every light those that may keep it from a point; copies share it
+/// all.
 #[derive(Clone, Debug)]
 pub(crate) struct Visibility<'world> {
     spheres: &'world [Sphere],
     /// In a world of shadows, or of very many spheres.
     pub(super) hierarchy: Option<Arc<Hierarchy>>,
+    /// The lights, which may be others than the world's.
+    lights: Arc<[Light]>,
     /// One for each light; none in a world without shadows.
-    lights: Vec<DiscCache<'world>>,
+    occluders: Arc<[Occlusion<'world>]>,
     /// True where squares of all lengths are far from over- and underflow.
     is_moderate: bool,
     extent: Extent,
+}
+
+/// What may keep a light from points.
+#[derive(Clone, Debug)]
+enum Occlusion<'world> {
+    Discs(DiscCache<'world>),
+    Point(PointOccluders<'world>),
 }
 
 /// Bounds of all spheres together.
@@ -73,41 +84,62 @@ impl<'world> Visibility<'world> {
     /// Prepares the search in a world.
     pub(crate) fn new(world: &'world World) -> Self {
         let spheres = world.spheres();
-        let lights = if world.shadows {
-            &world.lights[..]
-        } else {
-            &[]
-        };
-        let is_asked = !lights.is_empty() || spheres.len() >= CROWD;
-        let hierarchy = is_asked.then(|| Arc::new(Hierarchy::new(spheres)));
-        let of_light = |light: &DirectionalLight| {
-            let hierarchy = hierarchy.clone()?;
-            let occluders = Occluders::new(spheres, hierarchy, light.toward());
-            Some(DiscCache::new(occluders))
-        };
-        let lights = lights.iter().filter_map(of_light).collect();
+        let casts_shadows = world.shadows && !world.lights.is_empty();
+        let is_asked = casts_shadows || spheres.len() >= CROWD;
         let extent = Extent::new(spheres);
-        Self {
+        let unlit = Self {
             spheres,
-            hierarchy,
-            lights,
+            hierarchy: is_asked.then(|| Arc::new(Hierarchy::new(spheres))),
+            lights: Arc::new([]),
+            occluders: Arc::new([]),
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
+        };
+        unlit.with_lights(world, world.lights.as_slice().into())
+    }
+
+    /// The same world under other lights, as many as it has.
+    pub(crate) fn with_lights(&self, world: &World, lights: Arc<[Light]>) -> Self {
+        let casting = if world.shadows { &lights[..] } else { &[] };
+        let of_light = |light: &Light| {
+            let hierarchy = self.hierarchy.clone()?;
+            Some(match light {
+                Light::Directional(light) => {
+                    let occluders = Occluders::new(self.spheres, hierarchy, light.toward());
+                    Occlusion::Discs(DiscCache::new(occluders))
+                }
+                Light::Point(light) => {
+                    let occluders = PointOccluders::new(self.spheres, hierarchy, light.position());
+                    Occlusion::Point(occluders)
+                }
+            })
+        };
+        Self {
+            occluders: casting.iter().filter_map(of_light).collect(),
+            lights,
+            ..self.clone()
         }
     }
 
     /// The same for a part of the light.
     pub(crate) fn under(&self, part: LightPart) -> Self {
-        let light = match part {
+        let index = match part {
             LightPart::Ambient => None,
-            // There is none in a world without shadows.
-            LightPart::Light(index) => self.lights.get(index),
+            LightPart::Light(index) => Some(index),
         };
+        let light = index.map(|index| self.lights[index]);
+        // There is none in a world without shadows.
+        let occluders = index.and_then(|index| self.occluders.get(index));
         Self {
-            hierarchy: self.hierarchy.clone(),
-            lights: light.cloned().into_iter().collect(),
-            ..*self
+            lights: light.into_iter().collect(),
+            occluders: occluders.cloned().into_iter().collect(),
+            ..self.clone()
         }
+    }
+
+    /// The lights.
+    pub(crate) fn lights(&self) -> &[Light] {
+        &self.lights
     }
 
     /// The hierarchy that finds what a view sees, where asking sphere by sphere takes too long.
@@ -126,9 +158,23 @@ impl<'world> Visibility<'world> {
         self.spheres
     }
 
-    /// The spheres as the light with this index sees them.
+    /// The spheres as the directional light with this index sees them.
+    ///
+    /// # Panics
+    /// Where it is a point light.
     pub(crate) fn light(&self, index: usize) -> &DiscCache<'world> {
-        &self.lights[index]
+        match &self.occluders[index] {
+            Occlusion::Discs(discs) => discs,
+            Occlusion::Point(_) => unreachable!("the discs of a point light"),
+        }
+    }
+
+    /// The spheres as the point light with this index sees them; none in a world without shadows, or for another light.
+    pub(crate) fn point_light(&self, index: usize) -> Option<&PointOccluders<'world>> {
+        match self.occluders.get(index)? {
+            Occlusion::Discs(_) => None,
+            Occlusion::Point(occluders) => Some(occluders),
+        }
     }
 
     /// Says whether any sphere but the one with the index `except` stands between a point of that
@@ -143,7 +189,7 @@ impl<'world> Visibility<'world> {
         point_error: f64,
         except: usize,
     ) -> bool {
-        let occluders = self.lights[light].occluders();
+        let occluders = self.light(light).occluders();
         occluders.any(to_light.origin, point_error, |index| {
             self.hides(index, to_light, point_error, except)
         })
@@ -175,7 +221,7 @@ impl<'world> Visibility<'world> {
         around: f64,
         holds: impl FnMut(usize) -> bool,
     ) -> bool {
-        let occluders = self.lights[light].occluders();
+        let occluders = self.light(light).occluders();
         let heights = points.iter().map(|&point| occluders.height(point));
         let lowest = heights.fold(f64::INFINITY, f64::min) - around;
         occluders.any_within(points, around, lowest, holds)

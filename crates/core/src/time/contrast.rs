@@ -1,7 +1,8 @@
 //! How far the light of things in a world may lie apart.
 
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use crate::model::light::Light;
 use crate::model::world::World;
 
 /// The differences of light, and of coverage, that something may make in any channel.
@@ -14,9 +15,9 @@ pub(super) struct Contrast {
 }
 
 impl Contrast {
-    pub(super) fn new(world: &World) -> Self {
-        let lights = world.lights.iter();
-        let lights: f64 = lights.map(|light| light.intensity().max_element()).sum();
+    pub(super) fn new(world: &World, lights: &[Light]) -> Self {
+        let lights = lights.iter();
+        let lights: f64 = lights.map(|light| brightest(world, light)).sum();
         let white = world.ambient.max_element() + lights;
         let spheres = (0..world.spheres().len()).into_par_iter();
         let of_spheres = spheres.map(|sphere| {
@@ -30,4 +31,14 @@ impl Contrast {
             most: of_spheres.reduce(|| 0.0, f64::max).max(least),
         }
     }
+}
+
+/// A bound of the light of a white surface in the brightest channel.
+fn brightest(world: &World, light: &Light) -> f64 {
+    if light.point().is_none() {
+        return light.intensity().max_element();
+    }
+    let spheres = world.spheres().par_iter();
+    let of_spheres = spheres.map(|sphere| light.brightest_on(sphere).max_element());
+    of_spheres.reduce(|| 0.0, f64::max)
 }

@@ -48,7 +48,7 @@ impl<'scene> ExactOverTime<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let contrast = Contrast::new(world);
+        let contrast = Contrast::new(world, instants.visibility.lights());
         let (view, motion) = (&instants.view, instants.motion.as_ref());
         let levels = PanelLevels::new(world, view, motion, tolerance / contrast.ordinary);
         Self {

@@ -21,7 +21,7 @@ pub(super) struct Instant<'world> {
 /// As much as there is memory for is kept; the rest is found out again for each row of tiles.
 #[derive(Debug)]
 pub(crate) struct Instants<'world> {
-    pub(super) visibility: &'world Visibility<'world>,
+    pub(super) visibility: Visibility<'world>,
     pub(super) view: View,
     pub(super) motion: Arc<dyn Motion + 'world>,
     method: Method,
@@ -40,13 +40,13 @@ const MOST_KEPT: usize = 1 << 12;
 impl<'world> Instants<'world> {
     /// For pictures of `view`, whose camera moves so, by this method.
     pub(crate) fn new(
-        visibility: &'world Visibility<'world>,
+        visibility: &Visibility<'world>,
         view: &View,
         motion: Arc<dyn Motion + 'world>,
         method: Method,
     ) -> Self {
         Self {
-            visibility,
+            visibility: visibility.clone(),
             view: *view,
             motion,
             method,
@@ -82,7 +82,7 @@ impl<'world> Instants<'world> {
 
     fn at(&self, time: f64) -> Instant<'world> {
         let view = view_at(&self.view, self.motion.as_ref(), time);
-        let index = ViewIndex::new(self.visibility, &view, self.method.into());
+        let index = ViewIndex::new(&self.visibility, &view, self.method.into());
         Instant { view, index }
     }
 }

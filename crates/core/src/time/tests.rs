@@ -11,7 +11,7 @@ use super::sampled::SampledOverTime;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::exposure::{Motion, Pose};
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -62,10 +62,9 @@ fn world(balls: &[(DVec3, f64)]) -> World {
     for &(center, radius) in balls {
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
     }
-    world.lights.extend(DirectionalLight::new(
-        DVec3::new(-1.0, 1.0, -1.0),
-        Color::ONE,
-    ));
+    world
+        .lights
+        .extend(Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE));
     world.ambient = Color::splat(0.1);
     world.background = Color::splat(0.3);
     world

@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use crate::text::{Placed, present};
 use crate::values::{
-    Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, Point, Radius, Rotation,
-    Shutter, Turns, Zoom,
+    Color, Degrees, Fill, Frame, FrameCount, FrameRange, FramesPerSecond, LightName, Point, Radius,
+    Rotation, Shutter, Turns, Zoom,
 };
 
 /// The camera; a `Free` one stands at the origin and looks along z by default.
@@ -89,14 +89,27 @@ pub(crate) enum Animation {
         shutter: Option<Placed<Shutter>>,
         #[serde(default)]
         turns: Placed<Turns>,
+        #[serde(default)]
+        what: Placed<Turned>,
     },
 }
 
-/// The values of some channels at a frame.
+/// The thing that a turntable turns.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum Turned {
+    #[default]
+    Camera,
+    /// All lights that are not attached to the camera.
+    Lights,
+}
+
+/// The values of some channels at a frame: of the camera, or of a light.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Key {
     pub(crate) frame: Placed<Frame>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) light: Option<Placed<LightName>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) position: Option<Placed<Point>>,
     #[serde(default, deserialize_with = "present")]
@@ -115,6 +128,10 @@ pub(crate) struct Key {
     pub(crate) elevation: Option<Placed<Degrees>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) zoom: Option<Placed<Zoom>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) toward: Option<Placed<Point>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) intensity: Option<Placed<Color>>,
     #[serde(default)]
     pub(crate) ease: Placed<Ease>,
 }
@@ -229,7 +246,7 @@ impl Animation {
 
 impl Key {
     /// Every channel with the place of its value, where the key names it.
-    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 9] {
+    pub(crate) fn channels(&self) -> [(&'static str, Option<Range<usize>>); 11] {
         fn place<T>(channel: &Option<Placed<T>>) -> Option<Range<usize>> {
             channel.as_ref().map(|value| value.place.clone())
         }
@@ -243,6 +260,8 @@ impl Key {
             ("azimuth", place(&self.azimuth)),
             ("elevation", place(&self.elevation)),
             ("zoom", place(&self.zoom)),
+            ("toward", place(&self.toward)),
+            ("intensity", place(&self.intensity)),
         ]
     }
 }

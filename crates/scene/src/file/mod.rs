@@ -9,13 +9,13 @@ mod names;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-pub(crate) use self::camera::{Animation, Axes, Camera, Ease, Key};
+pub(crate) use self::camera::{Animation, Axes, Camera, Ease, Key, Turned};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, ColumnName, Coordinate, Exponent, FieldOfView, FileName, Flag, FocalLength,
-    GrainSize, ImageSide, MaterialName, Point, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
-    Shift, Shininess, Strength, ValueRange, Zoom,
+    GrainSize, ImageSide, LightName, MaterialName, Point, Radius, Reference, RetinaDistance,
+    RetinaWidth, Scale, Seed, Shift, Shininess, Strength, ValueRange, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -78,15 +78,73 @@ pub(crate) enum Lens {
     },
 }
 
-/// A light; its intensity is 1 by default.
+/// A light; its intensity is 1 by default, and it is at rest in the world.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) enum Light {
     Directional {
+        #[serde(default, deserialize_with = "present")]
+        name: Option<Placed<LightName>>,
         toward: Placed<Point>,
+        #[serde(default, deserialize_with = "present")]
+        attached: Option<Placed<Attached>>,
         #[serde(default = "white")]
         intensity: Placed<Color>,
     },
+    Point {
+        #[serde(default, deserialize_with = "present")]
+        name: Option<Placed<LightName>>,
+        position: Placed<Point>,
+        #[serde(default, deserialize_with = "present")]
+        attached: Option<Placed<Attached>>,
+        #[serde(default = "white")]
+        intensity: Placed<Color>,
+        #[serde(default)]
+        falloff: Placed<Falloff>,
+        #[serde(default)]
+        reference: Placed<Reference>,
+    },
+}
+
+/// The way in which a point light falls off with the distance.
+#[derive(Clone, Copy, Debug, Default, Deserialize)]
+pub(crate) enum Falloff {
+    #[default]
+    InverseSquare,
+    None,
+}
+
+impl Light {
+    /// The light's name with its place, if it has one.
+    pub(crate) fn placed_name(&self) -> Option<&Placed<LightName>> {
+        let (Self::Directional { name, .. } | Self::Point { name, .. }) = self;
+        name.as_ref()
+    }
+
+    /// The light's name, if it has one that was not refused.
+    pub(crate) fn name(&self) -> Option<&str> {
+        Some(&self.placed_name()?.value.as_ref()?.0)
+    }
+
+    pub(crate) fn is_attached(&self) -> bool {
+        let (Self::Directional { attached, .. } | Self::Point { attached, .. }) = self;
+        attached.is_some()
+    }
+
+    /// The channels that keys of this light may name.
+    pub(crate) fn channels(&self) -> &'static [&'static str] {
+        match self {
+            Self::Directional { .. } => &["toward", "intensity"],
+            Self::Point { .. } => &["position", "intensity"],
+        }
+    }
+}
+
+/// The thing that a light moves with.
+#[derive(Clone, Copy, Debug, Deserialize)]
+pub(crate) enum Attached {
+    /// The camera, in whose axes the light is given: x right, y up, z forward.
+    Camera,
 }
 
 /// A material; matte white by default.

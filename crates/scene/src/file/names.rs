@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::camera::{Animation, Axes, Camera, Ease, Key};
-use super::{Cloud, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere};
+use super::camera::{Animation, Axes, Camera, Ease, Key, Turned};
+use super::{
+    Attached, Cloud, Falloff, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere,
+};
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
 
@@ -29,7 +31,9 @@ structures! {
     Lens: "lens", "a lens: `Retina(width: …, distance: …)`, `Fov(…)`, `Matrix(fx: …, fy: …, cx: …, cy: …)` or `Parallel(width: …)`";
     Camera: "camera", "a camera: `Free(…)`, `LookAt(…)`, `Orbit(…)`, `Frame(…)` or `Pose(…)`";
     Axes: "axes", "axes: `OpenCV`";
-    Light: "light", "a light `Directional(toward: …)`";
+    Light: "light", "a light: `Directional(toward: …)` or `Point(position: …)`";
+    Falloff: "falloff", "a falloff: `InverseSquare` or `None`";
+    Attached: "thing that a light is attached to", "what a light is attached to: `Camera`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
     Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
@@ -40,6 +44,7 @@ structures! {
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element` or `Value`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
+    Turned: "thing that turns", "what turns: `Camera` or `Lights`";
     Key: "key", "a key `(frame: …)`";
     Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
 }

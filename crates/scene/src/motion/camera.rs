@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use glam::DVec3;
 use marbles_core::{Pose, Sphere};
 
 use super::channels::{Channels, Keys};
@@ -10,7 +11,7 @@ use super::curve::Curve;
 use super::error::FrameError;
 use super::framing::{Framing, Picture, Turning, axes_of_orbit};
 use super::turntable::Turntable;
-use crate::file::{Animation, File, Key};
+use crate::file::{Animation, File, Key, Turned};
 use crate::text::{Placed, optional};
 
 /// The camera of a scene over time.
@@ -29,7 +30,7 @@ pub(crate) struct Timing {
     pub(crate) frames_per_second: f64,
     /// The time for which the shutter is open, in frames; `None` where frames show a moment.
     pub(crate) shutter: Option<f64>,
-    /// The frames of the keys, which increase: at no other time a motion bends or jumps.
+    /// The frames of the camera's keys, which increase: at no other time a motion bends or jumps.
     key_frames: Vec<i32>,
 }
 
@@ -44,13 +45,15 @@ impl CameraMotion {
             timing = Some(Timing::new(animation)?);
             match animation {
                 Animation::Keyframes { keys: all, .. } => keys = all,
-                Animation::Turntable { frames, turns, .. } => {
-                    let (frames, turns) = (frames.get()?.0, turns.get()?.0);
-                    turntable = Some(Turntable { frames, turns });
+                Animation::Turntable { what, .. } => {
+                    if what.get()? == Turned::Camera {
+                        turntable = Some(Turntable::new(animation)?);
+                    }
                 }
             }
         }
-        let keys = Keys(keys.iter().filter_map(|key| key.value.as_ref()).collect());
+        let keys = keys.iter().filter_map(|key| key.value.as_ref());
+        let keys = Keys(keys.filter(|key| key.light.is_none()).collect());
         Some(Self {
             channels: Channels::new(file.camera.value.as_ref()?, &keys)?,
             zoom: keys.numbers(file.zoom.get()?.0, |key| &key.zoom),
@@ -72,6 +75,11 @@ impl CameraMotion {
         let framing = Framing::new(spheres, picture, turning, axes)?;
         self.channels.frame(&framing);
         Some(framing.scale)
+    }
+
+    /// The camera's target, at rest; the origin where it has none.
+    pub(crate) fn target(&self) -> DVec3 {
+        self.channels.target()
     }
 
     /// The frames of the animation, `None` for a still.
@@ -128,18 +136,23 @@ impl Timing {
             frames,
             frames_per_second: fps.get()?.0,
             shutter: optional(shutter, |shutter| Some(shutter.0))?,
-            key_frames: keys.iter().filter_map(frame_of).collect(),
+            key_frames: keys.iter().filter_map(frame_of_camera).collect(),
         })
     }
 }
 
 /// The frames from the first key to the last; frame 1 alone without keys.
 fn frames_of(keys: &[Placed<Key>]) -> RangeInclusive<i32> {
-    let (first, last) = (keys.first(), keys.last());
-    match (first.and_then(frame_of), last.and_then(frame_of)) {
+    let frames = || keys.iter().filter_map(frame_of);
+    match (frames().min(), frames().max()) {
         (Some(first), Some(last)) => first..=last,
         _ => 1..=1,
     }
+}
+
+fn frame_of_camera(key: &Placed<Key>) -> Option<i32> {
+    let of_light = key.value.as_ref()?.light.is_some();
+    frame_of(key).filter(|_| !of_light)
 }
 
 fn frame_of(key: &Placed<Key>) -> Option<i32> {

@@ -63,6 +63,11 @@ impl Channels {
         })
     }
 
+    /// The target where no time has passed; the origin where there is none.
+    pub(super) fn target(&self) -> DVec3 {
+        self.target.at(0.0)
+    }
+
     /// Azimuth, elevation and roll of an orbit.
     pub(super) fn angles(&self) -> [&Curve; 3] {
         [&self.azimuth, &self.elevation, &self.roll]
@@ -135,14 +140,14 @@ fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Camera> {
 
 /// A point over time, each coordinate on its own.
 #[derive(Clone, Debug)]
-pub(super) struct PointCurve([Curve; 3]);
+pub(super) struct PointCurve(pub(super) [Curve; 3]);
 
 impl PointCurve {
     fn constant(point: DVec3) -> Self {
         Self(point.to_array().map(Curve::constant))
     }
 
-    fn at(&self, time: f64) -> DVec3 {
+    pub(super) fn at(&self, time: f64) -> DVec3 {
         DVec3::from_array(self.0.each_ref().map(|curve| curve.at(time)))
     }
 }
@@ -162,10 +167,16 @@ impl Keys<'_> {
 
     /// The curve of a channel of points.
     fn points(&self, rest: DVec3, channel: impl Fn(&Key) -> &Option<Placed<Point>>) -> PointCurve {
-        PointCurve([0, 1, 2].map(|axis| {
-            let value = |key: &Key| Some(channel(key).as_ref()?.get()?.0[axis]);
-            self.curve(rest[axis], value)
-        }))
+        self.vectors(rest, |key| Some(channel(key).as_ref()?.get()?.0))
+    }
+
+    /// The curve of a channel of points, or of colors.
+    pub(super) fn vectors(
+        &self,
+        rest: DVec3,
+        channel: impl Fn(&Key) -> Option<DVec3>,
+    ) -> PointCurve {
+        PointCurve([0, 1, 2].map(|axis| self.curve(rest[axis], |key| Some(channel(key)?[axis]))))
     }
 
     fn curve(&self, rest: f64, value: impl Fn(&Key) -> Option<f64>) -> Curve {

@@ -1,4 +1,4 @@
-//! The camera over time: curves through keys, turntables, and the place of a camera that frames.
+//! Camera and lights over time: curves through keys, turntables, and the place of a camera that frames.
 
 mod camera;
 mod channels;
@@ -6,6 +6,7 @@ mod checks;
 mod curve;
 mod error;
 mod framing;
+mod lights;
 
 mod shutter;
 mod turntable;
@@ -13,4 +14,5 @@ mod turntable;
 pub(crate) use camera::CameraMotion;
 pub use error::{FrameError, FrameFault};
 pub(crate) use framing::{Framing, Picture, Turning, axes_of_orbit};
+pub(crate) use lights::Lights;
 pub(crate) use shutter::OpenShutter;

@@ -1,9 +1,11 @@
-//! The turntable: an orbit around its target in a loop.
+//! The turntable: an orbit around its target in a loop, or lights that turn so.
+
+use crate::file::Animation;
 
 /// A turn in degrees.
 const TURN: f64 = 360.0;
 
-/// A turn of the camera around its target, in frames 1 to `frames`.
+/// A turn of the camera around its target, or of the lights, in frames 1 to `frames`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turntable {
     /// Frames of a loop, at least 1.
@@ -13,6 +15,17 @@ pub(super) struct Turntable {
 }
 
 impl Turntable {
+    /// The turntable of an animation; `None` where it is none, or a fault was reported.
+    pub(super) fn new(animation: &Animation) -> Option<Self> {
+        let Animation::Turntable { frames, turns, .. } = animation else {
+            return None;
+        };
+        Some(Self {
+            frames: frames.get()?.0,
+            turns: turns.get()?.0,
+        })
+    }
+
     /// The angle that is added to the azimuth in frame `frame`.
     ///
     /// For whole turns frame `frame + frames` is the same as `frame` to the bit: the fraction of

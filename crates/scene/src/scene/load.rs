@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use super::{CloudDescription, Description, Scene};
 use crate::file::{Camera, File, Materials};
-use crate::motion::CameraMotion;
+use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
 use crate::text::{Fault, Placed, Read, Slice, collect, optional, token};
 use crate::values::MaterialName;
@@ -108,9 +108,12 @@ impl Draft {
         // Each part is made before any is missed, so that the faults of all are told.
         let world = world::world(file);
         let motion = CameraMotion::new(file, text);
+        let lights = Lights::new(file);
         let lens = world::lens(&file.lens, &file.image);
         let image = file.image.value.as_ref()?;
-        let (world, clouds) = world?;
+        let (mut world, clouds) = world?;
+        let lights = lights?;
+        world.has_colored_lights = lights.may_have_color();
         let camera = file.camera.value.as_ref()?;
         let fill = match camera {
             Camera::Frame { fill, .. } => Some(fill.get()?.0),
@@ -119,11 +122,13 @@ impl Draft {
         let scene = Scene {
             world,
             motion: motion?,
+            lights,
             lens: lens?,
             width: image.width.get()?.0,
             height: image.height.get()?.0,
             description: Description {
                 materials: names(&file.materials)?,
+                lights: Vec::new(),
                 camera: camera.kind(),
                 animation: optional(&file.animation, |animation| Some(animation.kind()))?,
                 lens: world::lens_as_written(&file.lens)?,
@@ -169,6 +174,8 @@ impl Draft {
             scene.lens.width *= scale;
             scene.lens.shift *= scale;
         }
+        scene.description.lights = scene.lights.names();
+        scene.world.lights = scene.first_lights();
         Ok(scene)
     }
 }

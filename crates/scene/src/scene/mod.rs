@@ -6,10 +6,10 @@ use std::ops::{Range, RangeInclusive};
 use std::path::PathBuf;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Exposure, Lens, Pose, View, World};
+use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, View, World};
 
 use crate::motion::{
-    CameraMotion, FrameError, Framing, OpenShutter, Picture, Turning, axes_of_orbit,
+    CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
 };
 
 /// A scene file that was read and found valid.
@@ -17,6 +17,7 @@ use crate::motion::{
 pub struct Scene {
     world: World,
     motion: CameraMotion,
+    lights: Lights,
     lens: Lens,
     width: u32,
     height: u32,
@@ -38,6 +39,8 @@ pub struct CloudDescription {
 pub struct Description {
     /// The names of the materials that the file defines, in the order of the world's.
     pub materials: Vec<String>,
+    /// The names of the lights, where they have any, in the order of the world's.
+    pub lights: Vec<Option<String>>,
     /// The kind of camera, for example `LookAt`.
     pub camera: &'static str,
     /// The kind of animation, `Keyframes` or `Turntable`; `None` for a still.
@@ -47,7 +50,8 @@ pub struct Description {
 }
 
 impl Scene {
-    /// The spheres, lights and materials, the same in every frame.
+    /// The spheres and materials, the same in every frame, and the lights of the first frame: [`Self::exposure`] has
+    /// those of another one where they differ, and [`Self::lights`] tells them.
     pub fn world(&self) -> &World {
         &self.world
     }
@@ -56,20 +60,21 @@ impl Scene {
     ///
     /// # Errors
     /// Refuses frames in which the camera looks nowhere, in their middle or where their shutter opens
-    /// or closes: keys may lead a `LookAt` camera to its target.
+    /// or closes: keys may lead a `LookAt` camera to its target. So it does where a light has no direction.
     pub fn view(&self, frame: i32) -> Result<View, FrameError> {
         let Pose { camera, zoom } = self.motion.pose(frame, 0.0)?;
         if let Some(shutter) = self.shutter() {
             self.motion.pose(frame, -0.5 * shutter)?;
             self.motion.pose(frame, 0.5 * shutter)?;
         }
+        self.lights.at(frame, &camera, self.motion.target())?;
         Ok(View {
             camera,
             lens: self.lens,
             zoom,
             width: self.width,
             height: self.height,
-            frame: i64::from(self.motion.looped(frame)),
+            frame: i64::from(self.lights.looped(self.motion.looped(frame))),
         })
     }
 
@@ -86,8 +91,38 @@ impl Scene {
                     duration,
                 },
             ),
+            (None, Ok(_)) if self.lights.may_move() => {
+                Exposure::from(view).with_lights(self.lights(view))
+            }
             _ => Exposure::from(view),
         }
+    }
+
+    /// The lights in a view of a frame, which may have another size, in the world's axes.
+    pub fn lights(&self, view: &View) -> Vec<Light> {
+        let frame = i32::try_from(view.frame).ok();
+        let lights = frame.and_then(|frame| self.lights_at(frame, &view.camera).ok());
+        lights.unwrap_or_else(|| self.world.lights.clone())
+    }
+
+    fn lights_at(&self, frame: i32, camera: &Camera) -> Result<Vec<Light>, FrameError> {
+        self.lights.at(frame, camera, self.motion.target())
+    }
+
+    /// Returns whether the lights of frames may differ from those of others: through keys, on a turntable, or attached
+    /// to the camera.
+    pub fn has_moving_lights(&self) -> bool {
+        self.lights.may_move()
+    }
+
+    /// The lights of the first frame; of a frame without a view, those that a camera at the origin sees.
+    fn first_lights(&self) -> Vec<Light> {
+        let first = self.frames().map_or(1, |frames| *frames.start());
+        let camera = self.motion.pose(first, 0.0).map(|pose| pose.camera);
+        let none = Angle::from_degrees(0.0);
+        let camera = camera.unwrap_or_else(|_| Camera::free(DVec3::ZERO, none, none, none));
+        self.lights_at(first, &camera)
+            .unwrap_or_else(|_| self.lights.somewhere())
     }
 
     /// The time for which the shutter is open in each frame, in frames: half of it before the

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+mod lights;
 mod opencv;
 
 use glam::{DVec2, DVec3};
@@ -62,6 +63,7 @@ fn what_is_left_out_has_its_default() {
         *scene.description(),
         Description {
             materials: Vec::new(),
+            lights: Vec::new(),
             camera: "Free",
             animation: None,
             lens: String::from("Fov(90)"),
@@ -95,7 +97,7 @@ fn surfaces_have_their_defaults() {
         seed: 0,
     });
     assert_eq!(world.material(3).roughness, roughness);
-    assert_eq!(world.lights[0].toward(), DVec3::Y);
+    assert_eq!(world.lights[0].toward(), Some(DVec3::Y));
     assert_eq!(world.lights[0].intensity(), DVec3::ONE);
     assert_eq!(scene.description().materials.len(), 3);
 }

@@ -10,8 +10,8 @@ pub(crate) use color::{Color, from_srgb, linear};
 pub(crate) use point::{FrameRange, Point, Shift, ValueRange};
 pub(crate) use quantity::{
     Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Fill, FocalLength, Frame, FrameCount,
-    FramesPerSecond, GrainSize, ImageSide, Radius, RetinaDistance, RetinaWidth, Scale, Seed,
-    Shininess, Shutter, Strength, Turns, Zoom,
+    FramesPerSecond, GrainSize, ImageSide, Radius, Reference, RetinaDistance, RetinaWidth, Scale,
+    Seed, Shininess, Shutter, Strength, Turns, Zoom,
 };
 pub(crate) use rotation::Rotation;
-pub(crate) use words::{ColumnName, FileName, Flag, MaterialName};
+pub(crate) use words::{ColumnName, FileName, Flag, LightName, MaterialName};

@@ -40,6 +40,8 @@ quantities! {
     RetinaWidth(f64): "a width greater than 0", |x| x > 0.0;
     /// The distance of the retina.
     RetinaDistance(f64): "a distance greater than 0", |x| x > 0.0;
+    /// The distance at which a point light has its intensity.
+    Reference(f64): "a distance greater than 0", |x| x > 0.0, default 1.0;
     /// The focal length of a matrix.
     FocalLength(f64): "a focal length in pixels, greater than 0", |x| x > 0.0;
     /// The horizontal field of view.

@@ -23,6 +23,8 @@ words! {
     Flag(bool): "`true` or `false`";
     /// The name of a material.
     MaterialName(String): "the name of a material in quotation marks";
+    /// The name of a light.
+    LightName(String): "the name of a light in quotation marks";
     /// The name of a file, relative to the scene file.
     FileName(String): "the name of a file in quotation marks";
     /// The name of a column of a table.

@@ -66,6 +66,21 @@ impl Draft {
         self.head[2] = format!("camera: Free(position: (0, 0, {}))", 100.0 * (1.0 - times));
     }
 
+    /// A point light, which at this distance is as bright as a directional light of this intensity.
+    pub(super) fn point_light(
+        &mut self,
+        [x, y, z]: [f64; 3],
+        intensity: f64,
+        reference: Option<f64>,
+    ) {
+        let falloff = match reference {
+            Some(reference) => format!("reference: {reference}"),
+            None => "falloff: None".to_owned(),
+        };
+        let light = format!("Point(position: ({x}, {y}, {z}), intensity: {intensity}, {falloff})");
+        self.lights.push(light);
+    }
+
     pub(super) fn sphere(&mut self, [x, y, z]: [f64; 3], radius: f64) {
         let sphere = format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")");
         self.spheres.push(sphere);

@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use super::parallel::{parallel_lenses, planes_that_cut};
+use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
     highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
@@ -17,7 +18,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 25] = [
+pub(super) const FAMILIES: [Family; 29] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -96,6 +97,26 @@ pub(super) const FAMILIES: [Family; 25] = [
     Family {
         name: "many lights",
         draft: many_lights,
+        rarity: 1,
+    },
+    Family {
+        name: "near lights",
+        draft: near_lights,
+        rarity: 1,
+    },
+    Family {
+        name: "lights between spheres",
+        draft: lights_between_spheres,
+        rarity: 1,
+    },
+    Family {
+        name: "lights inside",
+        draft: lights_inside,
+        rarity: 1,
+    },
+    Family {
+        name: "grazing cones",
+        draft: grazing_cones,
         rarity: 1,
     },
     Family {

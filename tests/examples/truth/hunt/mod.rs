@@ -9,6 +9,7 @@ mod options;
 mod page;
 mod parallel;
 mod pixels;
+mod point_lights;
 mod random;
 mod reduce;
 mod report;

@@ -16,7 +16,7 @@ pub(super) fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
     ]
 }
 
-fn add_balls(numbers: &mut Numbers, draft: &mut Draft, count: usize, sizes: [f64; 2]) {
+pub(super) fn add_balls(numbers: &mut Numbers, draft: &mut Draft, count: usize, sizes: [f64; 2]) {
     for _ in 0..count {
         let depth = numbers.between(60.0, 200.0);
         let center = place(numbers, depth);

@@ -7,7 +7,7 @@ mod tests;
 
 use std::path::{Path, PathBuf};
 
-use marbles_core::{LightPart, Method, Renderer, Settings, View, World};
+use marbles_core::{DirectionalLight, Light, LightPart, Method, Renderer, Settings, View, World};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
@@ -44,12 +44,15 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     }
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
-    let request = request(arguments, scene)?;
+    let lights = match arguments.layout {
+        LayoutForm::Diligent => distant_lights(arguments, &scene.lights(&view))?,
+    };
+    let request = request(arguments, scene, &lights)?;
     interrupt::listen(console);
     prepare(&arguments.output.join("mask.png"))?;
 
     match arguments.layout {
-        LayoutForm::Diligent => write_truth(&arguments.output, &request, &view, &pool)?,
+        LayoutForm::Diligent => write_truth(&arguments.output, &request, (&view, &lights), &pool)?,
     }
     let (form, quiet) = (arguments.progress, arguments.quiet);
     let progress = Progress::new(console, form, quiet, request.pictures());
@@ -62,19 +65,37 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     Ok(conclusion(&outcome, "picture", console))
 }
 
+/// The lights of a layout that has directions of them alone.
+fn distant_lights(
+    arguments: &DatasetArguments,
+    lights: &[Light],
+) -> Result<Vec<DirectionalLight>, Failure> {
+    let distant = lights.iter().map(|light| match light {
+        Light::Directional(light) => Ok(*light),
+        Light::Point(_) => Err(Failure::unusable(
+            &arguments.scene,
+            "the layout diligent has directions of lights, and the scene a point light",
+        )),
+    });
+    distant.collect()
+}
+
 /// A picture for each light, in codes of 16 bit that are in proportion to light.
-fn request(arguments: &DatasetArguments, scene: Scene) -> Result<Request, Failure> {
+fn request(
+    arguments: &DatasetArguments,
+    scene: Scene,
+    lights: &[DirectionalLight],
+) -> Result<Request, Failure> {
     let world = scene.world();
-    let lights = (0..world.lights.len()).map(LightPart::Light);
-    let names = file_names(world.lights.len());
-    let parts = lights.zip(names);
+    let names = file_names(lights.len());
+    let parts = (0..lights.len()).map(LightPart::Light).zip(names);
     let parts = parts.map(|(light, name)| PicturePart::named(light, name));
     let encoding = Encoding::Png(PngOptions {
         // Those in proportion to light have 16 bit.
         deep: false,
         rgb: true,
         linear: true,
-        gain: gain(world),
+        gain: gain(world, lights),
     });
     let frame = arguments.frame.unwrap_or(*frames_of(&scene).start());
     // Parts have names of their own in this folder.
@@ -108,9 +129,9 @@ fn file_names(count: usize) -> impl Iterator<Item = String> {
 
 /// The power of two by which light is multiplied so that the brightest that a light can make is above ½ and not
 /// above 1: no picture is clipped.
-fn gain(world: &World) -> f64 {
+fn gain(world: &World, lights: &[DirectionalLight]) -> f64 {
     let mut brightest = 0.0_f64;
-    for light in &world.lights {
+    for light in lights {
         let intensity = light.intensity();
         for sphere in 0..world.spheres().len() {
             let highlight = world.material(sphere).highlight;
@@ -130,14 +151,14 @@ fn gain(world: &World) -> f64 {
 fn write_truth(
     folder: &Path,
     request: &Request,
-    view: &View,
+    (view, lights): (&View, &[DirectionalLight]),
     pool: &ThreadPool,
 ) -> Result<(), Failure> {
     let world = request.scene.world();
     let path = |name: &str| -> PathBuf { folder.join(name) };
-    lights::write_names(&path("filenames.txt"), file_names(world.lights.len()))?;
-    lights::write_directions(&path("light_directions.txt"), world, view)?;
-    lights::write_intensities(&path("light_intensities.txt"), world, gain(world))?;
+    lights::write_names(&path("filenames.txt"), file_names(lights.len()))?;
+    lights::write_directions(&path("light_directions.txt"), lights, view)?;
+    lights::write_intensities(&path("light_intensities.txt"), lights, gain(world, lights))?;
     let normals = pool.install(|| Normals::of(&Renderer::new(world), view));
     normals.write_mask(&path("mask.png"))?;
     normals.write_picture(&path("Normal_gt.png"))?;

@@ -32,10 +32,11 @@ fn no_picture_is_clipped_and_none_is_dark() {
             ..Material::MATTE_WHITE
         });
         world.add_sphere(Sphere::new(DVec3::Z, 0.5).unwrap(), material);
+        let mut lights = Vec::new();
         for light in [0.5, 1.0] {
             let color = light * intensity * DVec3::new(0.5, 1.0, 0.25);
-            world.lights.extend(DirectionalLight::new(DVec3::X, color));
+            lights.extend(DirectionalLight::new(DVec3::X, color));
         }
-        assert_eq!(gain(&world), expected, "{intensity}, {strength}");
+        assert_eq!(gain(&world, &lights), expected, "{intensity}, {strength}");
     }
 }

@@ -13,8 +13,8 @@ use std::path::{Path, PathBuf};
 use blake3::Hash;
 use glam::{DMat3, DVec3};
 use marbles_core::{
-    DirectionalLight, Extrinsics, Intrinsics, LightPart, Method, Summary, View, Window, World,
-    right_handed,
+    Extrinsics, Intrinsics, Light as WorldLight, LightFalloff, LightPart, Method, Summary, View,
+    Window, World, right_handed,
 };
 use marbles_scene::Scene;
 use serde::Serialize;
@@ -33,7 +33,7 @@ pub(crate) struct Sidecar<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<Part>,
     camera: Camera,
-    lights: Vec<Light>,
+    lights: Vec<Light<'a>>,
     ambient: [f64; 3],
     background: [f64; 3],
     /// The seeds of rough materials, by the materials' names.
@@ -94,9 +94,9 @@ enum Projection {
 }
 
 #[derive(Debug, Serialize)]
-struct Light {
-    /// `null`, for scenes give lights no names.
-    name: Option<String>,
+struct Light<'a> {
+    /// `null` where the scene gives it none.
+    name: Option<&'a str>,
     #[serde(flatten)]
     place: LightPlace,
     intensity: [f64; 3],
@@ -109,6 +109,13 @@ enum LightPlace {
     Directional {
         toward: [f64; 3],
         toward_camera: [f64; 3],
+    },
+    Point {
+        position: [f64; 3],
+        position_camera: [f64; 3],
+        falloff: &'static str,
+        /// The distance at which a white surface has the radiance `intensity`.
+        reference: f64,
     },
 }
 
@@ -144,7 +151,10 @@ impl<'a> Sidecar<'a> {
         let world = scene.world();
         let place = Extrinsics::of(&view.camera);
         let name = path.file_name().unwrap_or(path.as_os_str());
-        let lights = world.lights.iter();
+        let lights = scene.lights(view);
+        let names = scene.description().lights.iter();
+        let lights = lights.iter().zip(names);
+        let lights = lights.map(|(light, name)| Light::of(light, name.as_deref(), &place));
         Self {
             scene: name.to_string_lossy().into_owned(),
             frame,
@@ -154,7 +164,7 @@ impl<'a> Sidecar<'a> {
             },
             region: None,
             camera: Camera::of(view, &place),
-            lights: lights.map(|light| Light::of(light, &place)).collect(),
+            lights: lights.collect(),
             ambient: numbers(world.ambient),
             background: numbers(world.background),
             seeds: seeds(world, &scene.description().materials),
@@ -252,13 +262,24 @@ impl Projection {
     }
 }
 
-impl Light {
-    fn of(light: &DirectionalLight, place: &Extrinsics) -> Self {
+impl<'a> Light<'a> {
+    fn of(light: &WorldLight, name: Option<&'a str>, place: &Extrinsics) -> Self {
         Self {
-            name: None,
-            place: LightPlace::Directional {
-                toward: numbers(right_handed(light.toward())),
-                toward_camera: numbers(place.direction(light.toward())),
+            name,
+            place: match light {
+                WorldLight::Directional(light) => LightPlace::Directional {
+                    toward: numbers(right_handed(light.toward())),
+                    toward_camera: numbers(place.direction(light.toward())),
+                },
+                WorldLight::Point(light) => LightPlace::Point {
+                    position: numbers(right_handed(light.position())),
+                    position_camera: numbers(place.point(light.position())),
+                    falloff: match light.falloff() {
+                        LightFalloff::InverseSquare => "inverse square",
+                        LightFalloff::None => "none",
+                    },
+                    reference: light.reference(),
+                },
             },
             intensity: numbers(light.intensity()),
         }

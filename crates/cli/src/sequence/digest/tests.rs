@@ -81,6 +81,7 @@ fn digest(text: &str, settings: &Settings, encoding: Encoding, frame: i32) -> Ha
         encoding,
         None,
     );
+    let digests = digests.with_names(&scene.description().lights);
     digests.of(&Shot {
         exposure: &scene.exposure(&scene.view(frame).unwrap()),
         frame,
@@ -110,6 +111,9 @@ fn whatever_changes_a_picture_changes_its_digest() {
         ("shadows: true", "shadows: false"),
         ("toward: (-1", "toward: (-2"),
         ("intensity: 0.5", "intensity: 0.25"),
+        ("intensity: 0.5", "intensity: 0.5, name: \"key\""),
+        ("intensity: 0.5", "intensity: 0.5, name: \"rim\""),
+        ("intensity: 0.5", "intensity: 0.5, attached: Camera"),
         ("albedo: 0.5", "albedo: (0.5, 0.5, 0.25)"),
         ("exponent: 2", "exponent: 3"),
         ("strength: 0.6", "strength: 0.7"),

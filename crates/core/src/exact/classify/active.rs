@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::edges::cell::Ball;
+use crate::edges::terminator::Plane;
 use crate::exact::scene::InCamera;
 use crate::model::material::Grain;
 use crate::model::roughness::PixelKey;
@@ -39,16 +40,22 @@ impl Terminators {
             return Self::Plain;
         };
         match roughness.grain {
+            // The factors bend that of a point light.
+            Grain::Pixel if scene.has_near_lights => Self::Anywhere,
             Grain::Pixel => Self::Tilted(roughness.pixel_factors(sphere, pixel)),
             Grain::Surface(_) => Self::Anywhere,
         }
     }
 
-    /// The unit vector across which the terminator of a light lies, on the side that faces it: with
+    /// The plane of the terminator of a light on a ball, whose axis is on the side that faces it: with
     /// factors w, (n ∘ w) · l = n · (w ∘ l).
-    pub(crate) fn axis(&self, scene: &InCamera<'_>, light: usize) -> Option<DVec3> {
-        let toward = scene.lights[light].toward;
-        match self {
+    pub(crate) fn plane(&self, scene: &InCamera<'_>, ball: &Ball, light: usize) -> Option<Plane> {
+        let toward = match &scene.lights[light].near {
+            None => scene.lights[light].toward,
+            Some(_) if *self == Self::Anywhere => return None,
+            Some(near) => return Plane::of_near_light(near.position - ball.center, ball.radius),
+        };
+        let axis = match self {
             Self::Plain => Some(toward),
             Self::Tilted(factors) => {
                 let to_world = scene.world_from_camera;
@@ -56,6 +63,7 @@ impl Terminators {
                 Some((to_world.transpose() * tilted).normalize())
             }
             Self::Anywhere => None,
-        }
+        };
+        axis.map(|axis| Plane { axis, offset: 0.0 })
     }
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::edges::cell::Ball;
+use crate::edges::terminator::Plane;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
@@ -25,11 +26,11 @@ pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
         && (one.center * far[1] - other.center * far[0]).length() <= slack
 }
 
-/// Returns whether parallel rays go along a terminator's axis: then it is an outline, and no edge of its own. Beside the
-/// outline it leaves less than the square of this of a radius.
-pub(crate) fn is_along_view(axis: DVec3) -> bool {
+/// Returns whether parallel rays go along the axis of a terminator in the middle of a sphere: then it is an outline, and
+/// no edge of its own. Beside the outline it leaves less than the square of this of a radius.
+pub(crate) fn is_outline(terminator: &Plane) -> bool {
     const ALONG: f64 = 1e-9;
-    axis.truncate().length_squared() < ALONG * ALONG
+    terminator.offset == 0.0 && terminator.axis.truncate().length_squared() < ALONG * ALONG
 }
 
 /// Returns whether parallel rays come from where a light is, but for rounding: then spheres hide their own shadows.

@@ -7,23 +7,25 @@ use fearless_simd::prelude::*;
 use glam::DVec3;
 
 use super::active::{Active, Terminators};
-use super::coincidence::{ALIKE, has_same_outline, hides_all, is_along_view, is_at_eye};
+use super::coincidence::{ALIKE, has_same_outline, hides_all, is_at_eye, is_outline};
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::seam::seam;
-use crate::edges::shadow::Caster;
+use crate::edges::shadow::{Caster, Cone};
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
+use crate::search::point_occluders::Beam;
 
 /// The way of a light to a sphere in a cell.
 #[derive(Clone, Debug)]
@@ -80,6 +82,9 @@ pub(super) const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 /// rounding moves such a line by, in sides of a cell: it is a double root.
 const SEEN_EDGE_ON: f64 = 1e-5;
 const ROOT_OF_ROUNDING: f64 = 1e-7;
+
+/// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.
+const NEAREST: f64 = 0.5;
 
 /// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
 const FOLLOWED: f64 = 4.0;
@@ -164,7 +169,10 @@ impl Contents {
                 is_dark: false,
             });
         }
+        let begins_inside = self.is_enclosed || !self.cut.is_empty();
         self.add_caps(scene, cell);
+        // Which of the rays that begin inside of spheres see what a light in them reaches is not told apart.
+        self.is_mixed |= cell.is_parallel() && begins_inside && scene.has_near_lights;
         self.hidden.remove(cache.level, &mut self.active);
         for position in 0..self.active.len() {
             let active = self.active[position];
@@ -175,7 +183,8 @@ impl Contents {
             }
             self.add_seams(cell, position);
             let may_be_lit = is_outside && !self.is_enclosed && !active.is_dark;
-            let may_be_shaded = may_be_lit && scene.world.shadows;
+            let is_reached = scene.lights.iter().any(|light| !light.is_shut_off);
+            let may_be_shaded = may_be_lit && is_reached && scene.world.shadows;
             let patch = may_be_shaded.then(|| {
                 let Active {
                     ball,
@@ -186,20 +195,21 @@ impl Contents {
                 Patch::new(cell, ball, discriminant, along)
             });
             for light in 0..scene.lights.len() {
-                let reach = if may_be_lit {
+                let reach = if may_be_lit && !scene.lights[light].is_shut_off {
                     self.reach_of(scene, cell, (&active, patch.as_ref()), light, cache)
                 } else {
                     Reach::Nowhere
                 };
-                let axis = active.terminators.axis(scene, light);
-                let is_aligned = cell.is_parallel() && axis.is_some_and(is_along_view);
-                let reach = match axis {
+                let plane = active.terminators.plane(scene, &active.ball, light);
+                // Through the center and across the view it coincides with the outline.
+                let is_aligned = cell.is_parallel() && plane.as_ref().is_some_and(is_outline);
+                let reach = match plane {
                     // It faces away from all that rays see.
-                    Some(axis) if is_aligned && axis.z > 0.0 => Reach::Nowhere,
+                    Some(plane) if is_aligned && plane.axis.z > 0.0 => Reach::Nowhere,
                     _ => reach,
                 };
-                if let (Some(axis), Reach::Past(_), false) = (axis, &reach, is_aligned) {
-                    let terminator = terminator(cell, &active.ball, axis);
+                if let (Some(plane), Reach::Past(_), false) = (plane, &reach, is_aligned) {
+                    let terminator = terminator(cell, &active.ball, &plane);
                     if terminator.may_vanish() {
                         self.conics
                             .push((Kind::Terminator(position, light), terminator));
@@ -257,6 +267,9 @@ impl Contents {
         cache: &mut OccluderCache,
     ) -> Reach {
         let first = self.occluders.len();
+        if let Some(near) = &scene.lights[light].near {
+            return self.reach_of_near(scene, cell, (active, patch), (light, near), cache);
+        }
         if let Some(patch) = patch {
             let in_camera = &scene.lights[light];
             let Some(range) = cache.occluders(scene, active.sphere, light) else {
@@ -296,17 +309,68 @@ impl Contents {
         Reach::Past(first..self.occluders.len())
     }
 
+    /// The way of a point light to a sphere that the eye is outside of; to none that the light is inside of.
+    fn reach_of_near(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        (active, patch): (&Active, Option<&Patch>),
+        (light, near): (usize, &NearLight),
+        cache: &mut OccluderCache,
+    ) -> Reach {
+        let first = self.occluders.len();
+        let in_camera = &scene.lights[light];
+        let from_center = near.position - active.ball.center;
+        if from_center.length() <= active.ball.radius {
+            return Reach::Nowhere;
+        }
+        if let Some(patch) = patch {
+            let size = cell.size[0].min(cell.size[1]);
+            let size = size * patch.ends[0].length() / cell.middle.length();
+            let (middle, around) = patch.ball();
+            let beam = Beam::new(near.position, middle, around);
+            let apart = (middle - near.position).length() + around;
+            let range = cache.occluders_of_near(scene, active.sphere, light);
+            cache.tests += range.len() as u64;
+            for index in range {
+                let sphere = cache.sphere(index);
+                let (center, radius) = scene.center(sphere);
+                if !beam.is_reached_by(center, radius) {
+                    continue;
+                }
+                let mut known = self.occluders[first..].iter();
+                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
+                    continue;
+                }
+                let caster = in_camera.caster(center, radius);
+                let Some(cone) = caster.cone else { continue };
+                if cone.contains(middle, around) || hides_all_near(&active.ball, &cone, radius) {
+                    return Reach::Nowhere;
+                }
+                // What rounding turns the edges of the cone by grows toward its apex, and where it is flat.
+                let distance = cone.axis.length();
+                let largest = near.position.length() + center.length() + radius;
+                let turned = largest / distance.min(cone.power.max(0.0).sqrt());
+                let moved = ROUNDINGS * (largest + active.ball.center.length() + turned * apart);
+                self.rounding = self.rounding.max(moved / size);
+                self.occluders.push(caster);
+            }
+        }
+        Reach::Past(first..self.occluders.len())
+    }
+
     /// Returns whether some sphere has a larger exponent than this, or bumps, which make any exponent steep.
     pub(crate) fn is_narrow(&self, scene: &InCamera<'_>, broad: f64) -> bool {
-        self.active.iter().any(|active| {
-            if active.terminators == Terminators::Anywhere {
-                return true;
-            }
-            let material = scene.world.material(active.sphere);
-            let highlight = material.highlight;
-            let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
-            material.exponent.max(shininess) > broad
-        })
+        scene.has_near_lights
+            || self.active.iter().any(|active| {
+                if active.terminators == Terminators::Anywhere {
+                    return true;
+                }
+                let material = scene.world.material(active.sphere);
+                let highlight = material.highlight;
+                let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
+                material.exponent.max(shininess) > broad
+            })
     }
 
     /// Returns whether highlights are too sharp for rules along chords of the cell.
@@ -331,6 +395,16 @@ impl Contents {
             // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
             let cells = finish.shading_normal.cells();
             let usual = turn.min(0.25 / cells) * finish.usual_slope();
+            for light in 0..lights {
+                // The way to a point light turns and shortens: rules follow it from farther than the patch is long.
+                if let (Some(near), Reach::Past(_)) = (
+                    &scene.lights[light].near,
+                    &self.reach[position * lights + light],
+                ) && length > NEAREST * patch.distance_from(near.position)
+                {
+                    return true;
+                }
+            }
             if finish.sharpness() * usual * usual < 2.0 * FOLLOWED {
                 continue;
             }
@@ -365,6 +439,17 @@ impl Contents {
             length * bumps.cells() > most * active.ball.radius
         })
     }
+}
+
+/// The same for a point light, from which a cone is seen.
+fn hides_all_near(ball: &Ball, cone: &Cone, radius: f64) -> bool {
+    /// Of the length of the axis, more than rounding.
+    const ALIKE: f64 = 1e-12;
+    let own = ball.center - cone.apex;
+    let [far, near] = [own.length(), cone.axis.length()];
+    far > near
+        && (own * near - cone.axis * far).length() <= ALIKE * far * near
+        && (ball.radius * near - radius * far).abs() <= ALIKE * far * near
 }
 
 /// A bound of the width of a sphere's silhouette on the retina at distance 1; infinite where the sphere comes

@@ -31,6 +31,8 @@ impl Contents {
         for (position, active) in self.active.iter().enumerate() {
             let albedo = scene.world.albedo(active.sphere).max_element();
             let mut excess = (albedo - 1.0).max(0.0) * white.max_element();
+            let lights_together = lights_together + self.excess_of_near(scene, cell, position);
+            excess += albedo * (lights_together - lights.max_element());
             let material = scene.world.material(active.sphere);
             if let Some(highlight) = &material.highlight {
                 // The tops of ordinary highlights are no reason to look closer.
@@ -45,6 +47,23 @@ impl Contents {
             highest = highest.max(excess);
         }
         highest
+    }
+
+    /// By how much more than their intensities point lights may send to an active sphere in the brightest channel,
+    /// whatever the highlight's strength.
+    fn excess_of_near(&self, scene: &InCamera<'_>, cell: &Cell, position: usize) -> f64 {
+        let active = &self.active[position];
+        if !scene.has_near_lights || active.ball.outside <= 0.0 {
+            return 0.0;
+        }
+        let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+        let first = position * scene.lights.len();
+        let lights = scene.lights.iter().zip(&self.reach[first..]);
+        let reaching = lights.filter(|(_, reach)| matches!(reach, Reach::Past(_)));
+        let excess = reaching.map(|(light, _)| {
+            (light.most_on(&patch) - 1.0).max(0.0) * light.intensity.max_element()
+        });
+        excess.sum()
     }
 
     /// About the number of cells of the noise of bumps side by side in the cell that was seen last, where they
@@ -83,11 +102,18 @@ impl Contents {
         for (light, reach) in scene.lights.iter().zip(&self.reach[first..]) {
             if matches!(reach, Reach::Past(_)) {
                 let [_, highlight] = finish.reflectance.brightest(light.intensity);
-                all += highlight;
+                all += match light.near {
+                    None => highlight,
+                    Some(_) => {
+                        let (ball, along) = (&active.ball, &active.along);
+                        let patch = Patch::new(cell, ball, &active.discriminant, along);
+                        highlight * light.most_on(&patch)
+                    }
+                };
             }
         }
         let is_ahead = active.ball.outside > 0.0 && active.ball.center.z > active.ball.radius;
-        if all == 0.0 || finish.is_rough() || !is_ahead {
+        if all == 0.0 || finish.is_rough() || !is_ahead || scene.has_near_lights {
             return all;
         }
         simd.vectorize(

@@ -8,12 +8,13 @@ use fearless_simd::{Level, Simd, dispatch, f64x8};
 use super::occluders::{Occluder, Occluders, eight};
 use super::patch::Patch;
 use super::shade_mask::ShadeMask;
-use crate::edges::cell::Cell;
+use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
+use crate::search::point_occluders::Beam;
 
 /// The radius in pixels of spheres whose occluders are sought for all of the sphere, not for what a tile
 /// sees of it, where they are smaller; which is how pixels stay the same in any tile. A small sphere lies
@@ -94,24 +95,88 @@ impl OccluderCache {
         range
     }
 
+    /// The number in the scene of one of the occluders of a range.
+    pub(crate) fn sphere(&self, index: usize) -> usize {
+        self.spheres[index] as usize
+    }
+
+    /// The occluders that may keep a point light from a sphere, in the order of their numbers.
+    pub(crate) fn occluders_of_near(
+        &mut self,
+        scene: &InCamera<'_>,
+        sphere: usize,
+        light: usize,
+    ) -> Range<usize> {
+        let mut known = self.known.iter();
+        if let Some(known) = known.find(|known| known.sphere == sphere && known.light == light) {
+            return known.range.clone().unwrap_or(0..0);
+        }
+        let range = self.find_near(scene, sphere, light);
+        self.known.push(Known {
+            sphere,
+            light,
+            range: Some(range.clone()),
+        });
+        range
+    }
+
     /// Looks for these in the hierarchy.
-    fn find(&mut self, scene: &InCamera<'_>, sphere: usize, light: usize) -> Option<Range<usize>> {
-        let ball = scene.ball(sphere);
+    fn find_near(&mut self, scene: &InCamera<'_>, sphere: usize, light: usize) -> Range<usize> {
+        let first = self.spheres.len();
+        let of_light = &scene.lights[light];
+        let spheres = scene.world.spheres();
+        let own = spheres[sphere];
+        let patch = self.patch_of_tile(&scene.ball(sphere));
+        let (middle, around) = patch.ball();
+        let occluders = scene.visibility.point_light(of_light.index);
+        if let (Some(occluders), Some(near)) = (occluders, &of_light.near) {
+            let apex = scene.in_world(near.position);
+            let beam = Beam::new(apex, scene.in_world(middle), around * WIDER);
+            occluders.any_in(&beam, |candidate| {
+                self.tests += 1;
+                if candidate != sphere && spheres[candidate] != own {
+                    self.spheres.push(candidate as u32);
+                }
+                false
+            });
+        }
+        self.spheres[first..].sort_unstable();
+        // Both lists have the same places.
+        for index in first..self.spheres.len() {
+            let (center, radius) = scene.center(self.spheres[index] as usize);
+            self.occluders
+                .push(&Occluder::new(center, radius, of_light));
+        }
+        first..self.spheres.len()
+    }
+
+    /// What the tile sees of a ball; all of a small one.
+    fn patch_of_tile(&self, ball: &Ball) -> Patch {
+        if self.is_small(ball) {
+            return Patch {
+                ends: [ball.center; 2],
+                around: ball.radius + GEOMETRY_SLACK * ball.center.length(),
+            };
+        }
+        let discriminant = silhouette(&self.tile, ball);
+        let along = self.tile.along(ball.center);
+        Patch::new(&self.tile, ball, &discriminant, &along)
+    }
+
+    /// Returns whether occluders are sought for all of a ball.
+    fn is_small(&self, ball: &Ball) -> bool {
         let distance = match ball.projection {
             Projection::Central => ball.center.z,
             Projection::Parallel => 1.0,
         };
-        let is_small = ball.radius < SMALL_PX * self.pixel * distance;
-        let patch = if is_small {
-            Patch {
-                ends: [ball.center; 2],
-                around: ball.radius + GEOMETRY_SLACK * ball.center.length(),
-            }
-        } else {
-            let discriminant = silhouette(&self.tile, &ball);
-            let along = self.tile.along(ball.center);
-            Patch::new(&self.tile, &ball, &discriminant, &along)
-        };
+        ball.radius < SMALL_PX * self.pixel * distance
+    }
+
+    /// Looks for those of a directional light in the hierarchy.
+    fn find(&mut self, scene: &InCamera<'_>, sphere: usize, light: usize) -> Option<Range<usize>> {
+        let ball = scene.ball(sphere);
+        let is_small = self.is_small(&ball);
+        let patch = self.patch_of_tile(&ball);
         let points = patch.ends.map(|point| scene.in_world(point));
         let around = patch.around * WIDER;
         let first = self.spheres.len();

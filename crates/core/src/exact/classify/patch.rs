@@ -61,6 +61,28 @@ impl Patch {
         }
     }
 
+    /// The distance of all of it from a point, at least.
+    pub(crate) fn distance_from(&self, point: DVec3) -> f64 {
+        let [start, end] = self.ends;
+        let way = end - start;
+        let share = (point - start).dot(way) / way.length_squared();
+        let share = if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        ((start + way * share - point).length() - self.around).max(0.0)
+    }
+
+    /// A ball around it.
+    pub(crate) fn ball(&self) -> (DVec3, f64) {
+        let [start, end] = self.ends;
+        (
+            0.5 * (start + end),
+            0.5 * (end - start).length() + self.around,
+        )
+    }
+
     /// The side of the sphere `other` on which all of this patch of `ball` lies, if it is one.
     ///
     /// A point p of a sphere i lies outside of a sphere j where p · w > m, with w = cᵢ − cⱼ and

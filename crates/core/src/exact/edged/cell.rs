@@ -116,10 +116,9 @@ impl Workspace {
         let is_fine = self
             .contents
             .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
-        if !is_fine
-            && !self.contents.is_mixed
-            && let Some(part) = self.by_boxes(simd, pixel, &cell)
-        {
+        // Boxes know no point lights.
+        let may_be_boxes = !is_fine && !self.contents.is_mixed && !scene.has_near_lights;
+        if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
             return Ok(part);
         }
         let mut part = self.part(simd, pixel, &cell, 0)?;
@@ -256,15 +255,17 @@ impl Workspace {
         let is_coarse = self.contrast * contents.rounding > *tolerance;
         let units = if is_coarse { 0 } else { self.budget.of_part() };
         let negligible = 0.01 * tolerance;
-        let filled = of_filled_cell(
-            simd,
-            scene,
-            cell,
-            contents,
-            (*tolerance, pixel.context.allowance),
-            &mut self.noise,
-        );
-        if let Some(found) = filled {
+        let filled = (!scene.has_near_lights).then(|| {
+            of_filled_cell(
+                simd,
+                scene,
+                cell,
+                contents,
+                (*tolerance, pixel.context.allowance),
+                &mut self.noise,
+            )
+        });
+        if let Some(found) = filled.flatten() {
             self.work.samples += found.samples;
             work.samples += found.samples;
             self.is_random |= found.is_random;

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::{Grain, Highlight, Material, Roughness};
 use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
@@ -44,9 +44,7 @@ fn world() -> World {
     world.add_sphere(floor, materials[0]);
     for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, 0.2)] {
         let intensity = Color::new(0.6, 0.5, 0.4);
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, intensity));
+        world.lights.extend(Light::directional(toward, intensity));
     }
     world.background = Color::new(0.0, 0.1, 0.2);
     world
@@ -145,9 +143,7 @@ fn crowds_meet_their_tolerance() {
     }
     for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, -0.2)] {
         let intensity = Color::splat(0.5);
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, intensity));
+        world.lights.extend(Light::directional(toward, intensity));
     }
     world.ambient = Color::splat(0.1);
     world.background = Color::splat(0.2);

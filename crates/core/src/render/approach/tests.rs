@@ -1,5 +1,5 @@
 use super::*;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use glam::DVec3;
@@ -9,7 +9,7 @@ fn world() -> World {
     let mut world = World::new();
     world.background = Color::splat(0.05);
     world.ambient = Color::splat(0.2);
-    let light = DirectionalLight::new(DVec3::NEG_Z, Color::splat(0.6));
+    let light = Light::directional(DVec3::NEG_Z, Color::splat(0.6));
     world.lights.push(light.unwrap());
     let material = world.add_material(Material {
         albedo: Color::splat(0.5),
@@ -21,7 +21,8 @@ fn world() -> World {
 
 fn approach(tolerance: f64, alpha: bool) -> Approach {
     let method = Method::Tolerance(tolerance);
-    Approach::of(&world(), &Settings { method, alpha })
+    let world = world();
+    Approach::of(&world, &world.lights, &Settings { method, alpha })
 }
 
 fn samples(per_side: u32) -> Method {

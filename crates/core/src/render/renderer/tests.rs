@@ -8,9 +8,10 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
+use crate::model::view::View;
 use crate::numeric::angle::Angle;
 use crate::picture::pixel::{Method, Status};
 
@@ -20,7 +21,7 @@ fn ball() -> (World, View, Settings) {
     world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0).unwrap(), white);
     world
         .lights
-        .extend(DirectionalLight::new(-DVec3::Z, Color::ONE));
+        .extend(Light::directional(-DVec3::Z, Color::ONE));
     let view = View {
         camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),
         lens: Lens {
@@ -105,9 +106,7 @@ fn grey_and_colored_rendering_agree_to_the_bit() {
     let go = |_| ControlFlow::Continue(());
     let grey = Renderer::new(&world).render(&view, &settings, &go).unwrap();
     // A second light behind the ball adds color to the world, but none to the picture.
-    world
-        .lights
-        .extend(DirectionalLight::new(DVec3::Z, Color::X));
+    world.lights.extend(Light::directional(DVec3::Z, Color::X));
     let colored = Renderer::new(&world).render(&view, &settings, &go).unwrap();
     assert_eq!(
         (grey.channels(), colored.channels()),
@@ -147,7 +146,7 @@ fn albedos_of_their_own_look_as_those_of_materials() {
     painted.add_spheres(spheres, white, Some(crate::Albedos::Each(albedos)));
     for world in [&mut painted, &mut plain] {
         world.ambient = Color::new(0.1, 0.2, 0.3);
-        let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+        let light = Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
         world.lights.extend(light);
     }
     let go = |_| ControlFlow::Continue(());

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -23,7 +23,7 @@ fn ball(width: u32, height: u32) -> (World, View) {
     let mut world = World::new();
     let white = world.add_material(Material::MATTE_WHITE);
     world.add_sphere(Sphere::new(5.0 * DVec3::Z, 1.0).unwrap(), white);
-    let light = DirectionalLight::new(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
+    let light = Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE);
     world.lights.extend(light);
     let view = View {
         camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),

@@ -4,6 +4,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::*;
 use crate::model::color::Color;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::world::World;
 use crate::search::tests::Random;
@@ -17,7 +18,9 @@ const SCALE: Scale = Scale {
 /// Points on the first of a world's spheres, the first light, and how far they are off.
 fn agrees(world: &World, points: [DVec3; 8], error: f64) -> u64 {
     let visibility = Visibility::new(world);
-    let light = &world.lights[0];
+    let Light::Directional(light) = &world.lights[0] else {
+        panic!("a directional light");
+    };
     let is_dark = |&lane: &usize| {
         let to_light = Ray {
             origin: points[lane],
@@ -58,10 +61,8 @@ fn occluders_that_nearly_touch_the_light() {
         let mut world = World::new();
         let white = world.add_material(Material::MATTE_WHITE);
         let toward = random.point();
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
-        let toward = world.lights[0].toward();
+        world.lights.extend(Light::directional(toward, Color::ONE));
+        let toward = world.lights[0].toward().unwrap();
         let (center, radius) = (random.point() * 3.0, 1.0 + random.number());
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
         let points: [DVec3; 8] = std::array::from_fn(|_| {

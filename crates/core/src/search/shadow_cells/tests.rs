@@ -4,7 +4,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::*;
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::world::World;
@@ -17,9 +17,7 @@ fn world(spheres: &[(DVec3, f64)], lights: &[DVec3]) -> World {
         world.add_sphere(Sphere::new(center, radius).unwrap(), white);
     }
     for &toward in lights {
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
+        world.lights.extend(Light::directional(toward, Color::ONE));
     }
     world
 }
@@ -175,7 +173,7 @@ fn cells_are_shared() {
     for (sphere, &(center, radius)) in spheres.iter().enumerate() {
         if (center - corner).abs().max_element() < 0.1 {
             let asked = SurfacePoint {
-                point: center + radius * world.lights[1].toward(),
+                point: center + radius * world.lights[1].toward().unwrap(),
                 error: 1e-15,
                 sphere,
                 center,

@@ -11,7 +11,7 @@ use crate::edges::tests::{
 use crate::exact::scene::Light;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light as WorldLight;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
@@ -81,6 +81,8 @@ fn light_from(toward: DVec3) -> Light {
         toward,
         right,
         up,
+        near: None,
+        is_shut_off: false,
     }
 }
 
@@ -159,7 +161,7 @@ fn cloud(random: &mut Random, count: usize) -> World {
     for toward in [direction(random), DVec3::Y, direction(random)] {
         world
             .lights
-            .extend(DirectionalLight::new(toward, Color::ONE));
+            .extend(WorldLight::directional(toward, Color::ONE));
     }
     world
 }

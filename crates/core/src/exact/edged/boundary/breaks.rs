@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 
 use super::arcs::{Front, between, front};
 use super::curve::Trace;
-use super::events::{Function, INTERVALS, Stretch, in_disc, polynomial, value};
+use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial, value};
 use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::{Kind, Reach};
 
@@ -209,15 +209,13 @@ impl Boundary {
             let Reach::Past(casters) = reach else {
                 return false;
             };
-            let toward = setting.scene.lights[light].toward;
             for caster in casters.clone() {
                 if caster == own {
                     continue;
                 }
                 let inside = in_disc(simd, setting, caster, &places.point);
-                let height = setting.contents.occluders[caster].center.dot(toward);
-                let is_below = places.point.dot_one(toward).simd_lt(height);
-                if (inside.simd_lt(0.0) & is_below).to_bitmask() == 0xff {
+                let is_beyond = is_beyond(simd, setting, (light, caster), &places.point);
+                if (inside.simd_lt(0.0) & is_beyond).to_bitmask() == 0xff {
                     return false;
                 }
             }

@@ -84,11 +84,17 @@ fn zeros(a: f64, b: f64, c: f64) -> [Option<DVec2>; 2] {
 /// The part of the edge of a shadow that exists and may come as near as `around` to a point beside
 /// the light: the point is seen from the middle of the ball.
 pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Vec<Piece>) {
-    let Shape::Shadow {
-        circle, radius_sq, ..
-    } = shape
-    else {
-        return;
+    let (circle, radius_sq) = match shape {
+        Shape::Shadow {
+            circle, radius_sq, ..
+        } => (circle, radius_sq),
+        Shape::Cone {
+            rim,
+            to_center,
+            outside,
+            ..
+        } => return of_cone(rim, *to_center, *outside, pieces),
+        Shape::Side(_) | Shape::Circle(_) => return,
     };
     let disc_sq = circle.right.length_squared();
     let mut roots = [DVec2::ZERO; 4];
@@ -123,6 +129,31 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
         piece.roots = piece
             .ends
             .map(|e| circle.at(e).length_squared() > radius_sq * (1.0 - 1e-9));
+    }
+}
+
+/// The part of the edge of a cone's shadow that exists: ways w along the cone that meet the ball have
+/// w · a ≥ |w| √K.
+fn of_cone(rim: &Circle, to_center: DVec3, outside: f64, pieces: &mut Vec<Piece>) {
+    let length = (rim.middle.length_squared() + rim.right.length_squared()).sqrt();
+    let least = length * outside.max(0.0).sqrt();
+    let beyond = |way: DVec3| way.dot(to_center) - least;
+    let (a, b) = (rim.right.dot(to_center), rim.up.dot(to_center));
+    let c = beyond(rim.middle);
+    let mut roots = [DVec2::ZERO; 2];
+    let mut count = 0;
+    if let [Some(one), Some(other)] = zeros(a, b, c) {
+        roots = [one, other];
+        count = 2;
+    } else if c < 0.0 || c.is_nan() {
+        return;
+    }
+    let first = pieces.len();
+    between(&mut roots[..count], pieces, |e| beyond(rim.at(e)) > 0.0);
+    // Where it ends it turns back.
+    for piece in &mut pieces[first..] {
+        let is_root = |e: DVec2| roots[..count].contains(&e);
+        piece.roots = piece.ends.map(is_root);
     }
 }
 

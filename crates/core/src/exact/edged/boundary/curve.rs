@@ -5,7 +5,8 @@ use fearless_simd::prelude::*;
 use glam::{DVec2, DVec3};
 
 use crate::edges::cell::{Ball, Cell};
-use crate::edges::shadow::Caster;
+use crate::edges::shadow::{Caster, Cone};
+use crate::edges::terminator::Plane;
 use crate::numeric::vectors::Vectors;
 
 /// A circle in space: the points `middle` + `right` cos θ + `up` sin θ.
@@ -49,9 +50,23 @@ impl Circle {
         (radius_sq > 0.0).then(|| Self::across(one.center + axis * along, axis, radius_sq.sqrt()))
     }
 
-    /// Where a light grazes a ball.
-    pub(super) fn terminator(ball: &Ball, toward: DVec3) -> Self {
-        Self::across(ball.center, toward, ball.radius)
+    /// Where a light grazes a ball, in this plane.
+    pub(super) fn terminator(ball: &Ball, plane: &Plane) -> Self {
+        if plane.offset == 0.0 {
+            return Self::across(ball.center, plane.axis, ball.radius);
+        }
+        let middle = ball.center + plane.axis * plane.offset;
+        let radius_sq = (ball.radius - plane.offset) * (ball.radius + plane.offset);
+        Self::across(middle, plane.axis, radius_sq.max(0.0).sqrt())
+    }
+
+    /// The ways from the apex of a cone to the circle in which it touches a ball of this radius: all are as long as
+    /// the root of the cone's power.
+    fn rim(cone: &Cone, radius: f64) -> Self {
+        let distance_sq = cone.axis.length_squared();
+        let share = cone.power / distance_sq;
+        let unit = cone.axis / distance_sq.sqrt();
+        Self::across(cone.axis * share, unit, radius * share.max(0.0).sqrt())
     }
 
     pub(super) fn at(&self, e: DVec2) -> DVec3 {
@@ -75,10 +90,35 @@ pub(super) enum Shape {
         /// 1 on the side of the ball toward the light, -1 on the other one.
         side: f64,
     },
+    /// The edge of the shadow on a ball that a cone from a point light makes.
+    Cone {
+        cone: Cone,
+        /// The ways from the apex along the cone.
+        rim: Circle,
+        /// The ball's center, and the way there from the apex.
+        center: DVec3,
+        to_center: DVec3,
+        /// The square of the way from the apex to where it touches the ball.
+        outside: f64,
+        /// 1 where the ways enter the ball, -1 where they leave it.
+        side: f64,
+    },
 }
 
 impl Shape {
     pub(super) fn shadow(ball: &Ball, caster: &Caster, toward: DVec3, side: f64) -> Self {
+        if let Some(cone) = caster.cone {
+            let to_center = ball.center - cone.apex;
+            let distance = to_center.length();
+            return Self::Cone {
+                cone,
+                rim: Circle::rim(&cone, caster.radius),
+                center: ball.center,
+                to_center,
+                outside: (distance - ball.radius) * (distance + ball.radius),
+                side,
+            };
+        }
         let offset = caster.center - ball.center;
         Self::Shadow {
             circle: Circle {
@@ -174,6 +214,35 @@ pub(super) fn trace<S: Simd>(
                         .plus(&toward.times(height * *side));
                     let rise = -(aside.dot(&step)) * inverse;
                     let step = step.plus(&toward.times(rise));
+                    placed(cell, point, step)
+                }
+                Shape::Cone {
+                    cone,
+                    rim,
+                    to_center,
+                    outside,
+                    side,
+                    ..
+                } => {
+                    let (s, slope) = warped(piece.roots, s);
+                    let (e, turn) = turned(start, end, s);
+                    let turn = turn * slope;
+                    let way = on_circle(simd, rim, e);
+                    let way_step = along_circle(simd, rim, e).times(turn);
+                    // t = K / (h + √q) where it enters, with h = w · a and q = h² − |w|² K.
+                    let way_sq = way.length_squared();
+                    let half = way.dot_one(*to_center);
+                    let rest = (half * half - way_sq * *outside).max(zero);
+                    let root = rest.sqrt();
+                    let t = if *side > 0.0 {
+                        one * *outside / (half + root)
+                    } else {
+                        (half + root) / way_sq
+                    };
+                    let inverse = one * *side / root.max(one * 1e-150);
+                    let change = -(way_step.dot_one(*to_center) * t * inverse);
+                    let point = way.times(t).plus(&Vectors::splat(simd, cone.apex));
+                    let step = way_step.times(t).plus(&way.times(change));
                     placed(cell, point, step)
                 }
             }

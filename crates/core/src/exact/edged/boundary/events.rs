@@ -1,12 +1,14 @@
 //! What changes along curves, and where.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
 use super::curve::{Piece, Trace, trace};
 use super::dips::{around, dips, may_dip};
 use super::primitive::ray;
 use super::setting::{Curve, Setting};
+use crate::edges::cell::Ball;
+use crate::edges::terminator::Plane;
 use crate::exact::points::Points;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;
@@ -85,8 +87,14 @@ pub(super) fn value<S: Simd>(
                     }
                 }
                 Function::Above(light, caster) => {
+                    let caster = &contents.occluders[caster];
+                    if let Some(cone) = &caster.cone {
+                        let apex = Vectors::splat(simd, cone.apex);
+                        let beyond = places.point.minus(&apex).dot_one(cone.axis);
+                        return f64x8::splat(simd, cone.power) - beyond;
+                    }
                     let toward = setting.scene.lights[light].toward;
-                    places.point.dot_one(toward) - contents.occluders[caster].center.dot(toward)
+                    places.point.dot_one(toward) - caster.center.dot(toward)
                 }
                 Function::Inside(sphere) => {
                     let ball = &contents.active[sphere].ball;
@@ -107,8 +115,8 @@ pub(super) fn value<S: Simd>(
                     let points =
                         Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
                     let active = &contents.active[sphere];
-                    match active.terminators.axis(setting.scene, light) {
-                        Some(axis) => points.normal.dot_one(axis),
+                    match active.terminators.plane(setting.scene, ball, light) {
+                        Some(plane) => facing(&plane, ball, &points.normal),
                         None => f64x8::splat(simd, 1.0),
                     }
                 }
@@ -116,7 +124,7 @@ pub(super) fn value<S: Simd>(
                     let ball = &contents.active[sphere].ball;
                     let points =
                         Points::new(simd, ball, ray(simd, setting.cell, places.x, places.y));
-                    in_disc(simd, setting, caster, &points.place(ball))
+                    in_disc(simd, setting, caster, &points.place())
                 }
             }
         },
@@ -124,7 +132,7 @@ pub(super) fn value<S: Simd>(
 }
 
 /// The square of the distance of points from the middle of a caster, seen along its light, less that
-/// of its radius.
+/// of its radius; of points from a cone, a function that vanishes on it and is negative inside.
 #[inline(always)]
 pub(super) fn in_disc<S: Simd>(
     simd: S,
@@ -133,9 +141,48 @@ pub(super) fn in_disc<S: Simd>(
     place: &Vectors<S>,
 ) -> f64x8<S> {
     let caster = &setting.contents.occluders[caster];
+    if let Some(cone) = &caster.cone {
+        let from_apex = place.minus(&Vectors::splat(simd, cone.apex));
+        let along = from_apex.dot_one(cone.axis);
+        return from_apex.length_squared() * cone.power - along * along;
+    }
     let from = place.minus(&Vectors::splat(simd, caster.center));
     let (right, up) = (from.dot_one(caster.right), from.dot_one(caster.up));
     right * right + up * up - caster.radius * caster.radius
+}
+
+/// The places that lie beyond a caster, away from its light.
+#[inline(always)]
+pub(super) fn is_beyond<S: Simd>(
+    simd: S,
+    setting: &Setting<'_, '_>,
+    (light, caster): (usize, usize),
+    place: &Vectors<S>,
+) -> mask64x8<S> {
+    let caster = &setting.contents.occluders[caster];
+    match &caster.cone {
+        Some(cone) => {
+            let from_apex = place.minus(&Vectors::splat(simd, cone.apex));
+            from_apex.dot_one(cone.axis).simd_gt(cone.power)
+        }
+        None => {
+            let toward = setting.scene.lights[light].toward;
+            let top = caster.center.dot(toward);
+            place.dot_one(toward).simd_lt(top)
+        }
+    }
+}
+
+/// How far normals of a ball are on the lit side of the plane of a terminator: the cosine of the angle to a
+/// directional light.
+#[inline(always)]
+pub(super) fn facing<S: Simd>(plane: &Plane, ball: &Ball, normal: &Vectors<S>) -> f64x8<S> {
+    let facing = normal.dot_one(plane.axis);
+    if plane.offset == 0.0 {
+        facing
+    } else {
+        facing - plane.offset / ball.radius
+    }
 }
 
 /// A stretch of a curve that is looked at in eight places.

@@ -11,15 +11,15 @@
 //! by less than 10⁻⁶ of the light, and their difference could only be fooled by zeros of Q, for which lines
 //! would have to pass the eye.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
-use glam::DVec3;
-
 use super::chord::Chord;
 use super::plain::{normal_times, ray_times};
 use super::primitive::{EIGHT, Lines, Noise, SIX, Sender, Summed};
+use crate::edges::terminator::Plane;
+use crate::exact::points::Points;
 use crate::exact::scene::Light;
 use crate::numeric::bits::set_bits;
+use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 
 /// What is integrated: the diffuse light of a light, for an intensity and an albedo of 1.
 #[derive(Clone, Copy)]
@@ -89,7 +89,8 @@ impl Sender<'_, '_> {
                 }
                 for index in set_bits(apart) {
                     let light = &self.scene.lights[index];
-                    let Some(axis) = self.active.terminators.axis(self.scene, index) else {
+                    let ball = &self.active.ball;
+                    let Some(plane) = self.active.terminators.plane(self.scene, ball, index) else {
                         continue;
                     };
                     let integrand = Integrand {
@@ -98,7 +99,7 @@ impl Sender<'_, '_> {
                         y: lines.y,
                         light,
                     };
-                    let (of_light, samples) = integrand.integral(simd, axis, noise);
+                    let (of_light, samples) = integrand.integral(simd, &plane, noise);
                     let color = self.finish.reflectance.albedo * light.intensity;
                     for channel in 0..self.scene.channels {
                         sum.light[channel] += of_light.value * color[channel];
@@ -116,9 +117,9 @@ impl<S: Simd> Integrand<'_, '_, S> {
     /// The integral along the chords where the axis of the terminator faces normals, and the samples that it
     /// took.
     #[inline(always)]
-    fn integral(&self, simd: S, axis: DVec3, noise: &mut Noise) -> (Integral<S>, u64) {
+    fn integral(&self, simd: S, plane: &Plane, noise: &mut Noise) -> (Integral<S>, u64) {
         let one = f64x8::splat(simd, 1.0);
-        let roots = self.roots(simd, axis);
+        let roots = self.roots(simd, plane);
         let apart = roots.high - roots.low;
         let between = (roots.low + roots.high) * 0.5;
         let clamped = |place: f64x8<S>| place.max(-one).min(one);
@@ -252,14 +253,21 @@ impl<S: Simd> Integrand<'_, '_, S> {
         let one = f64x8::splat(simd, 1.0);
         let mut normal = [normal.times(one / (length * active.ball.radius))];
         finish.perturb(simd, scene, &mut normal, noise);
-        let cosine = normal[0].dot_one(self.light.toward);
-        let power = finish.reflectance.diffuse.of(cosine);
+        let diffuse = &finish.reflectance.diffuse;
+        let power = match &self.light.near {
+            None => diffuse.of(normal[0].dot_one(self.light.toward)),
+            Some(near) => {
+                let points = Points::new(simd, &active.ball, ray.times(one / at.denominator));
+                let (toward, factor) = near.seen_from(&points.place());
+                diffuse.of(normal[0].dot(&toward)) * factor
+            }
+        };
         power * at.slope / (at.denominator * at.denominator)
     }
 
     /// The roots of P, from its values at the ends and in the middle of the chords.
     #[inline(always)]
-    fn roots(&self, simd: S, axis: DVec3) -> Roots<S> {
+    fn roots(&self, simd: S, plane: &Plane) -> Roots<S> {
         let zero = f64x8::splat(simd, 0.0);
         let Sender { cell, active, .. } = *self.sender;
         let mut values = [zero; 3];
@@ -267,7 +275,10 @@ impl<S: Simd> Integrand<'_, '_, S> {
             let at = self.chord.homogeneous(sigma);
             let ray = ray_times(cell, &at, self.y);
             let (normal, length, along) = normal_times(simd, &active.ball, &ray, at.root);
-            *value = normal.dot_one(axis) * along / length;
+            *value = normal.dot_one(plane.axis) * along / length;
+            if plane.offset != 0.0 {
+                *value -= along * plane.offset;
+            }
         }
         let [first, constant, last] = values;
         let linear = (last - first) * 0.5;

@@ -13,7 +13,7 @@ use super::quadrature::total;
 
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
-use crate::exact::classify::coincidence::is_along_view;
+use crate::exact::classify::coincidence::is_outline;
 use crate::exact::classify::contents::{Contents, Kind, Reach};
 use crate::exact::classify::patch::Patch;
 use crate::exact::part::{GiveUp, Part};
@@ -115,10 +115,11 @@ impl Boundary {
                     (circle, Edge::Seam, [one, other])
                 }
                 Kind::Terminator(one, light) => {
-                    let Some(axis) = actives[one].terminators.axis(scene, light) else {
+                    let ball = &actives[one].ball;
+                    let Some(plane) = actives[one].terminators.plane(scene, ball, light) else {
                         continue;
                     };
-                    let circle = Circle::terminator(&actives[one].ball, axis);
+                    let circle = Circle::terminator(ball, &plane);
                     (circle, Edge::Terminator(light), [one, NONE])
                 }
             };
@@ -215,8 +216,9 @@ impl Boundary {
             };
             for light in 0..lights {
                 let reaches = matches!(contents.reach[one * lights + light], Reach::Past(_));
-                let axis = contents.active[one].terminators.axis(scene, light);
-                if !reaches || !axis.is_some_and(is_along_view) {
+                let active = &contents.active[one];
+                let plane = active.terminators.plane(scene, &active.ball, light);
+                if !reaches || !plane.as_ref().is_some_and(is_outline) {
                     continue;
                 }
                 let surface = &mut surfaces[one];

@@ -223,6 +223,7 @@ impl Sender<'_, '_> {
                 for (kind, looks) in looks.iter_mut().enumerate().take(kinds) {
                     let turn = Turn {
                         toward: in_camera.toward,
+                        near: in_camera.near,
                         of_spot: kind == 1,
                     };
                     let value = turn.value(&normal, &points);

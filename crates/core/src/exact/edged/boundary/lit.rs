@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 
 use super::arcs::{Lanes, add, between};
 use super::curve::Trace;
-use super::events::{Function, INTERVALS, Stretch, in_disc};
+use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Reach;
@@ -132,31 +132,32 @@ impl Boundary {
                     &active.ball,
                     ray(simd, setting.cell, places.x, places.y),
                 );
-                let place = points.place(&active.ball);
+                let place = points.place();
                 for (light, reach) in reach.iter().enumerate() {
                     let Reach::Past(casters) = reach else {
                         continue;
                     };
-                    let toward = setting.scene.lights[light].toward;
                     let is_own = curve.own[0] == sphere;
-                    let mut axis = active.terminators.axis(setting.scene, light);
+                    let mut plane = active.terminators.plane(setting.scene, &active.ball, light);
                     if is_own && curve.edge == Edge::Terminator(light) {
-                        axis = None;
+                        plane = None;
                     }
-                    let facing = points.normal.dot_one(axis.unwrap_or(toward));
                     let mut dark = 0;
-                    if axis.is_some() {
+                    let facing = match plane {
+                        Some(plane) => Some(facing(&plane, &active.ball, &points.normal)),
+                        None => None,
+                    };
+                    if let Some(facing) = facing {
                         dark = facing.simd_le(0.0).to_bitmask();
                     }
                     let mut closed = between(dark);
-                    let height = place.dot_one(toward);
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
                         }
                         let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                        let top = setting.contents.occluders[caster].center.dot(toward);
-                        let shaded = (inside & height.simd_lt(top)).to_bitmask();
+                        let is_beyond = is_beyond(simd, setting, (light, caster), &place);
+                        let shaded = (inside & is_beyond).to_bitmask();
                         closed |= between(shaded);
                         dark |= shaded;
                     }
@@ -165,7 +166,7 @@ impl Boundary {
                     if open == 0 {
                         continue;
                     }
-                    if axis.is_some() {
+                    if let Some(facing) = facing {
                         let function = Function::Lit(sphere, light);
                         stretch.roots(simd, setting, function, facing, open, &mut self.breaks);
                     }
@@ -210,29 +211,28 @@ impl Boundary {
                     &active.ball,
                     ray(simd, setting.cell, places.x, places.y),
                 );
-                let place = points.place(&active.ball);
+                let place = points.place();
                 let is_own = curve.own[0] == sphere;
                 for (light, reach) in reach.iter().enumerate() {
                     let Reach::Past(casters) = reach else {
                         continue;
                     };
-                    let toward = setting.scene.lights[light].toward;
-                    let mut axis = active.terminators.axis(setting.scene, light);
+                    let mut plane = active.terminators.plane(setting.scene, &active.ball, light);
                     if is_own && curve.edge == Edge::Terminator(light) {
-                        axis = None;
+                        plane = None;
                     }
                     let mut lit = 0xff;
-                    if let Some(axis) = axis {
-                        lit = points.normal.dot_one(axis).simd_gt(0.0).to_bitmask();
+                    if let Some(plane) = plane {
+                        let facing = facing(&plane, &active.ball, &points.normal);
+                        lit = facing.simd_gt(0.0).to_bitmask();
                     }
-                    let height = place.dot_one(toward);
                     for caster in casters.clone() {
                         if is_own && curve.edge == Edge::Shadow(light, caster) {
                             continue;
                         }
                         let inside = in_disc(simd, setting, caster, &place).simd_lt(0.0);
-                        let top = contents.occluders[caster].center.dot(toward);
-                        lit &= !(inside & height.simd_lt(top)).to_bitmask();
+                        let is_beyond = is_beyond(simd, setting, (light, caster), &place);
+                        lit &= !(inside & is_beyond).to_bitmask();
                         if lit == 0 {
                             break;
                         }

@@ -17,7 +17,9 @@ const OFF: [f64; 4] = [2e-2, 2e-3, 1.6e-5, 1e-7];
 impl Sender<'_, '_> {
     /// Returns whether light is n·l and nothing else, and the error of the rules for it is known.
     pub(super) fn is_plain(&self) -> bool {
-        self.finish.is_plain() && is_far(self.cell, &self.active.ball)
+        !self.scene.has_near_lights
+            && self.finish.is_plain()
+            && is_far(self.cell, &self.active.ball)
     }
 
     /// The light of a surface that is n·l and nothing else, of a sphere that the eye is far from.

@@ -159,7 +159,11 @@ impl Sender<'_, '_> {
         const BLUNT: f64 = 1.0;
         let negligible = NEGLIGIBLE * self.tolerance;
         let steep = greatest(chord.way_sq()) * self.finish.sharpness();
-        let first = if steep < BLUNT { 0 } else { 2 };
+        let first = match (steep < BLUNT, self.scene.has_near_lights) {
+            (true, false) => 0,
+            (true, true) => 1,
+            (false, _) => 2,
+        };
         let mut coarse = self.sum(simd, chord, lines, RULES[first], noise);
         let mut samples = 8 * RULES[first].len() as u64;
         let mut doubt = coarse[0];

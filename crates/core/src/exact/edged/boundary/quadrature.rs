@@ -330,9 +330,15 @@ fn sign<S: Simd>(
         }
         (Edge::Terminator(light), _) => {
             let terminators = &contents.active[curve.own[0]].terminators;
-            match terminators.axis(scene, light) {
-                Some(axis) => axis,
-                None => return 0.0,
+            let ball = &contents.active[curve.own[0]].ball;
+            match (
+                &scene.lights[light].near,
+                terminators.plane(scene, ball, light),
+            ) {
+                // It grazes the surface there.
+                (Some(near), _) => near.position - point,
+                (None, Some(plane)) => plane.axis,
+                (None, None) => return 0.0,
             }
         }
         (
@@ -349,6 +355,13 @@ fn sign<S: Simd>(
             let aside = from_center - *toward * height;
             let away = aside - circle.middle;
             away - *toward * (aside.dot(away) / height)
+        }
+        (Edge::Shadow(..), Shape::Cone { cone, center, .. }) => {
+            // The slope of what vanishes on the cone, along the surface.
+            let from_apex = point - cone.apex;
+            let slope = from_apex * cone.power - cone.axis * from_apex.dot(cone.axis);
+            let normal = (point - *center).normalize();
+            slope - normal * normal.dot(slope)
         }
         _ => return 0.0,
     };

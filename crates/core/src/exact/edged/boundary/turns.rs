@@ -7,6 +7,7 @@ use glam::DVec3;
 use super::chord::Chord;
 use super::primitive::{Lines, Noise, Sender};
 use crate::exact::points::Points;
+use crate::light::reflection::NearLight;
 use crate::numeric::vectors::Vectors;
 
 /// What vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).
@@ -14,13 +15,18 @@ use crate::numeric::vectors::Vectors;
 pub(super) struct Turn {
     /// Unit vector toward the light.
     pub(super) toward: DVec3,
+    /// The place of a point light.
+    pub(super) near: Option<NearLight>,
     pub(super) of_spot: bool,
 }
 
 impl Turn {
     #[inline(always)]
     pub(super) fn value<S: Simd>(&self, normal: &Vectors<S>, at: &Points<S>) -> f64x8<S> {
-        let facing = normal.dot_one(self.toward);
+        let facing = match &self.near {
+            None => normal.dot_one(self.toward),
+            Some(near) => normal.dot(&near.seen_from(&at.place()).0),
+        };
         if self.of_spot {
             facing - normal.dot(&at.ray) / at.ray_sq.sqrt()
         } else {

@@ -104,7 +104,7 @@ impl<S: Simd> Surroundings<S> {
             is_cut,
         );
         Self {
-            place: points.place(ball),
+            place: points.place(),
             seconds: Self::seconds(
                 &points,
                 (&across, slides),

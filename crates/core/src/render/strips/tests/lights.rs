@@ -1,6 +1,7 @@
 //! Pictures under one light each, rendered together.
 
 use super::*;
+use crate::model::light::Light;
 use crate::model::material::{Grain, Highlight, Roughness};
 use crate::model::world::LightPart;
 
@@ -36,9 +37,7 @@ fn scene() -> (World, View) {
         let toward = DVec3::new(angle.sin(), 0.75, angle.cos() - 0.5);
         let faint = if number == 4 { 1e-6 } else { 0.125 };
         let intensity = faint * Color::new(1.0, 1.0, if number == 7 { 0.5 } else { 1.0 });
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, intensity));
+        world.lights.extend(Light::directional(toward, intensity));
     }
     world.ambient = Color::splat(0.0625);
     world.background = Color::new(0.25, 0.25, 0.5);

@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3};
 use super::super::*;
 use super::shading::shade;
 use crate::model::camera::{Camera, Lens};
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::sphere::Sphere;
 use crate::numeric::angle::Angle;
@@ -285,9 +285,7 @@ fn lit_world(random: &mut Random, count: usize, shadows: bool) -> World {
     );
     for toward in [random.point(), DVec3::Y, random.point()] {
         let intensity = Color::new(0.6, 0.5, 0.4);
-        world
-            .lights
-            .extend(DirectionalLight::new(toward, intensity));
+        world.lights.extend(Light::directional(toward, intensity));
     }
     world.ambient = Color::splat(0.1);
     world.background = Color::new(0.0, 0.1, 0.2);

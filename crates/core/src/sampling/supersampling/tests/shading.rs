@@ -34,7 +34,7 @@ pub(super) fn shade(
     let mut diffuse = world.ambient;
     let mut mirrored = Color::ZERO;
     for (index, light) in world.lights.iter().enumerate() {
-        let toward = light.toward();
+        let toward = light.toward().unwrap();
         let cosine = normal.dot(toward);
         let to_light = Ray {
             origin: ray.at(hit.t),

@@ -125,6 +125,8 @@ fn powers_are_summed_up_along_chords() {
             toward,
             right,
             up,
+            near: None,
+            is_shut_off: false,
         });
         let pixel = PixelKey {
             col: 0,

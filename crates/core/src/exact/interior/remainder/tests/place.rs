@@ -6,7 +6,7 @@ use super::fixed::{Fixed, dot};
 use crate::exact::integrator::{Exact, GroupScratch};
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::DirectionalLight;
+use crate::model::light::Light;
 use crate::model::material::{Highlight, Material};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -107,7 +107,7 @@ impl Place {
             ..Material::MATTE_WHITE
         });
         world.add_sphere(Sphere::new(self.center, self.radius).unwrap(), material);
-        let light = DirectionalLight::new(self.toward, Color::ONE).unwrap();
+        let light = Light::directional(self.toward, Color::ONE).unwrap();
         world.lights.push(light);
         let view = View {
             camera: Camera::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO),

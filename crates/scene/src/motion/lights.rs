@@ -1,0 +1,236 @@
+//! The lights of a scene over time: at rest, through keys, on a turntable, and attached to the camera.
+
+use glam::DVec3;
+use marbles_core::{Angle, Camera, DirectionalLight, Light as CoreLight, LightFalloff, PointLight};
+
+use super::channels::{Keys, PointCurve};
+use super::checks;
+use super::error::{FrameError, FrameFault};
+use super::turntable::Turntable;
+use crate::file::{self, Animation, File, Key, Turned};
+use crate::text::{Placed, optional, refuse};
+
+/// The lights of a scene over time.
+#[derive(Clone, Debug)]
+pub(crate) struct Lights {
+    lights: Vec<Light>,
+    /// The turntable that turns them.
+    turntable: Option<Turntable>,
+    /// Whether some key names one of them.
+    is_keyed: bool,
+}
+
+/// A light over time.
+#[derive(Clone, Debug)]
+struct Light {
+    name: Option<String>,
+    kind: Kind,
+    /// The direction toward it, or its position, in the axes of the world or of the camera.
+    place: PointCurve,
+    intensity: PointCurve,
+    /// Whether it moves with the camera.
+    is_attached: bool,
+}
+
+/// The kind of a light.
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    Directional,
+    Point {
+        falloff: LightFalloff,
+        reference: f64,
+    },
+}
+
+impl Lights {
+    /// The lights that the file describes; `None` where a fault was reported.
+    pub(crate) fn new(file: &File) -> Option<Self> {
+        checks::check_lights(file);
+        let mut keys: &[Placed<Key>] = &[];
+        let mut turntable = None;
+        if let Some(animation) = &file.animation {
+            match animation.value.as_ref()? {
+                Animation::Keyframes { keys: all, .. } => keys = all,
+                animation @ Animation::Turntable { what, .. } => {
+                    if what.get()? == Turned::Lights {
+                        turntable = Some(Turntable::new(animation)?);
+                    }
+                }
+            }
+        }
+        let keys: Vec<&Key> = keys.iter().filter_map(|key| key.value.as_ref()).collect();
+        let lights: Vec<_> = file.lights.iter().map(|one| light(one, &keys)).collect();
+        Some(Self {
+            lights: lights.into_iter().collect::<Option<_>>()?,
+            turntable,
+            is_keyed: keys.iter().any(|key| key.light.is_some()),
+        })
+    }
+
+    /// The lights' names, where they have any.
+    pub(crate) fn names(&self) -> Vec<Option<String>> {
+        self.lights.iter().map(|light| light.name.clone()).collect()
+    }
+
+    /// Returns whether the lights of frames may differ from those of others.
+    pub(crate) fn may_move(&self) -> bool {
+        let mut lights = self.lights.iter();
+        self.is_keyed || self.turntable.is_some() || lights.any(|light| light.is_attached)
+    }
+
+    /// Returns whether some light has a color in some frame.
+    pub(crate) fn may_have_color(&self) -> bool {
+        let mut lights = self.lights.iter();
+        lights.any(|light| {
+            let [red, green, blue] = &light.intensity.0;
+            red != green || red != blue
+        })
+    }
+
+    /// The number of the frame by which noise is drawn, the same in every turn of a turntable.
+    pub(crate) fn looped(&self, frame: i32) -> i32 {
+        let turntable = self.turntable.as_ref();
+        turntable.map_or(frame, |turntable| turntable.looped(frame))
+    }
+
+    /// As many lights, all of them dark and above, for frames that have none.
+    pub(crate) fn somewhere(&self) -> Vec<CoreLight> {
+        let light = |_: &Light| DirectionalLight::new(DVec3::Y, DVec3::ZERO).map(CoreLight::from);
+        self.lights.iter().filter_map(light).collect()
+    }
+
+    /// The lights in frame `frame`, in which the camera is here. Those of a turntable turn about the vertical axis
+    /// through `target`.
+    pub(crate) fn at(
+        &self,
+        frame: i32,
+        camera: &Camera,
+        target: DVec3,
+    ) -> Result<Vec<CoreLight>, FrameError> {
+        let forward = self.turntable.as_ref().map(|turntable| {
+            let angle = Angle::from_degrees(turntable.azimuth_degrees(frame));
+            let still = Angle::from_degrees(0.0);
+            Camera::free(DVec3::ZERO, angle, still, still).forward()
+        });
+        let at = |(index, light): (usize, &Light)| {
+            let fault = light.kind.fault(index);
+            let placed = light.at(f64::from(frame), camera, forward, target);
+            placed.ok_or(FrameError { frame, fault })
+        };
+        self.lights.iter().enumerate().map(at).collect()
+    }
+}
+
+impl Light {
+    /// The light at a time; `None` where it has no place. What z is turned to by a turntable is `forward`.
+    fn at(
+        &self,
+        time: f64,
+        camera: &Camera,
+        forward: Option<DVec3>,
+        target: DVec3,
+    ) -> Option<CoreLight> {
+        let place = self.place.at(time);
+        let turned = |vector: DVec3| forward.map_or(vector, |to| about_the_vertical(vector, to));
+        let intensity = self.intensity.at(time);
+        match self.kind {
+            Kind::Directional => {
+                let toward = if self.is_attached {
+                    camera.world_from_camera * place
+                } else {
+                    turned(place)
+                };
+                DirectionalLight::new(toward, intensity).map(CoreLight::from)
+            }
+            Kind::Point { falloff, reference } => {
+                let position = match forward {
+                    _ if self.is_attached => camera.position + camera.world_from_camera * place,
+                    Some(_) => target + turned(place - target),
+                    None => place,
+                };
+                PointLight::new(position, intensity, falloff, reference).map(CoreLight::from)
+            }
+        }
+    }
+}
+
+impl Kind {
+    /// What is wrong with a light of this kind that has no place.
+    fn fault(self, index: usize) -> FrameFault {
+        match self {
+            Self::Directional => FrameFault::LightNowhere(index),
+            Self::Point { .. } => FrameFault::LightTooFar(index),
+        }
+    }
+}
+
+/// A vector turned about the vertical axis as far as z is turned to `forward`.
+fn about_the_vertical(vector: DVec3, forward: DVec3) -> DVec3 {
+    let right = DVec3::new(forward.z, 0.0, -forward.x);
+    right * vector.x + DVec3::Y * vector.y + forward * vector.z
+}
+
+/// A light of the file and its keys.
+fn light(light: &Placed<file::Light>, keys: &[&Key]) -> Option<Light> {
+    let light = light.value.as_ref()?;
+    let (name, attached, intensity) = match light {
+        file::Light::Directional {
+            name,
+            attached,
+            intensity,
+            ..
+        }
+        | file::Light::Point {
+            name,
+            attached,
+            intensity,
+            ..
+        } => (name, attached, intensity),
+    };
+    let name = optional(name, |name| Some(name.0.clone()))?;
+    let attached = optional(attached, |attached| Some(*attached))?;
+    let own = |key: &&&Key| {
+        let keyed = key.light.as_ref().and_then(|name| name.value.as_ref());
+        keyed.is_some_and(|keyed| Some(&keyed.0) == name.as_ref())
+    };
+    let keys = Keys(keys.iter().filter(own).copied().collect());
+    let (kind, place) = kind(light, &keys)?;
+    let intensity = intensity.get()?.0;
+    Some(Light {
+        kind,
+        place,
+        intensity: keys.vectors(intensity, |key| Some(key.intensity.as_ref()?.get()?.0)),
+        is_attached: attached.is_some(),
+        name,
+    })
+}
+
+/// The kind of a light, and its place over time.
+fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
+    match light {
+        file::Light::Directional { toward, .. } => {
+            let direction = toward.get()?.0;
+            if direction == DVec3::ZERO {
+                let message = "expected a direction `(x, y, z)`, found the zero vector";
+                return refuse(toward.place.clone(), message);
+            }
+            let place = keys.vectors(direction, |key| Some(key.toward.as_ref()?.get()?.0));
+            Some((Kind::Directional, place))
+        }
+        file::Light::Point {
+            position,
+            falloff,
+            reference,
+            ..
+        } => {
+            let falloff = match falloff.get()? {
+                file::Falloff::InverseSquare => LightFalloff::InverseSquare,
+                file::Falloff::None => LightFalloff::None,
+            };
+            let reference = reference.get()?.0;
+            let position = position.get()?.0;
+            let place = keys.vectors(position, |key| Some(key.position.as_ref()?.get()?.0));
+            Some((Kind::Point { falloff, reference }, place))
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! A light as points see it.
+
+use glam::DVec3;
+use marbles_core::{Light, LightFalloff};
+
+use super::ball::Ball;
+
+/// A light relative to the viewpoint.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Lamp {
+    /// The unit vector toward it.
+    Far(DVec3),
+    Near {
+        position: DVec3,
+        /// The distance at which it has its intensity, if it falls off.
+        reference: Option<f64>,
+    },
+}
+
+impl Lamp {
+    pub(crate) fn new(light: &Light, eye: DVec3) -> Self {
+        match light {
+            Light::Directional(light) => Self::Far(light.toward()),
+            Light::Point(light) => Self::Near {
+                position: light.position() - eye,
+                reference: match light.falloff() {
+                    LightFalloff::InverseSquare => Some(light.reference()),
+                    LightFalloff::None => None,
+                },
+            },
+        }
+    }
+
+    /// The unit vector toward it from a point, and the factor of its intensity there.
+    pub(crate) fn seen_from(&self, point: DVec3) -> (DVec3, f64) {
+        match *self {
+            Self::Far(toward) => (toward, 1.0),
+            Self::Near {
+                position,
+                reference,
+            } => {
+                let way = position - point;
+                let distance = way.length();
+                let factor = reference.map_or(1.0, |reference| (reference / distance).powi(2));
+                (way / distance, factor)
+            }
+        }
+    }
+
+    /// Whether it lies inside of a ball: its outer side is dark.
+    pub(crate) fn is_inside(&self, ball: &Ball) -> bool {
+        match *self {
+            Self::Far(_) => false,
+            Self::Near { position, .. } => position.distance(ball.center) <= ball.radius,
+        }
+    }
+
+    /// What changes its sign where the shadow of a ball ends on the way of points, negative where it passes by; and
+    /// whether the ball lies between.
+    ///
+    /// Between two points the surface of a ball is met where one of them alone is inside, or where the line cuts it
+    /// between them.
+    pub(crate) fn shadow(&self, caster: &Ball, point: DVec3) -> (f64, bool) {
+        let (toward, _) = self.seen_from(point);
+        let (chord_sq, is_ahead) = caster.shadow(point, toward);
+        let Self::Near { position, .. } = *self else {
+            return (chord_sq, is_ahead);
+        };
+        let has_point = point.distance(caster.center) <= caster.radius;
+        if self.is_inside(caster) || has_point {
+            return (1.0, self.is_inside(caster) != has_point);
+        }
+        let is_behind = (caster.center - position).dot(toward) >= 0.0;
+        (chord_sq, is_ahead && !is_behind)
+    }
+}
