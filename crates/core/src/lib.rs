@@ -1,4 +1,4 @@
-//! The maths of marbles: spheres lit by directional lights, seen through a pinhole or by parallel rays, and the
+//! The maths of marbles: spheres lit by directional and point lights, seen through a pinhole or by parallel rays, and the
 //! average of their light over each pixel.
 //!
 //! A [`World`] is what is rendered, a [`View`] is from where; a [`Renderer`] turns both into an

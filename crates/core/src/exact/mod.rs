@@ -14,6 +14,8 @@
 //! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
 //! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
 //!
+//! Pixels under point lights begin at the rung along edges: those above know directional lights alone.
+//!
 //! [`budget`] limits what a pixel may cost. A pixel that ends over its tolerance says so.
 
 pub(crate) mod areas;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::search::tests::Random;
 
-/// The least distance of a ball's surface from points of the beam, by many of them.
+/// Whether a ball reaches some of the balls between the apex and the last one, by many of them.
 fn reaches(beam: &Beam, (middle, around): (DVec3, f64), center: DVec3, radius: f64) -> bool {
     (0..=400).any(|step| {
         let share = f64::from(step) / 400.0;
@@ -20,14 +20,15 @@ fn a_beam_leaves_out_nothing_that_reaches_into_it() {
         let (apex, middle) = (random.point() * 2.0, random.point() * 2.0);
         let around = random.number() * random.number();
         let beam = Beam::new(apex, middle, around);
-        let (center, radius) = (random.point() * 3.0, 0.5 * random.number());
+        let beside = apex.lerp(middle, random.number()) + random.point();
+        let (center, radius) = (beside, 0.5 * random.number());
         let claimed = beam.is_reached_by(center, radius);
         let found = reaches(&beam, (middle, around), center, radius);
         assert!(claimed || !found, "{beam:?} {center} {radius}");
         reached += u32::from(found);
         left_out += u32::from(!claimed);
     }
-    assert!(reached > 1000 && left_out > 5000, "{reached} {left_out}");
+    assert!(reached > 500 && left_out > 5000, "{reached} {left_out}");
 }
 
 /// Whether the surface of a sphere is met on the way between two points: by the distances of points on it.
