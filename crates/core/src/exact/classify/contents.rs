@@ -352,7 +352,9 @@ impl Contents {
                 let largest = near.position.length() + center.length() + radius;
                 let turned = largest / distance.min(cone.power.max(0.0).sqrt());
                 let moved = ROUNDINGS * (largest + active.ball.center.length() + turned * apart);
-                self.rounding = self.rounding.max(moved / size);
+                // Squares of distances nearly cancel in the functions of the cone and of the way to the ball.
+                let cancelled = ROUNDINGS * apart * apart / radius.min(active.ball.radius);
+                self.rounding = self.rounding.max((moved + cancelled) / size);
                 self.occluders.push(caster);
             }
         }
