@@ -143,16 +143,25 @@ impl Outline {
         let doubt = ((inside.doubt + in_doubt * 0.5) * open).min(region.most);
         region.cut(simd, &inside);
         let share = region.share(simd);
+        let middle = share.middle(simd);
+        // Where others hide what lies deep inside, what is left lies nearer to the silhouette.
+        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+        let [x, y] = inside.across;
+        let all = (inside.value * inside.share + x * inside.moments[0] + y * inside.moments[1])
+            / inside.share.max(tiny);
+        let left = inside.value + x * middle[0] + y * middle[1];
+        let nearer = (left / all.max(tiny)).max(zero).min(one);
+        let inward: [f64x8<S>; 2] = [
+            self.inward[0].simd_into(simd),
+            self.inward[1].simd_into(simd),
+        ];
         Visible {
             position: self.position,
             region,
             share,
-            middle: share.middle(simd),
+            middle,
             doubt,
-            inward: [
-                self.inward[0].simd_into(simd),
-                self.inward[1].simd_into(simd),
-            ],
+            inward: [inward[0] * nearer, inward[1] * nearer],
             is_cut: inside.share.simd_lt(one),
             is_possible: region.most.simd_gt(zero),
         }
