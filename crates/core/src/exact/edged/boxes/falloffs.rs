@@ -28,6 +28,8 @@ pub(super) struct Power<S: Simd> {
     pub(super) value: f64x8<S>,
     pub(super) most: f64x8<S>,
     pub(super) doubt: f64x8<S>,
+    /// How far it may be from the average beside an edge.
+    pub(super) spread: f64x8<S>,
     /// What may be hidden or seen of it together, where the light ends in the box.
     pub(super) ambiguity: f64x8<S>,
 }
@@ -101,6 +103,7 @@ impl<S: Simd> Faced<S> {
                 value: value.min(one),
                 most,
                 doubt: is_cut.select(normals.second, self.error).min(one),
+                spread: self.width.min(one),
                 ambiguity: is_cut.select((value - self.cosine.max(zero)) * OF_RAMP, zero),
             };
         }
@@ -125,9 +128,11 @@ impl<S: Simd> Faced<S> {
             most
         };
         let smooth = (power * bends * exponent).min(most);
+        let value = falloff.of(self.cosine);
         Power {
-            value: falloff.of(self.cosine),
+            value,
             most,
+            spread: most - value,
             doubt: is_cut.select(most, smooth),
             ambiguity: is_cut.select(most, zero),
         }
@@ -149,6 +154,7 @@ impl<S: Simd> Faced<S> {
             value: zero,
             most: zero,
             doubt: zero,
+            spread: zero,
             ambiguity: zero,
         };
         let Some((_, falloff)) = &finish.reflectance.highlight else {
@@ -174,6 +180,7 @@ impl<S: Simd> Faced<S> {
             return Power {
                 value: faces.select(power, zero),
                 most: may_face.select(most, zero),
+                spread: may_face.select(most - power, zero),
                 doubt: may_face.select(doubt, zero),
                 ambiguity: zero,
             };
@@ -190,6 +197,7 @@ impl<S: Simd> Faced<S> {
         Power {
             value: power * facing.share,
             most: is_faced.simd_gt(zero).select(most, zero),
+            spread: zero,
             doubt: doubt * is_faced.min(one) + most * facing.doubt,
             ambiguity: facing.ambiguity(simd) * most,
         }

@@ -134,12 +134,18 @@ impl<S: Simd> Lit<S> {
             let whole = diffuse.value * color[channel] + shine.value * strength[channel];
             let highest = diffuse.most * color[channel] + shine.most * strength[channel];
             self.value[channel] += whole * share;
+            // Beside an edge light is not what it is on average.
+            let spread = diffuse.spread * color[channel] + shine.spread * strength[channel];
+            let spread = spread * OF_SPREAD;
             let [least, most] = &mut self.range[channel];
-            *least += is_open.select(whole, zero);
-            *most += is_dark.select(zero, highest);
+            *least += is_open.select((whole - spread).max(zero), zero);
+            *most += is_dark.select(zero, highest.max(whole + spread));
         }
     }
 }
 
 /// The share of what is seen that must be lit for its middle to count.
 const LEAST_LIT: f64 = 0.05;
+
+/// The part of how far light goes in a box that counts beside edges, which are not all in its corners.
+const OF_SPREAD: f64 = 0.5;
