@@ -196,7 +196,7 @@ fn row_pixels<S: Simd>(
                 let spheres = [(coverage.sphere, coverage.ball)];
                 match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
                     Ok(known) => pixels[lane] = known,
-                    Err(_) => *unknown |= 1 << lane,
+                    Err(_) => *unknown |= 1 << (place + lane),
                 }
                 costs.add(place + lane, edged.budget.spent());
             }
