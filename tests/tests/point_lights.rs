@@ -133,3 +133,24 @@ fn pixels_meet_their_tolerance() {
         }
     }
 }
+
+#[test]
+fn pixels_that_are_given_up_are_marked_where_they_are() {
+    // The light is so near to the ball that the pixels below it cost too much.
+    let ball = (DVec3::new(-8.9937, 3.6491, 88.7375), 9.9012);
+    let place = DVec3::new(-8.7556, 2.4075, 78.7753);
+    let world = world(&[ball], &[light(place, LightFalloff::InverseSquare, 0.14)]);
+    let view = looking_forward(32, 32, 52.46);
+    let image = exact_picture(&world, &view, 1e-3, false);
+    let reference = Reference::new(&world, &view);
+    let mut given_up = 0;
+    for (col, row) in (0..32).flat_map(|row| (0..32).map(move |col| (col, row))) {
+        let is_over = image.status(col, row).is_over_tolerance();
+        given_up += u32::from(is_over);
+        let truth = reference.pixel(col, row);
+        let off = (image.rgba(col, row)[0] - truth.value.x).abs() - truth.error;
+        let most = if is_over { image.error(col, row) } else { 1e-3 };
+        assert!(off <= most, "column {col}, row {row}: {off:e}");
+    }
+    assert!(given_up > 0, "nothing is given up");
+}
