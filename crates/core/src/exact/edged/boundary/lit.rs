@@ -7,6 +7,8 @@ use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
+use crate::edges::terminator::Plane;
+use crate::exact::classify::coincidence::is_outline;
 use crate::exact::classify::contents::Reach;
 use crate::exact::points::Points;
 
@@ -138,10 +140,7 @@ impl Boundary {
                         continue;
                     };
                     let is_own = curve.own[0] == sphere;
-                    let mut plane = active.terminators.plane(setting.scene, &active.ball, light);
-                    if is_own && curve.edge == Edge::Terminator(light) {
-                        plane = None;
-                    }
+                    let plane = terminator_beside(setting, curve, sphere, light);
                     let mut dark = 0;
                     let facing = match plane {
                         Some(plane) => Some(facing(&plane, &active.ball, &points.normal)),
@@ -217,10 +216,7 @@ impl Boundary {
                     let Reach::Past(casters) = reach else {
                         continue;
                     };
-                    let mut plane = active.terminators.plane(setting.scene, &active.ball, light);
-                    if is_own && curve.edge == Edge::Terminator(light) {
-                        plane = None;
-                    }
+                    let plane = terminator_beside(setting, curve, sphere, light);
                     let mut lit = 0xff;
                     if let Some(plane) = plane {
                         let facing = facing(&plane, &active.ball, &points.normal);
@@ -245,6 +241,26 @@ impl Boundary {
             },
         )
     }
+}
+
+/// The plane of the terminator of a light on an active sphere; none on the terminator itself, and none on an outline
+/// that is one: there a light that reaches the sphere reaches all that is seen of it.
+fn terminator_beside(
+    setting: &Setting<'_, '_>,
+    curve: &Curve,
+    sphere: usize,
+    light: usize,
+) -> Option<Plane> {
+    let active = &setting.contents.active[sphere];
+    let plane = active
+        .terminators
+        .plane(setting.scene, &active.ball, light)?;
+    let is_here = match curve.edge {
+        Edge::Terminator(of_light) => of_light == light,
+        Edge::Limb => setting.cell.is_parallel() && is_outline(&plane),
+        _ => false,
+    };
+    (curve.own[0] != sphere || !is_here).then_some(plane)
 }
 
 /// Whether no light reaches an active sphere, or there is none.
