@@ -84,6 +84,39 @@ fn a_light_inside_a_sphere_lights_only_what_is_inside() {
     assert!(!is_lit(&[(DVec3::new(0.0, 0.0, 5.0), 4.2)]));
 }
 
+/// The largest distance of pixels to a tolerance of 1e-3 from those of the tests' own integrator, over 1e-3.
+fn worst_pixel(world: &World, view: &View) -> f64 {
+    let tolerance = 1e-3;
+    let reference = Reference::new(world, view);
+    let image = exact_picture(world, view, tolerance, false);
+    let mut worst = 0.0_f64;
+    for row in (0..view.height).step_by(3) {
+        for col in 0..view.width {
+            let truth = reference.pixel(col, row);
+            let value = DVec3::from_slice(&image.rgba(col, row)[..3]);
+            let error = (value - truth.value.truncate()).abs().max_element();
+            let allowed = tolerance.max(image.error(col, row)) + truth.error;
+            worst = worst.max(error / allowed);
+        }
+    }
+    worst
+}
+
+#[test]
+fn what_is_inside_a_sphere_is_lit_from_inside_alone() {
+    let inside = light(DVec3::new(3.0, 4.0, 2.0), LightFalloff::InverseSquare, 8.0);
+    let parallel = Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::ONE).unwrap();
+    let around = (DVec3::new(0.0, 0.0, 10.0), 30.0);
+    for lights in [&[inside][..], &[inside, parallel], &[parallel]] {
+        let world = world(&[around, (DVec3::new(0.0, 0.0, 8.0), 2.0)], lights);
+        let view = looking_forward(24, 24, 24.0);
+        let lit = exact_picture(&world, &view, 1e-3, false).rgba(12, 12)[0];
+        assert_eq!(lit > 0.1, lights.contains(&inside), "{lit}");
+        let worst = worst_pixel(&world, &view);
+        assert!(worst <= 1.0, "{worst}");
+    }
+}
+
 #[test]
 fn a_far_light_is_a_directional_one() {
     let toward = DVec3::new(-1.0, 1.0, -1.0).normalize();

@@ -1,7 +1,7 @@
 //! A hunt for pixels that break their promise, or claim too little.
 //!
 //! Each scene is rendered to every tolerance, and held against the same picture of 3 × 3 as many pixels at
-//! 1e-6: a cheap filter. The tests' own integrator decides about what disagrees.
+//! 1e-6, and against samples: cheap filters. The tests' own integrator decides about what disagrees.
 
 mod draft;
 mod families;
@@ -13,6 +13,7 @@ mod point_lights;
 mod random;
 mod reduce;
 mod report;
+mod sampled;
 mod scenes;
 mod subject;
 

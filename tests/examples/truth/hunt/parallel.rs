@@ -1,6 +1,7 @@
 //! Scenes through parallel lenses.
 
 use super::draft::{Draft, SIDE};
+use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
     DISTANCE, aligned_grids, coincident, crowds, exponents, floors, grazing_shadows, highlights,
     many_lights, ordinary, place, seams, shutters, slivers, terminator_at_rim, touching,
@@ -25,6 +26,10 @@ pub(super) fn parallel_lenses(numbers: &mut Numbers) -> Draft {
         aligned_grids,
         many_lights,
         seams,
+        near_lights,
+        lights_between_spheres,
+        lights_inside,
+        grazing_cones,
     ]);
     let mut draft = match numbers.below(20) {
         0 => shutters(numbers),
@@ -71,7 +76,8 @@ fn flattened(sphere: &str) -> String {
     )
 }
 
-/// Balls that the plane cuts in which parallel rays begin, others behind and before it.
+/// Balls that the plane cuts in which parallel rays begin, others behind and before it; a point light in every third
+/// scene, inside of one or not.
 pub(super) fn planes_that_cut(numbers: &mut Numbers) -> Draft {
     let lights = numbers.below(2) + 1;
     let mut draft = Draft::new(numbers, DISTANCE, lights);
@@ -85,6 +91,12 @@ pub(super) fn planes_that_cut(numbers: &mut Numbers) -> Draft {
         // Some touch the plane.
         let depth = numbers.either(&[depth, depth, depth, radius, -radius]);
         draft.sphere([x, y, depth], radius);
+    }
+    if numbers.below(3) == 0 {
+        let depth = numbers.between(-20.0, 30.0);
+        let reference = numbers.between(10.0, 60.0);
+        let [x, y, _] = place(numbers, 100.0);
+        draft.point_light([x, y, depth], 0.5, Some(reference));
     }
     draft
 }

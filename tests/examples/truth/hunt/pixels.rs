@@ -1,9 +1,10 @@
-//! The pixels of a scene, held against the same picture with more pixels.
+//! The pixels of a scene, held against the same picture with more pixels, and by samples.
 
 use glam::DVec4;
 use marbles_core::{Image, View};
 
 use super::draft::SIDE;
+use super::sampled::Sampled;
 use super::subject::{Subject, render};
 use super::{Broken, Found, random};
 use crate::numbers::Numbers;
@@ -53,6 +54,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     let Some(finer) = render(scene, &finer, FINEST) else {
         return found;
     };
+    let sampled = Sampled::of(subject, &view);
     for (index, &tolerance) in tolerances.iter().enumerate() {
         let Some(image) = render(scene, &view, tolerance) else {
             continue;
@@ -60,7 +62,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
         for place in 0..SIDE * SIDE {
             let pixel = Pixel::of(&image, &finer, place, tolerance);
             found.pixels += 1;
-            if pixel.is_suspect() {
+            if pixel.is_suspect() || sampled.as_ref().is_some_and(|it| pixel.is_unlike(it)) {
                 found.broken.extend(pixel.shortfall(subject));
             } else if pixel.has_false_claim() {
                 found.false_claims.push(pixel.broken(pixel.apart));
@@ -127,6 +129,11 @@ impl Pixel {
         let gave_up = self.uncertain > GIVEN_UP;
         self.apart > SUSPECT * self.allowed()
             || gave_up && self.apart + self.uncertain > self.allowed()
+    }
+
+    /// True if samples find nothing like it.
+    fn is_unlike(&self, sampled: &Sampled) -> bool {
+        sampled.contradicts(self.place(), self.value, self.allowed())
     }
 
     /// The pixel as a broken one, if the truth says that it is.

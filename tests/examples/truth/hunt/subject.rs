@@ -108,8 +108,13 @@ fn over_time(moments: &Scene, col: u32, row: u32, fine: f64) -> Option<(DVec3, f
 
 /// The picture to a tolerance.
 pub(super) fn render(scene: &Scene, view: &View, tolerance: f64) -> Option<Image> {
+    render_by(scene, view, Method::Tolerance(tolerance))
+}
+
+/// The picture by a method.
+pub(super) fn render_by(scene: &Scene, view: &View, method: Method) -> Option<Image> {
     let settings = Settings {
-        method: Method::Tolerance(tolerance),
+        method,
         alpha: false,
     };
     let go = |_| ControlFlow::Continue(());

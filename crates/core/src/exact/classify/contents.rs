@@ -60,7 +60,8 @@ pub(crate) struct Contents {
     /// How far, in sides of the cell, rounding may move an edge; and the area of spheres that are too small to
     /// be resolved, which are left out.
     pub(crate) rounding: f64,
-    /// Whether rays begin inside of a sphere that casts shadows, so that no light gets to what they see.
+    /// Whether all parallel rays of the cell begin inside of a sphere that casts shadows, so that no directional light
+    /// gets to what they see.
     pub(super) is_enclosed: bool,
     /// Spheres of which some parallel rays of the cell begin inside, and others not.
     pub(super) cut: Vec<(usize, Ball)>,
@@ -104,7 +105,7 @@ impl Contents {
         self.occluders.clear();
         let size = cell.size[0].min(cell.size[1]);
         self.rounding = ROUNDINGS * cell.extent() / size;
-        self.is_enclosed = scene.is_enclosed;
+        self.is_enclosed = false;
         self.is_mixed = false;
         self.cut.clear();
         let mut unresolved = 0.0;

@@ -1,0 +1,51 @@
+//! The same picture by samples, which share nothing with integrals but the scene: it tells what the finer picture
+//! misses as the picture does.
+
+use std::num::NonZeroU32;
+
+use glam::DVec4;
+use marbles_core::{Image, Method, View};
+
+use super::draft::SIDE;
+use super::subject::{Subject, render_by};
+
+/// Samples along each side of a pixel.
+const SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
+
+/// How far, beside its tolerance, a pixel may be from all that samples find in it and beside it: they miss thin
+/// spheres and small highlights. In units of light, and of what they find; more where the truth takes long.
+const MISSED: f64 = 0.01;
+const MISSED_OF_SLOW: f64 = 0.1;
+const OF_RANGE: f64 = 0.1;
+
+/// A picture of means over samples.
+pub(super) struct Sampled {
+    image: Image,
+    missed: f64,
+}
+
+impl Sampled {
+    pub(super) fn of(subject: &Subject, view: &View) -> Option<Self> {
+        let missed = if subject.is_slow() {
+            MISSED_OF_SLOW
+        } else {
+            MISSED
+        };
+        let image = render_by(&subject.scene, view, Method::Samples(SAMPLES))?;
+        Some(Self { image, missed })
+    }
+
+    /// True if a pixel is farther than its tolerance from all that samples find near it.
+    pub(super) fn contradicts(&self, (col, row): (u32, u32), value: DVec4, allowed: f64) -> bool {
+        let (mut least, mut most) = (DVec4::INFINITY, DVec4::NEG_INFINITY);
+        for row in row.saturating_sub(1)..=(row + 1).min(SIDE - 1) {
+            for col in col.saturating_sub(1)..=(col + 1).min(SIDE - 1) {
+                let near = DVec4::from_array(self.image.rgba(col, row));
+                least = least.min(near);
+                most = most.max(near);
+            }
+        }
+        let beyond = (value - most).max(least - value).max_element();
+        beyond > allowed + self.missed + OF_RANGE * (most - least).max_element()
+    }
+}
