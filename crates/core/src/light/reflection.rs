@@ -234,10 +234,8 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         if !self.has_highlight {
             return f64x8::splat(cosine.simd, 0.0);
         }
-        let along = self.ray.dot_one(toward) * self.scale;
-        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
-        let length_sq = (along * 2.0 + 2.0).max(least);
-        (cosine + self.view_cosine) / length_sq.sqrt()
+        let view = self.ray.dot_one(toward) * self.scale;
+        (cosine + self.view_cosine) / length_of_sum(view)
     }
 
     /// [`Self::half_cosine`] for points with unit vectors of their own toward a light.
@@ -246,10 +244,8 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         if !self.has_highlight {
             return f64x8::splat(cosine.simd, 0.0);
         }
-        let along = self.ray.dot(toward) * self.scale;
-        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
-        let length_sq = (along * 2.0 + 2.0).max(least);
-        (cosine + self.view_cosine) / length_sq.sqrt()
+        let view = self.ray.dot(toward) * self.scale;
+        (cosine + self.view_cosine) / length_of_sum(view)
     }
 
     /// [`Self::cosine`] for points with unit vectors of their own toward a light.
@@ -261,9 +257,14 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
     /// The change of [`Self::half_cosine`] where the normals change by this, and the view does not.
     #[inline(always)]
     pub(crate) fn change_of_half_cosine(&self, toward: DVec3, change: &Vectors<S>) -> f64x8<S> {
-        let along = self.ray.dot_one(toward) * self.scale;
-        let least = f64x8::splat(along.simd, f64::MIN_POSITIVE);
-        let length_sq = (along * 2.0 + 2.0).max(least);
-        (change.dot_one(toward) + change.dot(self.ray) * self.scale) / length_sq.sqrt()
+        let view = self.ray.dot_one(toward) * self.scale;
+        (change.dot_one(toward) + change.dot(self.ray) * self.scale) / length_of_sum(view)
     }
+}
+
+/// |l + v| of unit vectors, from l · v; never 0.
+#[inline(always)]
+fn length_of_sum<S: Simd>(cosine: f64x8<S>) -> f64x8<S> {
+    let least = f64x8::splat(cosine.simd, f64::MIN_POSITIVE);
+    (cosine * 2.0 + 2.0).max(least).sqrt()
 }

@@ -1,40 +1,20 @@
 //! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
 
-use std::ops::Range;
-
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
-use glam::DVec3;
-
 use super::active::{Active, Terminators};
-use super::coincidence::{ALIKE, has_same_outline, hides_all, is_at_eye, is_outline};
+use super::coincidence::{ALIKE, has_same_outline, is_outline};
 use super::hidden::HiddenSpheres;
-use super::occluder_cache::{OccluderCache, Shade};
+use super::occluder_cache::OccluderCache;
 use super::patch::Patch;
+use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::seam::seam;
-use crate::edges::shadow::{Caster, Cone};
+use crate::edges::shadow::Caster;
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
-use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
-use crate::exact::surface::Finish;
-use crate::light::reflection::NearLight;
-use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
-use crate::numeric::vectors::Vectors;
-use crate::search::point_occluders::Beam;
-
-/// The way of a light to a sphere in a cell.
-#[derive(Clone, Debug)]
-pub(crate) enum Reach {
-    /// The light reaches it nowhere.
-    Nowhere,
-    /// The light reaches it where none of these occluders is in the way.
-    Past(Range<usize>),
-}
 
 /// A curve on which light may change abruptly.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -83,12 +63,6 @@ pub(super) const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 /// rounding moves such a line by, in sides of a cell: it is a double root.
 const SEEN_EDGE_ON: f64 = 1e-5;
 const ROOT_OF_ROUNDING: f64 = 1e-7;
-
-/// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.
-const NEAREST: f64 = 0.5;
-
-/// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
-const FOLLOWED: f64 = 4.0;
 
 impl Contents {
     /// Takes in the spheres out of some that a cell of the pixel may see, and their edges.
@@ -256,203 +230,6 @@ impl Contents {
             }
         }
     }
-
-    /// The way of a light to a sphere that the eye is outside of, past others where there is a patch of it that they
-    /// may shade.
-    fn reach_of(
-        &mut self,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        (active, patch): (&Active, Option<&Patch>),
-        light: usize,
-        cache: &mut OccluderCache,
-    ) -> Reach {
-        let first = self.occluders.len();
-        if let Some(near) = &scene.lights[light].near {
-            return self.reach_of_near(scene, cell, (active, patch), (light, near), cache);
-        }
-        if let Some(patch) = patch {
-            let in_camera = &scene.lights[light];
-            let Some(range) = cache.occluders(scene, active.sphere, light) else {
-                return Reach::Nowhere;
-            };
-            cache.tests += range.len() as u64;
-            let found = match cache.shade(patch, in_camera, range) {
-                Shade::Everything => return Reach::Nowhere,
-                Shade::Nothing => &[],
-                Shade::Edges(found) => found,
-            };
-            let extent = |center: DVec3, radius: f64| center.length() + radius;
-            let own = extent(active.ball.center, active.ball.radius);
-            let distance = match cell.projection {
-                Projection::Central => patch.ends[0].length() / cell.middle.length(),
-                Projection::Parallel => 1.0,
-            };
-            let size = cell.size[0].min(cell.size[1]) * distance;
-            let hides_itself = cell.is_parallel() && is_at_eye(in_camera.toward);
-            for &sphere in found {
-                let (center, radius) = scene.center(sphere as usize);
-                if hides_itself && center.z >= radius {
-                    continue;
-                }
-                let mut known = self.occluders[first..].iter();
-                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
-                    continue;
-                }
-                if hides_all(&active.ball, center, radius, in_camera.toward) {
-                    return Reach::Nowhere;
-                }
-                let largest = own.max(extent(center, radius));
-                self.rounding = self.rounding.max(ROUNDINGS * largest / size);
-                self.occluders.push(in_camera.caster(center, radius));
-            }
-        }
-        Reach::Past(first..self.occluders.len())
-    }
-
-    /// The way of a point light to a sphere that the eye is outside of; to none that the light is inside of.
-    fn reach_of_near(
-        &mut self,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        (active, patch): (&Active, Option<&Patch>),
-        (light, near): (usize, &NearLight),
-        cache: &mut OccluderCache,
-    ) -> Reach {
-        let first = self.occluders.len();
-        let in_camera = &scene.lights[light];
-        let from_center = near.position - active.ball.center;
-        if from_center.length() <= active.ball.radius {
-            return Reach::Nowhere;
-        }
-        if let Some(patch) = patch {
-            let size = cell.size[0].min(cell.size[1]);
-            let size = size * patch.ends[0].length() / cell.middle.length();
-            let (middle, around) = patch.ball();
-            let beam = Beam::new(near.position, middle, around);
-            let apart = (middle - near.position).length() + around;
-            let range = cache.occluders_of_near(scene, active.sphere, light);
-            cache.tests += range.len() as u64;
-            for index in range {
-                let sphere = cache.sphere(index);
-                let (center, radius) = scene.center(sphere);
-                if !beam.is_reached_by(center, radius) {
-                    continue;
-                }
-                let mut known = self.occluders[first..].iter();
-                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
-                    continue;
-                }
-                let caster = in_camera.caster(center, radius);
-                let Some(cone) = caster.cone else { continue };
-                if cone.contains(middle, around) || hides_all_near(&active.ball, &cone, radius) {
-                    return Reach::Nowhere;
-                }
-                // What rounding turns the edges of the cone by grows toward its apex, and where it is flat.
-                let distance = cone.axis.length();
-                let largest = near.position.length() + center.length() + radius;
-                let turned = largest / distance.min(cone.power.max(0.0).sqrt());
-                let moved = ROUNDINGS * (largest + active.ball.center.length() + turned * apart);
-                // Squares of distances nearly cancel in the functions of the cone and of the way to the ball.
-                let cancelled = ROUNDINGS * apart * apart / radius.min(active.ball.radius);
-                self.rounding = self.rounding.max((moved + cancelled) / size);
-                self.occluders.push(caster);
-            }
-        }
-        Reach::Past(first..self.occluders.len())
-    }
-
-    /// Returns whether some sphere has a larger exponent than this, or bumps, which make any exponent steep.
-    pub(crate) fn is_narrow(&self, scene: &InCamera<'_>, broad: f64) -> bool {
-        scene.has_near_lights
-            || self.active.iter().any(|active| {
-                if active.terminators == Terminators::Anywhere {
-                    return true;
-                }
-                let material = scene.world.material(active.sphere);
-                let highlight = material.highlight;
-                let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
-                material.exponent.max(shininess) > broad
-            })
-    }
-
-    /// Returns whether highlights are too sharp for rules along chords of the cell.
-    #[inline(always)]
-    pub(crate) fn is_sharp<S: Simd>(
-        &self,
-        simd: S,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        negligible: f64,
-    ) -> bool {
-        let lights = scene.lights.len();
-        for (position, active) in self.active.iter().enumerate() {
-            if active.ball.outside <= 0.0 {
-                continue;
-            }
-            // The patch is no longer than this.
-            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
-            let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
-            let turn = 0.5 * length / active.ball.radius + cell.turn()[0];
-            let finish = Finish::new(scene, active.sphere, self.pixel);
-            // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
-            let cells = finish.shading_normal.cells();
-            let usual = turn.min(0.25 / cells) * finish.usual_slope();
-            for light in 0..lights {
-                // The way to a point light turns and shortens: rules follow it from farther than the patch is long.
-                if let (Some(near), Reach::Past(_)) = (
-                    &scene.lights[light].near,
-                    &self.reach[position * lights + light],
-                ) && length > NEAREST * patch.distance_from(near.position)
-                {
-                    return true;
-                }
-            }
-            if finish.sharpness() * usual * usual < 2.0 * FOLLOWED {
-                continue;
-            }
-            let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
-            for light in 0..lights {
-                let reach = &self.reach[position * lights + light];
-                let Reach::Past(_) = reach else { continue };
-                let turn = f64x8::splat(simd, turn);
-                let light = &scene.lights[light];
-                if finish.too_sharp(simd, &points, light, turn, FOLLOWED, negligible) != 0 {
-                    return true;
-                }
-            }
-        }
-        false
-    }
-
-    /// Returns whether bumps are so fine that rules along chords of the cell, and across them, know too little
-    /// of them: more than `most` cells of the noise from the middle to the corners.
-    pub(crate) fn has_finer_bumps(&self, scene: &InCamera<'_>, cell: &Cell, most: f64) -> bool {
-        self.active.iter().any(|active| {
-            let roughness = &scene.world.material(active.sphere).roughness;
-            let bumps = roughness
-                .as_ref()
-                .and_then(|roughness| roughness.bumps(active.ball.radius, active.sphere));
-            let Some(bumps) = bumps else { return false };
-            if active.ball.outside <= 0.0 {
-                return false;
-            }
-            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
-            let length = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
-            length * bumps.cells() > most * active.ball.radius
-        })
-    }
-}
-
-/// The same for a point light, from which a cone is seen.
-fn hides_all_near(ball: &Ball, cone: &Cone, radius: f64) -> bool {
-    /// Of the length of the axis, more than rounding.
-    const ALIKE: f64 = 1e-12;
-    let own = ball.center - cone.apex;
-    let [far, near] = [own.length(), cone.axis.length()];
-    far > near
-        && (own * near - cone.axis * far).length() <= ALIKE * far * near
-        && (ball.radius * near - radius * far).abs() <= ALIKE * far * near
 }
 
 /// A bound of the width of a sphere's silhouette on the retina at distance 1; infinite where the sphere comes
@@ -470,6 +247,3 @@ fn silhouette_width(ball: &Ball) -> f64 {
         f64::INFINITY
     }
 }
-
-#[cfg(test)]
-mod tests;

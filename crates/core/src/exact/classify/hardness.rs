@@ -3,8 +3,9 @@
 use fearless_simd::prelude::*;
 use glam::{DVec2, DVec3};
 
-use super::contents::{Contents, Reach};
+use super::contents::Contents;
 use super::patch::Patch;
+use super::reach::Reach;
 use crate::edges::cell::Cell;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;

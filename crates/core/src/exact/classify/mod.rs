@@ -12,6 +12,10 @@ mod mask;
 pub(crate) mod occluder_cache;
 pub(crate) mod occluders;
 pub(crate) mod patch;
+pub(crate) mod reach;
 pub(crate) mod row;
 pub(crate) mod seen;
 mod shade_mask;
+mod sharpness;
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,8 @@ use super::arcs::{Front, between, front};
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial, value};
 use super::setting::{Boundary, Edge, NONE, Setting};
-use crate::exact::classify::contents::{Kind, Reach};
+use crate::exact::classify::contents::Kind;
+use crate::exact::classify::reach::Reach;
 
 /// Intervals that begin or end at some of the places.
 fn beside(lanes: u64) -> u64 {

@@ -14,13 +14,14 @@ use super::quadrature::total;
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
 use crate::exact::classify::coincidence::is_outline;
-use crate::exact::classify::contents::{Contents, Kind, Reach};
+use crate::exact::classify::contents::{Contents, Kind};
 use crate::exact::classify::patch::Patch;
+use crate::exact::classify::reach::Reach;
 use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
-use crate::numeric::polynomial::Linear;
+use crate::numeric::polynomial::{Linear, Quadratic};
 
 use super::setting::{
     Boundary, Curve, Edge, Goal, LEAST_SHARE, NONE, Path, SHARE_OF_ALL, Setting, Sum, Surface,
@@ -64,13 +65,7 @@ impl Boundary {
         self.levels.clear();
         for (kind, conic) in &contents.conics {
             if let Kind::Terminator(one, light) = *kind {
-                let surface = &mut surfaces[one];
-                surface.terminators |= 1 << light;
-                if surface.is_singular(1 << light) {
-                    let exponent = surface.finish.reflectance.exponents()[0];
-                    surface.rules = PowerRules::of(exponent, &mut self.rules);
-                    self.add_levels(one, &surface.reference, conic);
-                }
+                self.note_terminator(&mut surfaces[one], one, light, conic);
             }
         }
         if cell.is_parallel() {
@@ -221,14 +216,24 @@ impl Boundary {
                 if !reaches || !plane.as_ref().is_some_and(is_outline) {
                     continue;
                 }
-                let surface = &mut surfaces[one];
-                surface.terminators |= 1 << light;
-                if surface.is_singular(1 << light) {
-                    let exponent = surface.finish.reflectance.exponents()[0];
-                    surface.rules = PowerRules::of(exponent, &mut self.rules);
-                    self.add_levels(one, &surface.reference, conic);
-                }
+                self.note_terminator(&mut surfaces[one], one, light, conic);
             }
+        }
+    }
+
+    /// Notes that a surface has the terminator of a light in the cell, and how light goes to zero there.
+    fn note_terminator(
+        &mut self,
+        surface: &mut Surface,
+        position: usize,
+        light: usize,
+        conic: &Quadratic,
+    ) {
+        surface.terminators |= 1 << light;
+        if surface.is_singular(1 << light) {
+            let exponent = surface.finish.reflectance.exponents()[0];
+            surface.rules = PowerRules::of(exponent, &mut self.rules);
+            self.add_levels(position, &surface.reference, conic);
         }
     }
 

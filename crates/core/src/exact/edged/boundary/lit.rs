@@ -9,7 +9,7 @@ use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::edges::terminator::Plane;
 use crate::exact::classify::coincidence::is_outline;
-use crate::exact::classify::contents::Reach;
+use crate::exact::classify::reach::Reach;
 use crate::exact::points::Points;
 
 impl Boundary {

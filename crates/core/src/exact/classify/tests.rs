@@ -1,14 +1,19 @@
 //! What is left out of a cell, against many of its points.
 
 use fearless_simd::Level;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use super::*;
+use super::active::{Active, Terminators};
+use super::hidden::HiddenSpheres;
+use super::occluder_cache::{OccluderCache, Shade};
+use super::patch::Patch;
+use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::Caster;
+use crate::edges::silhouette::silhouette;
 use crate::edges::tests::{
     ball_in_front, cell_at, coordinate, direction, first_hit, magnitude, ray,
 };
-use crate::exact::scene::Light;
+use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;

@@ -1,0 +1,103 @@
+//! How fast light changes over a cell: what rules along its lines cannot follow.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::active::Terminators;
+use super::contents::Contents;
+use super::patch::Patch;
+use super::reach::Reach;
+use crate::edges::cell::Cell;
+use crate::exact::points::Points;
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
+use crate::numeric::vectors::Vectors;
+
+/// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.
+const NEAREST: f64 = 0.5;
+
+/// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
+const FOLLOWED: f64 = 4.0;
+
+impl Contents {
+    /// Returns whether some sphere has a larger exponent than this, or bumps, which make any exponent steep.
+    pub(crate) fn is_narrow(&self, scene: &InCamera<'_>, broad: f64) -> bool {
+        scene.has_near_lights
+            || self.active.iter().any(|active| {
+                if active.terminators == Terminators::Anywhere {
+                    return true;
+                }
+                let material = scene.world.material(active.sphere);
+                let highlight = material.highlight;
+                let shininess = highlight.map_or(0.0, |highlight| highlight.shininess);
+                material.exponent.max(shininess) > broad
+            })
+    }
+
+    /// Returns whether highlights are too sharp for rules along chords of the cell.
+    #[inline(always)]
+    pub(crate) fn is_sharp<S: Simd>(
+        &self,
+        simd: S,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        negligible: f64,
+    ) -> bool {
+        let lights = scene.lights.len();
+        for (position, active) in self.active.iter().enumerate() {
+            if active.ball.outside <= 0.0 {
+                continue;
+            }
+            // The patch is no longer than this.
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let length = (patch.ends[1] - patch.ends[0]).length() + 2.0 * patch.around;
+            let turn = 0.5 * length / active.ball.radius + cell.turn()[0];
+            let finish = Finish::new(scene, active.sphere, self.pixel);
+            // On bumps rules are at most a quarter of a cell of the noise from the middles of their parts.
+            let cells = finish.shading_normal.cells();
+            let usual = turn.min(0.25 / cells) * finish.usual_slope();
+            for light in 0..lights {
+                // The way to a point light turns and shortens: rules follow it from farther than the patch is long.
+                if let (Some(near), Reach::Past(_)) = (
+                    &scene.lights[light].near,
+                    &self.reach[position * lights + light],
+                ) && length > NEAREST * patch.distance_from(near.position)
+                {
+                    return true;
+                }
+            }
+            if finish.sharpness() * usual * usual < 2.0 * FOLLOWED {
+                continue;
+            }
+            let points = Points::new(simd, &active.ball, Vectors::splat(simd, cell.middle));
+            for light in 0..lights {
+                let reach = &self.reach[position * lights + light];
+                let Reach::Past(_) = reach else { continue };
+                let turn = f64x8::splat(simd, turn);
+                let light = &scene.lights[light];
+                if finish.too_sharp(simd, &points, light, turn, FOLLOWED, negligible) != 0 {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Returns whether bumps are so fine that rules along chords of the cell, and across them, know too little
+    /// of them: more than `most` cells of the noise from the middle to the corners.
+    pub(crate) fn has_finer_bumps(&self, scene: &InCamera<'_>, cell: &Cell, most: f64) -> bool {
+        self.active.iter().any(|active| {
+            let roughness = &scene.world.material(active.sphere).roughness;
+            let bumps = roughness
+                .as_ref()
+                .and_then(|roughness| roughness.bumps(active.ball.radius, active.sphere));
+            let Some(bumps) = bumps else { return false };
+            if active.ball.outside <= 0.0 {
+                return false;
+            }
+            let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
+            let length = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
+            length * bumps.cells() > most * active.ball.radius
+        })
+    }
+}
