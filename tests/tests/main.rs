@@ -15,6 +15,7 @@ mod layers;
 mod parallel;
 mod photometric;
 mod point_lights;
+mod previews;
 mod promise;
 mod python;
 mod reference;

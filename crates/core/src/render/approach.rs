@@ -2,9 +2,15 @@
 
 use std::num::NonZeroU32;
 
+use rayon::prelude::*;
+
 use super::settings::Settings;
+use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::model::exposure::Exposure;
 use crate::model::light::Light;
+use crate::model::sphere::Sphere;
+use crate::model::view::View;
 use crate::model::world::World;
 use crate::picture::image::Uniform;
 use crate::picture::pixel::{Evidence, Method, Status};
@@ -16,40 +22,126 @@ pub(super) struct Approach {
     pub(super) uniform: Uniform,
 }
 
-/// Samples on a side of a pixel where any answer is good enough, from these multiples of the contrast on.
-const PREVIEWS: [(f64, NonZeroU32); 2] =
-    [(2.5, NonZeroU32::MIN), (1.0, NonZeroU32::new(2).unwrap())];
+/// Samples on a side of a pixel that meet a tolerance.
+struct Preview {
+    /// The least tolerance, in multiples of the contrast of the world.
+    from: f64,
+    samples: NonZeroU32,
+    evidence: Evidence,
+    /// True if it pays only where there are more spheres than pixels.
+    is_for_crowds: bool,
+}
+
+/// The cheapest first. From the whole contrast on any answer is good enough.
+///
+/// # Accuracy
+/// Below that samples are an estimate: N × N of them claim [`OF_SPACING`] / N of the contrast. One straight edge along
+/// the grid costs half of 1/N at the worst; over all scenes in `scenes` and a million spheres no pixel was off by more
+/// than 0.71 / N. Strips between the samples could fool them, two of which claim their whole width, and more than a few
+/// spheres that fit between them: where any may be that small, the integral is taken.
+const PREVIEWS: [Preview; 4] = [
+    Preview {
+        from: 2.5,
+        samples: NonZeroU32::MIN,
+        evidence: Evidence::Bound,
+        is_for_crowds: false,
+    },
+    Preview {
+        from: 1.0,
+        samples: NonZeroU32::new(2).unwrap(),
+        evidence: Evidence::Bound,
+        is_for_crowds: false,
+    },
+    Preview {
+        from: 0.5,
+        samples: NonZeroU32::new(3).unwrap(),
+        evidence: Evidence::Estimate,
+        is_for_crowds: false,
+    },
+    Preview {
+        from: 0.2,
+        samples: NonZeroU32::new(6).unwrap(),
+        evidence: Evidence::Estimate,
+        is_for_crowds: true,
+    },
+];
+
+/// What samples claim, in parts of the contrast times their spacing in pixels.
+const OF_SPACING: f64 = 1.2;
 
 impl Approach {
-    /// The one that `settings` ask for in a world under some lights. Where the tolerance is no less than the whole contrast of the world, samples
-    /// meet it, whatever they miss.
-    pub(super) fn of(world: &World, lights: &[Light], settings: &Settings) -> Self {
-        match settings.method {
-            Method::Samples(samples) => Self {
+    /// The one that `settings` ask for in a world under some lights.
+    pub(super) fn of(
+        world: &World,
+        lights: &[Light],
+        exposure: &Exposure<'_>,
+        settings: &Settings,
+    ) -> Self {
+        let tolerance = match settings.method {
+            Method::Samples(samples) => {
+                return Self {
+                    method: settings.method,
+                    uniform: Supersampling::uniform(samples),
+                };
+            }
+            Method::Tolerance(tolerance) => tolerance,
+        };
+        let contrast = contrast(world, lights, settings.alpha);
+        let meets = |preview: &&Preview| {
+            preview.from * contrast <= tolerance && preview.is_for(world, exposure)
+        };
+        let Some(preview) = PREVIEWS.iter().find(meets) else {
+            return Self {
                 method: settings.method,
-                uniform: Supersampling::uniform(samples),
+                uniform: Uniform::default(),
+            };
+        };
+        Self {
+            method: Method::Samples(preview.samples),
+            uniform: Uniform {
+                error: Some(contrast * preview.claims()),
+                outcome: Some((preview.evidence, Status::Met)),
             },
-            Method::Tolerance(tolerance) => {
-                let contrast = contrast(world, lights, settings.alpha);
-                let preview = PREVIEWS
-                    .iter()
-                    .find(|(times, _)| times * contrast <= tolerance);
-                match preview {
-                    Some((_, samples)) => Self {
-                        method: Method::Samples(*samples),
-                        uniform: Uniform {
-                            error: Some(contrast),
-                            outcome: Some((Evidence::Bound, Status::Met)),
-                        },
-                    },
-                    None => Self {
-                        method: settings.method,
-                        uniform: Uniform::default(),
-                    },
-                }
+        }
+    }
+}
+
+impl Preview {
+    /// True for pictures that it can be taken for. Of those that move, only bounds are.
+    fn is_for(&self, world: &World, exposure: &Exposure<'_>) -> bool {
+        let view = exposure.view();
+        let pixels = u64::from(view.width) * u64::from(view.height);
+        let is_crowd = world.spheres().len() as u64 > pixels;
+        match self.evidence {
+            Evidence::Bound => true,
+            Evidence::Estimate => {
+                (is_crowd || !self.is_for_crowds)
+                    && exposure.motion().is_none()
+                    && !has_smaller(world, view, 1.0 / f64::from(self.samples.get()))
             }
         }
     }
+
+    /// The part of the contrast that pixels may be off by.
+    fn claims(&self) -> f64 {
+        match self.evidence {
+            Evidence::Bound => 1.0,
+            Evidence::Estimate => OF_SPACING / f64::from(self.samples.get()),
+        }
+    }
+}
+
+/// Returns whether some sphere may be seen with a smaller radius, in pixels.
+fn has_smaller(world: &World, view: &View, radius: f64) -> bool {
+    let unit = view.pixels_per_unit();
+    let is_smaller = |sphere: &Sphere| {
+        let distance = match view.lens.projection() {
+            Projection::Central => (sphere.center() - view.camera.position).length(),
+            Projection::Parallel => 1.0,
+        };
+        sphere.radius() * unit < radius * distance
+    };
+    world.spheres().par_iter().any(is_smaller)
 }
 
 /// The largest difference between what pixels may show, in any channel; alpha is one.

@@ -66,7 +66,7 @@ impl<'scene> Integrator<'scene> {
         settings: &Settings,
         indices: &mut Indices<'scene>,
     ) -> Self {
-        let method = Approach::of(world, visibility.lights(), settings).method;
+        let method = Approach::of(world, visibility.lights(), exposure, settings).method;
         let alpha = settings.alpha;
         let view = exposure.view();
         if let Some(motion) = exposure.motion() {

@@ -165,7 +165,7 @@ impl<'world> Renderer<'world> {
             size: (view.width, view.height),
             channels: Channels::of(&self.world, settings.alpha),
             alpha: settings.alpha,
-            uniform: Approach::of(&self.world, lights, settings).uniform,
+            uniform: Approach::of(&self.world, lights, exposure, settings).uniform,
         }
     }
 }

@@ -3,6 +3,7 @@
 use fearless_simd::prelude::*;
 
 use super::average::Setting;
+use super::claims::Claims;
 use super::eight_boxes::Eight;
 use super::outlines::Outline;
 use crate::exact::part::Part;
@@ -35,8 +36,8 @@ pub(super) const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 pub(super) const HALVES: [[f64; 2]; 2] = [[-0.25, 0.0], [0.25, 0.0]];
 const QUARTERS: [[f64; 2]; 4] = [[-0.25, -0.25], [-0.25, 0.25], [0.25, 0.25], [0.25, -0.25]];
 
-/// The share of what is left of the tolerance that the boxes of a size may claim together, if they are more than
-/// the tolerance allows.
+/// The share of what is left of the tolerance that the boxes of a size may claim together, if they claim more than
+/// it allows.
 pub(super) const SHARE: f64 = 0.5;
 
 /// How many times more than what is left of the tolerance boxes claim that are quartered, not halved. Not tuned finely.
@@ -56,7 +57,12 @@ impl Division {
         self.size = FIRST_SIZE;
         let first = setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise));
         self.samples += first.samples;
-        let whole = first.total(self.size[0] * self.size[1]);
+        let area = self.size[0] * self.size[1];
+        let claims = first.error.map(|error| error * area);
+        let whole = Part {
+            error: Claims::of(claims).total(),
+            ..first.total(area)
+        };
         if whole.error <= tolerance {
             return Some(whole);
         }
@@ -66,12 +72,21 @@ impl Division {
             self.known.push((middle, first.lane(lane)));
         }
         let mut part = Part::NOTHING;
+        let mut of_part = Claims::default();
         let mut eights = 1;
         loop {
-            let (claims, allowed) = (self.claims(), tolerance - part.error);
+            let claims = self.claims();
+            let (suffices, claims) = (of_part.and(claims).total() <= tolerance, claims.total());
+            let allowed = tolerance - of_part.total();
             let is_far = claims > FAR * allowed;
-            self.divide(&mut part, allowed, claims);
+            let limit = if suffices {
+                f64::INFINITY
+            } else {
+                SHARE * allowed / Claims::of_equal(self.known.len())
+            };
+            of_part = of_part.and(self.divide(&mut part, limit));
             if self.left.is_empty() {
+                part.error = of_part.total();
                 return Some(part);
             }
             self.shrink(is_far);
@@ -92,27 +107,27 @@ impl Division {
     }
 
     /// What the boxes that were just done claim together.
-    fn claims(&self) -> f64 {
-        let sum: f64 = self.known.iter().map(|(_, average)| average.error).sum();
-        sum * self.size[0] * self.size[1]
+    fn claims(&self) -> Claims {
+        let area = self.size[0] * self.size[1];
+        Claims::of(self.known.iter().map(|(_, average)| average.error * area))
     }
 
-    /// Adds the boxes to `part` that claim little enough, or all if all do, and leaves the halves of the others to do.
-    fn divide(&mut self, part: &mut Part, allowed: f64, claims: f64) {
+    /// Adds the boxes to `part` that claim no more than a limit, and leaves the halves of the others to do; returns what
+    /// those claim that were added.
+    fn divide(&mut self, part: &mut Part, limit: f64) -> Claims {
         let area = self.size[0] * self.size[1];
-        let limit = if claims <= allowed {
-            f64::INFINITY
-        } else {
-            SHARE * allowed / (self.known.len() as f64 * area)
-        };
+        let mut claims = Claims::default();
         self.left.clear();
         for &(middle, average) in &self.known {
-            if average.error <= limit {
+            let claim = average.error * area;
+            if claim <= limit {
                 part.add(&average, area);
+                claims.add(claim);
             } else {
                 self.left.push(middle);
             }
         }
+        claims
     }
 
     /// Puts halves across their longer sides in place of the boxes that are left, or quarters. Parts of a box stay
