@@ -137,7 +137,9 @@ impl Setting<'_, '_> {
                 let zero = f64x8::splat(simd, 0.0);
                 let mut seen = zero;
                 for outline in outlines.iter() {
-                    let visible = outline.visible(simd, outlines, self.orders);
+                    let Some(visible) = outline.visible(simd, outlines, self.orders) else {
+                        continue;
+                    };
                     let region = &visible.region;
                     let error = (visible.doubt + region.ambiguity).min(region.most);
                     found[visible.position] = [visible.share.area.into(), error.into()];

@@ -199,8 +199,7 @@ impl Setting<'_, '_> {
         let outside = self.outlines(simd, &boxes, outlines);
         let mut sum = Sum::nothing(simd, self.scene.channels);
         for outline in outlines.iter() {
-            let visible = outline.visible(simd, outlines, self.orders);
-            if visible.is_possible.to_bitmask() != 0 {
+            if let Some(visible) = outline.visible(simd, outlines, self.orders) {
                 let light = self.light(simd, &boxes, &visible, noise);
                 sum.add(&visible, &light);
             }

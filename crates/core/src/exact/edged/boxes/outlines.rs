@@ -114,9 +114,14 @@ impl Outline {
         })
     }
 
-    /// What is seen of it behind others.
+    /// What is seen of it behind others; `None` where they hide it in all boxes.
     #[inline(always)]
-    pub(super) fn visible<S: Simd>(&self, simd: S, all: &[Self], orders: &Orders) -> Visible<S> {
+    pub(super) fn visible<S: Simd>(
+        &self,
+        simd: S,
+        all: &[Self],
+        orders: &Orders,
+    ) -> Option<Visible<S>> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let inside = self.inside.load(simd);
@@ -128,7 +133,12 @@ impl Outline {
             }
             match orders.of(self.position, other.position) {
                 Order::Front => {}
-                Order::Behind => region.cut(simd, &other.outside(simd)),
+                Order::Behind => {
+                    region.cut(simd, &other.outside(simd));
+                    if region.most.simd_gt(zero).to_bitmask() == 0 {
+                        return None;
+                    }
+                }
                 Order::ByDepth => {
                     let theirs = other.inside.load(simd);
                     let both = inside.share.min(theirs.share) + inside.doubt + theirs.doubt;
@@ -155,7 +165,8 @@ impl Outline {
             self.inward[0].simd_into(simd),
             self.inward[1].simd_into(simd),
         ];
-        Visible {
+        let is_possible = region.most.simd_gt(zero);
+        (is_possible.to_bitmask() != 0).then_some(Visible {
             position: self.position,
             region,
             share,
@@ -163,8 +174,8 @@ impl Outline {
             doubt,
             inward: [inward[0] * nearer, inward[1] * nearer],
             is_cut: inside.share.simd_lt(one),
-            is_possible: region.most.simd_gt(zero),
-        }
+            is_possible,
+        })
     }
 
     /// The boxes outside of the sphere.
