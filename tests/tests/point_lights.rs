@@ -1,7 +1,7 @@
 //! Point lights at single points, by plain geometry.
 
 use glam::DVec3;
-use marbles_core::{Color, Light, LightFalloff, Material, PointLight, Sphere, World};
+use marbles_core::{Color, Light, LightFalloff, Material, PointLight, Sphere, View, World};
 use marbles_tests::reference::Reference;
 
 use crate::studio::{exact_picture, looking_forward, picture};

@@ -112,6 +112,34 @@ fn ride(frames: i32, shutter: &str) -> String {
     )
 }
 
+/// A parallel lens that goes past balls, one of which its plane cuts, under a light amid them and a directional one.
+fn pass(frames: i32, shutter: &str) -> String {
+    format!(
+        "(image: (width: 40, height: 30), lens: Parallel(width: 5),
+        camera: Free(position: (0, 0, -6)),
+        background: 0.05, ambient: 0.05,
+        lights: [
+            Point(position: (0.4, 0.3, -1.2), intensity: 0.4, reference: 1),
+            Directional(toward: (-1, 1, -1), intensity: 0.4),
+        ],
+        materials: {{ \"shiny\": (albedo: (0.8, 0.3, 0.2), highlight: (strength: 0.3, shininess: 20)) }},
+        spheres: [
+            (center: (-1, 0, 0), radius: 0.9, material: \"shiny\"),
+            (center: (1, 0.3, 0.5), radius: 0.7),
+            (center: (0.3, -0.7, -1.5), radius: 0.3, material: \"shiny\"),
+            (center: (0.9, 0.9, -5.9), radius: 0.4),
+        ],
+        animation: Keyframes(frames: (1, 3){shutter}, keys: [
+            (frame: {}, position: (-1, 0, -6), ease: Linear),
+            (frame: {}, position: (0.5, 0.2, -6), roll: 5, ease: Linear),
+            (frame: {}, position: (2, 0, -6)),
+        ]))",
+        frames,
+        2 * frames,
+        3 * frames
+    )
+}
+
 /// The mean of many moments, of red, green, blue and alpha.
 fn mean(animated: Animated, frame: i32) -> Vec<[f64; 4]> {
     let many = scene(&animated(FRAMES, ""));
@@ -177,6 +205,11 @@ fn small_balls_and_bends_meet_their_tolerance() {
 #[test]
 fn jumps_and_bumps_meet_their_tolerance() {
     meets_its_tolerance(ride);
+}
+
+#[test]
+fn parallel_lenses_and_point_lights_meet_their_tolerance() {
+    meets_its_tolerance(pass);
 }
 
 #[test]

@@ -74,6 +74,47 @@ fn each_file_is_that_of_the_scene_with_this_light() {
     assert!(!folder.path("a.png").exists());
 }
 
+/// The same while the shutter is open, by a parallel lens, under a light amid the balls and one at the camera.
+#[test]
+fn each_file_is_that_of_the_scene_with_this_light_in_motion() {
+    const LIGHTS: [&str; 2] = [
+        "Point(position: (1, 1.5, -2), intensity: 0.5, reference: 1.5)",
+        "Directional(toward: (0.25, 0, -1), intensity: 0.5)",
+    ];
+    let folder = Folder::new();
+    let write = |name: &str, light: &str| {
+        let scene = balls(light).replace("Fov(40)", "Parallel(width: 5)").replace(
+            "spheres:",
+            "animation: Keyframes(frames: (1, 2), shutter: 0.5, keys: [
+                (frame: 1, position: (0, 0, -6), ease: Linear), (frame: 2, position: (0.75, 0, -6))]),
+             spheres:",
+        );
+        fs::write(folder.path(&format!("{name}.ron")), scene).unwrap();
+    };
+    write(
+        "all",
+        &format!("{SURROUNDINGS} lights: [{}],", LIGHTS.join(", ")),
+    );
+    write("ambient", SURROUNDINGS);
+    for (number, light) in (1..).zip(LIGHTS) {
+        write(&format!("light-{number}"), &format!("lights: [{light}],"));
+    }
+    let options = "--frames 1 --error-channel --tolerance 1e-2";
+    run(
+        &folder,
+        &format!("render all.ron --per-light -o a.####.npy {options}"),
+    );
+    for key in ["light-1", "light-2", "ambient"] {
+        run(
+            &folder,
+            &format!("render {key}.ron -o b.####.{key}.npy {options}"),
+        );
+        let [found, expected] = ["a", "b"]
+            .map(|name| fs::read(folder.path(&format!("{name}.0001.{key}.npy"))).unwrap());
+        assert!(found == expected, "{key}");
+    }
+}
+
 #[test]
 fn pictures_of_lights_are_resumed_one_by_one() {
     let folder = folder();

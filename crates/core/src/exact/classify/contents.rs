@@ -144,10 +144,8 @@ impl Contents {
                 is_dark: false,
             });
         }
-        let begins_inside = self.is_enclosed || !self.cut.is_empty();
         self.add_caps(scene, cell);
-        // Which of the rays that begin inside of spheres see what a light in them reaches is not told apart.
-        self.is_mixed |= cell.is_parallel() && begins_inside && scene.has_near_lights;
+        let reaching = self.lights_that_reach(scene, cell);
         self.hidden.remove(cache.level, &mut self.active);
         for position in 0..self.active.len() {
             let active = self.active[position];
@@ -157,9 +155,8 @@ impl Contents {
                 self.conics.push((kind, active.discriminant));
             }
             self.add_seams(cell, position);
-            let may_be_lit = is_outside && !self.is_enclosed && !active.is_dark;
-            let is_reached = scene.lights.iter().any(|light| !light.is_shut_off);
-            let may_be_shaded = may_be_lit && is_reached && scene.world.shadows;
+            let may_be_lit = is_outside && !active.is_dark;
+            let may_be_shaded = may_be_lit && reaching != 0 && scene.world.shadows;
             let patch = may_be_shaded.then(|| {
                 let Active {
                     ball,
@@ -170,7 +167,7 @@ impl Contents {
                 Patch::new(cell, ball, discriminant, along)
             });
             for light in 0..scene.lights.len() {
-                let reach = if may_be_lit && !scene.lights[light].is_shut_off {
+                let reach = if may_be_lit && reaching & (1 << light) != 0 {
                     self.reach_of(scene, cell, (&active, patch.as_ref()), light, cache)
                 } else {
                     Reach::Nowhere

@@ -4,18 +4,20 @@ use super::active::{Active, Terminators};
 use super::contents::{Contents, NARROWEST, ROUNDINGS};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
-use crate::exact::scene::InCamera;
+use crate::exact::scene::{InCamera, Light};
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
-impl Contents {
-    /// Takes in a sphere that the plane cuts in which parallel rays begin. As the cell sees it the ball is then one that
-    /// all rays begin outside of, or inside; returns false where it is not seen, or not known yet.
-    pub(super) fn take_cut(
-        &mut self,
-        scene: &InCamera<'_>,
-        cell: &Cell,
-        (sphere, ball): (usize, &mut Ball),
-    ) -> bool {
+/// Where the parallel rays of a cell begin, as a sphere sees it that the plane of their beginnings cuts.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Begin {
+    Inside,
+    Outside,
+    /// Some inside, or that is not known.
+    Either,
+}
+
+impl Begin {
+    fn of(cell: &Cell, ball: &Ball) -> Self {
         let z = ball.center.z;
         let mut inside = silhouette(cell, ball);
         let (at_center, spread) = (inside.one, inside.spread());
@@ -24,16 +26,64 @@ impl Contents {
         let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
             + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
         if inside.one + spread + slack < 0.0 {
+            Self::Outside
+        } else if inside.one - spread - slack > 0.0 {
+            Self::Inside
+        } else {
+            Self::Either
+        }
+    }
+}
+
+/// Returns whether all rays of a cell that see an outer side begin inside of all spheres around a point light.
+fn is_inside_with(scene: &InCamera<'_>, cell: &Cell, light: &Light) -> bool {
+    let around = scene.visibility.point_light(light.index);
+    let around = around.map_or(&[][..], |occluders| occluders.enclosing());
+    around.iter().all(|&sphere| {
+        let ball = scene.ball(sphere);
+        // Where some rays begin outside, those that begin inside see the inner side alone.
+        ball.is_cut() && Begin::of(cell, &ball) == Begin::Inside
+    })
+}
+
+impl Contents {
+    /// Takes in a sphere that the plane cuts. As the cell sees it the ball is then one that all rays begin outside of, or
+    /// inside; returns false where it is not seen, or not known yet.
+    pub(super) fn take_cut(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        (sphere, ball): (usize, &mut Ball),
+    ) -> bool {
+        match Begin::of(cell, ball) {
             // Rays meet its outer side, or pass it.
-            ball.outside = z;
-            return z > 0.0;
+            Begin::Outside => {
+                ball.outside = ball.center.z;
+                ball.center.z > 0.0
+            }
+            Begin::Inside => {
+                self.is_enclosed |= scene.world.shadows;
+                true
+            }
+            Begin::Either => {
+                self.cut.push((sphere, *ball));
+                false
+            }
         }
-        if inside.one - spread - slack > 0.0 {
-            self.is_enclosed |= scene.world.shadows;
-            return true;
-        }
-        self.cut.push((sphere, *ball));
-        false
+    }
+
+    /// The lights, as bits, that reach outer sides in the cell, as far as spheres around the beginnings of its rays and
+    /// around the lights tell.
+    pub(super) fn lights_that_reach(&self, scene: &InCamera<'_>, cell: &Cell) -> u64 {
+        let reaches = |light: &Light| match light.near {
+            None => !light.is_shut_off && !self.is_enclosed,
+            Some(_) if !light.is_shut_off => true,
+            Some(_) => cell.is_parallel() && is_inside_with(scene, cell, light),
+        };
+        let lights = scene.lights.iter().enumerate();
+        lights.fold(0, |bits, (index, light)| {
+            bits | u64::from(reaches(light)) << index
+        })
     }
 
     /// Adds the spheres of which some rays of the cell begin inside: there, where nothing else lies inside of one, its
