@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use exr::prelude::FlatSamples;
+
+use crate::channels::{Channels, read};
 use crate::folder::{Folder, code, text};
 
 /// The scene of `balls`, with what comes before its spheres left open.
@@ -106,6 +109,151 @@ fn pictures_of_lights_are_resumed_one_by_one() {
         ambient.contains("\"lights\": []") && ambient.contains("[0.125, 0.25, 0.5]"),
         "{ambient}"
     );
+}
+
+/// The numbers of a channel of floats.
+fn floats<'a>(channels: &'a Channels, name: &str) -> &'a [f32] {
+    match &channels[name] {
+        FlatSamples::F32(floats) => floats,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+const LAYERS: [&str; 4] = ["1", "2", "3", "ambient"];
+
+#[test]
+fn layers_hold_what_files_do() {
+    let folder = folder();
+    let options = "--float --error-channel --channels depth,id";
+    run(&folder, &format!("render all.ron -o plain.exr {options}"));
+    run(
+        &folder,
+        &format!("render all.ron -o a.exr --per-light {options}"),
+    );
+    let layered = format!("render all.ron -o layers.exr --per-light=layers {options}");
+    let lines = run(&folder, &layered);
+    // The pixels of the picture and of four layers.
+    assert!(lines.starts_with("layers.exr: 9250 pixels, "), "{lines}");
+    assert_eq!(lines.lines().count(), 1, "{lines}");
+
+    let layers = read(&folder, "layers.exr");
+    let plain = read(&folder, "plain.exr");
+    for (name, samples) in &plain {
+        assert!(*samples == layers[name], "{name}");
+    }
+    let mut count = plain.len();
+    for (layer, key) in LAYERS.into_iter().zip(KEYS) {
+        let file = read(&folder, &format!("a.{key}.exr"));
+        for name in ["R", "G", "B", "error"] {
+            assert!(
+                file[name] == layers[&format!("{layer}.{name}")],
+                "{layer}.{name}"
+            );
+            count += 1;
+        }
+    }
+    assert_eq!(layers.len(), count);
+
+    // The layers make the picture, as far as their errors allow, and the rounding of floats.
+    let mut largest = 0.0_f64;
+    for color in ["R", "G", "B"] {
+        for pixel in 0..50 * 37 {
+            let sum = |channel: &str| -> f64 {
+                let numbers = LAYERS.map(|layer| format!("{layer}.{channel}"));
+                numbers
+                    .map(|name| f64::from(floats(&layers, &name)[pixel]))
+                    .iter()
+                    .sum()
+            };
+            let picture = f64::from(floats(&layers, color)[pixel]);
+            let error = sum("error") + f64::from(floats(&layers, "error")[pixel]);
+            let off = (sum(color) - picture).abs();
+            assert!(off <= error + 1e-6, "{color} {pixel}: {off} {error}");
+            largest = largest.max(picture);
+        }
+    }
+    assert!(largest > 0.5);
+
+    let compared = run(&folder, "compare layers.exr plain.exr");
+    assert!(compared.contains("the pictures are the same"), "{compared}");
+    let again = run(&folder, &format!("{layered} --skip-existing"));
+    assert!(again.contains("layers.exr: skipped"), "{again}");
+    // A file without layers is another one.
+    let others = run(
+        &folder,
+        &format!("render all.ron -o layers.exr {options} --skip-existing"),
+    );
+    assert!(!others.contains("skipped"), "{others}");
+    let again = run(&folder, &format!("{layered} --skip-existing"));
+    assert!(!again.contains("skipped"), "{again}");
+}
+
+#[test]
+fn layers_come_with_sequences_parts_and_alpha() {
+    let folder = folder();
+    let moving = balls(&format!(
+        "{SURROUNDINGS} lights: [{}],
+         animation: Keyframes(frames: (1, 3), keys: [(frame: 1, pan: 0), (frame: 3, pan: 9)]),",
+        LIGHTS.join(", ")
+    ));
+    fs::write(folder.path("moving.ron"), moving).unwrap();
+    let lines = run(
+        &folder,
+        "render moving.ron -o m.#.exr --per-light=layers --alpha --threads 3",
+    );
+    assert_eq!(lines.lines().count(), 4, "{lines}");
+    assert!(lines.contains("\n3 frames: 27750 pixels"), "{lines}");
+    let second = "render moving.ron --frames 2 --per-light=layers --alpha";
+    run(&folder, &format!("{second} -o alone.exr --threads 1"));
+    let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(bytes("alone.exr") == bytes("m.2.exr"));
+    let names: Vec<String> = read(&folder, "alone.exr").into_keys().collect();
+    let expected = "1.B 1.G 1.R 2.B 2.G 2.R 3.B 3.G 3.R A B G R ambient.B ambient.G ambient.R";
+    assert_eq!(names.join(" "), expected);
+
+    for (part, region) in [("upper", "0,0,50,21"), ("lower", "0,21,50,16")] {
+        run(
+            &folder,
+            &format!("{second} -o {part}.exr --region {region}"),
+        );
+    }
+    run(&folder, "merge merged.exr upper.exr lower.exr");
+    assert!(read(&folder, "merged.exr") == read(&folder, "alone.exr"));
+}
+
+#[test]
+fn layers_are_refused_where_there_can_be_none() {
+    let folder = folder();
+    let named = balls("lights: [Directional(name: \"depth\", toward: (0, 1, 0))],");
+    fs::write(folder.path("named.ron"), named).unwrap();
+    for (arguments, why) in [
+        (
+            "all.ron -o a.png",
+            "--per-light=layers is for EXR files, and the output is PNG",
+        ),
+        (
+            "all.ron -o a.npy",
+            "--per-light=layers is for EXR files, and the output is NPY",
+        ),
+        (
+            "named.ron -o a.exr --channels depth",
+            "the light `depth` would have the layer of the channels `depth`",
+        ),
+    ] {
+        let output = folder.run(&format!("render {arguments} --per-light=layers"));
+        assert_eq!(code(&output), 2);
+        let message = text(&output.stderr);
+        assert!(message.contains(why), "{message}");
+    }
+    assert_eq!(
+        folder
+            .names(".")
+            .iter()
+            .filter(|name| name.starts_with("a."))
+            .count(),
+        0
+    );
+    run(&folder, "render named.ron -o a.exr --per-light=layers");
 }
 
 #[test]

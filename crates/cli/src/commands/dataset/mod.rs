@@ -144,6 +144,7 @@ fn request(
     let pattern = Pattern::parse(&arguments.output.join("picture.png"));
     Ok(Request {
         parts: parts.collect(),
+        layers: Vec::new(),
         pattern: pattern.map_err(Failure::Usage)?,
         encoding,
         frames: FrameList::from(frame..=frame),
