@@ -40,7 +40,7 @@ const LEAST_ALONG: f64 = 1.0 / (1_u64 << 26) as f64;
 /// Sums of squares that neither overflow nor underflow in what follows.
 const MODERATE: std::ops::Range<f64> = 1e-100..1e100;
 
-/// Spheres as rays from a point meet them, one in each lane, in lengths that a power of two has scaled.
+/// Spheres as rays meet them, one in each lane, in lengths that a power of two has scaled.
 #[derive(Clone, Copy)]
 pub(crate) struct Targets<S: Simd> {
     /// f, the sum of two vectors.
@@ -71,7 +71,7 @@ pub(crate) struct Crossings<S: Simd, const FUSED: bool> {
 }
 
 impl<S: Simd> Targets<S> {
-    /// The same sphere in all lanes; `scale` is a power of two.
+    /// The same sphere in all lanes, of rays from one origin; `scale` is a power of two.
     #[inline(always)]
     pub(crate) fn splat<const FUSED: bool>(
         simd: S,
@@ -84,14 +84,37 @@ impl<S: Simd> Targets<S> {
             let parts = two_difference(sphere.center[axis], origin[axis]);
             (high[axis], low[axis]) = (parts.0 * scale, parts.1 * scale);
         }
-        let radius = sphere.radius * scale;
+        let to_center = [Vectors::splat(simd, high), Vectors::splat(simd, low)];
+        Self::with::<FUSED>(simd, to_center, sphere.radius * scale)
+    }
+
+    /// The same sphere in all lanes, of rays from these origins.
+    #[inline(always)]
+    pub(crate) fn seen_from<const FUSED: bool>(
+        simd: S,
+        sphere: &Sphere,
+        origins: &Vectors<S>,
+        scale: f64,
+    ) -> Self {
+        let center = Vectors::splat(simd, sphere.center);
+        let (x, low_x) = two_difference(center.x, origins.x);
+        let (y, low_y) = two_difference(center.y, origins.y);
+        let (z, low_z) = two_difference(center.z, origins.z);
+        let lengths = f64x8::splat(simd, scale);
+        let high = Vectors::from_array([x, y, z]).times(lengths);
+        let low = Vectors::from_array([low_x, low_y, low_z]).times(lengths);
+        Self::with::<FUSED>(simd, [high, low], sphere.radius * scale)
+    }
+
+    #[inline(always)]
+    fn with<const FUSED: bool>(simd: S, to_center: [Vectors<S>; 2], radius: f64) -> Self {
         let square = two_product::<FUSED, f64>(radius, radius);
         let inverse = 1.0 / radius;
         let (one, rest) = two_product::<FUSED, f64>(inverse, radius);
         let inverse_low = ((1.0 - one) - rest) * inverse;
         let splat = |number| f64x8::splat(simd, number);
         Self {
-            to_center: [Vectors::splat(simd, high), Vectors::splat(simd, low)],
+            to_center,
             radius_sq: [splat(square.0), splat(square.1)],
             inverse_radius: [splat(inverse), splat(inverse_low)],
         }
@@ -224,13 +247,7 @@ impl<S: Simd, const FUSED: bool> Crossings<S, FUSED> {
 
     /// The points in the world, where a length of 1 is `length` long, a power of two.
     #[inline(always)]
-    pub(crate) fn positions(
-        &self,
-        simd: S,
-        origin: DVec3,
-        length: f64,
-    ) -> (Vectors<S>, mask64x8<S>) {
-        let origin = Vectors::splat(simd, origin);
+    pub(crate) fn positions(&self, origin: &Vectors<S>, length: f64) -> (Vectors<S>, mask64x8<S>) {
         let (x, proved_x) = self.coordinate(0, origin.x, length);
         let (y, proved_y) = self.coordinate(1, origin.y, length);
         let (z, proved_z) = self.coordinate(2, origin.z, length);

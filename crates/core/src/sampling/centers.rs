@@ -163,21 +163,8 @@ impl Centers {
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let precision = self.settings.precision;
         let is_parallel = tracer.rays.projection() == Projection::Parallel;
-        if precision == Precision::Double && !is_parallel {
+        if precision == Precision::Double || is_parallel {
             return self.place_doubles(simd, seen, tracer, row);
-        }
-        if is_parallel {
-            for quantity in [
-                Quantity::Depth,
-                Quantity::GeometricNormal,
-                Quantity::Position,
-            ] {
-                for component in 0..quantity.components() {
-                    let nothing = [quantity.of_nothing(); LANES];
-                    row.put(precision, (quantity, component), nothing);
-                }
-            }
-            return sight.covered;
         }
         let mut unproved = 0;
         let length = libm::scalbn(1.0, tracer.index.length_exponent());
@@ -229,7 +216,7 @@ impl Centers {
         (unproved & sight.covered) | sight.alone | sight.inner
     }
 
-    /// [`Self::place`] for doubles.
+    /// [`Self::place`] for doubles, and through a parallel lens.
     #[inline(never)]
     fn place_doubles<S: Simd>(
         &self,
@@ -256,30 +243,53 @@ impl Centers {
         tracer: &Tracer<'_>,
         row: &mut RowGeometry,
     ) -> u64 {
-        let &Seen { sight, place, .. } = seen;
-        let spheres = tracer.index.visibility.spheres();
+        let &Seen {
+            sight,
+            place,
+            across,
+            ..
+        } = seen;
+        let is_parallel = tracer.rays.projection() == Projection::Parallel;
         let shrink = libm::scalbn(1.0, -tracer.index.length_exponent());
-        let Some((first, others)) = seen.groups.as_slice().split_first() else {
+        let viewpoint = Vectors::splat(simd, self.viewpoint);
+        let (mut origins, mut way) = (viewpoint, sight.point);
+        if is_parallel {
+            for lane in 0..LANES {
+                let pixel = lane.min(tracer.tile.width as usize - 1);
+                origins.set_lane(lane, tracer.rays.ray(place, pixel).origin);
+            }
+            let aside = origins.minus(&viewpoint).times(f64x8::splat(simd, shrink));
+            way = way.minus(&aside);
+        }
+        let spheres = tracer.index.visibility.spheres();
+        let mut targets = None;
+        for Group { ball, lanes } in seen.groups.as_slice() {
+            let sphere = &spheres[ball.index()];
+            let own = match is_parallel {
+                true => Targets::seen_from::<FUSED>(simd, sphere, &origins, shrink),
+                false => Targets::splat::<FUSED>(simd, sphere, self.viewpoint, shrink),
+            };
+            targets = Some(match &targets {
+                None => own,
+                Some(others) => own.or(mask64x8::from_bitmask(simd, *lanes), others),
+            });
+        }
+        let Some(targets) = targets else {
             return sight.covered;
         };
-        let sphere = &spheres[first.ball.index()];
-        let mut targets = Targets::splat::<FUSED>(simd, sphere, self.viewpoint, shrink);
-        for Group { ball, lanes } in others {
-            let sphere = &spheres[ball.index()];
-            let own = Targets::splat::<FUSED>(simd, sphere, self.viewpoint, shrink);
-            targets = own.or(mask64x8::from_bitmask(simd, *lanes), &targets);
-        }
-        // p·d = t d·d, and no term is negative.
-        let t = sight.point.dot(&sight.direction) / sight.length_sq;
+        let t = way.dot(&sight.direction) / sight.length_sq;
         let crossings = Crossings::<S, FUSED>::new(simd, sight.direction, t, &targets);
 
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let length = libm::scalbn(1.0, tracer.index.length_exponent());
         let scale = libm::scalbn(1.0, -tracer.rays.exponent());
         let forward = f64x8::splat(simd, tracer.rays.magnification() * scale);
+        let one = f64x8::splat(simd, 1.0);
         let mut unproved = 0;
         if self.wants(Quantity::Depth) {
             let (depth, proved) = match self.settings.depth {
+                // Directions are unit vectors along the axis.
+                _ if is_parallel => crossings.times(simd, one),
                 Depth::Axis => crossings.times(simd, forward),
                 Depth::Ray => crossings.lengths(simd),
             };
@@ -290,10 +300,18 @@ impl Centers {
         }
         if self.wants(Quantity::Position) {
             let (position, proved) = match self.signs {
-                None => crossings.positions(simd, self.viewpoint, length),
+                None => crossings.positions(&origins, length),
+                Some(signs) if is_parallel => {
+                    let forward = tracer.rays.magnification();
+                    let upward = tracer.rays.upward(place) / forward * signs.y;
+                    let x = across / f64x8::splat(simd, forward) * signs.x;
+                    let (z, proved) = crossings.times(simd, one * signs.z);
+                    let upward = f64x8::splat(simd, upward);
+                    (Vectors::from_array([x, upward, z * length]), proved)
+                }
                 Some(signs) => {
                     let upward = f64x8::splat(simd, tracer.rays.upward(place) * scale);
-                    let (x, proved_x) = crossings.times(simd, seen.across * scale * signs.x);
+                    let (x, proved_x) = crossings.times(simd, across * scale * signs.x);
                     let (y, proved_y) = crossings.times(simd, upward * signs.y);
                     let (z, proved_z) = crossings.times(simd, forward * signs.z);
                     let position = Vectors::from_array([x * length, y * length, z * length]);
@@ -311,7 +329,9 @@ impl Centers {
             unproved |= !proved.to_bitmask();
             self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
         }
-        (unproved & sight.covered) | sight.alone | sight.inner
+        // Of parallel rays each is alone, and its point right.
+        let alone = if is_parallel { 0 } else { sight.alone };
+        (unproved & sight.covered) | alone | sight.inner
     }
 
     /// Writes vectors where something is seen.
