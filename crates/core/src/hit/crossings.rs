@@ -53,7 +53,7 @@ pub(crate) struct Targets<S: Simd> {
 /// A number in each lane, and where it is proved.
 pub(crate) type Proved<S> = (f64x8<S>, mask64x8<S>);
 
-/// The crossings of rays with the outer sides of spheres.
+/// The crossings of rays with spheres.
 pub(crate) struct Crossings<S: Simd, const FUSED: bool> {
     direction: Vectors<S>,
     /// t and δ.
@@ -120,6 +120,14 @@ impl<S: Simd> Targets<S> {
         }
     }
 
+    /// The distances, from the others at which the same rays cross the same spheres.
+    #[inline(always)]
+    pub(crate) fn other_side(&self, direction: &Vectors<S>, t: f64x8<S>) -> f64x8<S> {
+        // Both add up to 2 B / A.
+        let middle = direction.dot(&self.to_center[0]) / direction.length_squared();
+        middle + middle - t
+    }
+
     /// `self` where the mask holds, else `other`.
     #[inline(always)]
     pub(crate) fn or(&self, mask: mask64x8<S>, other: &Self) -> Self {
@@ -142,9 +150,15 @@ fn select<S: Simd>(
 }
 
 impl<S: Simd, const FUSED: bool> Crossings<S, FUSED> {
-    /// The crossings of rays from the targets' origin with these directions, which lie near the distances `t`.
+    /// The crossings of rays from the targets' origin with these directions, which lie near the distances `t`, on the
+    /// inner sides where the mask holds.
     #[inline(always)]
-    pub(crate) fn new(simd: S, direction: Vectors<S>, t: f64x8<S>, targets: &Targets<S>) -> Self {
+    pub(crate) fn new(
+        simd: S,
+        direction: Vectors<S>,
+        (t, inner): (f64x8<S>, mask64x8<S>),
+        targets: &Targets<S>,
+    ) -> Self {
         let [center, center_low] = &targets.to_center;
         let (way_x, way_low_x) = two_product::<FUSED, _>(direction.x, t);
         let (way_y, way_low_y) = two_product::<FUSED, _>(direction.y, t);
@@ -175,13 +189,17 @@ impl<S: Simd, const FUSED: bool> Crossings<S, FUSED> {
         let along = direction.dot(&high);
         let inverse = 1.0 / along;
         let step = residual * inverse * 0.5;
+        // Rays leave through inner sides. Where this is negative, the other side is nearer.
+        let along = inner.select(along * -1.0, along);
+        let inverse = inverse.abs();
         let direction_sq = direction.length_squared();
         let bend = direction_sq * step.abs();
         let spread = directions.dot(&sizes);
         let step_error = step.abs() * (spread * inverse + 1.0) * (6.0 * UNIT_ROUNDOFF);
         let distance_error =
             inverse * (bend * step.abs() * 1.1 + size_sq * (136.0 * SQUARE)) + step_error + TINY;
-        let is_sound = along.simd_gt(spread * LEAST_ALONG)
+        let is_sound = t.simd_gt(f64x8::splat(simd, 0.0))
+            & along.simd_gt(spread * LEAST_ALONG)
             & along.simd_ge(bend * 8.0)
             & residual.abs().simd_le(radius_sq * 0.25)
             & direction_sq.simd_gt(f64x8::splat(simd, MODERATE.start))

@@ -163,7 +163,7 @@ impl Centers {
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let precision = self.settings.precision;
         let is_parallel = tracer.rays.projection() == Projection::Parallel;
-        if precision == Precision::Double || is_parallel {
+        if precision == Precision::Double || is_parallel || sight.inner != 0 {
             return self.place_doubles(simd, seen, tracer, row);
         }
         let mut unproved = 0;
@@ -213,10 +213,10 @@ impl Centers {
             unproved |= !proved.to_bitmask();
             self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
         }
-        (unproved & sight.covered) | sight.alone | sight.inner
+        (unproved & sight.covered) | sight.alone
     }
 
-    /// [`Self::place`] for doubles, and through a parallel lens.
+    /// [`Self::place`] for doubles, of inner sides, and through a parallel lens.
     #[inline(never)]
     fn place_doubles<S: Simd>(
         &self,
@@ -277,8 +277,13 @@ impl Centers {
         let Some(targets) = targets else {
             return sight.covered;
         };
-        let t = way.dot(&sight.direction) / sight.length_sq;
-        let crossings = Crossings::<S, FUSED>::new(simd, sight.direction, t, &targets);
+        let mut t = way.dot(&sight.direction) / sight.length_sq;
+        let inner = mask64x8::from_bitmask(simd, sight.inner);
+        if sight.inner != 0 && !is_parallel {
+            // These points are where the ray behind the viewpoint leaves the sphere.
+            t = inner.select(targets.other_side(&sight.direction, t), t);
+        }
+        let crossings = Crossings::<S, FUSED>::new(simd, sight.direction, (t, inner), &targets);
 
         let covered = mask64x8::from_bitmask(simd, sight.covered);
         let length = libm::scalbn(1.0, tracer.index.length_exponent());
@@ -331,7 +336,7 @@ impl Centers {
         }
         // Of parallel rays each is alone, and its point right.
         let alone = if is_parallel { 0 } else { sight.alone };
-        (unproved & sight.covered) | alone | sight.inner
+        (unproved & sight.covered) | alone
     }
 
     /// Writes vectors where something is seen.

@@ -45,7 +45,8 @@ fn all<S: Simd, const FUSED: bool>(
     let targets = one.or(mask64x8::from_bitmask(simd, 0b0101_1010), &each);
     let directions = Vectors::splat(simd, direction);
     let near = f64x8::simd_from(simd, near) * SCALE;
-    let crossings = Crossings::<S, FUSED>::new(simd, directions, near, &targets);
+    let inner = mask64x8::splat(simd, sphere.center.distance(ORIGIN) < sphere.radius);
+    let crossings = Crossings::<S, FUSED>::new(simd, directions, (near, inner), &targets);
     let multiple = crossings.times(simd, f64x8::splat(simd, 3.0));
     let length = crossings.lengths(simd);
     let position = crossings.positions(&origins, 1.0 / SCALE);
@@ -85,8 +86,8 @@ fn near(t: f64) -> [f64; LANES] {
     [0.0, 1.0, -1.0, 0.5, -0.5, 1e-3, -1e-3, 0.9].map(|part| t * (1.0 + part * error))
 }
 
-/// Balls, floors, tiny and distant spheres, and rims.
-fn cases() -> [(Sphere, DVec3); 6] {
+/// Balls, floors, tiny and distant spheres, rims, and domes.
+fn cases() -> [(Sphere, DVec3); 8] {
     let case =
         |center: DVec3, radius: f64, toward: DVec3| (Sphere::new(center, radius).unwrap(), toward);
     [
@@ -104,6 +105,8 @@ fn cases() -> [(Sphere, DVec3); 6] {
             1.0,
             DVec3::new(1e-3, 1e-7, 1.0),
         ),
+        case(DVec3::new(0.5, 0.25, 1.0), 4.0, DVec3::new(0.2, 0.1, -1.0)),
+        case(DVec3::ZERO, 4e6, DVec3::new(1e-3, 0.1, -1.0)),
     ]
 }
 
@@ -154,6 +157,24 @@ fn every_processor_finds_the_same_bits() {
             [true, false].map(|fused| crossings(&sphere, direction, near(t), fused));
         assert_eq!(fused, split);
     }
+}
+
+#[test]
+fn the_other_side_is_found_from_this() {
+    let dome = Sphere::new(DVec3::new(0.5, 0.25, 1.0), 4.0).unwrap();
+    let direction = DVec3::new(0.2, 0.1, -1.0);
+    let behind = components(&dome, -direction, &WORLD).t;
+    let ahead = components(&dome, direction, &WORLD).t;
+    let found: [f64; LANES] = dispatch!(Level::new(), simd => {
+        let targets = Targets::splat::<false>(simd, &dome, ORIGIN, SCALE);
+        let direction = Vectors::splat(simd, direction);
+        let t = f64x8::splat(simd, -behind * SCALE);
+        targets.other_side(&direction, t).into()
+    });
+    assert!(
+        (found[0] / SCALE - ahead).abs() < 1e-14 * ahead,
+        "{found:?} {ahead}"
+    );
 }
 
 #[test]
