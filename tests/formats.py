@@ -133,6 +133,27 @@ def check_exr(folder: Path, name: str, light: np.ndarray) -> int:
     return count
 
 
+def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
+    """The picture is where it is without layers, and they make it as far as errors and the rounding of floats allow."""
+    path = folder / f"{name}.layers.exr"
+    expected = light.astype(np.float32)
+    with OpenEXR.File(str(path), separate_channels=True) as file:
+        found = {channel: data.pixels.astype(float) for channel, data in file.channels().items()}
+    layers = ["1", "ambient"]
+    names = [*"RGBA"[: light.shape[2]], "error"]
+    names += [f"{layer}.{channel}" for layer in layers for channel in ["R", "G", "B", "error"]]
+    assert sorted(found) == sorted(names), sorted(found)
+    error = found["error"] + sum(found[f"{layer}.error"] for layer in layers) + SLACK
+    for index, channel in enumerate("RGB"):
+        assert np.array_equal(found[channel], expected[..., index]), (path, channel)
+        summed = sum(found[f"{layer}.{channel}"] for layer in layers)
+        assert (np.abs(summed - found[channel]) <= error).all(), (path, channel)
+    assert found["1.R"].max() > 1, path
+    full = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
+    assert full is not None and np.array_equal(rgb(full), expected), path
+    return 1
+
+
 def check_camera(header: dict, light: np.ndarray) -> None:
     """Fails where the small ball is not seen where the header's camera has its center."""
     if light.shape[2] < 4:
@@ -163,6 +184,7 @@ def main() -> None:
             assert is_grey == (scene == "grey")
             assert light.max() > 1.2, "some pixels should be clipped"
             count += 1 + check_png(folder, name, light) + check_exr(folder, name, light)
+            count += check_layers(folder, name, light)
     print(f"the same numbers: {count} of {count}")
 
 

@@ -1,7 +1,7 @@
 //! A data set for photometric stereo, and the normals that least squares find in it.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use crate::python;
@@ -9,15 +9,27 @@ use crate::python;
 /// OpenCV from version 5 on is not asked for elsewhere either.
 const PACKAGES: [&str; 3] = ["numpy", "scipy", "opencv-python-headless<5"];
 
-#[test]
-fn least_squares_find_the_normals_of_a_data_set() {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("photometric");
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/photometric.ron");
+/// Writes the data set of an example in a layout; returns its folder.
+fn data_set(name: &str, layout: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../scenes/{name}.ron"));
     let mut arguments = vec!["marbles".into(), "dataset".into(), scene.into_os_string()];
     arguments.extend(["-o".into(), folder.clone().into_os_string()]);
-    arguments.extend(["--layout", "diligent", "--quiet"].map(Into::into));
+    arguments.extend(["--layout", layout, "--quiet"].map(Into::into));
     assert_eq!(marbles_cli::run(arguments), ExitCode::SUCCESS);
+    folder
+}
+
+#[test]
+fn least_squares_find_the_normals_of_a_data_set() {
+    let folder = data_set("photometric", "diligent");
     python::run("photometric_stereo.py", &PACKAGES, &[&folder]);
+}
+
+#[test]
+fn lights_normals_and_depths_predict_the_pictures_under_near_lights() {
+    let folder = data_set("near_lights", "luces");
+    python::run("near_lights.py", &PACKAGES, &[&folder]);
 }
 
 /// The lines of a page of the documents between the last fence of Python and its end.
@@ -45,9 +57,11 @@ fn the_recipe_for_lens_noise_and_response_runs() {
 }
 
 #[test]
-fn the_page_shows_the_script_that_is_run() {
+fn the_page_shows_the_scripts_that_are_run() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let script = fs::read_to_string(tests.join("tests/photometric_stereo.py")).unwrap();
     let page = fs::read_to_string(tests.join("../docs/ground-truth.md")).unwrap();
-    assert!(page.contains(script.trim()));
+    for script in ["photometric_stereo.py", "near_lights.py"] {
+        let script = fs::read_to_string(tests.join("tests").join(script)).unwrap();
+        assert!(page.contains(script.trim()));
+    }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use marbles_core::{Method, Settings};
 use rayon::ThreadPool;
 
-use super::args::RenderArguments;
+use super::args::{PerLight, RenderArguments};
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::{status, threads};
@@ -15,6 +15,7 @@ use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
 use crate::formats::encoding::{Encoding, ExrOptions, Format, NpyOptions, PngOptions};
 use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
+use crate::sequence::layers::LightLayer;
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
 use crate::sequence::parts::PicturePart;
@@ -84,13 +85,19 @@ pub(super) fn request(
     if arguments.sidecar {
         check_sidecars(&pattern, &frames, &arguments.scene)?;
     }
-    let parts = match arguments.per_light {
-        true => {
-            let names = &scene.description().lights;
-            PicturePart::each(scene.world(), names).map_err(Failure::Usage)?
+    let names = &scene.description().lights;
+    let (parts, layers) = match arguments.per_light {
+        Some(PerLight::Files) => (PicturePart::each(scene.world(), names), Ok(Vec::new())),
+        Some(PerLight::Layers) => {
+            let layers = LightLayer::each(scene.world(), names, centers.as_ref());
+            (Ok(vec![PicturePart::whole()]), layers)
         }
-        false => vec![PicturePart::whole()],
+        None => (Ok(vec![PicturePart::whole()]), Ok(Vec::new())),
     };
+    let (parts, layers) = (
+        parts.map_err(Failure::Usage)?,
+        layers.map_err(Failure::Usage)?,
+    );
     Ok(Request {
         size: arguments.size,
         window: arguments.region,
@@ -106,6 +113,7 @@ pub(super) fn request(
         scene_path: arguments.scene.clone(),
         frames,
         parts,
+        layers,
         pattern,
         encoding,
         centers,
@@ -172,6 +180,11 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
             "--channels",
             &["EXR", "NPY"],
         ),
+        (
+            arguments.per_light == Some(PerLight::Layers),
+            "--per-light=layers",
+            &["EXR"],
+        ),
     ] {
         if is_given && !formats.contains(&output) {
             let formats = formats.join(" and ");
@@ -186,7 +199,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     for (is_given, option) in [
         (arguments.skip_existing, "--skip-existing"),
         (arguments.sidecar, "--sidecar"),
-        (arguments.per_light, "--per-light"),
+        (arguments.per_light.is_some(), "--per-light"),
     ] {
         if is_given && format == Format::Apng {
             let message =

@@ -48,16 +48,25 @@ pub(crate) enum Piece {
 }
 
 impl Encoder {
-    pub(crate) fn new(encoding: Encoding, form: Form) -> Self {
+    /// The encoder of pictures with these layers beside them, which an EXR alone has.
+    pub(crate) fn new(encoding: Encoding, form: Form, layers: &[String]) -> Self {
         let layout = match encoding {
             Encoding::Png(options) | Encoding::Apng(options) => Layout::Png {
                 shape: Shape::of(&form, options),
                 gain: options.gain,
             },
-            Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options))),
+            Encoding::Exr(options) => Layout::Exr(Box::new(Blocks::new(&form, options, layers))),
             Encoding::Npy(options) => Layout::Npy(Files::new(&form, options)),
         };
         Self { form, layout }
+    }
+
+    /// The number of layers, the picture the first of them.
+    pub(crate) fn layers(&self) -> usize {
+        match &self.layout {
+            Layout::Exr(blocks) => blocks.layers(),
+            Layout::Png { .. } | Layout::Npy(_) => 1,
+        }
     }
 
     /// Bands of a strip.
@@ -102,11 +111,12 @@ impl Encoder {
         rows as usize * row_bytes
     }
 
-    /// Puts some rows of an image where they belong in a strip of as many rows, from the column `col`
+    /// Puts some rows of a layer's image where they belong in a strip of as many rows, from the column `col`
     /// on; returns how many pixels of a PNG were clipped, or how many finite numbers were too large
     /// for those of an EXR.
     pub(crate) fn encode(
         &self,
+        layer: usize,
         samples: &mut [u8],
         col: u32,
         image: &Image,
@@ -114,7 +124,7 @@ impl Encoder {
     ) -> u64 {
         match &self.layout {
             Layout::Png { shape, gain } => shape.encode(samples, col, image, rows, *gain),
-            Layout::Exr(blocks) => blocks.encode(samples, col, image, rows),
+            Layout::Exr(blocks) => blocks.encode(layer, samples, col, image, rows),
             Layout::Npy(files) => {
                 files.encode(samples, col, image, rows);
                 0

@@ -64,13 +64,13 @@ pub(super) fn encode(image: &Image, encoding: Encoding, facts: &Facts) -> (Vec<u
         alpha: image.has_alpha(),
         centers: None,
     };
-    let encoder = Encoder::new(encoding, form);
+    let encoder = Encoder::new(encoding, form, &[]);
     let mut clipped = 0;
     let mut pieces = (0..encoder.pieces()).map(|index| {
         let first = index * encoder.rows();
         let rows = first..image.height().min(first + encoder.rows());
         let mut samples = vec![0; encoder.sample_bytes(index)];
-        clipped += encoder.encode(&mut samples, 0, image, rows);
+        clipped += encoder.encode(0, &mut samples, 0, image, rows);
         encoder.piece(index, samples)
     });
     let mut file = Cursor::new(Vec::new());

@@ -72,6 +72,18 @@ impl Digests {
         self
     }
 
+    /// The same where their files have these layers as well; without any, nothing changes.
+    pub(super) fn with_layers(mut self, names: &[String]) -> Self {
+        if !names.is_empty() {
+            self.shared.count(names.len());
+            for name in names {
+                self.shared.count(name.len());
+                self.shared.0.update(name.as_bytes());
+            }
+        }
+        self
+    }
+
     /// The digest of one of them.
     pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {

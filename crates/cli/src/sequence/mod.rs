@@ -4,6 +4,7 @@
 mod clock;
 mod digest;
 pub(crate) mod frames;
+pub(crate) mod layers;
 pub(crate) mod messages;
 pub(crate) mod outcome;
 pub(crate) mod parts;

@@ -75,7 +75,8 @@ impl<'a> Pipeline<'a> {
             vec![form; request.parts.len()]
         };
         let forms = request.forms()?.unwrap_or_else(nothing).into_iter();
-        let encoders = forms.map(|form| Encoder::new(request.encoding, form));
+        let layers = request.layer_names();
+        let encoders = forms.map(|form| Encoder::new(request.encoding, form, &layers));
         let encoders: Vec<Encoder> = encoders.collect();
         let largest = encoders.iter().max_by_key(|encoder| encoder.strip_bytes());
         let mut capacity = largest.map_or(Ok(1), capacity)?;

@@ -6,6 +6,7 @@ use marbles_core::{Settings, View, Window};
 use marbles_scene::Scene;
 
 use super::frames::FrameList;
+use super::layers::LightLayer;
 use super::parts::PicturePart;
 use super::pattern::Pattern;
 use crate::base::failure::Failure;
@@ -29,6 +30,8 @@ pub(crate) struct Request {
     pub(crate) settings: Settings,
     /// The pictures of each frame, at least one.
     pub(crate) parts: Vec<PicturePart>,
+    /// The layers of each file beside its picture.
+    pub(crate) layers: Vec<LightLayer>,
     pub(crate) pattern: Pattern,
     pub(crate) encoding: Encoding,
     /// The channels of the files besides the pictures.
@@ -68,6 +71,11 @@ impl Request {
     /// The number of pictures.
     pub(crate) fn pictures(&self) -> u64 {
         self.frames.count() * self.parts.len() as u64
+    }
+
+    /// The names of the layers.
+    pub(super) fn layer_names(&self) -> Vec<String> {
+        self.layers.iter().map(|layer| layer.name.clone()).collect()
     }
 
     /// The file of a picture of a frame.

@@ -14,7 +14,7 @@ use marbles_core::{Renderer, Rendering, Sink};
 use super::digest::{self, Digests, hashes_of_spheres};
 use super::messages;
 use super::pipeline::{Order, Pipeline};
-use super::strip_encoder::PictureEncoder;
+use super::strip_encoder::{LayerEncoder, OpenStrip, PictureEncoder};
 use super::workers::SharedWork;
 use crate::base::failure::Failure;
 use crate::base::region::Region;
@@ -27,7 +27,7 @@ use crate::formats::{load, sidecar};
 /// Gives pictures to render, and orders to write them.
 pub(super) struct Source<'a> {
     pipeline: &'a Pipeline<'a>,
-    /// Ready as soon as a frame is; one for each picture of a frame.
+    /// Ready as soon as a frame is; one for each picture of a frame, and then one for each layer.
     renderers: &'a OnceLock<Vec<Renderer<'a>>>,
     writer: SyncSender<Order>,
     shots: Peekable<Box<dyn Iterator<Item = Shot> + Send + 'a>>,
@@ -89,7 +89,7 @@ impl<'a> Source<'a> {
         let shots: Box<dyn Iterator<Item = Shot> + Send + 'a> = Box::new(shots);
         let world = request.scene.world();
         let spheres = hashes_of_spheres(world);
-        let names = &request.scene.description().lights;
+        let (names, layers) = (&request.scene.description().lights, request.layer_names());
         let digests = request.parts.iter().map(|part| {
             let centers = request.centers.filter(|_| part.has_centers());
             let (settings, encoding) = (&request.settings, request.encoding);
@@ -101,6 +101,7 @@ impl<'a> Source<'a> {
                 centers.as_ref(),
             )
             .with_names(part.names_of(names))
+            .with_layers(&layers)
         });
         Self {
             pipeline,
@@ -245,12 +246,14 @@ impl<'a> Source<'a> {
             let world = request.scene.world();
             progress.prepare(world.spheres().len());
             let renderer = Renderer::new(world);
-            let parts = request.parts.iter();
-            let parts = parts.map(|part| match part.light {
+            let parts = request.parts.iter().map(|part| part.light);
+            let layers = request.layers.iter().map(|layer| Some(layer.light));
+            let lights = parts.chain(layers);
+            let renderers = lights.map(|light| match light {
                 Some(light) => renderer.under(light),
                 None => renderer.clone(),
             });
-            parts.collect()
+            renderers.collect()
         });
         let parts: Vec<usize> = wanted.iter().map(|picture| picture.part).collect();
         let (first, last) = (*parts.first()?, *parts.last()?);
@@ -260,10 +263,13 @@ impl<'a> Source<'a> {
         let mut pictures = Vec::new();
         for picture in wanted {
             pictures.push(self.order(picture)?);
-            progress.begin(self.begun, region.size().pixels());
+            progress.begin(self.begun, region.size().pixels() * encoder.layers() as u64);
             self.begun += 1;
         }
-        let renderers: Vec<&Renderer<'_>> = parts.iter().map(|&part| &renderers[part]).collect();
+        // Where there are layers, the frame has one picture, and they come after it.
+        let own = parts.iter().map(|&part| &renderers[part]);
+        let own = own.chain(&renderers[request.parts.len()..]);
+        let renderers: Vec<&Renderer<'_>> = own.collect();
         Some(InFlight {
             rendering: Rendering::of_each(
                 &renderers,
@@ -333,8 +339,11 @@ impl SharedWork for InFlight<'_> {
 
     fn help(&self) -> ControlFlow<()> {
         let stop = || self.pipeline.stop();
-        let sinks = self.pictures.iter().map(|picture| picture as &dyn Sink);
-        let sinks: Vec<&dyn Sink> = sinks.collect();
+        let open: Vec<OpenStrip<'_>> = self.pictures.iter().map(|_| OpenStrip::default()).collect();
+        let pictures = self.pictures.iter().zip(&open);
+        let layers = pictures.flat_map(|(picture, open)| picture.layers(open));
+        let layers: Vec<LayerEncoder<'_, '_>> = layers.collect();
+        let sinks: Vec<&dyn Sink> = layers.iter().map(|layer| layer as &dyn Sink).collect();
         let rendered = self.rendering.help_each(&sinks, &|pixels| {
             self.pipeline.progress.advance(pixels);
             if stop() {

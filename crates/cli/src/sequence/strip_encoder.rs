@@ -1,8 +1,9 @@
 //! The encoders of strips: what is rendered becomes pieces of a file, and its results are summed up.
 
+use std::mem;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
 use std::sync::mpsc::Sender;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::time::{Duration, Instant};
 
 use marbles_core::{Geometry, Image, Sink, Strip};
@@ -12,7 +13,7 @@ use super::reorder_buffer::{ReorderBuffer, Slot};
 use super::results::Results;
 use crate::formats::encoder::Encoder;
 
-/// The encoder of a picture, which hands out one for each strip.
+/// The encoder of a picture, which hands out one for each layer of each strip.
 pub(super) struct PictureEncoder<'a> {
     encoder: &'a Encoder,
     buffer: &'a ReorderBuffer,
@@ -36,13 +37,35 @@ pub(super) struct Finished {
     pub(super) time: Duration,
 }
 
-/// The encoder of a strip that is being rendered.
-struct StripEncoder<'a> {
-    picture: &'a PictureEncoder<'a>,
+/// The encoder of one layer of a picture: the picture itself, or one of the layers beside it.
+pub(super) struct LayerEncoder<'a, 'p> {
+    picture: &'p PictureEncoder<'a>,
+    layer: usize,
+    open: &'p OpenStrip<'a>,
+}
+
+/// The strip that a thread renders, of which it begins and ends all layers one after the other.
+pub(super) type OpenStrip<'a> = Mutex<Weak<SharedStrip<'a>>>;
+
+/// A strip that is being rendered, with all its layers.
+pub(super) struct SharedStrip<'a> {
     index: u32,
+    state: Mutex<StripState<'a>>,
+}
+
+struct StripState<'a> {
     samples: Vec<u8>,
     results: Results,
-    slot: Slot<'a>,
+    slot: Option<Slot<'a>>,
+    /// Layers that have not ended.
+    left: usize,
+}
+
+/// The encoder of a layer of such a strip.
+struct StripEncoder<'a, 'p> {
+    picture: &'p PictureEncoder<'a>,
+    layer: usize,
+    strip: Arc<SharedStrip<'a>>,
 }
 
 impl<'a> PictureEncoder<'a> {
@@ -68,6 +91,33 @@ impl<'a> PictureEncoder<'a> {
         }
     }
 
+    /// The encoders of the picture's layers for a thread, which renders the strip in `open`.
+    pub(super) fn layers<'p>(
+        &'p self,
+        open: &'p OpenStrip<'a>,
+    ) -> impl Iterator<Item = LayerEncoder<'a, 'p>> {
+        (0..self.encoder.layers()).map(move |layer| LayerEncoder {
+            picture: self,
+            layer,
+            open,
+        })
+    }
+
+    /// Begins a strip; `None` where it is not wanted.
+    fn begin(&self, index: u32) -> Option<SharedStrip<'a>> {
+        let slot = self.buffer.admit(self.first + u64::from(index))?;
+        let state = StripState {
+            samples: vec![0; self.encoder.sample_bytes(index)],
+            results: Results::default(),
+            slot: Some(slot),
+            left: self.encoder.layers(),
+        };
+        Some(SharedStrip {
+            index,
+            state: Mutex::new(state),
+        })
+    }
+
     /// Ends the picture, all of whose strips have ended.
     fn finish(&self) {
         let results = *self.results.lock().unwrap_or_else(PoisonError::into_inner);
@@ -87,55 +137,75 @@ impl<'a> PictureEncoder<'a> {
     }
 }
 
-impl Sink for PictureEncoder<'_> {
+impl Sink for LayerEncoder<'_, '_> {
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
-        self.apart(|| {
+        let Self {
+            picture,
+            layer,
+            open,
+        } = *self;
+        picture.apart(|| {
+            let mut open = open.lock().unwrap_or_else(PoisonError::into_inner);
+            let strip = match layer {
+                0 => Arc::new(picture.begin(index)?),
+                _ => open.upgrade()?,
+            };
+            *open = Arc::downgrade(&strip);
             Some(Box::new(StripEncoder {
-                picture: self,
-                index,
-                slot: self.buffer.admit(self.first + u64::from(index))?,
-                samples: vec![0; self.encoder.sample_bytes(index)],
-                results: Results::default(),
+                picture,
+                layer,
+                strip,
             }) as Box<dyn Strip>)
         })
     }
 }
 
-impl Strip for StripEncoder<'_> {
+impl Strip for StripEncoder<'_, '_> {
     fn add(&mut self, col: u32, part: &Image) {
         let encoder = self.picture.encoder;
         self.picture.apart(|| {
+            let mut state = self.strip.lock();
             let rows = 0..part.height();
-            let clipped = encoder.encode(&mut self.samples, col, part, rows);
+            let clipped = encoder.encode(self.layer, &mut state.samples, col, part, rows);
             let window = encoder.form.region.window;
-            let first_row = window.row + self.index * encoder.rows();
+            let first_row = window.row + self.strip.index * encoder.rows();
             let place = (window.col + col, first_row);
-            self.results.add(&Results::of(part, place, clipped));
+            state.results.add(&Results::of(part, place, clipped));
         });
     }
 
     fn add_geometry(&mut self, col: u32, part: &Geometry) {
         let encoder = self.picture.encoder;
         self.picture
-            .apart(|| encoder.encode_geometry(&mut self.samples, col, part));
+            .apart(|| encoder.encode_geometry(&mut self.strip.lock().samples, col, part));
     }
 
     fn end(self: Box<Self>) {
-        let Self {
-            picture,
-            index,
-            samples,
-            results,
-            slot,
-        } = *self;
-        picture.apart(|| {
-            slot.put(picture.encoder.piece(index, samples));
+        let Self { picture, strip, .. } = *self;
+        let is_complete = picture.apart(|| {
+            let mut state = strip.lock();
+            state.left -= 1;
+            if state.left > 0 {
+                return false;
+            }
+            let samples = mem::take(&mut state.samples);
+            if let Some(slot) = state.slot.take() {
+                slot.put(picture.encoder.piece(strip.index, samples));
+            }
             let whole = picture.results.lock();
-            whole.unwrap_or_else(PoisonError::into_inner).add(&results);
+            let mut whole = whole.unwrap_or_else(PoisonError::into_inner);
+            whole.add(&state.results);
+            true
         });
-        if picture.left.fetch_sub(1, Ordering::AcqRel) == 1 {
+        if is_complete && picture.left.fetch_sub(1, Ordering::AcqRel) == 1 {
             picture.finish();
         }
+    }
+}
+
+impl<'a> SharedStrip<'a> {
+    fn lock(&self) -> MutexGuard<'_, StripState<'a>> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

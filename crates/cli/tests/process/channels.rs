@@ -23,9 +23,10 @@ const BALLS: &str = "(
 const ALL: &str = "--channels depth,normal,position,id,albedo,mask";
 
 /// The numbers of a file's channels.
-type Channels = BTreeMap<String, FlatSamples>;
+pub(crate) type Channels = BTreeMap<String, FlatSamples>;
 
-fn read(folder: &Folder, name: &str) -> Channels {
+/// Reads an EXR of the folder.
+pub(crate) fn read(folder: &Folder, name: &str) -> Channels {
     let image = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()

@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use exr::prelude::FlatSamples;
+
+use crate::channels::{Channels, read};
 use crate::folder::{Folder, code, text};
 
 /// The scene of `balls`, with what comes before its spheres left open.
@@ -149,6 +152,151 @@ fn pictures_of_lights_are_resumed_one_by_one() {
     );
 }
 
+/// The numbers of a channel of floats.
+fn floats<'a>(channels: &'a Channels, name: &str) -> &'a [f32] {
+    match &channels[name] {
+        FlatSamples::F32(floats) => floats,
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+const LAYERS: [&str; 4] = ["1", "2", "3", "ambient"];
+
+#[test]
+fn layers_hold_what_files_do() {
+    let folder = folder();
+    let options = "--float --error-channel --channels depth,id";
+    run(&folder, &format!("render all.ron -o plain.exr {options}"));
+    run(
+        &folder,
+        &format!("render all.ron -o a.exr --per-light {options}"),
+    );
+    let layered = format!("render all.ron -o layers.exr --per-light=layers {options}");
+    let lines = run(&folder, &layered);
+    // The pixels of the picture and of four layers.
+    assert!(lines.starts_with("layers.exr: 9250 pixels, "), "{lines}");
+    assert_eq!(lines.lines().count(), 1, "{lines}");
+
+    let layers = read(&folder, "layers.exr");
+    let plain = read(&folder, "plain.exr");
+    for (name, samples) in &plain {
+        assert!(*samples == layers[name], "{name}");
+    }
+    let mut count = plain.len();
+    for (layer, key) in LAYERS.into_iter().zip(KEYS) {
+        let file = read(&folder, &format!("a.{key}.exr"));
+        for name in ["R", "G", "B", "error"] {
+            assert!(
+                file[name] == layers[&format!("{layer}.{name}")],
+                "{layer}.{name}"
+            );
+            count += 1;
+        }
+    }
+    assert_eq!(layers.len(), count);
+
+    // The layers make the picture, as far as their errors allow, and the rounding of floats.
+    let mut largest = 0.0_f64;
+    for color in ["R", "G", "B"] {
+        for pixel in 0..50 * 37 {
+            let sum = |channel: &str| -> f64 {
+                let numbers = LAYERS.map(|layer| format!("{layer}.{channel}"));
+                numbers
+                    .map(|name| f64::from(floats(&layers, &name)[pixel]))
+                    .iter()
+                    .sum()
+            };
+            let picture = f64::from(floats(&layers, color)[pixel]);
+            let error = sum("error") + f64::from(floats(&layers, "error")[pixel]);
+            let off = (sum(color) - picture).abs();
+            assert!(off <= error + 1e-6, "{color} {pixel}: {off} {error}");
+            largest = largest.max(picture);
+        }
+    }
+    assert!(largest > 0.5);
+
+    let compared = run(&folder, "compare layers.exr plain.exr");
+    assert!(compared.contains("the pictures are the same"), "{compared}");
+    let again = run(&folder, &format!("{layered} --skip-existing"));
+    assert!(again.contains("layers.exr: skipped"), "{again}");
+    // A file without layers is another one.
+    let others = run(
+        &folder,
+        &format!("render all.ron -o layers.exr {options} --skip-existing"),
+    );
+    assert!(!others.contains("skipped"), "{others}");
+    let again = run(&folder, &format!("{layered} --skip-existing"));
+    assert!(!again.contains("skipped"), "{again}");
+}
+
+#[test]
+fn layers_come_with_sequences_parts_and_alpha() {
+    let folder = folder();
+    let moving = balls(&format!(
+        "{SURROUNDINGS} lights: [{}],
+         animation: Keyframes(frames: (1, 3), keys: [(frame: 1, pan: 0), (frame: 3, pan: 9)]),",
+        LIGHTS.join(", ")
+    ));
+    fs::write(folder.path("moving.ron"), moving).unwrap();
+    let lines = run(
+        &folder,
+        "render moving.ron -o m.#.exr --per-light=layers --alpha --threads 3",
+    );
+    assert_eq!(lines.lines().count(), 4, "{lines}");
+    assert!(lines.contains("\n3 frames: 27750 pixels"), "{lines}");
+    let second = "render moving.ron --frames 2 --per-light=layers --alpha";
+    run(&folder, &format!("{second} -o alone.exr --threads 1"));
+    let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
+    assert!(bytes("alone.exr") == bytes("m.2.exr"));
+    let names: Vec<String> = read(&folder, "alone.exr").into_keys().collect();
+    let expected = "1.B 1.G 1.R 2.B 2.G 2.R 3.B 3.G 3.R A B G R ambient.B ambient.G ambient.R";
+    assert_eq!(names.join(" "), expected);
+
+    for (part, region) in [("upper", "0,0,50,21"), ("lower", "0,21,50,16")] {
+        run(
+            &folder,
+            &format!("{second} -o {part}.exr --region {region}"),
+        );
+    }
+    run(&folder, "merge merged.exr upper.exr lower.exr");
+    assert!(read(&folder, "merged.exr") == read(&folder, "alone.exr"));
+}
+
+#[test]
+fn layers_are_refused_where_there_can_be_none() {
+    let folder = folder();
+    let named = balls("lights: [Directional(name: \"depth\", toward: (0, 1, 0))],");
+    fs::write(folder.path("named.ron"), named).unwrap();
+    for (arguments, why) in [
+        (
+            "all.ron -o a.png",
+            "--per-light=layers is for EXR files, and the output is PNG",
+        ),
+        (
+            "all.ron -o a.npy",
+            "--per-light=layers is for EXR files, and the output is NPY",
+        ),
+        (
+            "named.ron -o a.exr --channels depth",
+            "the light `depth` would have the layer of the channels `depth`",
+        ),
+    ] {
+        let output = folder.run(&format!("render {arguments} --per-light=layers"));
+        assert_eq!(code(&output), 2);
+        let message = text(&output.stderr);
+        assert!(message.contains(why), "{message}");
+    }
+    assert_eq!(
+        folder
+            .names(".")
+            .iter()
+            .filter(|name| name.starts_with("a."))
+            .count(),
+        0
+    );
+    run(&folder, "render named.ron -o a.exr --per-light=layers");
+}
+
 #[test]
 fn what_centers_see_comes_with_the_ambient_light() {
     let folder = folder();
@@ -221,4 +369,143 @@ fn a_data_set_has_the_files_that_its_readers_expect() {
     assert_eq!(code(&output), 2);
     assert!(text(&output.stderr).contains("ambient.ron: the scene has no lights"));
     assert!(!folder.path("other").exists());
+}
+
+/// A ball 4 before a camera that looks to the right of the world, under these lights.
+fn beside(lights: &str) -> String {
+    format!(
+        "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (-6, 0, 0), pan: 90),
+         lights: [{lights}], spheres: [(center: (-1, 0, 0), radius: 1)])"
+    )
+}
+
+#[test]
+fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
+    let folder = folder();
+    let lights = [
+        "Point(position: (-4, 1, 2), intensity: 0.5, reference: 2)",
+        "Point(position: (-6, -1, 0), intensity: (0.5, 0.25, 0), reference: 4)",
+    ];
+    fs::write(folder.path("near.ron"), beside(&lights.join(", "))).unwrap();
+    fs::write(folder.path("second.ron"), beside(lights[1])).unwrap();
+    let dataset = "dataset near.ron -o set --layout luces";
+    let lines = run(&folder, dataset);
+    assert!(
+        lines.contains("\n2 pictures: ") && !lines.contains("clipped"),
+        "{lines}"
+    );
+    let expected = "01.png 02.png K.txt filenames.txt led_params.txt light_directions.txt \
+                    light_intensities.txt light_positions.txt mask.png normals.png zgt.npz";
+    assert_eq!(folder.names("set").join(" "), expected);
+    let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
+    assert_eq!(read("filenames.txt"), "01.png\n02.png\n");
+
+    let numbers = |text: &str| -> Vec<f64> {
+        let words = text.split([' ', '\n']).filter(|word| !word.is_empty());
+        words.map(|word| word.parse().unwrap()).collect()
+    };
+    let parameters = read("led_params.txt");
+    let (_, parameters) = parameters.split_once('\n').unwrap();
+    let parameters: Vec<Vec<f64>> = parameters.lines().map(numbers).collect();
+    let [setup, first, second] = &parameters[..] else {
+        panic!("{parameters:?}");
+    };
+    let (focal_length, mean_distance) = (setup[3], setup[6]);
+    let half_width = 20.0_f64.to_radians().tan();
+    assert!((focal_length * half_width - 25.0).abs() < 1e-12);
+    assert_eq!(setup[..3], [2.0, 37.0, 50.0]);
+    assert_eq!(setup[4..6], [24.5, 18.0]);
+    assert!((4.0..5.0).contains(&mean_distance), "{mean_distance}");
+    assert_eq!(
+        numbers(&read("K.txt")),
+        [
+            focal_length,
+            0.0,
+            24.5,
+            0.0,
+            focal_length,
+            18.0,
+            0.0,
+            0.0,
+            1.0
+        ]
+    );
+    // The camera's right is the world's back.
+    let close = |found: &[f64], expected: &[f64]| {
+        let mut pairs = found.iter().zip(expected);
+        let all = pairs.all(|(found, expected)| (found - expected).abs() < 1e-12);
+        assert!(all && found.len() == expected.len(), "{found:?}");
+    };
+    close(&first[..3], &[-2.0, -1.0, 2.0]);
+    close(&second[..3], &[0.0, 1.0, 0.0]);
+    close(
+        &numbers(&read("light_positions.txt")),
+        &[-2.0, 1.0, -2.0, 0.0, -1.0, 0.0],
+    );
+    let length = mean_distance.hypot(1.0);
+    close(
+        &numbers(&read("light_directions.txt"))[3..],
+        &[0.0, -1.0 / length, mean_distance / length],
+    );
+    // The first light is no more than 2.75 from the ball, and makes 0.265 of it at most; the second one 0.49.
+    let gain = 2.0;
+    let brightness = |intensity: f64, reference: f64| {
+        gain * intensity * (reference / mean_distance) * (reference / mean_distance)
+    };
+    let white = brightness(0.5, 2.0);
+    close(&first[6..], &[white, white, white, 0.0, 0.0]);
+    close(
+        &second[6..],
+        &[brightness(0.5, 4.0), brightness(0.25, 4.0), 0.0, 0.0, 0.0],
+    );
+    assert_eq!(numbers(&read("light_intensities.txt"))[3..], second[6..9]);
+
+    // Each picture is that of the scene with its light, brighter by one stop.
+    run(
+        &folder,
+        "render second.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+    );
+    let [found, alone] = ["set/02.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert!(found == alone);
+    let lines = run(&folder, &format!("{dataset} --skip-existing"));
+    assert_eq!(lines.matches("skipped").count(), 2, "{lines}");
+}
+
+#[test]
+fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
+    let folder = Folder::new();
+    let near = "Point(position: (-4, 1, 2))";
+    let scene = beside(near);
+    for (scene, why) in [
+        (
+            beside(&format!("{near}, Directional(toward: (0, 1, 0))")),
+            "light 2 of the scene is a directional one",
+        ),
+        (
+            beside("Point(position: (-4, 1, 2), falloff: None)"),
+            "light 1 of the scene does not fall off",
+        ),
+        (
+            scene.replace("Fov(40)", "Parallel(width: 4)"),
+            "the lens of the scene has none",
+        ),
+        (
+            scene.replace("pan: 90", "pan: -90"),
+            "no pixel sees a sphere",
+        ),
+        (beside(""), "the scene has no lights"),
+    ] {
+        fs::write(folder.path("near.ron"), scene).unwrap();
+        let output = folder.run("dataset near.ron -o other --layout luces");
+        assert_eq!(code(&output), 2);
+        let message = text(&output.stderr);
+        assert!(
+            message.contains("near.ron: ") && message.contains(why),
+            "{message}"
+        );
+        assert!(!folder.path("other").exists());
+    }
+    fs::write(folder.path("near.ron"), beside(near)).unwrap();
+    let output = folder.run("dataset near.ron -o other --layout diligent");
+    assert!(text(&output.stderr).contains("and the scene a point light"));
 }

@@ -85,6 +85,7 @@ fn readers_of_others_find_the_same_numbers() {
                 "linear.png --linear",
                 "half.exr --error-channel",
                 "float.exr --float --error-channel",
+                "layers.exr --float --error-channel --per-light=layers",
                 "npy --error-channel",
             ] {
                 let render = format!("render {name}.ron --quiet -o {name_of}.{output} {alpha}");
@@ -98,5 +99,5 @@ fn readers_of_others_find_the_same_numbers() {
     let python = python.arg(script).arg(&folder.0);
     let output = python.env("PYTHONPATH", packages).output().unwrap();
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-    assert_eq!(text(&output.stdout), "the same numbers: 76 of 76\n");
+    assert_eq!(text(&output.stdout), "the same numbers: 80 of 80\n");
 }

@@ -14,6 +14,7 @@
 
 pub(crate) mod ball;
 pub(crate) mod components;
+pub(crate) mod crossings;
 mod double;
 mod exact;
 pub(crate) mod fast;

@@ -70,7 +70,7 @@ impl Light {
     }
 
     /// A bound of the radiance of a white surface on the outer side of a sphere.
-    pub(crate) fn brightest_on(&self, sphere: &Sphere) -> Color {
+    pub fn brightest_on(&self, sphere: &Sphere) -> Color {
         match self {
             Self::Directional(light) => light.intensity,
             Self::Point(light) => light.brightest_on(sphere),

@@ -6,7 +6,7 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use fearless_simd::{Simd, SimdFloat, f64x4};
+use fearless_simd::{Simd, SimdFloat, f64x4, f64x8};
 
 /// Half the distance from 1 to the next double, 2⁻⁵³: the relative error of one rounding is at
 /// most this.
@@ -39,6 +39,13 @@ impl Number for f64 {
 }
 
 impl<S: Simd> Number for f64x4<S> {
+    #[inline(always)]
+    fn multiply_add(self, factor: Self, term: Self) -> Self {
+        self.mul_add_precise(factor, term)
+    }
+}
+
+impl<S: Simd> Number for f64x8<S> {
     #[inline(always)]
     fn multiply_add(self, factor: Self, term: Self) -> Self {
         self.mul_add_precise(factor, term)

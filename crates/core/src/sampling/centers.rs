@@ -8,10 +8,12 @@ use super::groups::{Group, Groups};
 use super::light::{Looks, Shading};
 use super::rays::Place;
 use super::trace::{DISTANCE_ERROR, Sight, Tracer};
+use crate::hit::crossings::{Crossings, Targets};
 use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::bits::set_bits;
 use crate::numeric::double_double::DoubleDouble;
+use crate::numeric::fused::is_fused;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
 use crate::picture::geometry::{
@@ -142,7 +144,7 @@ impl Centers {
     /// # Accuracy
     /// The point relative to the viewpoint is off by [`DISTANCE_ERROR`], each component by as much of itself;
     /// the normal (p − f) / r by that of p / r and by some roundings of its own. Where these are less than
-    /// 2⁻²⁵ of a component, it serves a float. Doubles are all computed alone.
+    /// 2⁻²⁵ of a component, it serves a float. Doubles take it for a start.
     #[inline(always)]
     fn place<S: Simd>(
         &self,
@@ -159,20 +161,10 @@ impl Centers {
             ..
         } = seen;
         let covered = mask64x8::from_bitmask(simd, sight.covered);
-        let zero = f64x8::splat(simd, 0.0);
         let precision = self.settings.precision;
-        if precision == Precision::Double || tracer.rays.projection() == Projection::Parallel {
-            for quantity in [
-                Quantity::Depth,
-                Quantity::GeometricNormal,
-                Quantity::Position,
-            ] {
-                for component in 0..quantity.components() {
-                    let nothing = [quantity.of_nothing(); LANES];
-                    row.put(precision, (quantity, component), nothing);
-                }
-            }
-            return sight.covered;
+        let is_parallel = tracer.rays.projection() == Projection::Parallel;
+        if precision == Precision::Double || is_parallel || sight.inner != 0 {
+            return self.place_doubles(simd, seen, tracer, row);
         }
         let mut unproved = 0;
         let length = libm::scalbn(1.0, tracer.index.length_exponent());
@@ -214,20 +206,154 @@ impl Centers {
                         .times(f64x8::splat(simd, length))
                 }
             };
-            for axis in 0..3 {
-                let component = covered.select(position.along(axis), zero);
-                self.put(row, (Quantity::Position, axis), component);
-            }
+            self.put_vectors(simd, row, Quantity::Position, covered, &position);
         }
         if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
             let (normal, proved) = self.normals(simd, sight, inverse_radius);
             unproved |= !proved.to_bitmask();
-            for axis in 0..3 {
-                let component = covered.select(normal.along(axis), zero);
-                self.put(row, (Quantity::GeometricNormal, axis), component);
-            }
+            self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
         }
-        (unproved & sight.covered) | sight.alone | sight.inner
+        (unproved & sight.covered) | sight.alone
+    }
+
+    /// [`Self::place`] for doubles, of inner sides, and through a parallel lens.
+    #[inline(never)]
+    fn place_doubles<S: Simd>(
+        &self,
+        simd: S,
+        seen: &Seen<'_, '_, S>,
+        tracer: &Tracer<'_>,
+        row: &mut RowGeometry,
+    ) -> u64 {
+        simd.vectorize(
+            #[inline(always)]
+            || match is_fused(simd) {
+                true => self.cross::<S, true>(simd, seen, tracer, row),
+                false => self.cross::<S, false>(simd, seen, tracer, row),
+            },
+        )
+    }
+
+    /// The same, with or without fused operations.
+    #[inline(always)]
+    fn cross<S: Simd, const FUSED: bool>(
+        &self,
+        simd: S,
+        seen: &Seen<'_, '_, S>,
+        tracer: &Tracer<'_>,
+        row: &mut RowGeometry,
+    ) -> u64 {
+        let &Seen {
+            sight,
+            place,
+            across,
+            ..
+        } = seen;
+        let is_parallel = tracer.rays.projection() == Projection::Parallel;
+        let shrink = libm::scalbn(1.0, -tracer.index.length_exponent());
+        let viewpoint = Vectors::splat(simd, self.viewpoint);
+        let (mut origins, mut way) = (viewpoint, sight.point);
+        if is_parallel {
+            for lane in 0..LANES {
+                let pixel = lane.min(tracer.tile.width as usize - 1);
+                origins.set_lane(lane, tracer.rays.ray(place, pixel).origin);
+            }
+            let aside = origins.minus(&viewpoint).times(f64x8::splat(simd, shrink));
+            way = way.minus(&aside);
+        }
+        let spheres = tracer.index.visibility.spheres();
+        let mut targets = None;
+        for Group { ball, lanes } in seen.groups.as_slice() {
+            let sphere = &spheres[ball.index()];
+            let own = match is_parallel {
+                true => Targets::seen_from::<FUSED>(simd, sphere, &origins, shrink),
+                false => Targets::splat::<FUSED>(simd, sphere, self.viewpoint, shrink),
+            };
+            targets = Some(match &targets {
+                None => own,
+                Some(others) => own.or(mask64x8::from_bitmask(simd, *lanes), others),
+            });
+        }
+        let Some(targets) = targets else {
+            return sight.covered;
+        };
+        let mut t = way.dot(&sight.direction) / sight.length_sq;
+        let inner = mask64x8::from_bitmask(simd, sight.inner);
+        if sight.inner != 0 && !is_parallel {
+            // These points are where the ray behind the viewpoint leaves the sphere.
+            t = inner.select(targets.other_side(&sight.direction, t), t);
+        }
+        let crossings = Crossings::<S, FUSED>::new(simd, sight.direction, (t, inner), &targets);
+
+        let covered = mask64x8::from_bitmask(simd, sight.covered);
+        let length = libm::scalbn(1.0, tracer.index.length_exponent());
+        let scale = libm::scalbn(1.0, -tracer.rays.exponent());
+        let forward = f64x8::splat(simd, tracer.rays.magnification() * scale);
+        let one = f64x8::splat(simd, 1.0);
+        let mut unproved = 0;
+        if self.wants(Quantity::Depth) {
+            let (depth, proved) = match self.settings.depth {
+                // Directions are unit vectors along the axis.
+                _ if is_parallel => crossings.times(simd, one),
+                Depth::Axis => crossings.times(simd, forward),
+                Depth::Ray => crossings.lengths(simd),
+            };
+            unproved |= !proved.to_bitmask();
+            let never = f64x8::splat(simd, f64::INFINITY);
+            let depth = covered.select(depth * length, never);
+            self.put(row, (Quantity::Depth, 0), depth);
+        }
+        if self.wants(Quantity::Position) {
+            let (position, proved) = match self.signs {
+                None => crossings.positions(&origins, length),
+                Some(signs) if is_parallel => {
+                    let forward = tracer.rays.magnification();
+                    let upward = tracer.rays.upward(place) / forward * signs.y;
+                    let x = across / f64x8::splat(simd, forward) * signs.x;
+                    let (z, proved) = crossings.times(simd, one * signs.z);
+                    let upward = f64x8::splat(simd, upward);
+                    (Vectors::from_array([x, upward, z * length]), proved)
+                }
+                Some(signs) => {
+                    let upward = f64x8::splat(simd, tracer.rays.upward(place) * scale);
+                    let (x, proved_x) = crossings.times(simd, across * scale * signs.x);
+                    let (y, proved_y) = crossings.times(simd, upward * signs.y);
+                    let (z, proved_z) = crossings.times(simd, forward * signs.z);
+                    let position = Vectors::from_array([x * length, y * length, z * length]);
+                    (position, proved_x & proved_y & proved_z)
+                }
+            };
+            unproved |= !proved.to_bitmask();
+            self.put_vectors(simd, row, Quantity::Position, covered, &position);
+        }
+        if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
+            let (normal, proved) = match self.signs {
+                None => crossings.normals(),
+                Some(_) => crossings.normals_along(&self.axes),
+            };
+            unproved |= !proved.to_bitmask();
+            self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
+        }
+        // Of parallel rays each is alone, and its point right.
+        let alone = if is_parallel { 0 } else { sight.alone };
+        (unproved & sight.covered) | alone
+    }
+
+    /// Writes vectors where something is seen.
+    #[inline(always)]
+    fn put_vectors<S: Simd>(
+        &self,
+        simd: S,
+        row: &mut RowGeometry,
+        quantity: Quantity,
+        covered: mask64x8<S>,
+        vectors: &Vectors<S>,
+    ) {
+        let zero = f64x8::splat(simd, 0.0);
+        for axis in 0..3 {
+            let component = covered.select(vectors.along(axis), zero);
+            self.put(row, (quantity, axis), component);
+        }
     }
 
     /// The geometric normals along the axes, and where they are proved.

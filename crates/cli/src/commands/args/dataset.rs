@@ -12,6 +12,7 @@ const EXAMPLES: &str = "\
 Examples:
   marbles dataset studio.ron -o studio --layout diligent
   marbles dataset studio.ron -o studio --layout diligent --skip-existing   go on where it ended
+  marbles dataset lamps.ron -o lamps --layout luces
 
 Files of the layout `diligent`, in the camera's axes: x right, y up, z toward the viewer:
   001.png, 002.png, …   a picture under each light alone, without ambient light and background: 16 bit,
@@ -25,6 +26,16 @@ Files of the layout `diligent`, in the camera's axes: x right, y up, z toward th
   normal.txt            the same, three numbers a line, row by row
   Normal_gt.png         the same to look at
 
+Files of the layout `luces`, for point lights that fall off with the square of the distance:
+  01.png, 02.png, …     the pictures, as above
+  led_params.txt        size, focal length, principal point and mean distance; then of each light its
+                        position (x right, y down, z forward), direction, brightness and exponent
+  normals.png           the normals, 16 bit: x right, y up, z toward the viewer
+  zgt.npz               the depths along the axis of view, arrays `zgt` and `zgt_int` of doubles
+  mask.png, K.txt       where a sphere is seen; the matrix of the camera
+  light_positions.txt   x right, y up, z toward the viewer; light_directions.txt and
+                        light_intensities.txt are those at the mean distance; filenames.txt
+
 Exit codes:
   0  everything is written, and every pixel met the tolerance
   1  something failed, or some pixel did not meet the tolerance
@@ -36,6 +47,8 @@ Exit codes:
 pub(crate) enum LayoutForm {
     /// That of DiLiGenT: distant lights
     Diligent,
+    /// That of LUCES: near lights
+    Luces,
 }
 
 /// Write a data set for photometric stereo: a picture under each light, and the true normals

@@ -23,7 +23,7 @@ pub(crate) use self::manual::{CompletionsArguments, ManArguments};
 pub(crate) use self::merge::MergeArguments;
 pub(crate) use self::new::NewArguments;
 pub(crate) use self::preview::PreviewArguments;
-pub(crate) use self::render::RenderArguments;
+pub(crate) use self::render::{PerLight, RenderArguments};
 pub(crate) use self::report::ReportArguments;
 pub(crate) use self::spheres::SpheresArguments;
 

@@ -3,7 +3,7 @@
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use marbles_core::Window;
 
 use super::values::{above_zero, bits, exposure, samples, threads, tolerance_above_zero};
@@ -25,6 +25,7 @@ Examples:
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
   marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr: each light alone
+  marbles render ball.ron -o a.exr --per-light=layers the same in layers 1, …, ambient of a.exr
   marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
 
 Exit codes:
@@ -32,6 +33,15 @@ Exit codes:
   1  something failed, or some pixel did not meet the tolerance
   2  the command line or the scene file is wrong
   130  interrupted";
+
+/// The place of the pictures under one light each.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum PerLight {
+    /// A file for each
+    Files,
+    /// Layers of one EXR, whose picture is that under all lights
+    Layers,
+}
 
 /// Render the frames of a scene, one file each
 #[derive(Debug, Args)]
@@ -91,9 +101,17 @@ pub(crate) struct RenderArguments {
     pub(crate) alpha: bool,
 
     /// Render each light alone, with its shadows, into NAME.light-KEY.png and so on, KEY its number from 1, and
-    /// ambient light and background into NAME.ambient.png: the sum is the picture
-    #[arg(long)]
-    pub(crate) per_light: bool,
+    /// ambient light and background into NAME.ambient.png: the sum is the picture. With --per-light=layers into
+    /// layers KEY (KEY.R, KEY.G, KEY.B) and `ambient` of one EXR, beside the picture under all lights
+    #[arg(
+        long,
+        value_name = "PLACE",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "files",
+        hide_possible_values = true
+    )]
+    pub(crate) per_light: Option<PerLight>,
 
     /// Bits of a number in a PNG, 8 or 16 [default: 8, and 16 with --linear]
     #[arg(long, value_name = "BITS", value_parser = bits)]

@@ -1,17 +1,20 @@
 //! `marbles dataset`: the files that programs for photometric stereo read, from a scene with many lights.
 
-mod lights;
-mod normals;
+mod centers;
+mod diligent;
+mod lines;
+mod luces;
 #[cfg(test)]
 mod tests;
 
-use std::path::{Path, PathBuf};
-
-use marbles_core::{DirectionalLight, Light, LightPart, Method, Renderer, Settings, View, World};
+use marbles_core::{
+    DirectionalLight, Light, LightPart, Method, PointLight, Renderer, Settings, View, World,
+};
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
-use self::normals::Normals;
+use self::centers::Centers;
+use self::lines::write_lines;
 use super::args::{DatasetArguments, LayoutForm};
 use super::render::conclusion;
 use super::scene;
@@ -44,16 +47,13 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     }
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
-    let lights = match arguments.layout {
-        LayoutForm::Diligent => distant_lights(arguments, &scene.lights(&view))?,
-    };
-    let request = request(arguments, scene, &lights)?;
+    let lights = scene.lights(&view);
+    let layout = Layout::new(arguments, &view, &lights)?;
+    let gain = gain(scene.world(), &lights);
+    let request = request(arguments, scene, (&layout, lights.len()), gain)?;
     interrupt::listen(console);
-    prepare(&arguments.output.join("mask.png"))?;
 
-    match arguments.layout {
-        LayoutForm::Diligent => write_truth(&arguments.output, &request, (&view, &lights), &pool)?,
-    }
+    layout.write(arguments, &request, (&view, gain), &pool)?;
     let (form, quiet) = (arguments.progress, arguments.quiet);
     let progress = Progress::new(console, form, quiet, request.pictures());
     let outcome = render(&request, &pool, &progress);
@@ -65,43 +65,86 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     Ok(conclusion(&outcome, "picture", console))
 }
 
-/// The lights of a layout that has directions of them alone.
-fn distant_lights(
-    arguments: &DatasetArguments,
-    lights: &[Light],
-) -> Result<Vec<DirectionalLight>, Failure> {
-    let distant = lights.iter().map(|light| match light {
-        Light::Directional(light) => Ok(*light),
-        Light::Point(_) => Err(Failure::unusable(
-            &arguments.scene,
-            "the layout diligent has directions of lights, and the scene a point light",
-        )),
-    });
-    distant.collect()
+/// A layout, and the lights of the kind that it has.
+enum Layout {
+    Diligent(Vec<DirectionalLight>),
+    Luces(Vec<PointLight>),
+}
+
+impl Layout {
+    /// The layout that is asked for; refuses lights and lenses that it does not have.
+    fn new(arguments: &DatasetArguments, view: &View, lights: &[Light]) -> Result<Self, Failure> {
+        let scene = &arguments.scene;
+        Ok(match arguments.layout {
+            LayoutForm::Diligent => Self::Diligent(diligent::lights(scene, lights)?),
+            LayoutForm::Luces => {
+                luces::check_lens(scene, view)?;
+                Self::Luces(luces::lights(scene, lights)?)
+            }
+        })
+    }
+
+    /// The fewest digits of a picture's number.
+    fn digits(&self) -> usize {
+        match self {
+            Self::Diligent(_) => 3,
+            Self::Luces(_) => 2,
+        }
+    }
+
+    /// Writes all but the pictures.
+    fn write(
+        &self,
+        arguments: &DatasetArguments,
+        request: &Request,
+        (view, gain): (&View, f64),
+        pool: &ThreadPool,
+    ) -> Result<(), Failure> {
+        let renderer = || Renderer::new(request.scene.world());
+        let centers = pool.install(|| Centers::of(&renderer(), view));
+        let folder = &arguments.output;
+        let names = folder.join("filenames.txt");
+        let write_names = || {
+            prepare(&names)?;
+            write_lines(&names, file_names(request.parts.len(), self.digits()))
+        };
+        match self {
+            Self::Diligent(lights) => {
+                write_names()?;
+                diligent::write(folder, view, (lights, gain), &centers)
+            }
+            Self::Luces(lights) => {
+                let mean_distance = luces::mean_distance(&arguments.scene, &centers)?;
+                write_names()?;
+                luces::write(folder, view, (lights, gain), (&centers, mean_distance))
+            }
+        }
+    }
 }
 
 /// A picture for each light, in codes of 16 bit that are in proportion to light.
 fn request(
     arguments: &DatasetArguments,
     scene: Scene,
-    lights: &[DirectionalLight],
+    (layout, lights): (&Layout, usize),
+    gain: f64,
 ) -> Result<Request, Failure> {
-    let world = scene.world();
-    let names = file_names(lights.len());
-    let parts = (0..lights.len()).map(LightPart::Light).zip(names);
+    let names = file_names(lights, layout.digits());
+    let parts = (0..lights).map(LightPart::Light).zip(names);
     let parts = parts.map(|(light, name)| PicturePart::named(light, name));
     let encoding = Encoding::Png(PngOptions {
         // Those in proportion to light have 16 bit.
         deep: false,
         rgb: true,
         linear: true,
-        gain: gain(world, lights),
+        gain,
     });
     let frame = arguments.frame.unwrap_or(*frames_of(&scene).start());
     // Parts have names of their own in this folder.
     let pattern = Pattern::parse(&arguments.output.join("picture.png"));
     Ok(Request {
         parts: parts.collect(),
+        layers: Vec::new(),
         pattern: pattern.map_err(Failure::Usage)?,
         encoding,
         frames: FrameList::from(frame..=frame),
@@ -121,19 +164,19 @@ fn request(
     })
 }
 
-/// The names of the pictures: 001.png and so on, with as many digits as the last one has, and three at least.
-fn file_names(count: usize) -> impl Iterator<Item = String> {
-    let digits = count.to_string().len().max(3);
+/// The names of the pictures: 001.png and so on, with as many digits as the last one has, and `least` at least.
+fn file_names(count: usize, least: usize) -> impl Iterator<Item = String> {
+    let digits = count.to_string().len().max(least);
     (1..=count).map(move |number| format!("{number:0digits$}.png"))
 }
 
 /// The power of two by which light is multiplied so that the brightest that a light can make is above ½ and not
 /// above 1: no picture is clipped.
-fn gain(world: &World, lights: &[DirectionalLight]) -> f64 {
+fn gain(world: &World, lights: &[Light]) -> f64 {
     let mut brightest = 0.0_f64;
     for light in lights {
-        let intensity = light.intensity();
-        for sphere in 0..world.spheres().len() {
+        for (sphere, ball) in world.spheres().iter().enumerate() {
+            let intensity = light.brightest_on(ball);
             let highlight = world.material(sphere).highlight;
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);
             let most = world.albedo(sphere) * intensity + intensity * strength;
@@ -145,23 +188,4 @@ fn gain(world: &World, lights: &[DirectionalLight]) -> f64 {
     } else {
         1.0
     }
-}
-
-/// Writes what the pictures are to be held against: the lights, the mask and the normals.
-fn write_truth(
-    folder: &Path,
-    request: &Request,
-    (view, lights): (&View, &[DirectionalLight]),
-    pool: &ThreadPool,
-) -> Result<(), Failure> {
-    let world = request.scene.world();
-    let path = |name: &str| -> PathBuf { folder.join(name) };
-    lights::write_names(&path("filenames.txt"), file_names(lights.len()))?;
-    lights::write_directions(&path("light_directions.txt"), lights, view)?;
-    lights::write_intensities(&path("light_intensities.txt"), lights, gain(world, lights))?;
-    let normals = pool.install(|| Normals::of(&Renderer::new(world), view));
-    normals.write_mask(&path("mask.png"))?;
-    normals.write_picture(&path("Normal_gt.png"))?;
-    normals.write_text(&path("normal.txt"))?;
-    normals.write_mat(&path("Normal_gt.mat"))
 }

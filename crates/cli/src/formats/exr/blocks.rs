@@ -28,15 +28,20 @@ pub(crate) const ROWS_OF_A_BLOCK: u32 = 16;
 pub(crate) struct Blocks {
     options: ExrOptions,
     channels: Vec<Channel>,
+    /// The number of layers, the picture the first of them.
+    layers: usize,
     /// The header without the facts about the picture, which do not matter to the blocks.
     pub(super) header: Header,
 }
 
 /// A channel of a file.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Channel {
-    name: &'static str,
+    name: String,
     content: Content,
+    /// The number of the layer, 0 that of the picture, with which its numbers come; those that the centers of pixels
+    /// see come by themselves.
+    layer: usize,
     /// Bytes of a sample.
     bytes: usize,
 }
@@ -62,34 +67,39 @@ impl Channel {
 }
 
 impl Blocks {
-    /// The blocks of a picture of this form.
-    pub(crate) fn new(form: &Form, options: ExrOptions) -> Self {
-        let light = |(number, name)| Channel {
-            name,
-            content: Content::Light(number),
-            bytes: if options.float { 4 } else { 2 },
-        };
-        // In the order of their names.
-        let names = [(3, "A"), (2, "B"), (1, "G"), (0, "R")].into_iter();
-        let names = names.skip(usize::from(!form.alpha));
-        let mut channels: Vec<Channel> = names.map(light).collect();
-        if options.error {
-            channels.push(Channel {
-                name: ERROR_CHANNEL,
-                content: Content::Error,
-                // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
-                bytes: 4,
-            });
+    /// The blocks of a picture of this form, and of layers with these names beside it, which share its alpha.
+    pub(crate) fn new(form: &Form, options: ExrOptions, layers: &[String]) -> Self {
+        let mut channels = Vec::new();
+        let names = layers.iter().map(|layer| format!("{layer}."));
+        for (layer, prefix) in [String::new()].into_iter().chain(names).enumerate() {
+            let light = [(0, "R"), (1, "G"), (2, "B"), (3, "A")].into_iter();
+            let light = light.take(if form.alpha && layer == 0 { 4 } else { 3 });
+            channels.extend(light.map(|(number, name)| Channel {
+                name: format!("{prefix}{name}"),
+                content: Content::Light(number),
+                layer,
+                bytes: if options.float { 4 } else { 2 },
+            }));
+            if options.error {
+                channels.push(Channel {
+                    name: format!("{prefix}{ERROR_CHANNEL}"),
+                    content: Content::Error,
+                    layer,
+                    // Errors are floats in any case: the least half above 0 is 6e-8, which many are below.
+                    bytes: 4,
+                });
+            }
         }
         let centers = form.centers.iter().flat_map(CenterChannels::list);
         channels.extend(centers.map(|(name, source)| Channel {
-            name,
+            name: name.to_owned(),
             content: Content::Center(source),
+            layer: 0,
             bytes: 4,
         }));
-        channels.sort_unstable_by_key(|channel| channel.name);
+        channels.sort_unstable_by(|one, other| one.name.cmp(&other.name));
         let names = channels.iter();
-        let names = names.map(|channel| (channel.name, channel.sample_type()));
+        let names = names.map(|channel| (&*channel.name, channel.sample_type()));
         let Region { window, whole } = form.region;
         let mut header = header_of(form.region.size(), names.collect());
         let position = Vec2(window.col as i32, window.row as i32);
@@ -104,8 +114,14 @@ impl Blocks {
         Self {
             options,
             channels,
+            layers: 1 + layers.len(),
             header,
         }
+    }
+
+    /// The number of layers, the picture the first of them.
+    pub(crate) fn layers(&self) -> usize {
+        self.layers
     }
 
     /// Bytes of a row's samples.
@@ -114,10 +130,11 @@ impl Blocks {
         self.header.layer_size.x() * pixel
     }
 
-    /// Puts the numbers of some rows of an image where they belong in `samples`, which are as many
+    /// Puts the numbers of some rows of a layer's image where they belong in `samples`, which are as many
     /// rows, from the column `col` on; returns how many were too large.
     pub(crate) fn encode(
         &self,
+        layer: usize,
         samples: &mut [u8],
         col: u32,
         image: &Image,
@@ -134,6 +151,9 @@ impl Blocks {
                 let start = end + col as usize * channel.bytes;
                 let own = start..start + image.width() as usize * channel.bytes;
                 end += columns * channel.bytes;
+                if channel.layer != layer {
+                    continue;
+                }
                 clipped += match channel.content {
                     Content::Center(_) => 0,
                     Content::Error => {

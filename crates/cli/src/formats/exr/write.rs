@@ -19,8 +19,10 @@ use crate::base::size::Size;
 use crate::files::save::{Fault, save};
 use crate::formats::facts::{Facts, SOFTWARE};
 
-/// Bytes that a file has at most before its blocks and their places, generously.
+/// Bytes that a file has at most before its blocks and their places, generously, but for the names of its channels.
 const HEADER_BYTES: u64 = 1 << 16;
+/// Bytes that a channel takes there at most.
+const CHANNEL_BYTES: u64 = 1 << 9;
 /// Bytes that are written at a time.
 const BUFFER_BYTES: usize = 1 << 18;
 
@@ -113,6 +115,7 @@ fn write(
     mut next: impl FnMut() -> Result<Chunk, Fault>,
     summary: impl FnOnce() -> Result<Option<Summary>, Fault>,
 ) -> Result<(), Fault> {
+    let header_bytes = HEADER_BYTES + CHANNEL_BYTES * header.channels.list.len() as u64;
     let mut fault = None;
     let buffered = BufWriter::with_capacity(BUFFER_BYTES, &mut *file);
     let written = exr::block::write(
@@ -142,7 +145,7 @@ fn write(
     let mut start = Vec::new();
     file.seek(SeekFrom::Start(0))?;
     Read::by_ref(file)
-        .take(HEADER_BYTES)
+        .take(header_bytes)
         .read_to_end(&mut start)?;
     let unknown = || Fault::Encoding("the header has an unknown form".to_owned());
     if let Some(summary) = summary()? {

@@ -3,6 +3,7 @@
 pub(crate) mod array;
 pub(crate) mod files;
 mod header;
+pub(crate) mod npz;
 pub(crate) mod read;
 pub(crate) mod rows;
 pub(crate) mod stamp;

@@ -42,12 +42,12 @@ impl Shape {
         }
     }
 
-    /// The shape of a picture in 8 bit.
-    pub(super) fn of_codes(size: Size, color_type: ColorType) -> Self {
+    /// The shape of a picture whose codes are numbers of their own.
+    pub(super) fn of_codes(size: Size, color_type: ColorType, depth: BitDepth) -> Self {
         Self {
             size,
             color_type,
-            depth: BitDepth::Eight,
+            depth,
             is_linear: false,
         }
     }

@@ -7,7 +7,7 @@ use blake3::Hash;
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::Vec2;
 use png::{
-    ColorType, Compression, DecodingError, Encoder, EncodingError, ScaledFloat,
+    BitDepth, ColorType, Compression, DecodingError, Encoder, EncodingError, ScaledFloat,
     SourceChromaticities, SrgbRenderingIntent,
 };
 
@@ -43,15 +43,32 @@ pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
 
 /// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
 pub(crate) fn write_grey(size: Size, codes: &[u8], path: &Path) -> Result<(), Failure> {
-    let shape = Shape::of_codes(size, ColorType::Grayscale);
+    let shape = Shape::of_codes(size, ColorType::Grayscale, BitDepth::Eight);
     let codes = |stream: &mut dyn Write| Ok(stream.write_all(codes)?);
+    Ok(save(path, |file| write(file, shape, &[], codes))?)
+}
+
+/// Writes a PNG of 16 bit codes of red, green and blue, row by row, whole or not at all; `codes` gives those of a row.
+pub(crate) fn write_rgb_16(
+    size: Size,
+    codes: impl Fn(u32) -> Vec<u16>,
+    path: &Path,
+) -> Result<(), Failure> {
+    let shape = Shape::of_codes(size, ColorType::Rgb, BitDepth::Sixteen);
+    let codes = |stream: &mut dyn Write| {
+        for row in 0..size.height {
+            let row = codes(row).into_iter().flat_map(u16::to_be_bytes);
+            stream.write_all(&row.collect::<Vec<u8>>())?;
+        }
+        Ok(())
+    };
     Ok(save(path, |file| write(file, shape, &[], codes))?)
 }
 
 /// The bytes of a PNG of 8 bit codes of red, green and blue, row by row.
 pub(crate) fn rgb_bytes(size: Size, codes: &[u8]) -> Result<Vec<u8>, Failure> {
     let mut file = Cursor::new(Vec::new());
-    let shape = Shape::of_codes(size, ColorType::Rgb);
+    let shape = Shape::of_codes(size, ColorType::Rgb, BitDepth::Eight);
     match compress(&mut file, shape, &[], |stream| Ok(stream.write_all(codes)?)) {
         Ok(_has_grown) => Ok(file.into_inner()),
         Err(_) => Err(Failure::Work("cannot encode the picture".to_owned())),

@@ -11,7 +11,7 @@ fn encoder(encoding: Encoding, width: u32, height: u32) -> Encoder {
         alpha: true,
         centers: None,
     };
-    Encoder::new(encoding, form)
+    Encoder::new(encoding, form, &[])
 }
 
 const PNG: Encoding = Encoding::Png(PngOptions {

@@ -20,15 +20,20 @@ fn a_strip_that_is_given_up_leaves_nobody_waiting() {
         alpha: false,
         centers: None,
     };
-    let encoder = Encoder::new(Encoding::Png(PNG), form);
+    let encoder = Encoder::new(Encoding::Png(PNG), form, &[]);
     let buffer = ReorderBuffer::new(2);
     let (sender, finished) = channel();
     let clock = Clock::new(1);
     let picture = PictureEncoder::new(&encoder, &buffer, 0, &clock, sender);
-    let [first, second] = [0, 1].map(|index| picture.begin(index).unwrap());
+    let open = OpenStrip::default();
+    let sinks: Vec<LayerEncoder<'_, '_>> = picture.layers(&open).collect();
+    let [sink] = &sinks[..] else {
+        panic!("{} layers", sinks.len());
+    };
+    let [first, second] = [0, 1].map(|index| sink.begin(index).unwrap());
     second.end();
     std::thread::scope(|scope| {
-        let waiting = scope.spawn(|| picture.begin(2).is_none());
+        let waiting = scope.spawn(|| sink.begin(2).is_none());
         let closing = buffer.closing();
         drop(first);
         assert!(buffer.is_closed());

@@ -20,13 +20,13 @@ fn write(image: &Image, region: Region, error: bool, name: &str) -> Vec<(PathBuf
         alpha: image.has_alpha(),
         centers: None,
     };
-    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error }), form);
+    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error }), form, &[]);
     let path = temporary(name);
     let mut pieces = (0..encoder.pieces()).map(|index| {
         let first = index * encoder.rows();
         let rows = first..image.height().min(first + encoder.rows());
         let mut samples = vec![0; encoder.sample_bytes(index)];
-        assert_eq!(encoder.encode(&mut samples, 0, image, rows), 0);
+        assert_eq!(encoder.encode(0, &mut samples, 0, image, rows), 0);
         encoder.piece(index, samples)
     });
     let file = save::begin(&path).unwrap();
@@ -120,7 +120,7 @@ fn nothing_is_left_of_a_picture_that_is_not_complete() {
         alpha: false,
         centers: None,
     };
-    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error: true }), form);
+    let encoder = Encoder::new(Encoding::Npy(NpyOptions { error: true }), form, &[]);
     let path = temporary("cut.npy");
     let file = save::begin(&path).unwrap();
     let mut pieces = [Piece::Samples(vec![0; encoder.sample_bytes(0)])].into_iter();

@@ -190,7 +190,7 @@ fn noise_does_not_grow() {
         (state >> 24) as u8
     };
     let samples: Vec<u8> = (0..SIDES.pixels() * 3).map(|_| noise()).collect();
-    let shape = Shape::of_codes(SIDES, ColorType::Rgb);
+    let shape = Shape::of_codes(SIDES, ColorType::Rgb, BitDepth::Eight);
     let path = temporary("noise.png");
     let codes = |stream: &mut dyn Write| Ok(stream.write_all(&samples)?);
     save(&path, |file| write(file, shape, &[], codes)).unwrap();

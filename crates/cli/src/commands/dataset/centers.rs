@@ -1,4 +1,4 @@
-//! The normals that the rays through the centers of pixels see, in files of several kinds.
+//! What the rays through the centers of pixels see, in files of several kinds.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -9,45 +9,61 @@ use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::files::save::{Fault, save, write_bytes};
 use crate::formats::mat;
-use crate::formats::png::write::{rgb_bytes, write_grey};
+use crate::formats::npy::npz;
+use crate::formats::png::write::{rgb_bytes, write_grey, write_rgb_16};
 
-/// The normals of a picture, in the camera's axes: x right, y up, z toward the viewer.
-pub(super) struct Normals {
+/// The normals and depths of a picture.
+pub(super) struct Centers {
     size: Size,
-    /// Row by row; 0 where nothing is seen.
+    /// In the camera's axes, x right, y up, z toward the viewer; row by row, 0 where nothing is seen.
     normals: Vec<[f64; 3]>,
+    /// Along the axis of view; 0 where nothing is seen.
+    depths: Vec<f64>,
     /// Where something is seen.
     mask: Vec<bool>,
 }
 
-impl Normals {
-    /// The normals that the surfaces of a view are shaded with.
+impl Centers {
+    /// The normals that the surfaces of a view are shaded with, and the depths.
     pub(super) fn of(renderer: &Renderer<'_>, view: &View) -> Self {
         let settings = GeometrySettings {
-            quantities: [Quantity::Normal].into_iter().collect(),
+            quantities: [Quantity::Normal, Quantity::Depth].into_iter().collect(),
             depth: Depth::Axis,
             axes: Axes::CameraOpenGl,
             precision: Precision::Double,
         };
         let geometry = renderer.geometry(view, &settings);
-        let (mut normals, mut mask) = (Vec::new(), Vec::new());
+        let values = |quantity, component, row| {
+            let values = geometry.values(quantity, component, row);
+            values.into_iter().flatten()
+        };
+        let (mut normals, mut depths, mut mask) = (Vec::new(), Vec::new(), Vec::new());
         for row in 0..geometry.height() {
-            mask.extend(geometry.ids(row).map(|id| id != Geometry::NOTHING));
             let first = normals.len();
+            mask.extend(geometry.ids(row).map(|id| id != Geometry::NOTHING));
             normals.resize(first + geometry.width() as usize, [0.0; 3]);
             for component in 0..3 {
-                let values = geometry.values(Quantity::Normal, component, row);
-                let values = values.into_iter().flatten();
+                let values = values(Quantity::Normal, component, row);
                 for (normal, value) in normals[first..].iter_mut().zip(values) {
                     normal[component] = value + 0.0;
                 }
             }
+            let seen = mask[first..].iter().zip(values(Quantity::Depth, 0, row));
+            depths.extend(seen.map(|(&seen, depth)| if seen { depth } else { 0.0 }));
         }
         Self {
             size: Size::of(view),
             normals,
+            depths,
             mask,
         }
+    }
+
+    /// The mean depth of all that is seen, if there is anything.
+    pub(super) fn mean_depth(&self) -> Option<f64> {
+        let count = self.mask.iter().filter(|&&seen| seen).count();
+        let mean = |depth: &f64| depth / count as f64;
+        (count > 0).then(|| self.depths.iter().map(mean).sum())
     }
 
     /// Writes 255 where a sphere is seen.
@@ -57,18 +73,31 @@ impl Normals {
         write_grey(self.size, &codes, path)
     }
 
-    /// Writes a picture for people, and for programs that look at its size: components from −1 to 1 become codes from 0
-    /// to 255.
+    /// Writes a picture of the normals for people, and for programs that look at its size: components from −1 to 1 become
+    /// codes from 0 to 255.
     pub(super) fn write_picture(&self, path: &Path) -> Result<(), Failure> {
-        let seen = self.mask.iter().zip(&self.normals);
-        let codes = seen.flat_map(|(&seen, normal)| {
-            normal.map(|number| match seen {
-                true => (127.5 * (number + 1.0)).round() as u8,
-                false => 0,
-            })
-        });
-        let codes: Vec<u8> = codes.collect();
+        let codes = (0..self.normals.len()).flat_map(|pixel| self.codes(pixel, u8::MAX.into()));
+        let codes: Vec<u8> = codes.map(|code| code as u8).collect();
         write_bytes(&rgb_bytes(self.size, &codes)?, path)
+    }
+
+    /// Writes a picture from which programs read the normals: components from −1 to 1 become codes from 0 to 65535.
+    pub(super) fn write_deep_picture(&self, path: &Path) -> Result<(), Failure> {
+        let width = self.size.width as usize;
+        let codes = |row: u32| {
+            let first = row as usize * width;
+            let codes = (first..first + width).flat_map(|pixel| self.codes(pixel, u16::MAX.into()));
+            codes.map(|code| code as u16).collect()
+        };
+        write_rgb_16(self.size, codes, path)
+    }
+
+    /// The codes of a pixel's normal, up to the largest one; 0 where nothing is seen.
+    fn codes(&self, pixel: usize, most: f64) -> [f64; 3] {
+        match self.mask[pixel] {
+            true => self.normals[pixel].map(|number| (0.5 * most * (number + 1.0)).round()),
+            false => [0.0; 3],
+        }
     }
 
     /// Writes three numbers a line, pixel by pixel and row by row. The last line has no end: some programs count ends.
@@ -98,6 +127,12 @@ impl Normals {
                 value,
             )?)
         })
+    }
+
+    /// Writes the depths as arrays of height × width, once under each of the names.
+    pub(super) fn write_depths(&self, names: &[&str], path: &Path) -> Result<(), Failure> {
+        let arrays: Vec<(&str, &[f64])> = names.iter().map(|&name| (name, &*self.depths)).collect();
+        self.save(path, |to| Ok(npz::write(to, self.size, &arrays)?))
     }
 
     /// Writes a file, whole or not at all.

@@ -1,0 +1,45 @@
+//! The files of the layout `diligent`, beside the pictures.
+
+use std::path::Path;
+
+use glam::DVec3;
+use marbles_core::{DirectionalLight, Extrinsics, Light, View};
+
+use super::centers::Centers;
+use super::lines::{line, write_lines};
+use crate::base::failure::Failure;
+
+/// The lights, where all of them have directions alone.
+pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<DirectionalLight>, Failure> {
+    let distant = lights.iter().map(|light| match light {
+        Light::Directional(light) => Ok(*light),
+        Light::Point(_) => Err(Failure::unusable(
+            scene,
+            "the layout diligent has directions of lights, and the scene a point light",
+        )),
+    });
+    distant.collect()
+}
+
+/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the mask and
+/// the normals.
+pub(super) fn write(
+    folder: &Path,
+    view: &View,
+    (lights, gain): (&[DirectionalLight], f64),
+    centers: &Centers,
+) -> Result<(), Failure> {
+    let camera = Extrinsics::of(&view.camera);
+    let direction = |light: &DirectionalLight| {
+        let DVec3 { x, y, z } = camera.direction(light.toward());
+        line(&[x, -y, -z])
+    };
+    let intensity = |light: &DirectionalLight| line(&(light.intensity() * gain).to_array());
+    let path = |name: &str| folder.join(name);
+    write_lines(&path("light_directions.txt"), lights.iter().map(direction))?;
+    write_lines(&path("light_intensities.txt"), lights.iter().map(intensity))?;
+    centers.write_mask(&path("mask.png"))?;
+    centers.write_picture(&path("Normal_gt.png"))?;
+    centers.write_text(&path("normal.txt"))?;
+    centers.write_mat(&path("Normal_gt.mat"))
+}

@@ -1,0 +1,131 @@
+//! The files of the layout `luces`, beside the pictures.
+//!
+//! Its readers model a light by its position P, a direction s, a brightness φ in each color and an exponent μ: a matte
+//! surface of albedo ρ at the point X shows
+//!
+//! > ρ φ (−l · s)^μ max(0, n · l) / |P − X|², l = (P − X) / |P − X|,
+//!
+//! up to a factor that all lights share. A point light shines alike in all directions: μ = 0. The factor is here the
+//! square of the mean distance, as it is for readers that divide all lengths by that.
+//!
+//! # Source
+//! `datasets/io_nf.py`, `datasets/luces_dataset.py` and `normal_integration/near_functions.py` of
+//! github.com/dlichy/FastNFPSCode, of which the first and the last are those of the data set's authors.
+
+use std::path::Path;
+
+use glam::{DVec2, DVec3};
+use marbles_core::{Extrinsics, Intrinsics, Light, LightFalloff, PointLight, View};
+
+use super::centers::Centers;
+use super::lines::{line, write_lines};
+use crate::base::failure::Failure;
+
+/// The first line of the file that readers ask first.
+const HEADER: &str = "N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]";
+
+/// The lights, where all of them are points whose light falls off with the square of the distance.
+pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<PointLight>, Failure> {
+    let near = lights.iter().enumerate().map(|(index, light)| {
+        let refuse = |found: &str| {
+            let number = index + 1;
+            let why = format!(
+                "the layout luces has point lights that fall off with the square of the distance, and light {number} \
+                 of the scene {found}"
+            );
+            Err(Failure::unusable(scene, &why))
+        };
+        match light {
+            Light::Directional(_) => refuse("is a directional one"),
+            Light::Point(light) => match light.falloff() {
+                LightFalloff::None => refuse("does not fall off"),
+                LightFalloff::InverseSquare => Ok(*light),
+            },
+        }
+    });
+    near.collect()
+}
+
+/// Refuses lenses that have no focal length in pixels.
+pub(super) fn check_lens(scene: &Path, view: &View) -> Result<(), Failure> {
+    match Intrinsics::of(view).focal_length.is_finite() {
+        true => Ok(()),
+        false => Err(Failure::unusable(
+            scene,
+            "the layout luces has a focal length, and the lens of the scene has none",
+        )),
+    }
+}
+
+/// The mean depth of all that is seen; refuses pictures of nothing.
+pub(super) fn mean_distance(scene: &Path, centers: &Centers) -> Result<f64, Failure> {
+    centers.mean_depth().ok_or_else(|| {
+        Failure::unusable(
+            scene,
+            "the layout luces has the mean distance of what is seen, and no pixel sees a sphere",
+        )
+    })
+}
+
+/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the camera, the
+/// mask, the normals and the depths.
+pub(super) fn write(
+    folder: &Path,
+    view: &View,
+    (lights, gain): (&[PointLight], f64),
+    (centers, mean_distance): (&Centers, f64),
+) -> Result<(), Failure> {
+    let camera = Extrinsics::of(&view.camera);
+    let positions = lights.iter().map(|light| camera.point(light.position()));
+    let positions: Vec<DVec3> = positions.collect();
+    let brightness = |light: &PointLight| {
+        let ratio = light.reference() / mean_distance;
+        light.intensity() * (gain * ratio * ratio)
+    };
+    let path = |name: &str| folder.join(name);
+
+    let Intrinsics {
+        focal_length,
+        principal_point: DVec2 { x, y },
+    } = Intrinsics::of(view);
+    let sizes = format!("{} {} {}", lights.len(), view.height, view.width);
+    let setup = line(&[focal_length, x, y, mean_distance]);
+    let setup = [HEADER.to_owned(), format!("{sizes} {setup}")];
+    let parameters = lights.iter().zip(&positions).map(|(light, position)| {
+        // The axis of view; μ; and a number that nobody reads.
+        let (direction, exponent, last) = (DVec3::Z, 0.0, 0.0);
+        let vectors = [*position, direction, brightness(light)].map(|vector| vector.to_array());
+        let mut numbers = vectors.concat();
+        numbers.extend([exponent, last]);
+        line(&numbers)
+    });
+    write_lines(&path("led_params.txt"), setup.into_iter().chain(parameters))?;
+    let matrix = [
+        [focal_length, 0.0, x],
+        [0.0, focal_length, y],
+        [0.0, 0.0, 1.0],
+    ];
+    write_lines(&path("K.txt"), matrix.map(|row| line(&row)))?;
+
+    let upward = |vector: DVec3| line(&[vector.x, -vector.y, -vector.z]);
+    write_lines(
+        &path("light_positions.txt"),
+        positions.iter().map(|&position| upward(position)),
+    )?;
+    let middle = DVec3::Z * mean_distance;
+    write_lines(
+        &path("light_directions.txt"),
+        positions
+            .iter()
+            .map(|&position| upward((position - middle).normalize_or_zero())),
+    )?;
+    write_lines(
+        &path("light_intensities.txt"),
+        lights
+            .iter()
+            .map(|light| line(&brightness(light).to_array())),
+    )?;
+    centers.write_mask(&path("mask.png"))?;
+    centers.write_deep_picture(&path("normals.png"))?;
+    centers.write_depths(&["zgt", "zgt_int"], &path("zgt.npz"))
+}

@@ -1,0 +1,205 @@
+//! NPZ files, as NumPy's `savez` writes them: a ZIP archive with an array in each of its files, none of them compressed.
+//!
+//! # Source
+//! *APPNOTE.TXT*, PKWARE: each file behind a header of its own, then the headers of all of them once more, and at the end
+//! the place of these. All sizes are those of ZIP64, of eight bytes, as NumPy has them too.
+
+use std::io::{self, Write};
+
+use super::array::{Array, Number};
+use super::header;
+use crate::base::size::Size;
+
+/// The version of ZIP that knows sizes of eight bytes, 4.5.
+const VERSION: u16 = 45;
+/// In place of a size of four bytes: it has eight elsewhere.
+const ELSEWHERE: u32 = u32::MAX;
+/// In place of a count of two bytes.
+const COUNT_ELSEWHERE: u16 = u16::MAX;
+/// The kind of the field that has sizes of eight bytes.
+const ZIP64: u16 = 1;
+/// The first day that ZIP knows, so that the same arrays make the same bytes: 1980-01-01, at midnight.
+const DATE: [u16; 2] = [0, 0x21];
+
+/// The words with which parts begin.
+const LOCAL: u32 = 0x0403_4b50;
+const CENTRAL: u32 = 0x0201_4b50;
+const END_64: u32 = 0x0606_4b50;
+const PLACE_OF_END_64: u32 = 0x0706_4b50;
+const END: u32 = 0x0605_4b50;
+
+/// Numbers that are given their bytes at once.
+const NUMBERS: usize = 1 << 13;
+
+/// A file of the archive.
+struct Entry {
+    name: String,
+    checksum: u32,
+    bytes: u64,
+    /// The place of its own header.
+    place: u64,
+}
+
+/// Writes arrays of a number for each pixel, row by row, under their names.
+pub(crate) fn write(to: &mut dyn Write, size: Size, arrays: &[(&str, &[f64])]) -> io::Result<()> {
+    let array = Array {
+        size,
+        channels: None,
+        number: Number::F64,
+    };
+    let start = header::bytes(&array, None);
+    let mut place = 0;
+    let mut entries = Vec::new();
+    for (name, numbers) in arrays {
+        let mut checksum = crc32fast::Hasher::new();
+        checksum.update(&start);
+        for_each_part(numbers, |bytes| {
+            checksum.update(bytes);
+            Ok(())
+        })?;
+        let entry = Entry {
+            name: format!("{name}.npy"),
+            checksum: checksum.finalize(),
+            bytes: (start.len() + size_of_val(*numbers)) as u64,
+            place,
+        };
+        let local = entry.local();
+        to.write_all(&local)?;
+        to.write_all(&start)?;
+        for_each_part(numbers, |bytes| to.write_all(bytes))?;
+        place += local.len() as u64 + entry.bytes;
+        entries.push(entry);
+    }
+    let central: Vec<u8> = entries.iter().flat_map(Entry::central).collect();
+    to.write_all(&central)?;
+    to.write_all(&end(entries.len() as u64, place, central.len() as u64))
+}
+
+/// The bytes of numbers, some at a time.
+fn for_each_part(numbers: &[f64], mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+    for part in numbers.chunks(NUMBERS) {
+        let bytes: Vec<u8> = part
+            .iter()
+            .flat_map(|number| number.to_le_bytes())
+            .collect();
+        take(&bytes)?;
+    }
+    Ok(())
+}
+
+impl Entry {
+    /// The header before the file.
+    fn local(&self) -> Vec<u8> {
+        let mut header = LOCAL.to_le_bytes().to_vec();
+        self.describe(&mut header, 20);
+        header.extend(self.name.as_bytes());
+        put_16(&mut header, &[ZIP64, 16]);
+        put_64(&mut header, &[self.bytes, self.bytes]);
+        header
+    }
+
+    /// The header in the list at the end.
+    fn central(&self) -> Vec<u8> {
+        let mut header = CENTRAL.to_le_bytes().to_vec();
+        put_16(&mut header, &[VERSION]);
+        self.describe(&mut header, 28);
+        // No comment, on the first disk, no text, and no attributes.
+        put_16(&mut header, &[0, 0, 0, 0, 0]);
+        header.extend(ELSEWHERE.to_le_bytes());
+        header.extend(self.name.as_bytes());
+        put_16(&mut header, &[ZIP64, 24]);
+        put_64(&mut header, &[self.bytes, self.bytes, self.place]);
+        header
+    }
+
+    /// The part that both headers have in common; so many bytes of sizes follow.
+    fn describe(&self, header: &mut Vec<u8>, field: u16) {
+        const STORED: u16 = 0;
+        put_16(header, &[VERSION, 0, STORED]);
+        put_16(header, &DATE);
+        header.extend(self.checksum.to_le_bytes());
+        header.extend(ELSEWHERE.to_le_bytes());
+        header.extend(ELSEWHERE.to_le_bytes());
+        put_16(header, &[self.name.len() as u16, field]);
+    }
+}
+
+/// The end of an archive whose list of so many files has a place and a length.
+fn end(files: u64, place: u64, length: u64) -> Vec<u8> {
+    /// Bytes of the first part behind its word and this number.
+    const REST: u64 = 44;
+    let mut end = END_64.to_le_bytes().to_vec();
+    put_64(&mut end, &[REST]);
+    put_16(&mut end, &[VERSION, VERSION]);
+    // The only disk.
+    put_64(&mut end, &[0, files, files, length, place]);
+    end.extend(PLACE_OF_END_64.to_le_bytes());
+    end.extend(0_u32.to_le_bytes());
+    put_64(&mut end, &[place + length]);
+    end.extend(1_u32.to_le_bytes());
+    end.extend(END.to_le_bytes());
+    put_16(&mut end, &[0, 0, COUNT_ELSEWHERE, COUNT_ELSEWHERE]);
+    end.extend(ELSEWHERE.to_le_bytes());
+    end.extend(ELSEWHERE.to_le_bytes());
+    put_16(&mut end, &[0]);
+    end
+}
+
+fn put_16(to: &mut Vec<u8>, numbers: &[u16]) {
+    to.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+}
+
+fn put_64(to: &mut Vec<u8>, numbers: &[u64]) {
+    to.extend(numbers.iter().flat_map(|number| number.to_le_bytes()));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_end_leads_to_the_list_and_the_list_to_the_arrays() {
+        let size = Size {
+            width: 3,
+            height: 2,
+        };
+        let numbers = [[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.5; 6]];
+        let mut file = Vec::new();
+        write(
+            &mut file,
+            size,
+            &[("one", &numbers[0]), ("other", &numbers[1])],
+        )
+        .unwrap();
+        let long = |at: usize| u64::from_le_bytes(file[at..at + 8].try_into().unwrap()) as usize;
+        let short = |at: usize| u16::from_le_bytes(file[at..at + 2].try_into().unwrap());
+        let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap());
+        // The last 22 bytes are the end, the 20 before say where its longer form is.
+        let locator = file.len() - 42;
+        assert_eq!([word(locator), word(locator + 20)], [PLACE_OF_END_64, END]);
+        let end = long(locator + 8);
+        assert_eq!((word(end), long(end + 24)), (END_64, 2));
+        assert_eq!(long(end + 48) + long(end + 40), end);
+        let mut list = long(end + 48);
+        for (name, numbers) in ["one.npy", "other.npy"].iter().zip(&numbers) {
+            assert_eq!(word(list), CENTRAL);
+            let length = usize::from(short(list + 28));
+            assert_eq!(&file[list + 46..list + 46 + length], name.as_bytes());
+            let field = list + 46 + length;
+            let (bytes, place) = (long(field + 4), long(field + 20));
+            assert_eq!(word(place), LOCAL);
+            assert_eq!(word(place + 14), word(list + 16), "the checksum");
+            let start = place + 30 + length + usize::from(short(place + 28));
+            let array = &file[start..start + bytes];
+            assert_eq!(crc32fast::hash(array), word(list + 16));
+            assert!(array.starts_with(b"\x93NUMPY"));
+            let expected: Vec<u8> = numbers
+                .iter()
+                .flat_map(|number| number.to_le_bytes())
+                .collect();
+            assert!(array.ends_with(&expected));
+            list = field + 4 + usize::from(short(field + 2));
+        }
+        assert_eq!(list, end);
+    }
+}

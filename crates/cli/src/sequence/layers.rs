@@ -1,0 +1,129 @@
+//! The layers of a file: pictures of a frame under one light each, beside the one under all of them.
+
+use std::collections::HashSet;
+
+use marbles_core::{LightPart, World};
+
+use crate::formats::center_channels::CenterChannels;
+
+/// The picture under a part of a world's light, in a layer of the frame's file.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) struct LightLayer {
+    pub(crate) light: LightPart,
+    /// The name of the layer.
+    pub(crate) name: String,
+}
+
+impl LightLayer {
+    /// A layer for each part of a world's light, whose lights have these names: a light's name or else its number from
+    /// 1, and `ambient` for what is left. Refuses names that other channels of the file have.
+    pub(crate) fn each(
+        world: &World,
+        names: &[Option<String>],
+        centers: Option<&CenterChannels>,
+    ) -> Result<Vec<Self>, String> {
+        let centers = centers.into_iter().flat_map(CenterChannels::list);
+        let of_layer = centers.filter_map(|(name, _)| name.split_once('.'));
+        let others: HashSet<&str> = of_layer.map(|(layer, _)| layer).collect();
+        let mut keys = HashSet::new();
+        let layer = |light| {
+            let key = match light {
+                LightPart::Light(index) => {
+                    let name = names.get(index).and_then(Option::as_deref);
+                    name.map_or_else(|| (index + 1).to_string(), layer_safe)
+                }
+                LightPart::Ambient => "ambient".to_owned(),
+            };
+            if key.len() > LONGEST {
+                return Err(format!(
+                    "a layer has at most {LONGEST} characters, and the light `{key}` has more"
+                ));
+            }
+            if others.contains(&*key) {
+                return Err(format!(
+                    "the light `{key}` would have the layer of the channels `{key}`"
+                ));
+            }
+            if !keys.insert(key.clone()) {
+                return Err(format!("two lights would share the layer `{key}`"));
+            }
+            Ok(Self { light, name: key })
+        };
+        world.light_parts().map(layer).collect()
+    }
+}
+
+/// Names of channels have at most 255 bytes; this leaves room for the channel's own.
+const LONGEST: usize = 200;
+
+/// A light's name with a dash for every character that names of layers had better not contain, the period among them,
+/// which ends them.
+fn layer_safe(name: &str) -> String {
+    let safe = |letter: char| match letter {
+        '-' | '_' => letter,
+        _ if letter.is_ascii_alphanumeric() => letter,
+        _ => '-',
+    };
+    name.chars().map(safe).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use marbles_core::Light;
+
+    use super::*;
+    use crate::formats::center_channels::{AxesForm, CenterChannel, DepthForm};
+
+    fn layers(names: [Option<&str>; 2], groups: &[CenterChannel]) -> Result<Vec<String>, String> {
+        let mut world = World::new();
+        for _ in 0..2 {
+            world
+                .lights
+                .extend(Light::directional(DVec3::Y, DVec3::ONE));
+        }
+        let centers = CenterChannels::new(groups, DepthForm::Axis, AxesForm::World, false);
+        let names = names.map(|name| name.map(str::to_owned));
+        let layers = LightLayer::each(&world, &names, Some(&centers))?;
+        Ok(layers.into_iter().map(|layer| layer.name).collect())
+    }
+
+    #[test]
+    fn layers_are_named_after_their_lights() {
+        let found = layers([Some("key. warm\u{e9}"), None], &[]).unwrap();
+        assert_eq!(found, ["key--warm-", "2", "ambient"]);
+        let found = layers([Some("albedo"), None], &[CenterChannel::Depth]).unwrap();
+        assert_eq!(found, ["albedo", "2", "ambient"]);
+    }
+
+    #[test]
+    fn no_two_pictures_share_a_layer() {
+        let long = "a".repeat(201);
+        for (names, group, why) in [
+            ([Some("2"), None], CenterChannel::Id, "share the layer `2`"),
+            (
+                [Some("a b"), Some("a-b")],
+                CenterChannel::Id,
+                "share the layer `a-b`",
+            ),
+            (
+                [None, Some("ambient")],
+                CenterChannel::Id,
+                "share the layer `ambient`",
+            ),
+            (
+                [Some("albedo"), None],
+                CenterChannel::Albedo,
+                "layer of the channels `albedo`",
+            ),
+            (
+                [Some(&*long), None],
+                CenterChannel::Id,
+                "at most 200 characters",
+            ),
+        ] {
+            let message = layers(names, &[group]).unwrap_err();
+            assert!(message.contains(why), "{message}");
+        }
+    }
+}
