@@ -2,22 +2,18 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
-use glam::{DVec2, DVec3};
 
 use super::groups::{Group, Groups};
+use super::last_places::{LastPlaces, Seen};
 use super::light::{Looks, Shading};
-use super::rays::Place;
 use super::trace::{DISTANCE_ERROR, Sight, Tracer};
-use crate::hit::crossings::{Crossings, Targets};
 use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::bits::set_bits;
-use crate::numeric::double_double::DoubleDouble;
-use crate::numeric::fused::is_fused;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
 use crate::picture::geometry::{
-    Axes, Depth, Geometry, GeometrySettings, Precision, Quantity, RowGeometry,
+    Depth, Geometry, GeometrySettings, Precision, Quantity, RowGeometry,
 };
 
 /// The relative error of a number that is rounded to a float of 32 bits: with the rounding, one unit in the
@@ -27,43 +23,13 @@ const SINGLE: f64 = 1.0 / (1_u64 << 25) as f64;
 /// Tells what the center rays see.
 #[derive(Clone, Debug)]
 pub(super) struct Centers {
-    settings: GeometrySettings,
-    viewpoint: DVec3,
-    /// Unit vectors of the axes, in the world frame.
-    axes: [DVec3; 3],
-    /// The factors of retina points that make them points in the camera's axes; none for the world's.
-    signs: Option<DVec3>,
-}
-
-/// Eight rays, and what they see.
-pub(super) struct Seen<'a, 'tile, S: Simd> {
-    pub(super) sight: &'a Sight<S>,
-    pub(super) groups: &'a Groups<'tile>,
-    pub(super) place: Place,
-    /// Their places on the retina, to the right.
-    pub(super) across: f64x8<S>,
+    places: LastPlaces,
 }
 
 impl Centers {
     pub(super) fn new(view: &View, settings: GeometrySettings) -> Self {
-        let signs = match settings.axes {
-            Axes::World => None,
-            Axes::CameraOpenCv => Some(DVec3::new(1.0, -1.0, 1.0)),
-            Axes::CameraOpenGl => Some(DVec3::new(1.0, 1.0, -1.0)),
-        };
-        let camera = &view.camera.world_from_camera;
-        let axes = signs.map_or([DVec3::X, DVec3::Y, DVec3::Z], |signs| {
-            [
-                camera.x_axis * signs.x,
-                camera.y_axis * signs.y,
-                camera.z_axis * signs.z,
-            ]
-        });
         Self {
-            settings,
-            viewpoint: view.camera.position,
-            axes,
-            signs,
+            places: LastPlaces::new(view, settings),
         }
     }
 
@@ -83,16 +49,16 @@ impl Centers {
             || {
                 row.sees_any = true;
                 let (inverse_radius, albedos) = self.look_up(simd, seen.groups, shading, row);
-                if self.wants(Quantity::Albedo) {
+                if self.places.wants(Quantity::Albedo) {
                     for (axis, albedo) in albedos.into_iter().enumerate() {
-                        self.put(row, (Quantity::Albedo, axis), albedo);
+                        self.places.put(row, (Quantity::Albedo, axis), albedo);
                     }
                 }
                 let doubtful = self.place(simd, seen, tracer, inverse_radius, row);
                 if doubtful != 0 {
-                    self.place_alone(seen, tracer, doubtful, row);
+                    self.places.place_alone(seen, tracer, doubtful, row);
                 }
-                if self.wants(Quantity::Normal) {
+                if self.places.wants(Quantity::Normal) {
                     self.tilt(simd, seen, shading, looks, row);
                 }
             },
@@ -119,7 +85,7 @@ impl Centers {
                 let is_own = lanes >> lane & 1 == 1;
                 *id = if is_own { ball.index() as u32 } else { *id };
             }
-            if self.wants(Quantity::Albedo) {
+            if self.places.wants(Quantity::Albedo) {
                 let own = shading.world.albedo(ball.index());
                 for (axis, albedo) in albedos.iter_mut().enumerate() {
                     *albedo = mask.select(f64x8::splat(simd, own[axis]), *albedo);
@@ -127,16 +93,6 @@ impl Centers {
             }
         }
         (inverse_radius, albedos)
-    }
-
-    #[inline(always)]
-    fn wants(&self, quantity: Quantity) -> bool {
-        self.settings.quantities.has(quantity)
-    }
-
-    #[inline(always)]
-    fn put<S: Simd>(&self, row: &mut RowGeometry, place: (Quantity, usize), values: f64x8<S>) {
-        row.put(self.settings.precision, place, values.into());
     }
 
     /// Depths, positions and geometric normals; returns the lanes that have to be computed alone.
@@ -161,33 +117,33 @@ impl Centers {
             ..
         } = seen;
         let covered = mask64x8::from_bitmask(simd, sight.covered);
-        let precision = self.settings.precision;
+        let precision = self.places.settings.precision;
         let is_parallel = tracer.rays.projection() == Projection::Parallel;
         if precision == Precision::Double || is_parallel || sight.inner != 0 {
-            return self.place_doubles(simd, seen, tracer, row);
+            return self.places.place(simd, seen, tracer, row);
         }
         let mut unproved = 0;
         let length = libm::scalbn(1.0, tracer.index.length_exponent());
         // p·d = t d·d, and no term is negative.
         let t = sight.point.dot(&sight.direction) / sight.length_sq;
         let scale = libm::scalbn(1.0, -tracer.rays.exponent());
-        if self.wants(Quantity::Depth) {
-            let depth = match self.settings.depth {
+        if self.places.wants(Quantity::Depth) {
+            let depth = match self.places.settings.depth {
                 Depth::Axis => t * (tracer.rays.magnification() * scale),
                 Depth::Ray => t * sight.length_sq.sqrt(),
             };
             let never = f64x8::splat(simd, f64::INFINITY);
-            self.put(
+            self.places.put(
                 row,
                 (Quantity::Depth, 0),
                 covered.select(depth * length, never),
             );
         }
-        if self.wants(Quantity::Position) {
-            let position = match self.signs {
+        if self.places.wants(Quantity::Position) {
+            let position = match self.places.signs {
                 None => {
                     let way = sight.point.times(f64x8::splat(simd, length));
-                    let position = way.plus(&Vectors::splat(simd, self.viewpoint));
+                    let position = way.plus(&Vectors::splat(simd, self.places.viewpoint));
                     let factor = f64x8::splat(simd, 2.0 * DISTANCE_ERROR);
                     let proved = is_small(simd, way.times(factor), position);
                     unproved |= !proved.to_bitmask();
@@ -206,154 +162,16 @@ impl Centers {
                         .times(f64x8::splat(simd, length))
                 }
             };
-            self.put_vectors(simd, row, Quantity::Position, covered, &position);
+            self.places
+                .put_vectors(simd, row, Quantity::Position, covered, &position);
         }
-        if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
+        if self.places.wants(Quantity::Normal) || self.places.wants(Quantity::GeometricNormal) {
             let (normal, proved) = self.normals(simd, sight, inverse_radius);
             unproved |= !proved.to_bitmask();
-            self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
+            self.places
+                .put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
         }
         (unproved & sight.covered) | sight.alone
-    }
-
-    /// [`Self::place`] for doubles, of inner sides, and through a parallel lens.
-    #[inline(never)]
-    fn place_doubles<S: Simd>(
-        &self,
-        simd: S,
-        seen: &Seen<'_, '_, S>,
-        tracer: &Tracer<'_>,
-        row: &mut RowGeometry,
-    ) -> u64 {
-        simd.vectorize(
-            #[inline(always)]
-            || match is_fused(simd) {
-                true => self.cross::<S, true>(simd, seen, tracer, row),
-                false => self.cross::<S, false>(simd, seen, tracer, row),
-            },
-        )
-    }
-
-    /// The same, with or without fused operations.
-    #[inline(always)]
-    fn cross<S: Simd, const FUSED: bool>(
-        &self,
-        simd: S,
-        seen: &Seen<'_, '_, S>,
-        tracer: &Tracer<'_>,
-        row: &mut RowGeometry,
-    ) -> u64 {
-        let &Seen {
-            sight,
-            place,
-            across,
-            ..
-        } = seen;
-        let is_parallel = tracer.rays.projection() == Projection::Parallel;
-        let shrink = libm::scalbn(1.0, -tracer.index.length_exponent());
-        let viewpoint = Vectors::splat(simd, self.viewpoint);
-        let (mut origins, mut way) = (viewpoint, sight.point);
-        if is_parallel {
-            for lane in 0..LANES {
-                let pixel = lane.min(tracer.tile.width as usize - 1);
-                origins.set_lane(lane, tracer.rays.ray(place, pixel).origin);
-            }
-            let aside = origins.minus(&viewpoint).times(f64x8::splat(simd, shrink));
-            way = way.minus(&aside);
-        }
-        let spheres = tracer.index.visibility.spheres();
-        let mut targets = None;
-        for Group { ball, lanes } in seen.groups.as_slice() {
-            let sphere = &spheres[ball.index()];
-            let own = match is_parallel {
-                true => Targets::seen_from::<FUSED>(simd, sphere, &origins, shrink),
-                false => Targets::splat::<FUSED>(simd, sphere, self.viewpoint, shrink),
-            };
-            targets = Some(match &targets {
-                None => own,
-                Some(others) => own.or(mask64x8::from_bitmask(simd, *lanes), others),
-            });
-        }
-        let Some(targets) = targets else {
-            return sight.covered;
-        };
-        let mut t = way.dot(&sight.direction) / sight.length_sq;
-        let inner = mask64x8::from_bitmask(simd, sight.inner);
-        if sight.inner != 0 && !is_parallel {
-            // These points are where the ray behind the viewpoint leaves the sphere.
-            t = inner.select(targets.other_side(&sight.direction, t), t);
-        }
-        let crossings = Crossings::<S, FUSED>::new(simd, sight.direction, (t, inner), &targets);
-
-        let covered = mask64x8::from_bitmask(simd, sight.covered);
-        let length = libm::scalbn(1.0, tracer.index.length_exponent());
-        let scale = libm::scalbn(1.0, -tracer.rays.exponent());
-        let forward = f64x8::splat(simd, tracer.rays.magnification() * scale);
-        let one = f64x8::splat(simd, 1.0);
-        let mut unproved = 0;
-        if self.wants(Quantity::Depth) {
-            let (depth, proved) = match self.settings.depth {
-                // Directions are unit vectors along the axis.
-                _ if is_parallel => crossings.times(simd, one),
-                Depth::Axis => crossings.times(simd, forward),
-                Depth::Ray => crossings.lengths(simd),
-            };
-            unproved |= !proved.to_bitmask();
-            let never = f64x8::splat(simd, f64::INFINITY);
-            let depth = covered.select(depth * length, never);
-            self.put(row, (Quantity::Depth, 0), depth);
-        }
-        if self.wants(Quantity::Position) {
-            let (position, proved) = match self.signs {
-                None => crossings.positions(&origins, length),
-                Some(signs) if is_parallel => {
-                    let forward = tracer.rays.magnification();
-                    let upward = tracer.rays.upward(place) / forward * signs.y;
-                    let x = across / f64x8::splat(simd, forward) * signs.x;
-                    let (z, proved) = crossings.times(simd, one * signs.z);
-                    let upward = f64x8::splat(simd, upward);
-                    (Vectors::from_array([x, upward, z * length]), proved)
-                }
-                Some(signs) => {
-                    let upward = f64x8::splat(simd, tracer.rays.upward(place) * scale);
-                    let (x, proved_x) = crossings.times(simd, across * scale * signs.x);
-                    let (y, proved_y) = crossings.times(simd, upward * signs.y);
-                    let (z, proved_z) = crossings.times(simd, forward * signs.z);
-                    let position = Vectors::from_array([x * length, y * length, z * length]);
-                    (position, proved_x & proved_y & proved_z)
-                }
-            };
-            unproved |= !proved.to_bitmask();
-            self.put_vectors(simd, row, Quantity::Position, covered, &position);
-        }
-        if self.wants(Quantity::Normal) || self.wants(Quantity::GeometricNormal) {
-            let (normal, proved) = match self.signs {
-                None => crossings.normals(),
-                Some(_) => crossings.normals_along(&self.axes),
-            };
-            unproved |= !proved.to_bitmask();
-            self.put_vectors(simd, row, Quantity::GeometricNormal, covered, &normal);
-        }
-        // Of parallel rays each is alone, and its point right.
-        let alone = if is_parallel { 0 } else { sight.alone };
-        (unproved & sight.covered) | alone
-    }
-
-    /// Writes vectors where something is seen.
-    #[inline(always)]
-    fn put_vectors<S: Simd>(
-        &self,
-        simd: S,
-        row: &mut RowGeometry,
-        quantity: Quantity,
-        covered: mask64x8<S>,
-        vectors: &Vectors<S>,
-    ) {
-        let zero = f64x8::splat(simd, 0.0);
-        for axis in 0..3 {
-            let component = covered.select(vectors.along(axis), zero);
-            self.put(row, (quantity, axis), component);
-        }
     }
 
     /// The geometric normals along the axes, and where they are proved.
@@ -367,13 +185,13 @@ impl Centers {
         let normal = sight.normal;
         let factor = inverse_radius * (2.0 * DISTANCE_ERROR);
         let error = sight.point.times(factor);
-        if self.signs.is_none() {
+        if self.places.signs.is_none() {
             return (normal, is_small(simd, error, normal));
         }
         // Products and their sums add less than a half of DISTANCE_ERROR of the components.
         let slack = f64x8::splat(simd, DISTANCE_ERROR);
         let size = error.sizes().plus(&normal.sizes().times(slack));
-        let [x, y, z] = self.axes;
+        let [x, y, z] = self.places.axes;
         let turned = [normal.dot_one(x), normal.dot_one(y), normal.dot_one(z)];
         let error = [
             size.dot_one(x.abs()),
@@ -382,46 +200,6 @@ impl Centers {
         ];
         let turned = Vectors::from_array(turned);
         (turned, is_small(simd, Vectors::from_array(error), turned))
-    }
-
-    /// Computes single rays, each component to its own last places.
-    #[cold]
-    #[inline(never)]
-    fn place_alone<S: Simd>(
-        &self,
-        seen: &Seen<'_, '_, S>,
-        tracer: &Tracer<'_>,
-        lanes: u64,
-        row: &mut RowGeometry,
-    ) {
-        let spheres = tracer.index.visibility.spheres();
-        for lane in set_bits(lanes) {
-            let pixel = lane.min(tracer.tile.width as usize - 1);
-            let ray = tracer.rays.ray(seen.place, pixel);
-            let sphere = &spheres[row.ids[lane] as usize];
-            let Some(found) = sphere.hit_components(&ray, &self.axes) else {
-                continue;
-            };
-            let forward = tracer.rays.magnification();
-            let retina = DVec2::new(seen.across[lane], tracer.rays.upward(seen.place));
-            let (depth, in_camera) = match tracer.rays.projection() {
-                Projection::Central => {
-                    let depth = match self.settings.depth {
-                        Depth::Axis => found.t * forward,
-                        Depth::Ray => times_length(found.t, ray.direction),
-                    };
-                    (depth, retina.extend(forward) * found.t)
-                }
-                // Directions are unit vectors along the axis.
-                Projection::Parallel => (found.t, (retina / forward).extend(found.t)),
-            };
-            let position = self.signs.map_or(found.position, |signs| in_camera * signs);
-            row.put_one((Quantity::Depth, 0), lane, depth);
-            for axis in 0..3 {
-                row.put_one((Quantity::Position, axis), lane, position[axis]);
-                row.put_one((Quantity::GeometricNormal, axis), lane, found.normal[axis]);
-            }
-        }
     }
 
     /// The shading normals: the geometric ones, tilted where there are bumps.
@@ -434,7 +212,7 @@ impl Centers {
         looks: &mut Looks<'_>,
         row: &mut RowGeometry,
     ) {
-        row.copy_geometric_normals(self.settings.precision);
+        row.copy_geometric_normals(self.places.settings.precision);
         if shading.is_smooth {
             return;
         }
@@ -451,7 +229,7 @@ impl Centers {
         let normal = shading.shading_normals(simd, sight, groups, seen.place, &mut looks.noise);
         for lane in set_bits(rough) {
             let normal = normal.lane(lane);
-            for (number, axis) in self.axes.iter().enumerate() {
+            for (number, axis) in self.places.axes.iter().enumerate() {
                 row.put_one((Quantity::Normal, number), lane, axis.dot(normal));
             }
         }
@@ -464,15 +242,4 @@ fn is_small<S: Simd>(simd: S, error: Vectors<S>, vector: Vectors<S>) -> mask64x8
     let (error, size) = (error.sizes(), vector.sizes());
     let most = size.times(f64x8::splat(simd, SINGLE));
     error.x.simd_le(most.x) & error.y.simd_le(most.y) & error.z.simd_le(most.z)
-}
-
-/// A number times the length of a vector, in twice the precision until it is rounded.
-fn times_length(number: f64, vector: DVec3) -> f64 {
-    let exponent = libm::ilogb(vector.abs().max_element()).clamp(-1000, 1000);
-    let part = |axis: usize| {
-        let part = libm::scalbn(vector[axis], -exponent);
-        DoubleDouble::<false>::product(part, part)
-    };
-    let length = (part(0) + part(1) + part(2)).sqrt();
-    libm::scalbn(number * length.high + number * length.low, exponent)
 }

@@ -8,6 +8,7 @@
 
 mod centers;
 mod groups;
+mod last_places;
 mod light;
 mod parallel;
 mod rays;

@@ -6,8 +6,9 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, mask64x8};
 use glam::DVec3;
 
-use super::centers::{Centers, Seen};
+use super::centers::Centers;
 use super::groups::Groups;
+use super::last_places::Seen;
 use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
 use super::shadow::{Scale, Shadows};
