@@ -6,9 +6,10 @@ use glam::{DVec2, DVec3};
 use super::contents::Contents;
 use super::patch::Patch;
 use super::reach::Reach;
-use crate::edges::cell::Cell;
+use crate::edges::cell::{Ball, Cell};
+use crate::edges::silhouette::silhouette;
 use crate::exact::points::Points;
-use crate::exact::scene::InCamera;
+use crate::exact::scene::{InCamera, Light};
 use crate::exact::surface::Finish;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
@@ -25,17 +26,11 @@ impl Contents {
     /// last may send.
     #[inline(always)]
     pub(crate) fn excess<S: Simd>(&self, simd: S, scene: &InCamera<'_>, cell: &Cell) -> f64 {
-        let lights = scene.lights.iter().map(|light| light.intensity);
-        let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
-        let (white, lights_together) = (scene.ambient + lights, lights.max_element());
         let mut highest = 0.0_f64;
         for (position, active) in self.active.iter().enumerate() {
-            let albedo = scene.world.albedo(active.sphere).max_element();
-            let mut excess = (albedo - 1.0).max(0.0) * white.max_element();
-            let lights_together = lights_together + self.excess_of_near(scene, cell, position);
-            excess += albedo * (lights_together - lights.max_element());
-            let material = scene.world.material(active.sphere);
-            if let Some(highlight) = &material.highlight {
+            let near = self.excess_of_near(scene, cell, position);
+            let (mut excess, lights_together) = excess_of(scene, active.sphere, near);
+            if let Some(highlight) = &scene.world.material(active.sphere).highlight {
                 // The tops of ordinary highlights are no reason to look closer.
                 let top = highlight.strength * lights_together;
                 excess += if top <= ORDINARY {
@@ -46,6 +41,19 @@ impl Contents {
                 };
             }
             highest = highest.max(excess);
+        }
+        // Of spheres that are not told apart the outer sides may be seen as well.
+        let cut = self.cut.iter().filter(|_| self.is_mixed);
+        for &(sphere, ball) in cut.filter(|(_, ball)| ball.center.z > 0.0) {
+            let outside = ball.center.z;
+            let outer = Ball { outside, ..ball };
+            let along = cell.along(ball.center);
+            let patch = Patch::new(cell, &outer, &silhouette(cell, &outer), &along);
+            let near = scene.lights.iter().map(|light| excess_on(light, &patch));
+            let (excess, lights_together) = excess_of(scene, sphere, near.sum());
+            let highlight = scene.world.material(sphere).highlight;
+            let strength = highlight.map_or(0.0, |highlight| highlight.strength);
+            highest = highest.max(excess + strength * lights_together);
         }
         highest
     }
@@ -61,10 +69,7 @@ impl Contents {
         let first = position * scene.lights.len();
         let lights = scene.lights.iter().zip(&self.reach[first..]);
         let reaching = lights.filter(|(_, reach)| matches!(reach, Reach::Past(_)));
-        let excess = reaching.map(|(light, _)| {
-            (light.most_on(&patch) - 1.0).max(0.0) * light.intensity.max_element()
-        });
-        excess.sum()
+        reaching.map(|(light, _)| excess_on(light, &patch)).sum()
     }
 
     /// About the number of cells of the noise of bumps side by side in the cell that was seen last, where they
@@ -146,4 +151,20 @@ impl Contents {
             },
         )
     }
+}
+
+/// By how much more than its intensity a light may send to a patch in the brightest channel.
+fn excess_on(light: &Light, patch: &Patch) -> f64 {
+    (light.most_on(patch) - 1.0).max(0.0) * light.intensity.max_element()
+}
+
+/// By how much more a sphere may send than a white one that all lights reach, without its highlight, where point lights
+/// send so much more than their intensities; and all light together.
+fn excess_of(scene: &InCamera<'_>, sphere: usize, near: f64) -> (f64, f64) {
+    let lights = scene.lights.iter().map(|light| light.intensity);
+    let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
+    let white = scene.ambient + lights;
+    let albedo = scene.world.albedo(sphere).max_element();
+    let excess = (albedo - 1.0).max(0.0) * white.max_element() + albedo * near;
+    (excess, lights.max_element() + near)
 }

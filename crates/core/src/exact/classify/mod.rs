@@ -19,3 +19,4 @@ mod shade_mask;
 mod sharpness;
 #[cfg(test)]
 mod tests;
+mod ways;

@@ -3,7 +3,6 @@
 use fearless_simd::prelude::*;
 
 use super::average::Setting;
-use super::claims::Claims;
 use super::eight_boxes::Eight;
 use super::outlines::Outline;
 use crate::exact::part::Part;
@@ -36,8 +35,8 @@ pub(super) const FIRST_SIZE: [f64; 2] = [0.25, 0.5];
 pub(super) const HALVES: [[f64; 2]; 2] = [[-0.25, 0.0], [0.25, 0.0]];
 const QUARTERS: [[f64; 2]; 4] = [[-0.25, -0.25], [-0.25, 0.25], [0.25, 0.25], [0.25, -0.25]];
 
-/// The share of what is left of the tolerance that the boxes of a size may claim together, if they claim more than
-/// it allows.
+/// The share of what is left of the tolerance that the boxes of a size may claim together, if they are more than
+/// the tolerance allows.
 pub(super) const SHARE: f64 = 0.5;
 
 /// How many times more than what is left of the tolerance boxes claim that are quartered, not halved. Not tuned finely.
@@ -57,12 +56,7 @@ impl Division {
         self.size = FIRST_SIZE;
         let first = setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise));
         self.samples += first.samples;
-        let area = self.size[0] * self.size[1];
-        let claims = first.error.map(|error| error * area);
-        let whole = Part {
-            error: Claims::of(claims).total(),
-            ..first.total(area)
-        };
+        let whole = first.total(self.size[0] * self.size[1]);
         if whole.error <= tolerance {
             return Some(whole);
         }
@@ -72,21 +66,12 @@ impl Division {
             self.known.push((middle, first.lane(lane)));
         }
         let mut part = Part::NOTHING;
-        let mut of_part = Claims::default();
         let mut eights = 1;
         loop {
-            let claims = self.claims();
-            let (suffices, claims) = (of_part.and(claims).total() <= tolerance, claims.total());
-            let allowed = tolerance - of_part.total();
+            let (claims, allowed) = (self.claims(), tolerance - part.error);
             let is_far = claims > FAR * allowed;
-            let limit = if suffices {
-                f64::INFINITY
-            } else {
-                SHARE * allowed / Claims::of_equal(self.known.len())
-            };
-            of_part = of_part.and(self.divide(&mut part, limit));
+            self.divide(&mut part, allowed, claims);
             if self.left.is_empty() {
-                part.error = of_part.total();
                 return Some(part);
             }
             self.shrink(is_far);
@@ -107,27 +92,27 @@ impl Division {
     }
 
     /// What the boxes that were just done claim together.
-    fn claims(&self) -> Claims {
-        let area = self.size[0] * self.size[1];
-        Claims::of(self.known.iter().map(|(_, average)| average.error * area))
+    fn claims(&self) -> f64 {
+        let sum: f64 = self.known.iter().map(|(_, average)| average.error).sum();
+        sum * self.size[0] * self.size[1]
     }
 
-    /// Adds the boxes to `part` that claim no more than a limit, and leaves the halves of the others to do; returns what
-    /// those claim that were added.
-    fn divide(&mut self, part: &mut Part, limit: f64) -> Claims {
+    /// Adds the boxes to `part` that claim little enough, or all if all do, and leaves the halves of the others to do.
+    fn divide(&mut self, part: &mut Part, allowed: f64, claims: f64) {
         let area = self.size[0] * self.size[1];
-        let mut claims = Claims::default();
+        let limit = if claims <= allowed {
+            f64::INFINITY
+        } else {
+            SHARE * allowed / (self.known.len() as f64 * area)
+        };
         self.left.clear();
         for &(middle, average) in &self.known {
-            let claim = average.error * area;
-            if claim <= limit {
+            if average.error <= limit {
                 part.add(&average, area);
-                claims.add(claim);
             } else {
                 self.left.push(middle);
             }
         }
-        claims
     }
 
     /// Puts halves across their longer sides in place of the boxes that are left, or quarters. Parts of a box stay

@@ -5,16 +5,15 @@
 //! multiplied. The light on their sides is that of one point, in the middle of what is seen, with its second derivative;
 //! rough surfaces take five points. The boxes that claim too much are divided.
 //!
-//! The claim is an estimate, what [`Claims`](claims::Claims) of all boxes come to. A box claims: what a third edge in it
-//! may hide or show, times the contrast there; a share of the area between an edge and its line; and what second
-//! derivatives do not know of the light. Silhouettes or shadows far smaller than a box could fool it; but their functions
-//! bend by more than their values, so that their boxes claim the whole contrast. So could bumps between the points; but
-//! boxes that are not small beside bumps claim all light that there may be.
+//! The claim is an estimate, the sum over all boxes of: what a third edge in the box may hide or show, times the
+//! contrast there; a share of the area between an edge and its line; and what second derivatives do not know of the
+//! light. Silhouettes or shadows far smaller than a box could fool it; but their functions bend by more than their values,
+//! so that their boxes claim the whole contrast. So could bumps between the points; but boxes that are not small beside
+//! bumps claim all light that there may be.
 
 pub(crate) mod areas;
 mod average;
 mod bent;
-mod claims;
 mod depth;
 mod division;
 mod eight_boxes;
