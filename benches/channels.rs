@@ -7,8 +7,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::DVec2;
 use marbles_benches::{Case, load, main as run, square_view, table};
 use marbles_core::{
-    Axes, Depth, Geometry, GeometrySettings, Image, Lens, Method, Precision, Quantity, Renderer,
-    Settings, Sink, Strip, View, Window,
+    AverageSettings, Axes, Depth, Geometry, GeometrySettings, Image, Lens, Method, Precision,
+    Quantity, Renderer, Settings, Sink, Strip, View, Window,
 };
 
 const SIDE: u32 = 600;
@@ -69,6 +69,7 @@ fn main() {
                 depth: Depth::Axis,
                 axes,
                 precision,
+                averages: AverageSettings::default(),
             })
         };
         let (world, camera) = (Axes::World, Axes::CameraOpenCv);

@@ -2,6 +2,7 @@
 //! refused scenes with their messages.
 
 mod anchored_roughness;
+mod averages;
 mod budget;
 mod claims;
 mod closed_forms;

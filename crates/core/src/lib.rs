@@ -40,12 +40,12 @@ pub use model::sphere::{Sphere, SphereError};
 pub use model::view::View;
 pub use model::world::{LightPart, MaterialId, World};
 pub use numeric::angle::Angle;
-pub use picture::geometry::{
-    Axes, Depth, Geometry, GeometrySettings, Precision, Quantities, Quantity,
-};
+pub use picture::averages::{Average, AverageSettings};
+pub use picture::geometry::Geometry;
 pub use picture::image::{Channels, Image, Summary};
 pub use picture::pixel::{Evidence, Method, Status, Work};
 pub use picture::progress::Cancelled;
+pub use picture::quantities::{Axes, Depth, GeometrySettings, Precision, Quantities, Quantity};
 pub use picture::window::Window;
 pub use render::renderer::Renderer;
 pub use render::settings::Settings;

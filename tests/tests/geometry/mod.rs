@@ -8,8 +8,9 @@ use std::sync::Mutex;
 
 use glam::DVec3;
 use marbles_core::{
-    Axes, Depth, Geometry, GeometrySettings, Grain, Image, Material, Method, Precision, Quantities,
-    Quantity, Ray, Renderer, Roughness, Settings, Sink, Sphere, Strip, View, Window, World,
+    AverageSettings, Axes, Depth, Geometry, GeometrySettings, Grain, Image, Material, Method,
+    Precision, Quantities, Quantity, Ray, Renderer, Roughness, Settings, Sink, Sphere, Strip, View,
+    Window, World,
 };
 use marbles_tests::hits::judge::{Exact, ExactPoint};
 use rayon::prelude::*;
@@ -29,6 +30,7 @@ fn settings(axes: Axes, depth: Depth, precision: Precision) -> GeometrySettings 
         depth,
         axes,
         precision,
+        averages: AverageSettings::default(),
     }
 }
 

@@ -80,6 +80,7 @@ pub(super) fn request(
             arguments.depth.unwrap_or(DepthForm::Axis),
             arguments.axes.unwrap_or(AxesForm::World),
             scene.world().has_bumps(),
+            arguments.tolerance,
         )
     });
     if arguments.sidecar {

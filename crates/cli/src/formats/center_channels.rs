@@ -1,7 +1,7 @@
-//! The channels that tell what the rays through the centers of pixels see.
+//! The channels that tell what the rays through the centers of pixels see, and averages over what pixels see.
 
 use clap::ValueEnum;
-use marbles_core::{Axes, Depth, GeometrySettings, Precision, Quantity};
+use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Precision, Quantity};
 
 /// A group of channels, as users name it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
@@ -18,6 +18,12 @@ pub(crate) enum CenterChannel {
     Albedo,
     /// 1 where a sphere is seen
     Mask,
+    /// Mean of the shading normal over what the pixel sees
+    #[value(name = "mean_normal")]
+    MeanNormal,
+    /// Index of the sphere that most of the pixel sees, and the part of the pixel
+    #[value(name = "coverage_id")]
+    CoverageId,
 }
 
 /// The meaning of a depth, as users name it.
@@ -43,10 +49,12 @@ pub(crate) enum AxesForm {
 }
 
 /// The channels that a file has besides its picture.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CenterChannels {
     /// The groups as bits.
-    wanted: u8,
+    wanted: u16,
+    /// The error that averages may have.
+    pub(crate) tolerance: f64,
     pub(crate) depth: DepthForm,
     pub(crate) axes: AxesForm,
     /// True where shading normals differ from the geometric ones, which are then told besides.
@@ -62,15 +70,27 @@ pub(crate) enum Source {
     Id,
     /// 1 where a sphere is seen.
     Mask,
+    /// A component of an average.
+    Average(Average, usize),
+    /// The index of the sphere that most of the pixel sees.
+    CoverageId,
+}
+
+impl Source {
+    /// True for unsigned integers: the indices of spheres.
+    pub(crate) fn is_index(self) -> bool {
+        matches!(self, Self::Id | Self::CoverageId)
+    }
 }
 
 /// A component of a quantity, by name.
 type Named = (&'static str, Source);
 
 /// The channels of every group, in the order of the file formats without names.
-const CHANNELS: [(CenterChannel, &[Named]); 7] = {
+const CHANNELS: [(CenterChannel, &[Named]); 9] = {
     use Quantity::{Albedo, Depth, GeometricNormal, Normal, Position};
-    use Source::{Id, Mask, Value};
+    use Source::{Average, CoverageId, Id, Mask, Value};
+    use marbles_core::Average::{Coverage, Normal as MeanNormal};
     [
         (CenterChannel::Depth, &[("depth.Z", Value(Depth, 0))]),
         (
@@ -107,19 +127,38 @@ const CHANNELS: [(CenterChannel, &[Named]); 7] = {
         ),
         (CenterChannel::Id, &[("id", Id)]),
         (CenterChannel::Mask, &[("mask", Mask)]),
+        (
+            CenterChannel::MeanNormal,
+            &[
+                ("mean_normal.X", Average(MeanNormal, 0)),
+                ("mean_normal.Y", Average(MeanNormal, 1)),
+                ("mean_normal.Z", Average(MeanNormal, 2)),
+                ("mean_normal.error", Average(MeanNormal, 3)),
+            ],
+        ),
+        (
+            CenterChannel::CoverageId,
+            &[
+                ("coverage_id", CoverageId),
+                ("coverage.share", Average(Coverage, 0)),
+                ("coverage.error", Average(Coverage, 1)),
+            ],
+        ),
     ]
 };
 
 impl CenterChannels {
-    /// Some groups of channels of a world with or without bumps.
+    /// Some groups of channels of a world with or without bumps, whose averages have this tolerance.
     pub(crate) fn new(
         groups: &[CenterChannel],
         depth: DepthForm,
         axes: AxesForm,
         has_bumps: bool,
+        tolerance: f64,
     ) -> Self {
         Self {
-            wanted: groups.iter().fold(0, |set, group| set | 1 << *group as u8),
+            tolerance,
+            wanted: groups.iter().fold(0, |set, group| set | 1 << *group as u16),
             depth,
             axes,
             has_bumps,
@@ -128,7 +167,12 @@ impl CenterChannels {
 
     /// True if the group is wanted.
     pub(crate) fn has(&self, group: CenterChannel) -> bool {
-        self.wanted >> group as u8 & 1 == 1
+        self.wanted >> group as u16 & 1 == 1
+    }
+
+    /// True if averages are wanted.
+    pub(crate) fn has_averages(&self) -> bool {
+        self.has(CenterChannel::MeanNormal) || self.has(CenterChannel::CoverageId)
     }
 
     /// The channels and their names.
@@ -145,7 +189,7 @@ impl CenterChannels {
     pub(crate) fn settings(&self, precision: Precision) -> GeometrySettings {
         let quantities = self.list().filter_map(|(_, source)| match source {
             Source::Value(quantity, _) => Some(quantity),
-            Source::Id | Source::Mask => None,
+            Source::Id | Source::Mask | Source::Average(..) | Source::CoverageId => None,
         });
         GeometrySettings {
             quantities: quantities.collect(),
@@ -159,6 +203,11 @@ impl CenterChannels {
                 AxesForm::CameraOpenGl => Axes::CameraOpenGl,
             },
             precision,
+            averages: AverageSettings {
+                normal: self.has(CenterChannel::MeanNormal),
+                coverage: self.has(CenterChannel::CoverageId),
+                tolerance: self.tolerance,
+            },
         }
     }
 }

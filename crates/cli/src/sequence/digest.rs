@@ -255,6 +255,10 @@ impl Feed {
             self.count(name.len());
             self.0.update(name.as_bytes());
         }
+        // Without averages their tolerance does not matter.
+        if centers.has_averages() {
+            self.number(centers.tolerance);
+        }
     }
 
     fn camera(&mut self, camera: &Camera) {

@@ -82,7 +82,7 @@ mod tests {
                 .lights
                 .extend(Light::directional(DVec3::Y, DVec3::ONE));
         }
-        let centers = CenterChannels::new(groups, DepthForm::Axis, AxesForm::World, false);
+        let centers = CenterChannels::new(groups, DepthForm::Axis, AxesForm::World, false, 1e-3);
         let names = names.map(|name| name.map(str::to_owned));
         let layers = LightLayer::each(&world, &names, Some(&centers))?;
         Ok(layers.into_iter().map(|layer| layer.name).collect())

@@ -263,6 +263,49 @@ fn arrays_of_parts_are_merged() {
 }
 
 #[test]
+fn averages_are_stored_beside_them() {
+    let folder = balls();
+    let options = "--channels id,mean_normal,coverage_id";
+    let channels = render(&folder, &format!("balls.ron {options}"));
+    let names: Vec<&str> = channels.keys().map(|name| &**name).collect();
+    let expected = "B G R coverage.error coverage.share coverage_id id mean_normal.X mean_normal.Y mean_normal.Z \
+                    mean_normal.error";
+    assert_eq!(names.join(" "), expected);
+    // The middle of a ball, in which the normals turn alike to all sides, and a corner.
+    let normal = vector(&channels, "mean_normal", 20, 15);
+    assert!(normal[0].abs() < 1e-3 && normal[1].abs() < 1e-3 && (normal[2] + 1.0).abs() < 4e-3);
+    assert!(at(&channels, "mean_normal.error", 20, 15) <= 1e-3);
+    assert_eq!(at(&channels, "coverage.share", 20, 15), 1.0);
+    assert_eq!(vector(&channels, "mean_normal", 0, 0), [0.0; 3]);
+    let FlatSamples::U32(ids) = &channels["coverage_id"] else {
+        panic!("{:?}", channels["coverage_id"]);
+    };
+    assert_eq!(
+        [ids[0], ids[15 * 41 + 20], ids[15 * 41 + 35]],
+        [u32::MAX, 0, 1]
+    );
+    for row in 0..31 {
+        for col in 0..41 {
+            let share = at(&channels, "coverage.share", col, row);
+            assert_eq!(share == 0.0, ids[row * 41 + col] == u32::MAX);
+        }
+    }
+
+    let output = folder.run(&format!("render balls.ron {options} -o c.npy"));
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let header = |name: &str| text(&folder.read(name)[10..100]);
+    assert!(header("c_channels.npy").contains("'shape': (31, 41, 6)"));
+    assert!(header("c_coverage_id.npy").contains("'<u4'"));
+    let array = folder.read("c_coverage_id.npy");
+    let bytes: Vec<u8> = ids.iter().flat_map(|id| id.to_le_bytes()).collect();
+    assert_eq!(array[array.len() - bytes.len()..], bytes[..]);
+    let again = folder.run(&format!(
+        "render balls.ron {options} -o c.npy --skip-existing"
+    ));
+    assert!(text(&again.stdout).contains(": skipped"));
+}
+
+#[test]
 fn a_png_has_no_such_channels() {
     let folder = balls();
     let output = folder.run("render balls.ron -o a.png --channels depth,id");

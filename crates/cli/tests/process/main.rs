@@ -63,7 +63,7 @@ fn exit_codes_tell_what_happened() {
         ("render ball.ron -o a.png --channels depth", 2),
         ("render ball.ron -o a.apng --channels depth", 2),
         ("render ball.ron -o a.exr --channels deep", 2),
-        ("render ball.ron -o a.exr --channels mean_normal", 2),
+        ("render ball.ron -o a.exr --channels average_normal", 2),
         ("render ball.ron -o a.exr --channels depth,", 2),
         ("render ball.ron -o a.exr --depth ray", 2),
         ("render ball.ron -o a.exr --axes world", 2),

@@ -105,15 +105,8 @@ impl<'scene> Areas<'scene> {
             sum.0 = candidate;
         }
         sums.sort_unstable_by_key(|(sphere, _)| *sphere);
-        let balls = candidates
-            .iter()
-            .map(|&sphere| self.context.scene.ball(sphere));
-        scratch.balls.clear();
-        scratch.balls.extend(balls);
         let mut sums = Sums(sums);
-        if self.is_moderate && scratch.balls.iter().all(is_ball_moderate) {
-            dispatch!(self.level, simd => self.measure(simd, tile, &candidates, scratch, &mut sums));
-        } else {
+        if !self.measure_all(tile, &candidates, scratch, &mut sums) {
             // Nothing is known.
             for (_, sum) in &mut sums.0 {
                 sum.error = tile.count() as f64;
@@ -126,6 +119,52 @@ impl<'scene> Areas<'scene> {
         );
     }
 
+    /// Finds the sphere that each pixel of a tile sees most of, and calls `put` with the pixel's place in the tile, where
+    /// any is seen.
+    pub(crate) fn see_most(
+        &self,
+        tile: Tile,
+        scratch: &mut Scratch,
+        mut put: impl FnMut(usize, usize, VisibleArea),
+    ) {
+        let candidates = self.index.indices(tile);
+        if candidates.is_empty() {
+            return;
+        }
+        let mut parts = Parts::default();
+        if self.measure_all(tile, &candidates, scratch, &mut parts) {
+            parts.most(put);
+        } else {
+            for place in 0..tile.count() as usize {
+                let unknown = VisibleArea {
+                    area: 0.0,
+                    error: 1.0,
+                };
+                put(place, candidates[0], unknown);
+            }
+        }
+    }
+
+    /// Measures the pixels of a tile that may see these spheres; `false` where numbers are too extreme.
+    fn measure_all(
+        &self,
+        tile: Tile,
+        candidates: &[usize],
+        scratch: &mut Scratch,
+        found: &mut dyn Found,
+    ) -> bool {
+        let balls = candidates
+            .iter()
+            .map(|&sphere| self.context.scene.ball(sphere));
+        scratch.balls.clear();
+        scratch.balls.extend(balls);
+        if !self.is_moderate || !scratch.balls.iter().all(is_ball_moderate) {
+            return false;
+        }
+        dispatch!(self.level, simd => self.measure(simd, tile, candidates, scratch, found));
+        true
+    }
+
     /// Measures the pixels of a tile.
     #[inline(always)]
     fn measure<S: Simd>(
@@ -134,7 +173,7 @@ impl<'scene> Areas<'scene> {
         tile: Tile,
         candidates: &[usize],
         scratch: &mut Scratch,
-        sums: &mut Sums,
+        found: &mut dyn Found,
     ) {
         let context = &self.context;
         let pixel = |col: u32, row: u32| Tile {
@@ -161,14 +200,16 @@ impl<'scene> Areas<'scene> {
                 );
                 for lane in 0..start.width {
                     let pixel = pixel(left + lane, row);
+                    let place = (row * tile.width + left + lane) as usize;
                     let coverages = &scratch.coverages;
                     let spheres = &mut scratch.spheres;
                     match sight(context, pixel, lane as usize, coverages, spheres) {
                         Sight::Nothing => {}
-                        Sight::Filled(sphere) => sums.add(sphere, 1.0, 0.0),
+                        Sight::Filled(sphere) => found.add(place, sphere, [1.0, 0.0]),
                         Sight::Edges => {
                             let cell = context.cell(pixel);
-                            self.divide(simd, (&cell, 0), (scratch, &mut cache), sums);
+                            let memory = (&mut *scratch, &mut cache);
+                            self.divide(simd, (&cell, 0), memory, place, found);
                         }
                     }
                 }
@@ -182,7 +223,8 @@ impl<'scene> Areas<'scene> {
         simd: S,
         (cell, depth): (&Cell, u32),
         (scratch, cache): (&mut Scratch, &mut OccluderCache),
-        sums: &mut Sums,
+        place: usize,
+        found: &mut dyn Found,
     ) {
         let scene = &self.context.scene;
         let share = 0.25_f64.powi(depth as i32);
@@ -197,7 +239,7 @@ impl<'scene> Areas<'scene> {
         match &contents.active[..] {
             [] if !contents.is_mixed => return,
             [one] if contents.conics.is_empty() && !contents.is_mixed => {
-                sums.add(one.sphere, share, 0.0);
+                found.add(place, one.sphere, [share, 0.0]);
                 return;
             }
             _ => {}
@@ -206,33 +248,71 @@ impl<'scene> Areas<'scene> {
         if !contents.is_mixed && boxes.shares(simd, scene, cell, contents, (tolerance, shares)) {
             for (active, [area, error]) in contents.active.iter().zip(&shares.of_spheres) {
                 let error = error + contents.rounding;
-                sums.add(active.sphere, area * share, error * share);
+                found.add(place, active.sphere, [area * share, error * share]);
             }
             return;
         }
         if depth == DEEPEST {
             for active in &contents.active {
-                sums.add(active.sphere, 0.5 * share, 0.5 * share);
+                found.add(place, active.sphere, [0.5 * share; 2]);
             }
             return;
         }
         for [x, y] in QUARTERS {
             let part = cell.part(x, y);
-            self.divide(simd, (&part, depth + 1), (scratch, cache), sums);
+            self.divide(simd, (&part, depth + 1), (scratch, cache), place, found);
         }
     }
+}
+
+/// A receiver of what pixels see of spheres.
+trait Found {
+    /// Takes a part of the pixel at a place of the tile: the area, and its error.
+    fn add(&mut self, place: usize, sphere: usize, part: [f64; 2]);
 }
 
 /// What is seen of the candidates of a tile, in the order of their numbers.
 #[derive(Debug)]
 struct Sums(Vec<(usize, VisibleArea)>);
 
-impl Sums {
-    fn add(&mut self, sphere: usize, area: f64, error: f64) {
+impl Found for Sums {
+    fn add(&mut self, _: usize, sphere: usize, [area, error]: [f64; 2]) {
         if let Ok(place) = self.0.binary_search_by_key(&sphere, |(sphere, _)| *sphere) {
             let sum = &mut self.0[place].1;
             sum.area += area;
             sum.error += error;
+        }
+    }
+}
+
+/// What the pixels of a tile see, part by part: the place of the pixel, the sphere, the area and its error.
+#[derive(Debug, Default)]
+struct Parts(Vec<(usize, usize, [f64; 2])>);
+
+impl Found for Parts {
+    fn add(&mut self, place: usize, sphere: usize, part: [f64; 2]) {
+        self.0.push((place, sphere, part));
+    }
+}
+
+impl Parts {
+    /// Calls `put` with each pixel's place, the sphere that most of it sees, the first of equal ones, and its area.
+    fn most(mut self, mut put: impl FnMut(usize, usize, VisibleArea)) {
+        // Stable: sums are in the order in which parts were found.
+        self.0.sort_by_key(|(place, sphere, _)| (*place, *sphere));
+        for pixel in self.0.chunk_by(|(one, ..), (other, ..)| one == other) {
+            let mut most = (usize::MAX, VisibleArea::default());
+            for parts in pixel.chunk_by(|(_, one, _), (_, other, _)| one == other) {
+                let mut sum = VisibleArea::default();
+                for (.., [area, error]) in parts {
+                    sum.area += area;
+                    sum.error += error;
+                }
+                if most.0 == usize::MAX || sum.area > most.1.area {
+                    most = (parts[0].1, sum);
+                }
+            }
+            put(pixel[0].0, most.0, most.1);
         }
     }
 }

@@ -136,6 +136,24 @@ impl<'scene> Exact<'scene> {
         })
     }
 
+    /// Calls `write` with the number of each of some integrators, and the tile's pixels, where any sphere may be seen;
+    /// returns what they cost. The integrators have the view and its index in common.
+    pub(crate) fn integrate_all(
+        integrators: &[&Self],
+        tile: Tile,
+        scratch: &mut GroupScratch,
+        write: impl FnMut(usize, &[Pixel]),
+    ) -> Work {
+        let candidates = match integrators.first() {
+            Some(first) => first.index.indices(tile),
+            None => return Work::default(),
+        };
+        if candidates.is_empty() {
+            return Work::default();
+        }
+        integrate_each(integrators, tile, &candidates, scratch, write)
+    }
+
     /// The sum of a tile's pixels under all groups of lights.
     fn sum<'lit>(
         &self,

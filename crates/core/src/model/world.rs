@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
+
 use super::albedos::Albedos;
 use super::color::Color;
 use super::light::Light;
@@ -26,18 +28,18 @@ pub struct World {
     /// True where spheres keep the light from each other.
     pub shadows: bool,
     surfaces: Arc<Surfaces>,
+    materials: Arc<Vec<Material>>,
+    /// The spheres that have albedos of their own.
+    painted: Arc<Vec<Painted>>,
 }
 
-/// The spheres of a world, and their materials.
+/// The spheres of a world, each with its material's number.
 #[derive(Clone, Debug, Default)]
 struct Surfaces {
     spheres: Vec<Sphere>,
     material_ids: Vec<MaterialId>,
-    materials: Vec<Material>,
     /// The materials that some sphere has.
     is_used: Vec<bool>,
-    /// The spheres that have albedos of their own.
-    painted: Vec<Painted>,
 }
 
 /// Spheres that have albedos of their own, instead of their material's.
@@ -72,6 +74,8 @@ impl World {
             background: Color::ZERO,
             shadows: true,
             surfaces: Arc::default(),
+            materials: Arc::default(),
+            painted: Arc::default(),
         }
     }
 
@@ -95,9 +99,29 @@ impl World {
             lights,
             ambient,
             background,
-            shadows: self.shadows,
             has_colored_lights: self.has_colored_lights && part != LightPart::Ambient,
+            ..self.clone()
+        }
+    }
+
+    /// The same spheres, whose light is their shading normals: red, green and blue tell how far these turn toward the
+    /// axes of the world times `sign`, 1 or −1, where they do. Surfaces are matte and white, without shadows.
+    pub(crate) fn of_normals(&self, sign: f64) -> Self {
+        let lights = DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from_array);
+        let lights = lights.map(|axis| Light::directional(axis * sign, axis));
+        let matte = self.materials.iter().map(|material| Material {
+            roughness: material.roughness,
+            ..Material::MATTE_WHITE
+        });
+        Self {
+            lights: lights.into_iter().flatten().collect(),
+            has_colored_lights: false,
+            ambient: Color::ZERO,
+            background: Color::ZERO,
+            shadows: false,
             surfaces: Arc::clone(&self.surfaces),
+            materials: Arc::new(matte.collect()),
+            painted: Arc::default(),
         }
     }
 
@@ -112,10 +136,9 @@ impl World {
 
     /// Adds a material that spheres of this world may have.
     pub fn add_material(&mut self, material: Material) -> MaterialId {
-        let surfaces = self.surfaces_mut();
-        let id = MaterialId(surfaces.materials.len() as u32);
-        surfaces.materials.push(material);
-        surfaces.is_used.push(false);
+        let id = MaterialId(self.materials.len() as u32);
+        Arc::make_mut(&mut self.materials).push(material);
+        self.surfaces_mut().is_used.push(false);
         id
     }
 
@@ -144,18 +167,18 @@ impl World {
         if spheres.is_empty() {
             return;
         }
-        let surfaces = self.surfaces_mut();
-        surfaces.note_use(material);
-        let first = surfaces.spheres.len();
+        let first = self.spheres().len();
         let count = spheres.len();
         if let Some(albedos) = albedos {
             assert_eq!(albedos.len(), count, "an albedo for every sphere");
-            surfaces.painted.push(Painted {
+            Arc::make_mut(&mut self.painted).push(Painted {
                 first,
                 is_grey: albedos.are_grey(),
                 albedos,
             });
         }
+        let surfaces = self.surfaces_mut();
+        surfaces.note_use(material);
         if first < count {
             // The few go before the many: there is never a second copy of the many.
             spheres.splice(0..0, surfaces.spheres.drain(..));
@@ -173,28 +196,36 @@ impl World {
     }
 
     /// The material of the sphere with this index.
+    #[inline]
     pub fn material(&self, sphere: usize) -> &Material {
-        self.surfaces.material(sphere)
+        &self.materials[self.surfaces.material_ids[sphere].0 as usize]
     }
 
     /// The albedo of the sphere with this index: its own, or its material's.
     #[inline]
     pub fn albedo(&self, sphere: usize) -> Color {
-        if self.surfaces.painted.is_empty() {
-            self.surfaces.material(sphere).albedo
+        if self.painted.is_empty() {
+            self.material(sphere).albedo
         } else {
-            self.surfaces.own_albedo(sphere)
+            self.own_albedo(sphere)
         }
+    }
+
+    fn own_albedo(&self, sphere: usize) -> Color {
+        let after = self.painted.partition_point(|some| some.first <= sphere);
+        let own = self.painted[..after].last();
+        own.and_then(|some| some.albedos.get(sphere - some.first))
+            .unwrap_or(self.material(sphere).albedo)
     }
 
     /// True where some spheres have albedos of their own.
     pub fn has_own_albedos(&self) -> bool {
-        !self.surfaces.painted.is_empty()
+        !self.painted.is_empty()
     }
 
     /// True where some sphere has bumps.
     pub fn has_bumps(&self) -> bool {
-        let materials = self.surfaces.materials.iter().zip(&self.surfaces.is_used);
+        let materials = self.materials.iter().zip(&self.surfaces.is_used);
         materials
             .into_iter()
             .any(|(material, used)| *used && material.roughness.is_some())
@@ -202,7 +233,7 @@ impl World {
 
     /// The materials in the order in which they were added.
     pub fn materials(&self) -> &[Material] {
-        &self.surfaces.materials
+        &self.materials
     }
 
     /// The place of a sphere's material among the materials.
@@ -216,18 +247,10 @@ impl World {
         let [mut dark, mut bright] = [background; 2];
         let lights = lights.iter().map(|light| self.brightest(light));
         let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
-        let highlights = self
-            .surfaces
-            .materials
-            .iter()
-            .filter_map(|one| one.highlight);
+        let highlights = self.materials.iter().filter_map(|one| one.highlight);
         let strength = highlights.fold(0.0_f64, |most, one| most.max(one.strength));
-        let of_materials = self
-            .surfaces
-            .materials
-            .iter()
-            .map(|material| material.albedo);
-        let own = self.surfaces.painted.iter();
+        let of_materials = self.materials.iter().map(|material| material.albedo);
+        let own = self.painted.iter();
         let own = own
             .flat_map(|some| (0..some.albedos.len()).filter_map(|index| some.albedos.get(index)));
         for albedo in of_materials.chain(own) {
@@ -256,7 +279,6 @@ impl World {
     /// True where the spheres' light has no color, whatever the background has.
     pub fn has_grey_spheres(&self) -> bool {
         let used = self
-            .surfaces
             .materials
             .iter()
             .zip(&self.surfaces.is_used)
@@ -267,29 +289,17 @@ impl World {
             && used
                 .into_iter()
                 .all(|(material, _)| is_grey(material.albedo))
-            && self.surfaces.painted.iter().all(|some| some.is_grey)
+            && self.painted.iter().all(|some| some.is_grey)
     }
 }
 
 impl Surfaces {
     fn note_use(&mut self, material: MaterialId) {
         assert!(
-            (material.0 as usize) < self.materials.len(),
+            (material.0 as usize) < self.is_used.len(),
             "the material of another world"
         );
         self.is_used[material.0 as usize] = true;
-    }
-
-    #[inline]
-    fn material(&self, sphere: usize) -> &Material {
-        &self.materials[self.material_ids[sphere].0 as usize]
-    }
-
-    fn own_albedo(&self, sphere: usize) -> Color {
-        let after = self.painted.partition_point(|some| some.first <= sphere);
-        let own = self.painted[..after].last();
-        own.and_then(|some| some.albedos.get(sphere - some.first))
-            .unwrap_or(self.material(sphere).albedo)
     }
 }
 

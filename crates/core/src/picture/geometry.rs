@@ -1,133 +1,11 @@
-//! What is seen through the centers of pixels: distances, normals, positions, albedos, spheres.
+//! What is seen through the centers of pixels, and averages over what pixels see of spheres.
 
 use std::ops::Range;
 
+use super::averages::{Average, Averages};
+use super::quantities::{GeometrySettings, Precision, Quantities, Quantity};
 use super::tile::Tile;
 use super::window::Window;
-
-/// What a [`Geometry`] tells, and how.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct GeometrySettings {
-    /// The quantities that are wanted; which sphere is seen is always told.
-    pub quantities: Quantities,
-    /// The meaning of [`Quantity::Depth`].
-    pub depth: Depth,
-    /// The axes of normals and positions.
-    pub axes: Axes,
-    /// The last places that are right.
-    pub precision: Precision,
-}
-
-/// A quantity that a pixel's center ray has where it meets a sphere.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Quantity {
-    /// The distance: one number, above 0; infinite where nothing is seen.
-    Depth,
-    /// The shading normal: unit, three numbers. Without bumps it is the geometric one; the inner side of
-    /// a sphere, which no light reaches, has no bumps.
-    Normal,
-    /// The unit *outward* normal of the sphere: three numbers. It points away from a viewpoint inside.
-    GeometricNormal,
-    /// The point: three numbers.
-    Position,
-    /// The albedo of the sphere: red, green, blue.
-    Albedo,
-}
-
-impl Quantity {
-    /// All of them, in the order in which files have them.
-    pub const ALL: [Self; 5] = [
-        Self::Depth,
-        Self::Normal,
-        Self::GeometricNormal,
-        Self::Position,
-        Self::Albedo,
-    ];
-
-    /// The number of its components.
-    pub const fn components(self) -> usize {
-        match self {
-            Self::Depth => 1,
-            _ => 3,
-        }
-    }
-
-    /// The value of its components where nothing is seen.
-    pub const fn of_nothing(self) -> f64 {
-        match self {
-            Self::Depth => f64::INFINITY,
-            _ => 0.0,
-        }
-    }
-}
-
-/// A set of quantities.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub struct Quantities(u8);
-
-impl Quantities {
-    /// The set with one more.
-    #[must_use]
-    pub const fn with(self, quantity: Quantity) -> Self {
-        Self(self.0 | 1 << quantity as u8)
-    }
-
-    /// The number of the components of those quantities that are among them.
-    fn components(self, quantities: impl IntoIterator<Item = Quantity>) -> usize {
-        let wanted = quantities.into_iter();
-        let wanted = wanted.filter(|&quantity| self.has(quantity));
-        wanted.map(Quantity::components).sum()
-    }
-
-    /// True if it is among them.
-    pub const fn has(self, quantity: Quantity) -> bool {
-        self.0 >> quantity as u8 & 1 == 1
-    }
-}
-
-/// The set of some quantities.
-impl FromIterator<Quantity> for Quantities {
-    fn from_iter<I: IntoIterator<Item = Quantity>>(quantities: I) -> Self {
-        let mut set = Self::default();
-        for quantity in quantities {
-            set = set.with(quantity);
-        }
-        set
-    }
-}
-
-/// The meaning of a depth.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub enum Depth {
-    /// The distance along the axis of view: t times the retina's distance, as the ray's direction goes that
-    /// far.
-    #[default]
-    Axis,
-    /// The distance from the viewpoint.
-    Ray,
-}
-
-/// The axes of normals and positions.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub enum Axes {
-    /// The world's, which are left-handed: x right, y up, z forward.
-    #[default]
-    World,
-    /// The camera's, from the viewpoint: x right, y down, z forward, as in OpenCV.
-    CameraOpenCv,
-    /// The camera's, from the viewpoint: x right, y up, z toward the viewer, as in OpenGL.
-    CameraOpenGl,
-}
-
-/// The type of number that a geometry is meant for.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
-pub enum Precision {
-    /// Floats of 32 bits; costs the least.
-    #[default]
-    Single,
-    /// Doubles.
-    Double,
-}
 
 /// What the rays through the centers of a picture's pixels see.
 ///
@@ -135,7 +13,8 @@ pub enum Precision {
 /// [`View::cell_center`](crate::View::cell_center) with one division, in the doubles that these return. It is
 /// the ray of one sample a pixel, and the same code decides which sphere it sees: exactly. Of coincident
 /// surfaces the sphere that was added first is seen; a viewpoint inside a sphere sees its inner side. Where
-/// the camera moves, it is the view in the middle of the time. No value is an average.
+/// the camera moves, it is the view in the middle of the time. No such value is an average; the averages that may come
+/// with them ([`Average`]) are told apart.
 ///
 /// Row 0 is the top row, column 0 the left one. A normal of the world is told as what it is; in a camera's
 /// axes it is the product with the transposed rotation of the [`Camera`](crate::Camera), and a position is
@@ -160,6 +39,7 @@ pub struct Geometry {
     /// Of each block the components of each quantity.
     numbers: Numbers,
     ids: Vec<[u32; SIDE]>,
+    averages: Averages,
 }
 
 /// A geometry that is being written, and the column and row of its first pixel in the picture.
@@ -215,6 +95,7 @@ impl Geometry {
             places,
             numbers,
             ids,
+            averages: Averages::new((width, height), &settings.averages, Self::NOTHING),
         }
     }
 
@@ -262,6 +143,37 @@ impl Geometry {
         };
         let is_wanted = self.quantities.has(quantity);
         is_wanted.then(|| self.inside(self.blocks(row).flat_map(block)))
+    }
+
+    /// A component of an average in a row's pixels, from left to right; `None` where it was not wanted.
+    ///
+    /// # Panics
+    /// Outside the picture, and for components that the average does not have.
+    pub fn averages(
+        &self,
+        average: Average,
+        component: usize,
+        row: u32,
+    ) -> Option<impl Iterator<Item = f64>> {
+        assert!(component < average.components(), "component {component}");
+        assert!(row < self.window.height, "row {row} is outside");
+        let values = self.averages.values((average, component), self.window, row);
+        values.map(Vec::into_iter)
+    }
+
+    /// The index of the sphere that most of each of a row's pixels sees, from left to right, or [`Self::NOTHING`]; the
+    /// first of those that share it alike. `None` where coverage was not wanted.
+    ///
+    /// # Panics
+    /// Outside the picture.
+    pub fn coverage_ids(&self, row: u32) -> Option<impl Iterator<Item = u32>> {
+        assert!(row < self.window.height, "row {row} is outside");
+        self.averages.ids(self.window, row)
+    }
+
+    /// The averages, to be written.
+    pub(crate) fn averages_mut(&mut self) -> &mut Averages {
+        &mut self.averages
     }
 
     /// The places of the blocks in a row.

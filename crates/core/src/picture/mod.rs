@@ -1,10 +1,12 @@
 //! Pictures: pixels, tiles, windows, and how they are written.
 
+pub(crate) mod averages;
 pub(crate) mod band;
 pub(crate) mod geometry;
 pub(crate) mod image;
 pub(crate) mod pixel;
 pub(crate) mod plane;
 pub(crate) mod progress;
+pub(crate) mod quantities;
 pub(crate) mod tile;
 pub(crate) mod window;

@@ -1,15 +1,18 @@
-//! What the rays through the centers of pixels see: beside the samples of a picture, or apart from its light.
+//! What the rays through the centers of pixels see, beside the samples of a picture or apart from its light, and averages
+//! over what pixels see.
 
 use std::num::NonZeroU32;
 
-use super::integrator::Integrator;
+use super::averages::Averager;
+use super::integrator::{Integrator, Scratch};
 use super::renderer::Renderer;
 use crate::model::exposure::Exposure;
 use crate::model::view::View;
-use crate::picture::geometry::{Geometry, GeometrySettings, Written};
+use crate::picture::geometry::{Geometry, Written};
 use crate::picture::pixel::Work;
+use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::Tile;
-use crate::sampling::{Scratch, Supersampling};
+use crate::sampling::Supersampling;
 use crate::search::grid::RayPoints;
 use crate::search::view_index::ViewIndex;
 
@@ -18,6 +21,7 @@ pub(super) struct Centers<'scene> {
     pub(super) settings: GeometrySettings,
     /// `None` where the picture's own samples are these rays.
     apart: Option<Box<Supersampling<'scene>>>,
+    averages: Averager<'scene>,
 }
 
 impl<'scene> Centers<'scene> {
@@ -28,6 +32,7 @@ impl<'scene> Centers<'scene> {
         integrator: Integrator<'scene>,
         settings: GeometrySettings,
     ) -> (Integrator<'scene>, Option<Self>) {
+        let averages = Averager::new(renderer, exposure.view(), &settings);
         let (integrator, apart) = match integrator {
             Integrator::Sampled(samples) if samples.is_one() => {
                 let samples = samples.with_geometry(settings);
@@ -38,7 +43,12 @@ impl<'scene> Centers<'scene> {
                 (other, Some(Box::new(centers)))
             }
         };
-        (integrator, Some(Self { settings, apart }))
+        let centers = Self {
+            settings,
+            apart,
+            averages,
+        };
+        (integrator, Some(centers))
     }
 
     /// Writes what the pixels of a rectangle as high as a tile see; returns what that costs.
@@ -47,9 +57,10 @@ impl<'scene> Centers<'scene> {
         let mut work = Work::default();
         if let Some(apart) = &self.apart {
             for tile in area.tiles() {
-                work += apart.see(tile, scratch, (first, geometry));
+                work += apart.see(tile, &mut scratch.sampled, (first, geometry));
             }
         }
+        work += self.averages.see(area, scratch, (first, geometry));
         work
     }
 }
@@ -57,7 +68,11 @@ impl<'scene> Centers<'scene> {
 impl Renderer<'_> {
     /// What the rays through the centers of a view's pixels see, without its light.
     pub fn geometry(&self, view: &View, settings: &GeometrySettings) -> Geometry {
-        let centers = self.centers(view, *settings);
+        let centers = Centers {
+            settings: *settings,
+            apart: Some(Box::new(self.centers(view, *settings))),
+            averages: Averager::new(self, view, settings),
+        };
         let mut geometry = Geometry::new((view.width, view.height), settings, None);
         let mut scratch = Scratch::default();
         for row in (0..view.height).step_by(Tile::SIDE as usize) {
@@ -67,9 +82,7 @@ impl Renderer<'_> {
                 width: view.width,
                 height: Tile::SIDE.min(view.height - row),
             };
-            for tile in band.tiles() {
-                centers.see(tile, &mut scratch, ((0, 0), &mut geometry));
-            }
+            centers.see(band, &mut scratch, ((0, 0), &mut geometry));
         }
         geometry
     }

@@ -2,6 +2,7 @@
 
 use super::approach::Approach;
 use super::settings::Settings;
+use crate::exact::areas;
 use crate::exact::integrator::{Exact, GroupScratch, paint_each};
 use crate::model::exposure::Exposure;
 use crate::model::view::View;
@@ -31,7 +32,8 @@ pub(super) enum Integrator<'scene> {
 /// Memory that a thread works in, for band after band.
 #[derive(Default)]
 pub(super) struct Scratch {
-    exact: GroupScratch,
+    pub(super) exact: GroupScratch,
+    pub(super) areas: areas::Scratch,
     pub(super) sampled: sampling::Scratch,
 }
 
@@ -103,7 +105,7 @@ impl<'scene> Integrator<'scene> {
         progress: &Progress<'_>,
         mut geometry: Option<Written<'_>>,
     ) -> Result<Work, Cancelled> {
-        let Scratch { exact, sampled } = scratch;
+        let Scratch { exact, sampled, .. } = scratch;
         match self {
             Self::Exact(integrator) => paint_exact(&mut [(integrator, band)], exact, progress),
             Self::Sampled(integrator) => {

@@ -2,6 +2,7 @@
 
 mod approach;
 mod areas;
+mod averages;
 mod centers;
 mod integrator;
 pub(crate) mod renderer;

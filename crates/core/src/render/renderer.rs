@@ -1,7 +1,7 @@
 //! A picture in one piece.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use rayon::iter::{IndexedParallelIterator, ParallelIterator};
 
@@ -25,6 +25,8 @@ pub struct Renderer<'world> {
     pub(super) visibility: Visibility<'world>,
     /// The part of the light that it renders; none where it is all.
     part: Option<LightPart>,
+    /// Worlds whose light is the normals, where somebody asks for their means.
+    normals: OnceLock<[World; 2]>,
 }
 
 impl<'world> Renderer<'world> {
@@ -34,6 +36,7 @@ impl<'world> Renderer<'world> {
             world: world.clone(),
             visibility: Visibility::new(world),
             part: None,
+            normals: OnceLock::new(),
         }
     }
 
@@ -49,6 +52,7 @@ impl<'world> Renderer<'world> {
             world: self.world.under(part),
             visibility: self.visibility.under(part),
             part: Some(part),
+            normals: OnceLock::new(),
         }
     }
 
@@ -154,6 +158,12 @@ impl<'world> Renderer<'world> {
     /// The world, and what is known of it.
     pub(super) fn parts(&self) -> (&World, &Visibility<'world>) {
         (&self.world, &self.visibility)
+    }
+
+    /// The worlds whose light is how far normals turn toward the axes of the world, and away from them.
+    pub(super) fn normals(&self) -> &[World; 2] {
+        let of = |sign| self.world.of_normals(sign);
+        self.normals.get_or_init(|| [of(1.0), of(-1.0)])
     }
 
     /// The picture of an exposure, without its pixels.

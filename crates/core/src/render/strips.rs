@@ -9,10 +9,11 @@ use super::renderer::Renderer;
 use super::settings::Settings;
 use crate::model::exposure::Exposure;
 use crate::picture::band::Band;
-use crate::picture::geometry::{Geometry, GeometrySettings};
+use crate::picture::geometry::Geometry;
 use crate::picture::image::{Image, Layout};
 use crate::picture::pixel::Work;
 use crate::picture::progress::{Cancelled, Progress};
+use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::Tile;
 use crate::picture::window::Window;
 
@@ -362,7 +363,7 @@ impl Rendering<'_> {
             let pictures = pictures.zip(&mut bands).collect();
             work += paint_bands(pictures, scratch, progress, written)?;
             if let (Some(centers), Some(geometry)) = (&self.centers, geometry.as_deref_mut()) {
-                work += centers.see(area, &mut scratch.sampled, ((col, row), geometry));
+                work += centers.see(area, scratch, ((col, row), geometry));
             }
         }
         Ok(work)

@@ -12,9 +12,8 @@ use crate::model::view::View;
 use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
-use crate::picture::geometry::{
-    Depth, Geometry, GeometrySettings, Precision, Quantity, RowGeometry,
-};
+use crate::picture::geometry::{Geometry, RowGeometry};
+use crate::picture::quantities::{Depth, GeometrySettings, Precision, Quantity};
 
 /// The relative error of a number that is rounded to a float of 32 bits: with the rounding, one unit in the
 /// last place at most.

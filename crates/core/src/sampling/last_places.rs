@@ -15,7 +15,8 @@ use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::fused::is_fused;
 use crate::numeric::lanes::LANES;
 use crate::numeric::vectors::Vectors;
-use crate::picture::geometry::{Axes, Depth, GeometrySettings, Quantity, RowGeometry};
+use crate::picture::geometry::RowGeometry;
+use crate::picture::quantities::{Axes, Depth, GeometrySettings, Quantity};
 
 /// Tells depths, positions and geometric normals to their last places.
 #[derive(Clone, Debug)]

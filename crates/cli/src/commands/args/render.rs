@@ -140,8 +140,8 @@ pub(crate) struct RenderArguments {
     pub(crate) error_channel: bool,
 
     /// Store what the rays through the centers of pixels see in an EXR, or in files NAME_channels.npy
-    /// and NAME_id.npy, as well; no value is an average: depth, normal, position, id, albedo, mask, and
-    /// several of these with commas
+    /// and NAME_id.npy, as well, several with commas: depth, normal, position, id, albedo, mask; and averages over
+    /// what pixels see: mean_normal, coverage_id
     #[arg(
         long,
         value_name = "LIST",

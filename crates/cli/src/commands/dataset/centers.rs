@@ -3,7 +3,9 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use marbles_core::{Axes, Depth, Geometry, GeometrySettings, Precision, Quantity, Renderer, View};
+use marbles_core::{
+    AverageSettings, Axes, Depth, Geometry, GeometrySettings, Precision, Quantity, Renderer, View,
+};
 
 use crate::base::failure::Failure;
 use crate::base::size::Size;
@@ -31,6 +33,7 @@ impl Centers {
             depth: Depth::Axis,
             axes: Axes::CameraOpenGl,
             precision: Precision::Double,
+            averages: AverageSettings::default(),
         };
         let geometry = renderer.geometry(view, &settings);
         let values = |quantity, component, row| {

@@ -59,7 +59,7 @@ enum Content {
 impl Channel {
     fn sample_type(&self) -> SampleType {
         match self.content {
-            Content::Center(Source::Id) => SampleType::U32,
+            Content::Center(source) if source.is_index() => SampleType::U32,
             _ if self.bytes == 2 => SampleType::F16,
             _ => SampleType::F32,
         }
@@ -237,7 +237,17 @@ fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &Geometry, r
                 float(value).to_ne_bytes()
             });
         }
+        Source::Average(average, component) => {
+            let values = geometry.averages(average, component, row);
+            put_all(samples, values.into_iter().flatten(), |value| {
+                float(value).to_ne_bytes()
+            });
+        }
         Source::Id => put_all(samples, geometry.ids(row), u32::to_ne_bytes),
+        Source::CoverageId => {
+            let ids = geometry.coverage_ids(row);
+            put_all(samples, ids.into_iter().flatten(), u32::to_ne_bytes);
+        }
         Source::Mask => put_all(samples, geometry.ids(row), |id| {
             f32::from(u8::from(id != Geometry::NOTHING)).to_ne_bytes()
         }),
@@ -260,7 +270,12 @@ fn conventions(centers: &CenterChannels) -> Vec<(&'static str, String)> {
     if centers.has(CenterChannel::Depth) {
         conventions.push(("depth", name_of(&centers.depth)));
     }
-    if centers.has(CenterChannel::Normal) || centers.has(CenterChannel::Position) {
+    let turned = [
+        CenterChannel::Normal,
+        CenterChannel::Position,
+        CenterChannel::MeanNormal,
+    ];
+    if turned.into_iter().any(|group| centers.has(group)) {
         conventions.push(("axes", name_of(&centers.axes)));
     }
     conventions

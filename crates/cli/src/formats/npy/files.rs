@@ -1,7 +1,7 @@
 //! The files of a picture: an array of its light, and others beside it.
 //!
-//! `a.npy` is the file of the light; `a_error.npy`, `a_channels.npy` and `a_id.npy` may lie beside it. The rows of all arrays come
-//! together, strip by strip. The file of the light is the last that gets its final name.
+//! `a.npy` is the file of the light; `a_error.npy`, `a_channels.npy`, `a_id.npy` and `a_coverage_id.npy` may lie beside it. The
+//! rows of all arrays come together, strip by strip. The file of the light is the last that gets its final name.
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -32,6 +32,7 @@ const ERROR: &str = "_error";
 /// their own.
 const CHANNELS: &str = "_channels";
 const ID: &str = "_id";
+const COVERAGE_ID: &str = "_coverage_id";
 
 /// The arrays of a picture, each of which becomes a file.
 #[derive(Clone, Debug)]
@@ -69,15 +70,17 @@ impl Files {
         }
         let sources = form.centers.iter().flat_map(CenterChannels::list);
         let sources: Vec<Source> = sources.map(|(_, source)| source).collect();
-        let is_number = |source: &Source| *source != Source::Id;
+        let is_number = |source: &Source| !source.is_index();
         let centers: Vec<Source> = sources.iter().copied().filter(is_number).collect();
         if !centers.is_empty() {
             arrays.push(part(CHANNELS, Some(centers.len() as u32)));
         }
-        if sources.len() > centers.len() {
-            let mut ids = part(ID, None);
-            ids.array.number = Number::U32;
-            arrays.push(ids);
+        for (source, suffix) in [(Source::Id, ID), (Source::CoverageId, COVERAGE_ID)] {
+            if sources.contains(&source) {
+                let mut ids = part(suffix, None);
+                ids.array.number = Number::U32;
+                arrays.push(ids);
+            }
         }
         Self {
             region: form.region,
@@ -99,7 +102,7 @@ impl Files {
             let array = part.array;
             let (own, others) = rest.split_at_mut(array.row_bytes() * rows.len());
             rest = others;
-            if [CHANNELS, ID].contains(&part.suffix) {
+            if [CHANNELS, ID, COVERAGE_ID].contains(&part.suffix) {
                 continue;
             }
             let first = col as usize * array.pixel_bytes();
@@ -134,11 +137,10 @@ impl Files {
             for (row, numbers) in (0..).zip(own.chunks_exact_mut(array.row_bytes())) {
                 let numbers = &mut numbers[first..first + length];
                 match part.suffix {
-                    ID => {
-                        let (numbers, _) = numbers.as_chunks_mut();
-                        for (number, id) in numbers.iter_mut().zip(geometry.ids(row)) {
-                            *number = id.to_le_bytes();
-                        }
+                    ID => put_indices(numbers, geometry.ids(row)),
+                    COVERAGE_ID => {
+                        let ids = geometry.coverage_ids(row);
+                        put_indices(numbers, ids.into_iter().flatten());
                     }
                     CHANNELS => self.encode_centers(numbers, geometry, row),
                     _ => {}
@@ -159,7 +161,13 @@ impl Files {
                         *number = value.to_le_bytes();
                     }
                 }
-                Source::Id | Source::Mask => {
+                Source::Average(average, component) => {
+                    let values = geometry.averages(average, component, row);
+                    for (number, value) in own.zip(values.into_iter().flatten()) {
+                        *number = value.to_le_bytes();
+                    }
+                }
+                Source::Id | Source::CoverageId | Source::Mask => {
                     for (number, id) in own.zip(geometry.ids(row)) {
                         let mask = f64::from(u8::from(id != Geometry::NOTHING));
                         *number = mask.to_le_bytes();
@@ -215,6 +223,14 @@ impl Files {
             save::finish(&path, Ok(file)).map_err(|unwritten| Fault::Failed(unwritten.into()))?;
         }
         Ok(light)
+    }
+}
+
+/// Puts the indices of spheres into their numbers.
+fn put_indices(numbers: &mut [u8], ids: impl Iterator<Item = u32>) {
+    let (numbers, _) = numbers.as_chunks_mut();
+    for (number, id) in numbers.iter_mut().zip(ids) {
+        *number = id.to_le_bytes();
     }
 }
 

@@ -50,7 +50,7 @@ fn digest_with(centers: Option<&CenterChannels>) -> Hash {
 #[test]
 fn channels_change_the_digest() {
     let centers = |groups: &[CenterChannel], depth, axes| {
-        let centers = CenterChannels::new(groups, depth, axes, true);
+        let centers = CenterChannels::new(groups, depth, axes, true, 1e-3);
         digest_with(Some(&centers))
     };
     let (axis, ray) = (DepthForm::Axis, DepthForm::Ray);

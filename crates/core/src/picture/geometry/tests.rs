@@ -1,10 +1,17 @@
 use super::*;
+use crate::picture::averages::AverageSettings;
+use crate::picture::quantities::{Axes, Depth};
 
 const SETTINGS: GeometrySettings = GeometrySettings {
     quantities: Quantities(0).with(Quantity::Depth).with(Quantity::Position),
     depth: Depth::Axis,
     axes: Axes::World,
     precision: Precision::Single,
+    averages: AverageSettings {
+        normal: false,
+        coverage: false,
+        tolerance: 1e-3,
+    },
 };
 
 /// Sixteen columns and two rows, the left tile of which sees spheres numbered from its corner on.
