@@ -18,6 +18,7 @@ use clap::Parser;
 use crate::base::status;
 use crate::commands::args::{Arguments, Command};
 use crate::terminal::console::Console;
+use crate::terminal::signals;
 
 /// Runs the command line `args`, the program's name first, as the binary `marbles` does.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
@@ -42,6 +43,7 @@ fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
 
 /// Does what the command line asks for.
 fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
+    signals::outlive_file_limits();
     let arguments = match Arguments::try_parse_from(args) {
         Ok(arguments) => arguments,
         Err(message) => {

@@ -24,4 +24,5 @@ mod world;
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{CloudDescription, Description, Scene};
+pub use text::harmless;
 pub use world::Progress;

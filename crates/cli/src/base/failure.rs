@@ -6,6 +6,7 @@ use std::path::Path;
 use marbles_scene::SceneError;
 use thiserror::Error;
 
+use super::shown::Shown;
 use super::status;
 
 /// A message for the user, and with it the exit code.
@@ -25,12 +26,12 @@ pub(crate) enum Failure {
 impl Failure {
     /// A failure to do something with the file at `path`.
     pub(crate) fn at(path: &Path, what: &str) -> Self {
-        Self::Work(format!("{}: {what}", path.display()))
+        Self::Work(format!("{}: {what}", path.shown()))
     }
 
     /// A command line that names the file at `path`, which cannot be used.
     pub(crate) fn unusable(path: &Path, why: &str) -> Self {
-        Self::Usage(format!("{}: {why}", path.display()))
+        Self::Usage(format!("{}: {why}", path.shown()))
     }
 
     /// A failure of the operating system to do what `what` names with the file at `path`.

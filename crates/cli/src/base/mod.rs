@@ -4,6 +4,7 @@ pub(crate) mod failure;
 pub(crate) mod memory;
 pub(crate) mod numbers;
 pub(crate) mod region;
+pub(crate) mod shown;
 pub(crate) mod size;
 pub(crate) mod status;
 pub(crate) mod threads;

@@ -12,6 +12,7 @@ use super::args::CheckArguments;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::formats::sidecar::Sidecar;
 use crate::sequence::frames::frames_of;
@@ -32,7 +33,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
     let frames = frames_of(&scene);
     let (views, errors) = views(&scene, &frames);
 
-    let mut rows = vec![("scene", arguments.scene.display().to_string())];
+    let mut rows = vec![("scene", arguments.scene.shown())];
     if let Some(view) = views.first() {
         rows.push(("image", format!("{} x {} pixels", view.width, view.height)));
         let written = &scene.description().lens;
@@ -55,7 +56,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
     match errors.first() {
         None => Ok(status::SUCCESS),
         Some(error) => {
-            let mut message = format!("{}: {error}", arguments.scene.display());
+            let mut message = format!("{}: {error}", arguments.scene.shown());
             if errors.len() > 1 {
                 message.push_str(&format!(
                     ", and {} more of the {looked_at} frames that were looked at have no view",
@@ -72,7 +73,9 @@ fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<
     let view = scene::view(scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
-    console.result(sidecar.text().map_err(Failure::Work)?.trim_end());
+    let text = sidecar.text().map_err(Failure::Work)?;
+    // For programs: as it is.
+    console.print(&format!("{}\n", text.trim_end()));
     Ok(status::SUCCESS)
 }
 
@@ -156,7 +159,7 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
 fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
     const ELEVATION: f64 = 15.0;
     let all = &scene.world().spheres()[cloud.spheres.clone()];
-    let file = cloud.file.display();
+    let file = cloud.file.shown();
     let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
     rows.extend(bounds(all));
     if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {

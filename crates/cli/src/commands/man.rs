@@ -7,6 +7,7 @@ use clap_mangen::roff::{Roff, roman};
 
 use super::args::{Arguments, ManArguments};
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::destination::prepare;
 use crate::files::save::write_bytes;
@@ -19,7 +20,7 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
             let path = folder.join(page.man.get_filename());
             prepare(&path)?;
             write_bytes(&text(&page)?, &path)?;
-            console.result(&path.display().to_string());
+            console.result(&path.shown());
         }
         return Ok(status::SUCCESS);
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::args::NewArguments;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::terminal::console::Console;
 
@@ -20,7 +21,7 @@ pub(crate) fn run(arguments: &NewArguments, console: &Console) -> Result<u8, Fai
     if ending.is_none_or(|ending| !ending.eq_ignore_ascii_case("ron")) {
         return Err(Failure::Usage(format!(
             "expected a file name that ends in .ron, found `{}`",
-            path.display()
+            path.shown()
         )));
     }
     let text = if arguments.turntable {
@@ -29,7 +30,7 @@ pub(crate) fn run(arguments: &NewArguments, console: &Console) -> Result<u8, Fai
         STILL
     };
     write(path, &text.replace(NAME, &shown(path)))?;
-    console.result(&path.display().to_string());
+    console.result(&path.shown());
     if console.is_interactive() {
         let shown = shown(path);
         console.note(&format!("see it: marbles preview {shown} --watch"));

@@ -8,6 +8,7 @@ use marbles_scene::{Progress, Scene};
 
 use crate::base::failure::Failure;
 use crate::base::numbers;
+use crate::base::shown::Shown;
 use crate::sequence::frames::frames_of;
 use crate::terminal::bar::{bar, show_line};
 use crate::terminal::console::Console;
@@ -29,7 +30,7 @@ pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
         show(format!(
             "reading {}: {}",
             numbers::bytes(size),
-            path.display()
+            path.shown()
         ));
     }
     let scene = Scene::load_watched(path, &|progress| {
@@ -68,7 +69,7 @@ pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, F
 /// The progress of reading a table, in a line.
 fn line(progress: &Progress<'_>) -> String {
     let Progress { table, read, size } = progress;
-    let table = table.display();
+    let table = table.shown();
     if read > size {
         // What is no ordinary file says that it is empty.
         return format!("reading, {} so far: {table}", numbers::bytes(*read));

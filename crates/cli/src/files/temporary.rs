@@ -12,8 +12,6 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use same_file::Handle;
-
 /// The longest names, in bytes, that common file systems take.
 const LONGEST_NAME: usize = 255;
 /// Bytes that stay free for endings.
@@ -112,12 +110,13 @@ fn create(path: &Path) -> io::Result<Option<File>> {
             Ok(file) => match file.try_lock() {
                 // Another process took it for left over.
                 Err(TryLockError::WouldBlock) => {}
-                Ok(()) if !is_at(&file, path) => {}
+                Ok(()) if !is_at(&file, path)? => {}
+                Ok(()) => return Ok(Some(file)),
                 // Without locks no process will take it for left over.
-                Ok(()) | Err(TryLockError::Error(_)) => return Ok(Some(file)),
+                Err(TryLockError::Error(_)) => return Ok(Some(file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
-                if !remove_left_over(path) {
+                if !remove_left_over(path)? {
                     return Ok(None);
                 }
             }
@@ -128,20 +127,45 @@ fn create(path: &Path) -> io::Result<Option<File>> {
 }
 
 /// Removes a file that no process writes any more; returns whether it is gone.
-fn remove_left_over(path: &Path) -> bool {
+fn remove_left_over(path: &Path) -> io::Result<bool> {
     match File::options().read(true).write(true).open(path) {
         Ok(file) => match file.try_lock() {
-            Ok(()) => !is_at(&file, path) || fs::remove_file(path).is_ok(),
-            Err(_) => false,
+            Ok(()) => Ok(!is_at(&file, path)? || fs::remove_file(path).is_ok()),
+            Err(_) => Ok(false),
         },
-        Err(error) => error.kind() == ErrorKind::NotFound,
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(true),
+        // It belongs to somebody else.
+        Err(error) if error.kind() == ErrorKind::PermissionDenied => Ok(false),
+        // A folder has the name, or the like.
+        Err(_) if path.symlink_metadata().is_ok_and(|found| !found.is_file()) => Ok(false),
+        Err(error) => Err(error),
+    }
+}
+
+/// Returns whether this is the file that has that name now. It needs no descriptor, of which there may be none left.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+
+    let ours = file.metadata()?;
+    match path.symlink_metadata() {
+        Ok(found) => Ok((ours.dev(), ours.ino()) == (found.dev(), found.ino())),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
     }
 }
 
 /// Returns whether this is the file that has that name now.
-fn is_at(file: &File, path: &Path) -> bool {
-    let ours = file.try_clone().and_then(Handle::from_file);
-    matches!((ours, Handle::from_path(path)), (Ok(ours), Ok(found)) if ours == found)
+#[cfg(not(unix))]
+fn is_at(file: &File, path: &Path) -> io::Result<bool> {
+    use same_file::Handle;
+
+    let ours = Handle::from_file(file.try_clone()?)?;
+    match Handle::from_path(path) {
+        Ok(found) => Ok(ours == found),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(error),
+    }
 }
 
 /// The name of a file, cut at the end of a character where endings would make it too long.
@@ -183,7 +207,8 @@ impl LeftOver {
         let found = self.folders.get_mut(folder);
         let found = found.and_then(|found| found.remove(&stem(destination)));
         for path in found.into_iter().flatten() {
-            remove_left_over(&path);
+            // What cannot be looked at stays: it is in nobody's way.
+            let _ = remove_left_over(&path);
         }
     }
 }

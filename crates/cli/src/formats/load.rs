@@ -1,8 +1,8 @@
 //! Pictures are loaded from files of any format, which is known by the first bytes and not by the
 //! name.
 
-use std::fs::{self, File};
-use std::io::{ErrorKind, Read, Seek};
+use std::fs::File;
+use std::io::{self, ErrorKind, Read, Seek};
 use std::path::Path;
 
 use blake3::Hash;
@@ -28,12 +28,28 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     if path.is_dir() {
         return Err(refused("expected a picture, found a folder"));
     }
-    let bytes = fs::read(path).map_err(|error| match error.kind() {
+    let bytes = bytes(path).map_err(|error| match error.kind() {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
+        ErrorKind::OutOfMemory => refused("there is no memory to read this file"),
         _ => refused(&lower(&error.to_string())),
     })?;
     decode(&bytes).map_err(|reason| refused(&reason))
+}
+
+/// The bytes of a file; only the first where it is no picture, which may have no end.
+fn bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut file = File::open(path)?;
+    let mut bytes = Vec::new();
+    let start = PNG_MAGIC.len() as u64;
+    Read::by_ref(&mut file)
+        .take(start)
+        .read_to_end(&mut bytes)?;
+    let is_picture = [PNG_MAGIC, EXR_MAGIC, NPY_MAGIC];
+    if is_picture.iter().any(|magic| bytes.starts_with(magic)) {
+        file.read_to_end(&mut bytes)?;
+    }
+    Ok(bytes)
 }
 
 /// The picture in the bytes of a file, or what is wrong with them.

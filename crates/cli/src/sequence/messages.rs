@@ -9,6 +9,7 @@ use super::frames;
 use super::outcome::Outcome;
 use super::results::WorstPixel;
 use crate::base::numbers::{bound, counted};
+use crate::base::shown::Shown;
 use crate::formats::encoding::Encoding;
 
 /// The line of results; `time` is the rendering's alone, and `clipped` the number of pixels that are
@@ -37,7 +38,7 @@ pub(crate) fn total(outcome: &Outcome, noun: &str) -> Option<String> {
 
 /// The line of results of a file that was there.
 pub(super) fn skipped(path: &Path) -> String {
-    format!("{}: skipped, complete and of this scene", path.display())
+    format!("{}: skipped, complete and of this scene", path.shown())
 }
 
 /// The number of files that were written, whose word is `noun`, and the frames that failed, in the form that `--frames`

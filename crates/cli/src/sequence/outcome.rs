@@ -9,6 +9,7 @@ use std::time::Duration;
 use marbles_core::Summary;
 
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::terminal::progress::Progress;
 
 /// The outcome of a sequence.
@@ -79,7 +80,7 @@ impl Failures {
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.frames.push(frame);
         // What comes before the reason is another file or frame each time.
-        let places = [path.display().to_string(), format!("frame {frame}")];
+        let places = [path.shown(), format!("frame {frame}")];
         let reason = places.iter().find_map(|place| message.strip_prefix(place));
         let reason = reason.unwrap_or(&message).to_owned();
         if state.reasons.insert(reason) {

@@ -4,6 +4,7 @@ use std::ffi::{OsStr, OsString};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::base::shown::Shown;
 use crate::formats::encoding::Format;
 
 /// More digits than this are a slip of the keyboard, and no file system takes them.
@@ -29,7 +30,7 @@ impl Pattern {
     /// Reads a pattern as users write it, or says what is wrong with it.
     pub(crate) fn parse(path: &Path) -> Result<Self, String> {
         let wrong_ending = || {
-            let path = path.display();
+            let path = path.shown();
             format!("expected a file name that ends in .png, .apng, .exr or .npy, found `{path}`")
         };
         // A trailing slash means a folder, which `file_name` would overlook.
@@ -37,7 +38,7 @@ impl Pattern {
         let name = path.file_name();
         let name = name.filter(|name| bytes.ends_with(name.as_encoded_bytes()));
         let name = name.ok_or_else(wrong_ending)?.to_str().ok_or_else(|| {
-            let path = path.display();
+            let path = path.shown();
             format!("expected a file name in UTF-8, found `{path}`")
         })?;
         let format = Format::of(name).ok_or_else(wrong_ending)?;

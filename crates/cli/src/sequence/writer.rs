@@ -13,6 +13,7 @@ use super::outcome::Outcome;
 use super::pipeline::{Order, Pipeline};
 use super::strip_encoder::Finished;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::files::save::{Fault, Unwritten, write_bytes};
 use crate::formats::encoding::Encoding;
 use crate::formats::facts::Facts;
@@ -85,7 +86,7 @@ fn write_file(
     encoder.write(&facts, &path, file, || buffer.take(), summary, complete)?;
     let Finished { results, time } = end.into_inner().ok_or(Unwritten::Stopped)?;
     let summary = results.summary.ok_or(Unwritten::Stopped)?;
-    let shown = path.display().to_string();
+    let shown = path.shown();
     let (clipped, too_large) = match request.encoding {
         Encoding::Png(_) | Encoding::Apng(_) => (results.clipped, 0),
         Encoding::Exr(_) | Encoding::Npy(_) => (0, results.clipped),
@@ -139,7 +140,7 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
     let _closing = buffer.closing();
     let mut outcome = Outcome::default();
     let path = request.pattern.path(request.frames.first());
-    let shown = path.display().to_string();
+    let shown = path.shown();
     // There are fewer, or the list of frames would have been refused.
     let frames = u32::try_from(request.frames.count()).unwrap_or(u32::MAX);
     let mut warnings = Vec::new();

@@ -85,9 +85,9 @@ impl Console {
         self.out.terminal
     }
 
-    /// A line of results.
-    pub(crate) fn result(&self, line: &str) {
-        self.print(&format!("{line}\n"));
+    /// A line of results, or several.
+    pub(crate) fn result(&self, lines: &str) {
+        self.print(&format!("{}\n", self.harmless(lines)));
     }
 
     /// Results that are no line: as they are.
@@ -104,7 +104,28 @@ impl Console {
 
     /// A line about how things go.
     pub(crate) fn note(&self, line: &str) {
+        self.styled_note(&self.harmless(line));
+    }
+
+    /// A line with styles of ours.
+    fn styled_note(&self, line: &str) {
         self.err.print(&format!("{line}\n"));
+    }
+
+    /// Lines in which nothing does something to a terminal, whatever names and contents of files are in them. Programs
+    /// get them as they are.
+    fn harmless(&self, lines: &str) -> String {
+        if self.reader() == Reader::Json {
+            return lines.to_owned();
+        }
+        let parts = lines.split_inclusive(['\n', '\t']);
+        let harmless = parts.map(|part| match part.chars().next_back() {
+            Some(end @ ('\n' | '\t')) => {
+                marbles_scene::harmless(&part[..part.len() - 1]) + end.encode_utf8(&mut [0])
+            }
+            _ => marbles_scene::harmless(part),
+        });
+        harmless.collect()
     }
 
     /// Something that the user should know, though the work goes on.
@@ -113,7 +134,7 @@ impl Console {
             return self.message_event("warning", message);
         }
         let name = self.err.paint("marbles:", BOLD_YELLOW);
-        self.note(&format!("{name} {message}"));
+        self.styled_note(&format!("{name} {}", self.harmless(message)));
     }
 
     /// The reason why something was not done.
@@ -125,7 +146,7 @@ impl Console {
             Reader::OpenJd => self.reason(message),
             Reader::People => {}
         }
-        self.note(&self.message(failure));
+        self.styled_note(&self.message(failure));
     }
 
     /// A line of JSON with a message.
@@ -138,6 +159,7 @@ impl Console {
     pub(crate) fn message(&self, failure: &Failure) -> String {
         let text = match failure {
             Failure::Usage(message) | Failure::Work(message) => {
+                let message = self.harmless(message);
                 format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
             }
             Failure::Scene(error) if self.err.styled => error.styled(),

@@ -10,8 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
 
-use super::alternate_screen;
 use super::console::Console;
+use super::{alternate_screen, signals};
 use crate::base::status::INTERRUPTED;
 use crate::files::temporary;
 
@@ -32,8 +32,7 @@ pub(crate) fn listen(console: &Console) {
     static LISTENING: OnceLock<()> = OnceLock::new();
     let farewell = console.farewell();
     LISTENING.get_or_init(|| {
-        // Where no handler can be installed, the signals end the process as they always do.
-        let _ = ctrlc::set_handler(move || {
+        signals::on_each(move || {
             if REQUESTED.swap(true, Ordering::Relaxed) {
                 end(farewell);
             }

@@ -6,3 +6,4 @@ pub(crate) mod console;
 pub(crate) mod interrupt;
 mod lines;
 pub(crate) mod progress;
+pub(crate) mod signals;

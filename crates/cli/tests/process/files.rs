@@ -170,3 +170,35 @@ fn links_are_written_through() {
         assert!(errors.starts_with(&start), "{errors}");
     }
 }
+
+/// Whatever a file is called and contains, nothing of it does something to a terminal.
+#[test]
+#[cfg(unix)]
+fn names_and_contents_are_shown_harmless() {
+    let folder = Folder::new();
+    let evil = "\u{1b}]0;title\u{7}\n\u{9b}31m";
+    let ball = fs::read_to_string(folder.path("ball.ron")).unwrap();
+    fs::write(folder.path(&format!("{evil}.ron")), &ball).unwrap();
+    let wrong = ball.replace("spheres:", "/* \u{9b}31m\u{1b}[1m */ sphere\u{202e}s:");
+    fs::write(folder.path(&format!("{evil}wrong.ron")), wrong).unwrap();
+    for (arguments, expected) in [
+        (["check", "E.ron", "", ""], 0),
+        (["render", "E.ron", "-o", "E.png"], 0),
+        (["check", "Ewrong.ron", "", ""], 2),
+        (["render", "Enone.ron", "-o", "a.png"], 2),
+        (["compare", "E.png", "E.ron", ""], 2),
+    ] {
+        let mut marbles = folder.marbles("");
+        for argument in arguments
+            .into_iter()
+            .filter(|argument| !argument.is_empty())
+        {
+            marbles.arg(argument.replace('E', evil));
+        }
+        let output = marbles.output().unwrap();
+        let said = text(&output.stdout) + &text(&output.stderr);
+        assert_eq!(code(&output), expected, "{arguments:?}: {said:?}");
+        let harmful = |c: &char| c.is_control() && *c != '\n' || *c == '\u{202e}';
+        assert_eq!(said.chars().find(harmful), None, "{said:?}");
+    }
+}

@@ -14,6 +14,7 @@ mod files;
 mod folder;
 #[cfg(target_os = "linux")]
 mod lights;
+mod limits;
 mod memory;
 mod merge;
 mod png_codes;

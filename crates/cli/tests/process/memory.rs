@@ -1,6 +1,6 @@
 //! Pictures that are larger than the memory.
 
-use std::fs;
+use std::fs::{self, File};
 use std::process::Command;
 
 use crate::folder::{BALL, Folder, assert_complete, code, text};
@@ -64,4 +64,45 @@ fn too_little_memory_is_an_error() {
         }
     }
     assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
+}
+
+/// A grey picture of one line that repeats.
+fn write_grey(folder: &Folder, name: &str, side: u32, profile: Option<Vec<u8>>) {
+    let mut info = png::Info::with_size(side, side);
+    info.color_type = png::ColorType::Grayscale;
+    info.icc_profile = profile.map(Into::into);
+    let file = File::create(folder.path(name)).unwrap();
+    let encoder = png::Encoder::with_info(file, info).unwrap();
+    let mut writer = encoder.write_header().unwrap();
+    let mut stream = writer.stream_writer_with_size(side as usize).unwrap();
+    let row = vec![0; side as usize];
+    for _ in 0..side {
+        std::io::Write::write_all(&mut stream, &row).unwrap();
+    }
+    stream.finish().unwrap();
+}
+
+/// What a picture takes is its codes, not numbers for each of its pixels besides.
+#[test]
+fn pictures_are_compared_in_the_memory_of_their_codes() {
+    let folder = Folder::new();
+    write_grey(&folder, "a.png", 8192, None);
+    for (kilobytes, expected) in [(300_000, 0), (80_000, 2)] {
+        let mut marbles = in_memory(&folder, kilobytes, "compare a.png a.png");
+        let output = marbles.output().unwrap();
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), expected, "{kilobytes}: {errors}");
+        assert_eq!(errors.contains(" memory"), expected == 2, "{errors}");
+    }
+}
+
+/// A profile of colors may be compressed a thousand times; it has no meaning here.
+#[test]
+fn profiles_take_no_memory() {
+    let folder = Folder::new();
+    write_grey(&folder, "a.png", 9, None);
+    write_grey(&folder, "profile.png", 9, Some(vec![0; 400_000_000]));
+    let mut marbles = in_memory(&folder, 300_000, "compare a.png profile.png");
+    let output = marbles.output().unwrap();
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
 }

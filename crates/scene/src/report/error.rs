@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::located::{SceneFault, line_and_column, locate, message};
 use super::snippet::Style;
-use crate::text::{Fault, LocatedFault};
+use crate::text::{Fault, LocatedFault, harmless};
 
 /// The reason for which a scene file was refused.
 ///
@@ -51,7 +51,7 @@ impl SceneError {
         (scene, text, place): (&Path, &str, &Range<usize>),
     ) -> Self {
         let (line, column) = line_and_column(text, place.start);
-        let scene = scene.display();
+        let scene = harmless(&scene.to_string_lossy());
         let end = format!("\nthe table is named at {scene}:{line}:{column}");
         Self::new(path, &[fault], &end)
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use super::snippet::{Style, bold, snippet};
 use crate::text::token::{self, Unclosed};
-use crate::text::{Fault, LocatedFault, Place, show};
+use crate::text::{Fault, LocatedFault, Place, harmless, show};
 
 /// A fault at a place in a file.
 #[derive(Clone, Debug, Eq, PartialEq)]
@@ -45,7 +45,7 @@ pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style) -> String
         column,
         message,
     } = SceneFault::new(fault);
-    let path = path.display();
+    let path = harmless(&path.to_string_lossy());
     let (place, snippet) = match &fault.place {
         Place::Text { text, span, .. } => (
             format!("{path}:{line}:{column}:"),

@@ -5,6 +5,8 @@ use std::ops::Range;
 use annotate_snippets::renderer::Effects;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet, renderer};
 
+use crate::text::is_harmful;
+
 /// The kind of a message: for a file or for a terminal.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Style {
@@ -46,9 +48,11 @@ pub(super) fn snippet(
     }
     let cut = |is_cut: bool| if is_cut { "…" } else { "" };
     let (opening, closing) = (cut(start > 0), cut(end < line_end));
-    let source = format!("{opening}{before}{after}{closing}");
+    let (inside, after) = after.split_at(place.len().min(end));
+    let [before, inside, after] = [before, inside, after].map(replaced);
+    let source = format!("{opening}{before}{inside}{after}{closing}");
     let shown_start = opening.len() + before.len();
-    let shown = shown_start..shown_start + place.len().min(end);
+    let shown = shown_start..shown_start + inside.len();
     let renderer = match style {
         Style::Plain => Renderer::plain(),
         Style::Styled => Renderer::styled(),
@@ -58,4 +62,13 @@ pub(super) fn snippet(
         .annotation(AnnotationKind::Primary.span(shown));
     let group = Group::with_level(Level::ERROR).element(snippet);
     Some(renderer.term_width(WIDER_THAN_THE_WINDOW).render(&[group]))
+}
+
+/// A part of a line in which a mark stands for each character that would do something to a terminal.
+fn replaced(text: &str) -> String {
+    let characters = text.chars().map(|c| match is_harmful(c) && c != '\t' {
+        true => '\u{fffd}',
+        false => c,
+    });
+    characters.collect()
 }

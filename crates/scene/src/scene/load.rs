@@ -17,6 +17,9 @@ use crate::world::{self, Cloud, CloudError, Progress};
 /// for files that never end.
 const LARGEST_FILE: u64 = 1 << 30;
 
+/// Bytes that are read at a time.
+const BLOCK: u64 = 1 << 20;
+
 impl Scene {
     /// Reads and checks the scene file at `path`, and the tables that it names.
     ///
@@ -51,10 +54,15 @@ impl Scene {
             };
             SceneError::unreadable(path, reason)
         })?;
-        match str::from_utf8(&bytes) {
+        let text = str::from_utf8(&bytes).map_err(|error| error.valid_up_to());
+        let text = text.and_then(|text| {
+            text.strip_suffix('\0')
+                .map_or(Ok(text), |text| Err(text.len()))
+        });
+        match text {
             Ok(text) => Self::parse_watched(text, path, watch),
-            Err(error) => {
-                let (valid, rest) = bytes.split_at(error.valid_up_to());
+            Err(valid_up_to) => {
+                let (valid, rest) = bytes.split_at(valid_up_to);
                 let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
                 let byte = rest.first().copied().unwrap_or_default();
                 let message = format!("expected text in UTF-8, found the byte 0x{byte:02x}");
@@ -186,14 +194,23 @@ fn names(materials: &Materials) -> Option<Vec<String>> {
     materials.0.iter().map(|(key, _)| name(key)).collect()
 }
 
-/// The bytes of a file that has at most `most`; [`ErrorKind::FileTooLarge`] where it has more.
+/// The bytes of a file that has at most `most`, up to the first of 0; [`ErrorKind::FileTooLarge`] where it has more.
 fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let file = OpenFile::open(path)?;
     let mut bytes = Vec::new();
     // What the size says is not always so: devices and pipes have none.
     let size = file.metadata()?.len();
     if size <= most {
-        file.take(most + 1).read_to_end(&mut bytes)?;
+        let mut rest = file.take(most + 1);
+        let mut seen = 0;
+        // No text has a byte of 0: what has one may never end.
+        while rest.by_ref().take(BLOCK).read_to_end(&mut bytes)? > 0 {
+            if let Some(zero) = bytes[seen..].iter().position(|&byte| byte == 0) {
+                bytes.truncate(seen + zero + 1);
+                return Ok(bytes);
+            }
+            seen = bytes.len();
+        }
     }
     if size.max(bytes.len() as u64) > most {
         return Err(ErrorKind::FileTooLarge.into());

@@ -248,6 +248,9 @@ impl Plan {
     }
 }
 
+/// The most columns that a table may have, whose header may multiply what it asks for.
+pub(crate) const MOST_COLUMNS: usize = 10_000;
+
 /// The names of the columns that hold `count` values called `name` together.
 pub(crate) fn components(name: &str, count: u64) -> Vec<String> {
     let names = match (name.to_ascii_lowercase().as_str(), count) {

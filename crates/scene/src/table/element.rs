@@ -99,10 +99,15 @@ pub(crate) fn suggestion(text: &str) -> Option<&'static str> {
     {
         return Some(symbol);
     }
-    match text.len() {
-        0 => None,
+    let mut characters = text.chars();
+    match (characters.next(), characters.next(), characters.next()) {
+        (None, ..) | (Some(_), None, _) => None,
         // Any two letters are close to any one of them.
-        1 | 2 => symbols.find(|symbol| text.len() == 2 && symbol.eq_ignore_ascii_case(&text[..1])),
+        (Some(first), Some(_), None) => {
+            let mut letter = [0; 4];
+            let first = first.encode_utf8(&mut letter);
+            symbols.find(|symbol| symbol.eq_ignore_ascii_case(first))
+        }
         _ => closest(text, symbols),
     }
 }

@@ -7,7 +7,7 @@ use std::fmt::Display;
 use std::io::Read;
 
 use super::binary::{self, Kind, Layout};
-use super::columns::{Plan, components};
+use super::columns::{MOST_COLUMNS, Plan, components};
 use super::error::TableError;
 use super::python::Literal;
 use super::request::Request;
@@ -139,6 +139,10 @@ fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, LocatedFaul
             _ => return Err(no_field()),
         };
         let kind = self::kind(kind)?;
+        if count > (MOST_COLUMNS - kinds.len()) as u64 {
+            let expected = format!("at most {MOST_COLUMNS} values in a record");
+            return Err(fault(&expected, "more"));
+        }
         kinds.extend((0..count).map(|_| kind));
         names.extend(match (name.to_ascii_lowercase().as_str(), count) {
             ("center", 3) => components("position", count),

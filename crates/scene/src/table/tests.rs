@@ -255,3 +255,30 @@ fn reading_tells_how_far_it_is() {
         assert!((3..30).contains(&told.len()), "{}", told.len());
     }
 }
+
+/// What a header multiplies has a limit before memory is taken for it.
+#[test]
+fn headers_do_not_multiply() {
+    let fields: String = (0..11)
+        .map(|field| format!("('f{field}', '|V0', (1000,)), "))
+        .collect();
+    let header = format!("{{'descr': [{fields}], 'fortran_order': False, 'shape': (2,)}}");
+    let expected = "a.npy: expected at most 10000 values in a record, found more";
+    assert_eq!(refusal("a.npy", npy(&header, &[]), ""), expected);
+    let properties: Vec<String> = (0..11).map(|field| format!("f{field}:R:1000")).collect();
+    let text = format!("1\nProperties={}\nO 1 2 3\n", properties.join(":"));
+    let expected = "a.xyz:2:12: expected at most 10000 columns, found more";
+    assert_eq!(refusal("a.xyz", text, ""), expected);
+}
+
+/// Letters of two bytes are no elements, alone or beside others.
+#[test]
+fn elements_of_other_alphabets_are_refused() {
+    for name in ["\u{e9}", "\u{e9}C"] {
+        let message = refusal("a.xyz", format!("1\n\n{name} 1 2 3\n"), "");
+        assert!(message.starts_with("a.xyz:3:1: expected"), "{message}");
+        let csv = format!("element,x,y,z\n{name},1,2,3\n");
+        let message = refusal("a.csv", csv, "");
+        assert!(message.starts_with("a.csv:2:1: expected"), "{message}");
+    }
+}

@@ -3,7 +3,7 @@
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
-use super::columns::{Plan, components};
+use super::columns::{MOST_COLUMNS, Plan, components};
 use super::error::TableError;
 use super::lines::Lines;
 use super::request::Request;
@@ -67,17 +67,21 @@ fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LocatedFault> {
     let parts: Vec<&str> = text.split(':').collect();
     let mut names = Vec::new();
     for property in parts.chunks(3) {
-        const MOST_COLUMNS: u64 = 1000;
+        const MOST_OF_A_PROPERTY: u64 = 1000;
         let count = match property {
             [_, "S" | "R" | "I" | "L", count] => count.parse::<u64>().ok(),
             _ => None,
         };
-        let count = count.filter(|count| (1..=MOST_COLUMNS).contains(count));
+        let count = count.filter(|count| (1..=MOST_OF_A_PROPERTY).contains(count));
         let Some(count) = count else {
             let expected = "expected properties `name:type:columns`, of type S, R, I or L";
             let message = format!("{expected}, found {}", show(&property.join(":")));
             return Err(LocatedFault::in_line(2, comment, span, message));
         };
+        if count > (MOST_COLUMNS - names.len()) as u64 {
+            let message = format!("expected at most {MOST_COLUMNS} columns, found more");
+            return Err(LocatedFault::in_line(2, comment, span, message));
+        }
         names.extend(match (property[0], count) {
             // The atomic number, beside a species.
             ("z" | "Z", 1) => vec![String::from("atomic number")],

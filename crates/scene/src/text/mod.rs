@@ -15,6 +15,7 @@ pub(crate) use located::{LocatedFault, Place};
 pub(crate) use placed::{
     Placed, Read, optional, present, read_file, read_simple, read_structure, read_tuple,
 };
-pub(crate) use show::{quoted, show};
+pub use show::harmless;
+pub(crate) use show::{is_harmful, quoted, show};
 pub(crate) use slice::Slice;
 pub(crate) use suggest::{closest, did_you_mean, either, list};

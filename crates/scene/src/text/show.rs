@@ -6,11 +6,7 @@ pub(crate) fn show(text: &str) -> String {
     let mut shown = String::new();
     let mut characters = text.chars();
     for c in characters.by_ref().take(LONGEST) {
-        if c.is_control() || turns_text(c) {
-            shown.extend(c.escape_unicode());
-        } else {
-            shown.push(c);
-        }
+        push_harmless(&mut shown, c);
     }
     if characters.next().is_some() {
         shown.push('…');
@@ -23,6 +19,29 @@ pub(crate) fn show(text: &str) -> String {
     } else {
         format!("`{shown}`")
     }
+}
+
+/// A text, of a file or of a file's name, in which no character moves the cursor of a terminal, changes its colors or turns
+/// text around: such are written as `\u{1b}`.
+pub fn harmless(text: &str) -> String {
+    let mut shown = String::new();
+    for c in text.chars() {
+        push_harmless(&mut shown, c);
+    }
+    shown
+}
+
+fn push_harmless(shown: &mut String, c: char) {
+    if is_harmful(c) {
+        shown.extend(c.escape_unicode());
+    } else {
+        shown.push(c);
+    }
+}
+
+/// Returns whether a character does something to a terminal, but be shown.
+pub(crate) fn is_harmful(c: char) -> bool {
+    c.is_control() || turns_text(c)
 }
 
 /// A name in quotation marks, as a message shows it.

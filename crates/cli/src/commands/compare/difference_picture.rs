@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use super::pair::Pair;
-use super::statistics::Statistics;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::formats::encoding::Format;
 use crate::formats::exr::write::write_floats;
 use crate::formats::png::write::write_grey;
@@ -36,7 +36,7 @@ impl DifferencePicture {
             Some(Format::Apng | Format::Npy) | None => {
                 return Err(Failure::Usage(format!(
                     "--diff: expected a file name that ends in .png or .exr, found `{}`",
-                    path.display()
+                    path.shown()
                 )));
             }
         };
@@ -64,12 +64,7 @@ impl DifferencePicture {
         )
     }
 
-    pub(super) fn write(
-        &self,
-        pair: &Pair,
-        statistics: &Statistics,
-        tolerance: Option<f64>,
-    ) -> Result<(), Failure> {
+    pub(super) fn write(&self, pair: &Pair, tolerance: Option<f64>) -> Result<(), Failure> {
         let size = pair.size();
         if self.holds_floats {
             let channel = |&channel: &usize| {
@@ -82,8 +77,8 @@ impl DifferencePicture {
             return write_floats(size, channels, &self.path);
         }
         let middle = middle(tolerance);
-        let codes = statistics.differences.iter();
-        let codes: Vec<u8> = codes.map(|&size| code(size, middle)).collect();
+        let code = |(col, row)| code(pair.largest(&pair.differences(col, row)), middle);
+        let codes: Vec<u8> = size.places().map(code).collect();
         write_grey(size, &codes, &self.path)
     }
 }

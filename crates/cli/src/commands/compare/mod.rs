@@ -18,6 +18,7 @@ use self::report::Report;
 use self::statistics::Statistics;
 use super::args::CompareArguments;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::destination::{is_same, prepare};
 use crate::formats::load;
@@ -48,10 +49,10 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
     if size_a != size_b {
         return Err(Failure::Work(format!(
             "the pictures have different sizes: {} is {} x {}, {} is {} x {}",
-            a.display(),
+            a.shown(),
             size_a.width,
             size_a.height,
-            b.display(),
+            b.shown(),
             size_b.width,
             size_b.height
         )));
@@ -62,7 +63,7 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
 
     let statistics = Statistics::of(&pair, *tolerance, arguments.worst);
     if let Some(picture) = &difference_picture {
-        picture.write(&pair, &statistics, *tolerance)?;
+        picture.write(&pair, *tolerance)?;
     }
     if !arguments.quiet {
         let report = Report {
@@ -86,7 +87,7 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
 fn load(path: &Path, console: &Console) -> Result<Picture, Failure> {
     let picture = load::picture(path)?;
     if let Some(warning) = picture.warning {
-        console.warn(&format!("{}: {warning}", path.display()));
+        console.warn(&format!("{}: {warning}", path.shown()));
     }
     Ok(picture)
 }

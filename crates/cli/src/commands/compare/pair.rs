@@ -47,6 +47,13 @@ impl Pair {
         })
     }
 
+    /// The difference of a pixel that has these: the largest one of the channels that are compared.
+    pub(super) fn largest(&self, differences: &[f64; 4]) -> f64 {
+        let compared = self.channels().iter();
+        let compared = compared.map(|&channel| differences[channel]);
+        compared.fold(0.0, f64::max)
+    }
+
     /// The largest differences that the rounding of both files accounts for.
     pub(super) fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
         let (a, b) = (

@@ -7,6 +7,7 @@ use super::difference_picture::DifferencePicture;
 use super::pair::Pair;
 use super::statistics::{Difference, Statistics};
 use crate::base::numbers::{bound, bound_with, short};
+use crate::base::shown::Shown;
 use crate::base::size::Size;
 use crate::commands::args::CompareArguments;
 use crate::formats::picture::Picture;
@@ -33,14 +34,8 @@ impl Report<'_> {
             ..
         } = self;
         let mut rows = vec![
-            (
-                "A",
-                format!("{}: {}", arguments.a.display(), about(&pair.a)),
-            ),
-            (
-                "B",
-                format!("{}: {}", arguments.b.display(), about(&pair.b)),
-            ),
+            ("A", format!("{}: {}", arguments.a.shown(), about(&pair.a))),
+            ("B", format!("{}: {}", arguments.b.shown(), about(&pair.b))),
         ];
         let worst = statistics.worst.first();
         rows.push(("largest", self.largest(worst)));
@@ -70,7 +65,7 @@ impl Report<'_> {
         rows.extend(self.worst_pixels());
         if let Some(picture) = self.difference_picture {
             let scale = picture.scale(arguments.tolerance);
-            rows.push(("diff", format!("{}: {scale}", picture.path().display())));
+            rows.push(("diff", format!("{}: {scale}", picture.path().shown())));
         }
         rows.into_iter()
             .map(|(name, text)| format!("{name:NAMES$}{text}"))
@@ -104,7 +99,7 @@ impl Report<'_> {
 
     /// `12 of 360000 pixels, fraction 3.4e-05`.
     fn count(&self, count: u64) -> String {
-        let pixels = self.statistics.pixels();
+        let pixels = self.statistics.pixels;
         let fraction = bound(count as f64 / pixels as f64);
         format!("{count} of {pixels} pixels, fraction {fraction}")
     }

@@ -2,16 +2,19 @@
 //!
 //! The difference of a pixel is the largest one of its channels.
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
 use super::pair::Pair;
 
 /// The statistics of the differences of two pictures.
 #[derive(Debug)]
 pub(super) struct Statistics {
-    /// Row by row, the difference of every pixel; infinite where a value is no finite number.
-    pub(super) differences: Vec<f64>,
+    pub(super) pixels: u64,
     /// The root of the mean square over all channels of all pixels.
     pub(super) rms: f64,
-    /// The 99.9th percentile, see [`percentile`].
+    /// The 99.9th percentile by nearest rank: the least of the differences that at least 99.9 % of the pixels do not
+    /// exceed.
     pub(super) percentile: f64,
     /// Pixels over the tolerance; none where there is no tolerance.
     pub(super) over_tolerance: u64,
@@ -40,7 +43,7 @@ impl Statistics {
     pub(super) fn of(pair: &Pair, tolerance: Option<f64>, worst: usize) -> Self {
         let channels = pair.channels();
         let mut statistics = Self {
-            differences: Vec::with_capacity(pair.size().pixels() as usize),
+            pixels: pair.size().pixels(),
             rms: 0.0,
             percentile: 0.0,
             over_tolerance: 0,
@@ -51,11 +54,13 @@ impl Statistics {
             worst: Vec::new(),
         };
         let mut squares = 0.0;
-        for (col, row) in pair.size().places() {
+        let mut above = Largest::new(above_percentile(statistics.pixels));
+        let mut found = Largest::new(worst.max(1));
+        for ((col, row), index) in pair.size().places().zip(0..) {
             let differences = pair.differences(col, row);
-            let largest = channels.iter().map(|&channel| differences[channel]);
-            let largest = largest.fold(0.0, f64::max);
-            statistics.differences.push(largest);
+            let largest = pair.largest(&differences);
+            above.add(largest, index);
+            found.add(largest, index);
             if largest == 0.0 {
                 continue;
             }
@@ -75,22 +80,17 @@ impl Statistics {
                 statistics.first_not_finite.get_or_insert((col, row));
             }
         }
-        let count = statistics.differences.len() as f64 * channels.len() as f64;
+        let count = statistics.pixels as f64 * channels.len() as f64;
         statistics.rms = (squares / count).sqrt();
-        statistics.percentile = percentile(statistics.differences.clone());
-        statistics.worst = largest(&statistics.differences, worst.max(1))
-            .into_iter()
-            .map(|index| {
-                let width = pair.size().width as usize;
-                let (col, row) = ((index % width) as u32, (index / width) as u32);
-                worst_channel(pair, col, row)
-            })
-            .collect();
+        statistics.percentile = above.least();
+        let indices = found.indices().into_iter();
+        let width = u64::from(pair.size().width);
+        let worst = indices.map(|index| {
+            let (col, row) = ((index % width) as u32, (index / width) as u32);
+            worst_channel(pair, col, row)
+        });
+        statistics.worst = worst.collect();
         statistics
-    }
-
-    pub(super) fn pixels(&self) -> u64 {
-        self.differences.len() as u64
     }
 }
 
@@ -102,37 +102,55 @@ fn exceeds(difference: f64, rounding: f64) -> bool {
     difference > rounding * (1.0 + SLACK)
 }
 
-/// The 99.9th percentile by nearest rank: the least of the differences that at least 99.9 % of the
-/// pixels do not exceed.
-fn percentile(mut differences: Vec<f64>) -> f64 {
+/// The number of the differences of so many pixels that are not below the 99.9th percentile.
+fn above_percentile(pixels: u64) -> usize {
     /// One pixel of so many may lie above.
-    const ABOVE: usize = 1000;
-    let count = differences.len();
-    if count == 0 {
-        return 0.0;
-    }
-    let rank = count - count / ABOVE; // ⌈0.999 · count⌉
-    *differences
-        .select_nth_unstable_by(rank - 1, f64::total_cmp)
-        .1
+    const ABOVE: u64 = 1000;
+    (pixels / ABOVE + 1) as usize
 }
 
-/// The indices of the `most` largest differences, the largest first, equal ones in their order.
-/// Those without a difference are left out.
-fn largest(differences: &[f64], most: usize) -> Vec<usize> {
-    let mut indices: Vec<usize> = (0..differences.len())
-        .filter(|&index| differences[index] > 0.0)
-        .collect();
-    let order = |one: &usize, other: &usize| {
-        let larger = differences[*other].total_cmp(&differences[*one]);
-        larger.then(one.cmp(other))
-    };
-    if indices.len() > most {
-        indices.select_nth_unstable_by(most, order);
-        indices.truncate(most);
+/// The largest of some differences, of which all others are forgotten.
+#[derive(Debug)]
+struct Largest {
+    most: usize,
+    /// The bits of those, which have their order, and the indices, the first of equal ones the largest; the least is at
+    /// hand.
+    kept: BinaryHeap<Reverse<(u64, Reverse<u64>)>>,
+}
+
+impl Largest {
+    /// Keeps at most so many, at least one.
+    fn new(most: usize) -> Self {
+        Self {
+            most,
+            kept: BinaryHeap::new(),
+        }
     }
-    indices.sort_unstable_by(order);
-    indices
+
+    /// Takes the difference with this index, at least 0.
+    fn add(&mut self, difference: f64, index: u64) {
+        let new = (difference.to_bits(), Reverse(index));
+        if self.kept.len() < self.most {
+            self.kept.push(Reverse(new));
+        } else if let Some(mut least) = self.kept.peek_mut()
+            && new > least.0
+        {
+            *least = Reverse(new);
+        }
+    }
+
+    /// The least of those that are kept; 0 where there is none.
+    fn least(&self) -> f64 {
+        let least = self.kept.peek();
+        least.map_or(0.0, |Reverse((bits, _))| f64::from_bits(*bits))
+    }
+
+    /// The indices of those that are kept and above 0, the largest first, equal ones in their order.
+    fn indices(self) -> Vec<u64> {
+        let sorted = self.kept.into_sorted_vec().into_iter();
+        let above = sorted.filter(|Reverse((bits, _))| f64::from_bits(*bits) > 0.0);
+        above.map(|Reverse((_, Reverse(index)))| index).collect()
+    }
 }
 
 /// The first of the channels in which a pixel differs most.

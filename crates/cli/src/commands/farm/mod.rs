@@ -10,6 +10,7 @@ mod slurm;
 use self::job::Job;
 use super::args::{Engine, FarmArguments};
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::save::write_bytes;
 use crate::terminal::console::Console;
@@ -30,13 +31,14 @@ pub(crate) fn run(arguments: &FarmArguments, console: &Console) -> Result<u8, Fa
     };
     let tasks = job.tasks();
     match &arguments.job {
-        None => console.result(text.trim_end()),
+        // For a file: as it is.
+        None => console.print(&format!("{}\n", text.trim_end())),
         Some(path) => {
             write_bytes(text.as_bytes(), path)?;
             if !arguments.render.parsed.quiet {
                 console.result(&format!(
                     "{}: {} frames in {tasks} tasks",
-                    path.display(),
+                    path.shown(),
                     job.frames.len()
                 ));
             }

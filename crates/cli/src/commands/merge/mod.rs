@@ -9,16 +9,19 @@ use self::parts::Parts;
 use super::args::MergeArguments;
 use crate::base::failure::Failure;
 use crate::base::numbers::counted;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::destination::prepare;
 use crate::formats::encoding::Format;
 use crate::terminal::console::Console;
+use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, Failure> {
     let path = &arguments.output;
     let format = Format::of_file(path).ok_or_else(|| {
         Failure::unusable(path, "expected a file name that ends in .png, .exr or .npy")
     })?;
+    interrupt::listen(console);
     let mut parts = Parts::examine(&arguments.parts)?;
     let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
     prepare(path)?;
@@ -30,7 +33,7 @@ pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, F
     if !arguments.quiet {
         let pixels = whole.pixels();
         let parts = counted(arguments.parts.len() as u64, "part");
-        let path = path.display();
+        let path = path.shown();
         console.result(&format!("{path}: {pixels} pixels from {parts}"));
     }
     Ok(status::SUCCESS)

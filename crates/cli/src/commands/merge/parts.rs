@@ -8,6 +8,7 @@ use marbles_core::Window;
 
 use crate::base::failure::Failure;
 use crate::base::region::shown;
+use crate::base::shown::Shown;
 use crate::base::size::Size;
 use crate::formats::load::contents;
 use crate::formats::rows::{Kind, RowReader};
@@ -44,7 +45,7 @@ impl Parts {
             })?;
             let other = *found.get_or_insert((digest, region.whole));
             if other != (digest, region.whole) {
-                let first = paths[0].display();
+                let first = paths[0].shown();
                 let message = format!("not of the same scene, frame and settings as {first}");
                 return Err(Failure::unusable(path, &message));
             }
@@ -130,7 +131,7 @@ fn check_cover(parts: &[Part], whole: Size) -> Result<(), Failure> {
     for (index, part) in parts.iter().enumerate() {
         if let Some(other) = parts[..index].iter().find(|other| overlap(part, other)) {
             let [one, two] = [part, other].map(|part| shown(&part.window));
-            let other = other.path.display();
+            let other = other.path.shown();
             let message = format!("its region {one} overlaps that of {other}, {two}");
             return Err(Failure::unusable(&part.path, &message));
         }

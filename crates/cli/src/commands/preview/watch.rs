@@ -15,6 +15,7 @@ use marbles_scene::{Scene, SceneError};
 use super::picture::{Picture, render};
 use super::screen::{Area, Screen};
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::status;
 use crate::commands::args::PreviewArguments;
 use crate::commands::scene;
@@ -48,7 +49,7 @@ pub(super) fn run(
             Ok(Err(Cancelled)) => break,
             Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
         };
-        let scene = arguments.scene.display();
+        let scene = arguments.scene.shown();
         let status = format!("{scene}: shown again when it is saved; Ctrl-C ends");
         console.print(&(shown + &status_line(&status, screen.cells())));
         wait(&mut files, || screen.area(STATUS_LINES) != area);

@@ -25,6 +25,7 @@ use self::row::Row;
 use super::args::ReportArguments;
 use super::scene;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::size::Size;
 use crate::base::{memory, status, threads};
 use crate::files::destination::{is_same, prepare};
@@ -65,7 +66,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
 
     let report = Report {
         title: title(&arguments.scene, &view, &scene, pool.current_num_threads()),
-        scene: arguments.scene.display().to_string(),
+        scene: arguments.scene.shown(),
         threads: pool.current_num_threads(),
         view,
         rows: Row::all(&measurement.settings),
@@ -93,7 +94,7 @@ fn check_plot(path: &Path) -> Result<(), Failure> {
     }
     Err(Failure::Usage(format!(
         "--plot: expected a file name that ends in .svg, the one format of plots, found `{}`",
-        path.display()
+        path.shown()
     )))
 }
 

@@ -16,6 +16,7 @@ use self::row::{HEADER, write_row};
 use super::args::SpheresArguments;
 use super::scene;
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::{is_same, prepare};
 use crate::files::save::{Fault, Unwritten, save};
@@ -63,7 +64,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
     }
     if !arguments.quiet {
         let (spheres, frames) = (scene.world().spheres().len(), views.len());
-        let path = path.display();
+        let path = path.shown();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         console.result(&format!(
             "{path}: {spheres} sphere{} in {frames} frame{}",

@@ -89,7 +89,7 @@ fn many_claims_at_once_leave_one_owner_at_a_time() {
                     let path = destination.with_extension("claim");
                     if let Some(file) = create(&path).unwrap() {
                         assert_eq!(owners.fetch_add(1, Ordering::SeqCst), 0);
-                        assert!(is_at(&file, &path));
+                        assert!(is_at(&file, &path).unwrap());
                         claims.fetch_add(1, Ordering::SeqCst);
                         owners.fetch_sub(1, Ordering::SeqCst);
                         // Half of them die without cleaning up.

@@ -6,6 +6,7 @@ use png::{BitDepth, ColorType, Transformations};
 
 use super::curve::Curve;
 use super::decoder::decoder;
+use crate::base::memory;
 use crate::formats::picture::{Picture, Samples, check_memory};
 
 /// The codes of a file, and their light.
@@ -43,7 +44,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
     };
 
     let size = reader.output_buffer_size().ok_or("too large")?;
-    let mut codes = vec![0; size];
+    let mut codes = memory::reserve(size)?;
+    codes.resize(size, 0);
     reader
         .next_frame(&mut codes)
         .map_err(|error| error.to_string())?;

@@ -53,3 +53,20 @@ fn programs_get_messages_in_their_form() {
     ];
     assert_eq!(lines.collect::<Vec<Value>>(), expected);
 }
+
+#[test]
+fn names_and_contents_do_nothing_to_a_terminal() {
+    let (out, err) = (Text::default(), Text::default());
+    let console = Console::to(out.clone(), err.clone());
+    let evil = "a\u{1b}[31m\u{9b}1m\u{202e}b\tc\nd";
+    console.result(evil);
+    console.note(evil);
+    console.warn(evil);
+    console.failure(&Failure::Work(evil.to_owned()));
+    let shown = "a\\u{1b}[31m\\u{9b}1m\\u{202e}b\tc\nd\n";
+    assert_eq!(out.read(), shown);
+    assert_eq!(
+        err.read(),
+        format!("{shown}marbles: {shown}marbles: {shown}")
+    );
+}

@@ -17,9 +17,31 @@ fn files_are_read_up_to_a_limit() {
     assert!(message.ends_with(": expected a scene file of at most 1 GiB, found a larger one"));
 }
 
+#[test]
+fn what_is_no_text_is_read_up_to_there() {
+    let path = std::env::temp_dir().join(format!("marbles-{}-zero", std::process::id()));
+    for (bytes, place) in [
+        (
+            &b"(image\0 more"[..],
+            "1:7: expected text in UTF-8, found the byte 0x00",
+        ),
+        (
+            b"(\n\xff\0",
+            "2:1: expected text in UTF-8, found the byte 0xff",
+        ),
+    ] {
+        std::fs::write(&path, bytes).unwrap();
+        let message = Scene::load(&path).unwrap_err().to_string();
+        assert!(message.contains(place), "{message}");
+    }
+    std::fs::remove_file(&path).unwrap();
+}
+
 #[cfg(unix)]
 #[test]
-fn files_without_an_end_are_read_up_to_a_limit() {
-    let error = read_at_most(Path::new("/dev/zero"), 1000).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::FileTooLarge);
+fn files_without_an_end_are_read_up_to_their_first_zero() {
+    assert_eq!(
+        read_at_most(Path::new("/dev/zero"), LARGEST_FILE).unwrap(),
+        [0]
+    );
 }

@@ -45,6 +45,10 @@ fn labels_and_slips_are_recognized() {
         ("A", None),
         ("", None),
         ("\u{e4}\u{e4}", None),
+        // A letter of two bytes.
+        ("\u{e9}", None),
+        ("\u{e9}C", None),
+        ("C\u{e9}", Some("C")),
     ] {
         assert_eq!(suggestion(text), expected, "{text}");
     }

@@ -1,0 +1,48 @@
+//! Signals of the operating system.
+
+/// Calls `handle` for each signal that asks the process to end, from now on, in a thread of its own: SIGINT, SIGTERM and
+/// SIGHUP, but for those that were ignored when the process began, as `nohup` has it.
+///
+/// Where no handler can be installed, the signals end the process as they always do.
+#[cfg(unix)]
+pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+
+    let ignored = ignored();
+    let wanted = [SIGHUP, SIGINT, SIGTERM].into_iter();
+    let wanted = wanted.filter(|signal| ignored >> (signal - 1) & 1 == 0);
+    if let Ok(mut signals) = signal_hook::iterator::Signals::new(wanted) {
+        // Where no thread can be had, the handlers stay without an effect; what is written is complete all the same.
+        let _ = std::thread::Builder::new().spawn(move || {
+            for _ in signals.forever() {
+                handle();
+            }
+        });
+    }
+}
+
+/// The same where there are no signals but that of Ctrl-C.
+#[cfg(not(unix))]
+pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
+    let _ = ctrlc::set_handler(handle);
+}
+
+/// Lets writing beyond the limit of a file's size fail, instead of ending the process.
+pub(crate) fn outlive_file_limits() {
+    #[cfg(unix)]
+    {
+        let exceeded = std::sync::Arc::default();
+        // Without a handler the process ends there as it always did.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, exceeded);
+    }
+}
+
+/// The ignored signals as bits, that of the signal 1 the lowest; none where the system does not tell.
+#[cfg(unix)]
+fn ignored() -> u64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mut lines = status.lines();
+    let bits = lines.find_map(|line| line.strip_prefix("SigIgn:"));
+    bits.and_then(|bits| u64::from_str_radix(bits.trim(), 16).ok())
+        .unwrap_or(0)
+}

@@ -1,0 +1,130 @@
+//! What the system takes away: descriptors, room in files, signals.
+
+use std::process::{Command, Output, Stdio};
+
+use crate::folder::{Folder, assert_complete, code, is_picture, text};
+use crate::signals::{signal, wait_until};
+
+/// Runs `marbles` in a shell that does something before.
+fn after(folder: &Folder, before: &str, arguments: &str) -> Command {
+    let marbles = folder.marbles(arguments);
+    let mut command = Command::new("sh");
+    command
+        .args(["-c", &format!("{before}; exec \"$@\""), "sh"])
+        .arg(marbles.get_program())
+        .args(marbles.get_args())
+        .current_dir(&folder.0);
+    command
+}
+
+fn run(folder: &Folder, before: &str, arguments: &str) -> Output {
+    after(folder, before, arguments).output().unwrap()
+}
+
+/// Asserts that there are whole pictures alone; returns their number.
+fn whole_pictures(folder: &Folder, name: &str) -> usize {
+    let names = folder.names(name);
+    for picture in &names {
+        assert!(is_picture(picture), "{picture}");
+        assert_complete(&folder.path(name).join(picture));
+    }
+    names.len()
+}
+
+#[test]
+fn without_descriptors_nothing_is_left_behind() {
+    let mut failed = 0;
+    for limit in 4..=20 {
+        let folder = Folder::new();
+        let arguments = "render ball.ron -o out/#.png --frames 1-5 --size 9x9 --samples 1 -q";
+        let output = run(&folder, &format!("ulimit -n {limit}"), arguments);
+        let errors = text(&output.stderr);
+        let expected = i32::from(!errors.is_empty());
+        assert_eq!(code(&output), expected, "{limit}: {errors}");
+        if expected == 1 {
+            failed += 1;
+            assert!(errors.contains("too many open files"), "{limit}: {errors}");
+        }
+        let written = whole_pictures(&folder, "out");
+        assert!(expected == 1 || written == 5, "{limit}: {written}");
+    }
+    assert!(failed > 0, "no limit was low enough");
+}
+
+#[test]
+fn a_file_that_may_not_grow_is_an_error() {
+    let folder = Folder::new();
+    for arguments in [
+        "render ball.ron -o out/a.npy --size 200x200 --samples 1",
+        "render ball.ron -o out/a.exr --size 400x400 --samples 1 --float",
+        "new out/scene.ron",
+    ] {
+        // In blocks of 512 or of 1024 bytes.
+        let limit = if arguments.starts_with("new") { 0 } else { 8 };
+        let output = run(&folder, &format!("ulimit -f {limit}"), arguments);
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), 1, "{arguments}: {errors}");
+        assert!(errors.contains("file too large"), "{arguments}: {errors}");
+        assert!(!folder.path("out").exists() || folder.names("out").is_empty());
+    }
+}
+
+#[test]
+fn signals_that_are_ignored_at_the_start_stay_ignored() {
+    let folder = Folder::new();
+    let arguments = "render ball.ron -o out/#.png --frames 1-40 --size 60x60 --samples 12";
+    for (before, ignored) in [("trap '' HUP", "HUP"), ("trap '' INT", "INT")] {
+        let mut child = after(&folder, before, arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        wait_until("a picture", || {
+            folder.path("out").exists() && !folder.names("out").is_empty()
+        });
+        signal(ignored, &child);
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{ignored}");
+        assert_eq!(whole_pictures(&folder, "out"), 40);
+        std::fs::remove_dir_all(folder.path("out")).unwrap();
+    }
+    // Without that, they end it.
+    for sent in ["HUP", "TERM"] {
+        let mut child = after(&folder, "true", &arguments.replace("1-40", "1-4000"))
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        wait_until("a picture", || {
+            folder.path("out").exists() && !folder.names("out").is_empty()
+        });
+        signal(sent, &child);
+        assert_eq!(child.wait().unwrap().code(), Some(130), "{sent}");
+        whole_pictures(&folder, "out");
+        std::fs::remove_dir_all(folder.path("out")).unwrap();
+    }
+}
+
+#[test]
+fn a_merge_that_is_ended_leaves_nothing() {
+    let folder = Folder::new();
+    for (name, region) in [("a", "0,0,3000,1500"), ("b", "0,1500,3000,1500")] {
+        let arguments = format!(
+            "render ball.ron -o {name}.exr --float --samples 1 --size 3000x3000 --region {region}"
+        );
+        let output = folder.run(&arguments);
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    }
+    let mut child = folder
+        .marbles("merge o.exr a.exr b.exr")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_until("a temporary file", || {
+        folder.path("o.exr.tmp").exists() || folder.path("o.exr").exists()
+    });
+    signal("TERM", &child);
+    let code = child.wait().unwrap().code();
+    assert!(matches!(code, Some(0 | 130)), "{code:?}");
+    assert!(!folder.path("o.exr.tmp").exists());
+}
