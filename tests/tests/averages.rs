@@ -187,11 +187,9 @@ fn averages_are_those_of_many_rays() {
         for row in 0..many.height {
             let first = (row / RAYS * SIDE) as usize;
             let place = |col: usize| first + col / RAYS as usize;
-            for axis in 0..3 {
-                let values = rays.values(Quantity::Normal, axis, row).unwrap();
-                for (col, value) in values.enumerate() {
-                    normals[place(col)][axis] += value;
-                }
+            let [x, y, z] = [0, 1, 2].map(|axis| rays.values(Quantity::Normal, axis, row).unwrap());
+            for (col, ((x, y), z)) in x.zip(y).zip(z).enumerate() {
+                normals[place(col)] += DVec3::new(x, y, z);
             }
             for (col, id) in rays.ids(row).enumerate() {
                 if id != Geometry::NOTHING {

@@ -18,6 +18,7 @@ use crate::files::save::{Fault, Unwritten, write_bytes};
 use crate::formats::encoding::Encoding;
 use crate::formats::facts::Facts;
 use crate::formats::sidecar::{self, Sidecar};
+use crate::terminal::lines::Frame;
 
 /// Writes pictures as they come, each to its file.
 pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
@@ -29,7 +30,14 @@ pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> O
             Ok((summary, clipped, time)) => {
                 outcome.add(summary, clipped, time);
                 let skipped = pipeline.skipped.load(Ordering::Relaxed);
-                pipeline.progress.written(frame, outcome.written, skipped);
+                let written = Frame {
+                    number: frame,
+                    path: &path,
+                    time,
+                    summary: &summary,
+                };
+                let progress = &pipeline.progress;
+                progress.written(&written, outcome.written, skipped);
             }
             Err(Unwritten::Stopped) => break,
             Err(Unwritten::Failed(failure)) => {
@@ -152,7 +160,13 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
         let Finished { results, time } = order.finished.recv().ok()?;
         let summary = results.summary?;
         outcome.add(summary, results.clipped, time);
-        progress.written(frame, outcome.written, 0);
+        let written = Frame {
+            number: frame,
+            path: &path,
+            time,
+            summary: &summary,
+        };
+        progress.written(&written, outcome.written, 0);
         if summary.over_tolerance > 0 {
             let shown = format!("{shown}: frame {frame}");
             let count = summary.over_tolerance;

@@ -1,14 +1,19 @@
 //! Progress as lines, for logs and for programs.
 
+use std::borrow::Cow;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use marbles_core::Summary;
+use serde::Serialize;
+
 use super::console::{Console, Reader};
 use crate::base::numbers;
 
-/// The time that a log stays silent while a frame takes long.
-const SILENCE: Duration = Duration::from_secs(30);
+/// The time that passes at least before a log tells people anything again: results have lines of their own.
+const SILENCE: Duration = Duration::from_secs(5);
 
 /// Counts what is done, and says so.
 pub(super) struct Lines<'a> {
@@ -20,6 +25,51 @@ pub(super) struct Lines<'a> {
     rendered: AtomicU64,
     left_out: AtomicU64,
     told: Mutex<Told>,
+    /// The time that passes at least between lines for people.
+    silence: Duration,
+}
+
+/// A frame that is complete.
+pub(crate) struct Frame<'a> {
+    pub(crate) number: i32,
+    /// Its file, which all frames of an animation share.
+    pub(crate) path: &'a Path,
+    /// The time that rendering it took.
+    pub(crate) time: Duration,
+    pub(crate) summary: &'a Summary,
+}
+
+impl Frame<'_> {
+    /// The object in JSON that tells it.
+    fn event(&self, done: u64, frames: u64) -> String {
+        let error = self.summary.largest_error;
+        let event = Event {
+            event: "frame",
+            frame: self.number,
+            path: self.path.to_string_lossy(),
+            seconds: self.time.as_secs_f64(),
+            error: error.is_finite().then_some(error),
+            over: self.summary.over_tolerance,
+            done,
+            frames,
+        };
+        // Numbers and texts can be told.
+        serde_json::to_string(&event).unwrap_or_default()
+    }
+}
+
+/// What programs read about a frame.
+#[derive(Serialize)]
+struct Event<'a> {
+    event: &'static str,
+    frame: i32,
+    path: Cow<'a, str>,
+    seconds: f64,
+    /// Nothing where it is unknown.
+    error: Option<f64>,
+    over: u64,
+    done: u64,
+    frames: u64,
 }
 
 /// The last line.
@@ -43,6 +93,7 @@ impl<'a> Lines<'a> {
                 percent: 0,
                 at: started,
             }),
+            silence: SILENCE,
         }
     }
 
@@ -63,7 +114,7 @@ impl<'a> Lines<'a> {
         let rendered = before + pixels;
         let percent = self.percent(rendered);
         let silence = match self.console.reader() {
-            Reader::People => SILENCE,
+            Reader::People => self.silence,
             Reader::Json | Reader::OpenJd => Duration::ZERO,
         };
         // Lines come in order because no thread prints without this lock.
@@ -75,22 +126,18 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A frame's file is complete, and so many were written and skipped until now.
-    pub(super) fn written(&self, frame: i32, written: u64, skipped: u64) {
-        let frames = self.frames;
+    /// A frame is complete, and so many were written and skipped until now.
+    pub(super) fn written(&self, frame: &Frame<'_>, written: u64, skipped: u64) {
         let done = written + skipped;
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
         match self.console.reader() {
-            // The line of results says it all.
-            Reader::People if frames == 1 => {}
-            Reader::People => self.console.note(&self.story(frame, written, done)),
+            Reader::People if told.at.elapsed() < self.silence => return,
+            Reader::People => self.console.note(&self.story(frame.number, written, done)),
             Reader::OpenJd => {
-                let story = self.story(frame, written, done);
+                let story = self.story(frame.number, written, done);
                 self.console.result(&format!("openjd_status: {story}"));
             }
-            Reader::Json => self.console.note(&format!(
-                r#"{{"event":"frame","frame":{frame},"done":{done},"frames":{frames}}}"#
-            )),
+            Reader::Json => self.console.note(&frame.event(done, self.frames)),
         }
         told.at = Instant::now();
     }

@@ -4,6 +4,6 @@ pub(crate) mod alternate_screen;
 pub(crate) mod bar;
 pub(crate) mod console;
 pub(crate) mod interrupt;
-mod lines;
+pub(crate) mod lines;
 pub(crate) mod progress;
 pub(crate) mod signals;

@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 
 use super::bar::{bar, show_line, style};
 use super::console::{Console, Reader};
-use super::lines::Lines;
+use super::lines::{Frame, Lines};
 use crate::base::failure::Failure;
 
 /// A form of progress, for people or programs.
@@ -18,7 +18,7 @@ pub(crate) enum ProgressForm {
     OpenJd,
     /// Lines on stderr, each an object in JSON
     Json,
-    /// A line on stderr for each frame, or now and then
+    /// A line on stderr every five seconds at most
     Plain,
     /// Nothing
     None,
@@ -127,8 +127,8 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame's file is complete, and so many were written and skipped until now.
-    pub(crate) fn written(&self, frame: i32, written: u64, skipped: u64) {
+    /// A frame is complete, and so many were written and skipped until now.
+    pub(crate) fn written(&self, frame: &Frame<'_>, written: u64, skipped: u64) {
         if let Display::Lines(lines) = &self.display {
             lines.written(frame, written, skipped);
         }

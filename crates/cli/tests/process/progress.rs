@@ -101,6 +101,11 @@ fn programs_read_json_on_stderr() {
         .filter_map(|event| event["frame"].as_i64())
         .collect();
     assert_eq!(frames, [1, 2, 3]);
+    for (event, path) in named("frame").zip(["1.png", "2.png", "3.png"]) {
+        assert_eq!((&event["path"], &event["over"]), (&path.into(), &0.into()));
+        assert!(event["seconds"].as_f64().is_some_and(|time| time >= 0.0));
+        assert!(event["error"].as_f64().is_some_and(|error| error <= 1e-3));
+    }
     assert_eq!(named("progress").next_back().unwrap()["percent"], 100);
 
     let (results, errors) = events("render no.ron");
@@ -117,12 +122,14 @@ fn lines_for_people_are_not_for_programs() {
         assert_eq!(code(&output), 0);
         text(&output.stderr)
     };
-    for form in ["", "--progress=plain", "--progress=plain --quiet"] {
-        let lines = stderr(form);
-        assert_eq!(lines.lines().count(), 3, "{form}: {lines}");
-        assert!(lines.ends_with("\nframe 3: 3 of 3 done\n"), "{lines}");
-    }
-    for form in ["--progress=none", "--quiet"] {
+    // Before five seconds are over nothing is told but results.
+    for form in [
+        "",
+        "--progress=plain",
+        "--progress=plain --quiet",
+        "--progress=none",
+        "--quiet",
+    ] {
         assert_eq!(stderr(form), "", "{form}");
     }
 }

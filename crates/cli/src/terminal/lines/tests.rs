@@ -3,24 +3,41 @@ use serde_json::{Value, json};
 use super::*;
 use crate::terminal::console::tests::Text;
 
+/// A frame with this number.
+fn frame(number: i32) -> Frame<'static> {
+    const SUMMARY: Summary = Summary {
+        pixels: 50,
+        largest_error: 1e-3,
+        bounds: 7,
+        over_tolerance: 2,
+    };
+    Frame {
+        number,
+        path: Path::new("a\u{9b}.png"),
+        time: Duration::from_millis(250),
+        summary: &SUMMARY,
+    }
+}
+
 /// The texts on stdout and on stderr while three frames are rendered and one is left out.
 fn tell(reader: Reader) -> (String, String) {
     let (out, err) = (Text::default(), Text::default());
     let console = Console::to(out.clone(), err.clone());
     console.speak_to(reader);
-    let lines = Lines::new(&console, 4);
+    let mut lines = Lines::new(&console, 4);
+    lines.silence = Duration::ZERO;
     lines.begin(50);
     lines.advance(1);
     lines.advance(49);
-    lines.written(7, 1, 0);
+    lines.written(&frame(7), 1, 0);
     lines.leave_out();
     lines.begin(50);
     lines.advance(50);
     lines.begin(50);
-    lines.written(9, 1, 1);
+    lines.written(&frame(9), 1, 1);
     lines.advance(49);
     lines.advance(1);
-    lines.written(-10, 2, 1);
+    lines.written(&frame(-10), 2, 1);
     (out.read(), err.read())
 }
 
@@ -35,9 +52,30 @@ fn timeless(text: &str) -> Vec<&str> {
 fn people_read_a_line_for_each_frame() {
     let (out, err) = tell(Reader::People);
     assert_eq!(out, "");
-    let expected = ["frame 7: 1 of 4", "frame 9: 2 of 4", "frame -10: 3 of 4"];
+    let expected = [
+        "25%",
+        "frame 7: 1 of 4",
+        "50%",
+        "75%",
+        "frame 9: 2 of 4",
+        "99%",
+        "100%",
+        "frame -10: 3 of 4",
+    ];
     assert_eq!(timeless(&err), expected);
     assert!(!err.contains(|letter: char| letter.is_control() && letter != '\n'));
+}
+
+/// Results have lines of their own, and most runs are over sooner.
+#[test]
+fn people_read_nothing_in_the_first_seconds() {
+    let err = Text::default();
+    let console = Console::to(Text::default(), err.clone());
+    let lines = Lines::new(&console, 2);
+    lines.begin(50);
+    lines.advance(50);
+    lines.written(&frame(1), 1, 0);
+    assert_eq!(err.read(), "");
 }
 
 #[test]
@@ -68,7 +106,12 @@ fn programs_read_an_object_a_line() {
         event
     });
     let percent = |percent: u64| json!({ "event": "progress", "percent": percent });
-    let frame = |frame: i32, done: u64| json!({ "event": "frame", "frame": frame, "done": done, "frames": 4 });
+    let frame = |frame: i32, done: u64| {
+        json!({
+            "event": "frame", "frame": frame, "path": "a\u{9b}.png", "seconds": 0.25, "error": 1e-3, "over": 2,
+            "done": done, "frames": 4
+        })
+    };
     let expected = [
         percent(25),
         frame(7, 1),
