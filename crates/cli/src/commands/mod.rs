@@ -6,6 +6,7 @@ pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod dataset;
 pub(crate) mod farm;
+mod inputs;
 pub(crate) mod man;
 pub(crate) mod merge;
 pub(crate) mod new;

@@ -1,18 +1,19 @@
 //! `marbles render`: the frames of a scene, one file each.
 
-use std::ffi::OsStr;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use marbles_core::{Method, Settings};
 use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
+use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::{status, threads};
-use crate::files::destination::{is_same, prepare};
+use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
 use crate::formats::encoding::{Encoding, ExrOptions, Format, NpyOptions, PngOptions};
+use crate::formats::npy::files::names_beside;
 use crate::formats::sidecar;
 use crate::sequence::frames::{FRAME_OF_A_STILL, FrameList, frames_of};
 use crate::sequence::layers::LightLayer;
@@ -83,9 +84,6 @@ pub(super) fn request(
             arguments.tolerance,
         )
     });
-    if arguments.sidecar {
-        check_sidecars(&pattern, &frames, &arguments.scene)?;
-    }
     let names = &scene.description().lights;
     let (parts, layers) = match arguments.per_light {
         Some(PerLight::Files) => (PicturePart::each(scene.world(), names), Ok(Vec::new())),
@@ -99,7 +97,7 @@ pub(super) fn request(
         parts.map_err(Failure::Usage)?,
         layers.map_err(Failure::Usage)?,
     );
-    Ok(Request {
+    let request = Request {
         size: arguments.size,
         window: arguments.region,
         settings: Settings {
@@ -121,7 +119,9 @@ pub(super) fn request(
         sidecar: arguments.sidecar,
         skip_existing: arguments.skip_existing,
         fail_fast: arguments.fail_fast,
-    })
+    };
+    check_outputs(&request)?;
+    Ok(request)
 }
 
 /// Refuses names that are too many or too few for the frames.
@@ -149,17 +149,22 @@ fn check_names(
     Ok(())
 }
 
-/// Refuses a sidecar in the place of the scene.
-fn check_sidecars(pattern: &Pattern, frames: &FrameList, scene: &Path) -> Result<(), Failure> {
-    let is_scene = |frame| is_same(&sidecar::beside(&pattern.path(frame)), scene);
-    let may_be = scene.extension() == Some(OsStr::new("json"));
-    match may_be && frames.iter().any(is_scene) {
-        true => Err(Failure::unusable(
-            scene,
-            "the sidecar would replace the scene",
-        )),
-        false => Ok(()),
-    }
+/// Refuses to replace the scene or its tables by pictures, or by what lies beside them.
+fn check_outputs(request: &Request) -> Result<(), Failure> {
+    let beside = |picture: PathBuf| {
+        let sidecar = request.sidecar.then(|| sidecar::beside(&picture));
+        let arrays = match request.encoding {
+            Encoding::Npy(options) => names_beside(&picture, options, request.centers.is_some()),
+            _ => Vec::new(),
+        };
+        arrays.into_iter().chain(sidecar).chain([picture])
+    };
+    let pictures = request.frames.iter().flat_map(|frame| {
+        let parts = 0..request.parts.len();
+        parts.map(move |part| request.path(frame, part))
+    });
+    let inputs = Inputs::of(&request.scene_path, &request.scene);
+    inputs.refuse(pictures.flat_map(beside))
 }
 
 /// The options of the format; those of others are refused.

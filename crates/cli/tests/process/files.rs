@@ -202,3 +202,44 @@ fn names_and_contents_are_shown_harmless() {
         assert_eq!(said.chars().find(harmful), None, "{said:?}");
     }
 }
+
+/// Neither the scene nor its tables, whatever they are called, and by whatever links they are reached.
+#[test]
+#[cfg(unix)]
+fn no_output_replaces_an_input() {
+    let folder = Folder::new();
+    let cloud = "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(), clouds: [(file: \"a_id.npy\")])";
+    let mut array = b"\x93NUMPY\x01\x00".to_vec();
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 4)}";
+    array.extend((header.len() as u16).to_le_bytes());
+    array.extend(header.as_bytes());
+    array.extend([0.0_f64, 0.0, 5.0, 1.0].map(f64::to_le_bytes).concat());
+    fs::write(folder.path("scene.png"), cloud).unwrap();
+    fs::write(folder.path("a_id.npy"), &array).unwrap();
+    std::os::unix::fs::symlink("a_id.npy", folder.path("link.7.npy")).unwrap();
+    for (output, is_refused) in [
+        ("render scene.png -o ./scene.png", true),
+        ("render scene.png -o a_id.npy", true),
+        ("render scene.png -o link.#.npy --frames 5-9", true),
+        ("render scene.png -o a.npy --channels id", true),
+        ("render scene.png -o a.npy", false),
+        ("spheres scene.png -o scene.png", true),
+        ("report scene.png --runs 1 --csv a_id.npy", true),
+    ] {
+        let output = (output, folder.run(output));
+        let errors = text(&output.1.stderr);
+        assert_eq!(
+            code(&output.1),
+            if is_refused { 2 } else { 0 },
+            "{}: {errors}",
+            output.0
+        );
+        assert_eq!(
+            errors.contains("would replace the scene"),
+            is_refused,
+            "{errors}"
+        );
+    }
+    assert_eq!(folder.read("a_id.npy"), array);
+    assert_eq!(folder.read("scene.png"), cloud.as_bytes());
+}

@@ -72,7 +72,7 @@ fn exit_codes_tell_what_happened() {
         (
             "ball.ron --csv ./ball.ron",
             2,
-            "./ball.ron: --csv would overwrite the scene",
+            "./ball.ron: the output would replace the scene",
         ),
         (
             "ball.ron --csv a.svg --plot a.svg",

@@ -127,7 +127,7 @@ fn sidecars_that_cannot_be_are_refused() {
         ),
         (
             "render ball.json --sidecar",
-            "marbles: ball.json: the sidecar would replace the scene\n",
+            "marbles: ball.json: the output would replace the scene, or a table that it names\n",
         ),
         (
             "check ball.ron --json --frame 3",

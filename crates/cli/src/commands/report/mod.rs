@@ -23,6 +23,7 @@ use self::progress::Progress;
 use self::results::{Report, title};
 use self::row::Row;
 use super::args::ReportArguments;
+use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
@@ -40,10 +41,12 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
     // What cannot be written is refused before the long work.
+    let outputs = || arguments.csv.iter().chain(&arguments.plot);
+    Inputs::of(&arguments.scene, &scene).refuse(outputs().cloned())?;
     check_files(arguments)?;
     let pool = threads::start(arguments.threads)?;
     interrupt::listen(console);
-    for path in arguments.csv.iter().chain(&arguments.plot) {
+    for path in outputs() {
         prepare(path)?;
     }
     check_memory(Size::of(&view), Channels::of(scene.world(), false))?;
@@ -98,20 +101,9 @@ fn check_plot(path: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// Refuses files that would take the place of the scene or of each other.
+/// Refuses files that would take the place of each other.
 fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
-    let ReportArguments {
-        scene, csv, plot, ..
-    } = arguments;
-    for (option, path) in [("--csv", csv), ("--plot", plot)] {
-        if let Some(path) = path
-            && is_same(path, scene)
-        {
-            let why = format!("{option} would overwrite the scene");
-            return Err(Failure::unusable(path, &why));
-        }
-    }
-    if let (Some(csv), Some(plot)) = (csv, plot)
+    if let (Some(csv), Some(plot)) = (&arguments.csv, &arguments.plot)
         && is_same(csv, plot)
     {
         let why = "--csv and --plot name the same file";

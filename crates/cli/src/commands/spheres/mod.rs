@@ -14,11 +14,12 @@ use rayon::ThreadPool;
 
 use self::row::{HEADER, write_row};
 use super::args::SpheresArguments;
+use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
-use crate::files::destination::{is_same, prepare};
+use crate::files::destination::prepare;
 use crate::files::save::{Fault, Unwritten, save};
 use crate::sequence::frames::{FrameList, frames_of};
 use crate::terminal::console::Console;
@@ -29,12 +30,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
     let scene = pool.install(|| scene::load(&arguments.scene, console, arguments.quiet))?;
     let path = arguments.output.clone();
     let path = path.unwrap_or_else(|| named_after(&arguments.scene));
-    if is_same(&path, &arguments.scene) {
-        return Err(Failure::unusable(
-            &path,
-            "the table would overwrite the scene",
-        ));
-    }
+    Inputs::of(&arguments.scene, &scene).refuse([path.clone()])?;
     let frames = arguments.frames.clone();
     let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
     let views = views(&scene, &frames, arguments)?;

@@ -117,7 +117,7 @@ fn wrong_frames_and_the_scene_as_output_are_refused() {
     );
     let (code, _, err) = run_here(&["spheres", name, "-o", name]);
     assert_eq!(code, status::REFUSED);
-    assert!(err.contains("would overwrite the scene"), "{err}");
+    assert!(err.contains("would replace the scene"), "{err}");
     assert_eq!(fs::read_to_string(&path).unwrap(), SCENE);
     fs::remove_file(&path).unwrap();
 }

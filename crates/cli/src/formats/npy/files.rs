@@ -234,6 +234,14 @@ fn put_indices(numbers: &mut [u8], ids: impl Iterator<Item = u32>) {
     }
 }
 
+/// The files that may lie beside that of the light at `path`, with these options.
+pub(crate) fn names_beside(path: &Path, options: NpyOptions, has_centers: bool) -> Vec<PathBuf> {
+    let errors = [ERROR].into_iter().filter(|_| options.error);
+    let centers = [CHANNELS, ID, COVERAGE_ID].into_iter();
+    let names = errors.chain(centers.filter(|_| has_centers));
+    names.map(|suffix| beside(path, suffix)).collect()
+}
+
 /// The path of a file beside that of the light.
 fn beside(path: &Path, suffix: &str) -> PathBuf {
     if suffix.is_empty() {
