@@ -49,12 +49,13 @@ impl Failure {
 
 /// The words of the operating system, in our manner.
 pub(crate) fn reason(error: &io::Error) -> String {
-    let reason = error.to_string();
-    // The number in "No such file or directory (os error 2)" helps nobody.
-    let reason = reason
-        .rsplit_once(" (os error")
-        .map_or(&*reason, |(reason, _)| reason);
-    lower(reason)
+    without_number(&error.to_string())
+}
+
+/// A message of the operating system in our manner: the number in "No such file or directory (os error 2)" helps nobody.
+pub(crate) fn without_number(message: &str) -> String {
+    let end = message.rfind(" (os error").unwrap_or(message.len());
+    lower(&message[..end])
 }
 
 /// A message of others in our manner, without a capital letter at the start.

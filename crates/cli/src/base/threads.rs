@@ -1,16 +1,36 @@
 //! The threads that render.
 
+use std::thread::available_parallelism;
+
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use super::failure::{Failure, lower};
+use super::failure::{Failure, without_number};
+use super::memory;
 
-/// Starts `count` threads, or one per core.
+/// The fewest that are started where as many are asked for, and how many more there may be than processors: more only
+/// wait for each other.
+const ENOUGH: usize = 64;
+const MOST_ON_A_PROCESSOR: usize = 4;
+
+/// Addresses that a thread needs at once, more than its stack has.
+const ADDRESSES: u64 = 1 << 22;
+
+/// Starts `count` threads, but no more than have any use, or one per core.
 pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
+    let processors = available_parallelism().map_or(1, usize::from);
+    let most = ENOUGH.max(processors.saturating_mul(MOST_ON_A_PROCESSOR));
+    let count = count.map_or(processors, |count| count.min(most));
+    let refused = |reason: &str| {
+        Failure::Work(format!(
+            "cannot start {count} threads that render: {reason}"
+        ))
+    };
+    // The standard library ends the process where a thread has memory for its stack, but not for more.
+    if !memory::is_available(count as u64 * ADDRESSES) {
+        return Err(refused("there is no memory for them"));
+    }
     ThreadPoolBuilder::new()
-        .num_threads(count.unwrap_or_default())
+        .num_threads(count)
         .build()
-        .map_err(|error| {
-            let reason = lower(&error.to_string());
-            Failure::Work(format!("cannot start the threads that render: {reason}"))
-        })
+        .map_err(|error| refused(&without_number(&error.to_string())))
 }

@@ -128,3 +128,21 @@ fn a_merge_that_is_ended_leaves_nothing() {
     assert!(matches!(code, Some(0 | 130)), "{code:?}");
     assert!(!folder.path("o.exr.tmp").exists());
 }
+
+/// However many threads are asked for, there are as many as have a use, or an error.
+#[test]
+fn threads_without_memory_are_an_error() {
+    let folder = Folder::new();
+    let mut codes = Vec::new();
+    for kilobytes in (100_000..8_000_000).step_by(390_000) {
+        let arguments = "render ball.ron -o a.png --size 64x64 --samples 1 --threads 1024";
+        let output = run(&folder, &format!("ulimit -v {kilobytes}"), arguments);
+        let errors = text(&output.stderr);
+        let code = output.status.code();
+        assert!(matches!(code, Some(0 | 1)), "{kilobytes}: {errors}");
+        let refused = errors.contains("cannot start 64 threads") || errors.contains(" memory");
+        assert_eq!(code == Some(1), refused, "{kilobytes}: {errors}");
+        codes.push(code);
+    }
+    assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
+}
