@@ -9,7 +9,7 @@ use blake3::Hash;
 
 use super::picture::Picture;
 use super::{exr, npy, png};
-use crate::base::failure::{Failure, lower};
+use crate::base::failure::{Failure, lower, reason};
 use crate::base::region::Region;
 
 /// The first bytes of every PNG.
@@ -32,7 +32,7 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
         ErrorKind::OutOfMemory => refused("there is no memory to read this file"),
-        _ => refused(&lower(&error.to_string())),
+        _ => refused(&reason(&error)),
     })?;
     decode(&bytes).map_err(|reason| refused(&reason))
 }

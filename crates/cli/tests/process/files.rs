@@ -243,3 +243,25 @@ fn no_output_replaces_an_input() {
     assert_eq!(folder.read("a_id.npy"), array);
     assert_eq!(folder.read("scene.png"), cloud.as_bytes());
 }
+
+/// What the system says is told in our manner, without its number.
+#[test]
+#[cfg(unix)]
+fn links_in_a_circle_are_told() {
+    let folder = Folder::new();
+    for (link, target) in [("a.csv", "b.csv"), ("b.csv", "a.csv")] {
+        std::os::unix::fs::symlink(target, folder.path(link)).unwrap();
+    }
+    let scene = "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(), clouds: [(file: \"a.csv\")])";
+    fs::write(folder.path("scene.ron"), scene).unwrap();
+    for arguments in ["check a.csv", "check scene.ron", "compare a.csv a.csv"] {
+        let output = folder.run(arguments);
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), 2, "{errors}");
+        assert!(
+            errors.contains("too many levels of symbolic links"),
+            "{errors}"
+        );
+        assert!(!errors.contains("os error"), "{errors}");
+    }
+}

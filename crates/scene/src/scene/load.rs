@@ -9,7 +9,7 @@ use super::{CloudDescription, Description, Scene};
 use crate::file::{Camera, File, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
-use crate::text::{Fault, Placed, Read, Slice, collect, optional, token};
+use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, token};
 use crate::values::MaterialName;
 use crate::world::{self, Cloud, CloudError, Progress};
 
@@ -43,16 +43,16 @@ impl Scene {
             return Err(SceneError::unreadable(path, reason));
         }
         let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
-            let reason = match error.kind() {
+            let why = match error.kind() {
                 ErrorKind::NotFound => "no such file",
                 ErrorKind::PermissionDenied => "no permission to read this file",
                 ErrorKind::FileTooLarge => {
                     "expected a scene file of at most 1 GiB, found a larger one"
                 }
                 ErrorKind::OutOfMemory => "there is no memory to read this file",
-                _ => &error.to_string(),
+                _ => &reason(&error),
             };
-            SceneError::unreadable(path, reason)
+            SceneError::unreadable(path, why)
         })?;
         let text = str::from_utf8(&bytes).map_err(|error| error.valid_up_to());
         let text = text.and_then(|text| {

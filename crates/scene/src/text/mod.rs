@@ -16,6 +16,6 @@ pub(crate) use placed::{
     Placed, Read, optional, present, read_file, read_simple, read_structure, read_tuple,
 };
 pub use show::harmless;
-pub(crate) use show::{is_harmful, quoted, show};
+pub(crate) use show::{is_harmful, quoted, reason, show};
 pub(crate) use slice::Slice;
 pub(crate) use suggest::{closest, did_you_mean, either, list};

@@ -1,4 +1,6 @@
-//! Pieces of a file as messages show them.
+//! Pieces of a file, and words of the operating system, as messages show them.
+
+use std::io;
 
 /// A piece of the text as a message shows it: short, and harmless to a terminal.
 pub(crate) fn show(text: &str) -> String {
@@ -52,4 +54,13 @@ pub(crate) fn quoted(name: &str) -> String {
 /// Returns whether a character changes the direction of the text around it.
 fn turns_text(c: char) -> bool {
     matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// The words of the operating system, without the number behind them and a capital letter before them.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let words = error.to_string();
+    let end = words.rfind(" (os error").unwrap_or(words.len());
+    let mut letters = words[..end].chars();
+    let first = letters.next().map(char::to_lowercase);
+    first.into_iter().flatten().chain(letters).collect()
 }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use super::placement::{Placement, turn};
 use crate::file;
 use crate::table::{self, Coloring, Colormap, Paint, Request, Rows, TableError};
-use crate::text::{Fault, LocatedFault, closest, list, optional, quoted, refuse};
+use crate::text::{Fault, LocatedFault, closest, list, optional, quoted, reason, refuse};
 use crate::values::ValueRange;
 
 /// A cloud of the scene file whose table is not yet read.
@@ -145,7 +145,10 @@ impl Cloud {
             io::ErrorKind::PermissionDenied => {
                 format!("expected a table, found {name}, which nobody here may read")
             }
-            _ => format!("expected a table, found {name}, which cannot be read: {error}"),
+            _ => {
+                let why = reason(error);
+                format!("expected a table, found {name}, which cannot be read: {why}")
+            }
         }
     }
 

@@ -45,7 +45,7 @@ pub(crate) struct CompareArguments {
     pub(crate) b: PathBuf,
 
     /// Largest difference that is all right
-    #[arg(long, value_name = "E", value_parser = tolerance)]
+    #[arg(long, value_name = "E", value_parser = tolerance, allow_negative_numbers = true)]
     pub(crate) tolerance: Option<f64>,
 
     /// List the N pixels that differ most

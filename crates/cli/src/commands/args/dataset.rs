@@ -71,7 +71,7 @@ pub(crate) struct DatasetArguments {
     pub(crate) frame: Option<i32>,
 
     /// Bring every channel of every pixel within E of its exact value, before it is scaled and rounded
-    #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero)]
+    #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
     /// Size of the pictures in pixels, in place of the scene's
@@ -83,7 +83,7 @@ pub(crate) struct DatasetArguments {
     pub(crate) skip_existing: bool,
 
     /// Render on N threads; the files are the same for every N [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
     /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]

@@ -38,7 +38,7 @@ pub(crate) struct PreviewArguments {
     pub(crate) frame: Option<i32>,
 
     /// Bring every channel of every pixel within E of its exact value
-    #[arg(long, value_name = "E", default_value = "1e-2", value_parser = tolerance_above_zero)]
+    #[arg(long, value_name = "E", default_value = "1e-2", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
     /// Show it again whenever the scene file or one of its tables is saved

@@ -62,7 +62,7 @@ pub(crate) struct RenderArguments {
     pub(crate) frames: Option<FrameList>,
 
     /// Frames per second, in place of the scene's
-    #[arg(long, value_name = "FPS", value_parser = above_zero)]
+    #[arg(long, value_name = "FPS", value_parser = above_zero, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
 
     /// Leave out frames whose files are complete and made from the same scene and settings
@@ -76,15 +76,15 @@ pub(crate) struct RenderArguments {
     /// Bring every channel of every pixel within E of its exact value, the average over the
     /// pixel's square in linear light; E is absolute, and a white surface facing a light of
     /// intensity 1 has the value 1
-    #[arg(long, value_name = "E", default_value = "1e-3", value_parser = tolerance_above_zero)]
+    #[arg(long, value_name = "E", default_value = "1e-3", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
     /// Average N × N samples in every pixel instead, whatever the error
-    #[arg(long, value_name = "N", value_parser = samples, conflicts_with = "tolerance")]
+    #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true, conflicts_with = "tolerance")]
     pub(crate) samples: Option<NonZeroU32>,
 
     /// Render on N threads; the picture is the same for every N [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
     /// Size of the picture in pixels, in place of the scene's
@@ -114,7 +114,7 @@ pub(crate) struct RenderArguments {
     pub(crate) per_light: Option<PerLight>,
 
     /// Bits of a number in a PNG, 8 or 16 [default: 8, and 16 with --linear]
-    #[arg(long, value_name = "BITS", value_parser = bits)]
+    #[arg(long, value_name = "BITS", value_parser = bits, allow_negative_numbers = true)]
     pub(crate) bits: Option<u8>,
 
     /// Write a PNG whose numbers are in proportion to light, instead of those of sRGB, in 16 bit

@@ -54,7 +54,7 @@ pub(crate) struct ReportArguments {
     pub(crate) size: Option<Size>,
 
     /// Render on N threads [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
     /// Time for all runs together, and for a better reference; 1, 2, 4, 8, … samples a side are

@@ -57,11 +57,11 @@ pub(crate) struct SpheresArguments {
 
     /// Bring the visible areas of the spheres in every pixel together within E of their exact values,
     /// as a share of the pixel
-    #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero)]
+    #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
     /// Work on N threads; the table is the same for every N [default: one per core]
-    #[arg(long, value_name = "N", value_parser = threads)]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
     /// Print nothing but errors and warnings
