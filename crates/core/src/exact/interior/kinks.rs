@@ -102,7 +102,7 @@ impl<S: Simd> Filled<'_, S> {
                     for (lanes, side) in sides.into_iter().zip([-1.0, 1.0]) {
                         for lane in set_bits(lanes & self.which) {
                             let beside = reach[(axis + 1) % 3][lane] + reach[(axis + 2) % 3][lane];
-                            let here = bumps.jump(normal.lane(lane), (axis, side), noise);
+                            let here = bumps.jump(normal.lane(lane), (axis, side), noise).length();
                             let change = bumps.amplitude() * CHANGE * beside;
                             jump[lane] += (here + change) * steps[axis][lane];
                         }

@@ -2,16 +2,16 @@
 
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::chord::Chord;
 use super::plain::{normal_times, ray_times};
 use super::primitive::{Lines, Noise, Sender};
 use super::turns::Stops;
+use crate::edges::cell::{Ball, Cell};
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::Bumps;
 use crate::model::roughness::noise::NoiseCells;
-use crate::numeric::bits::set_bits;
 use crate::numeric::vectors::Vectors;
 
 /// Eight chords on a sphere with bumps. At the parameter σ the normal is the quotient of two polynomials of degree 2.
@@ -62,20 +62,22 @@ impl Sender<'_, '_> {
                 let ShadingNormal::Bumpy(bumps) = &self.finish.shading_normal else {
                     return missed.simd_into(simd);
                 };
-                let way = self.way(simd, chord, lines);
+                let places = (self.cell, &self.active.ball);
+                let frame = &self.scene.world_from_camera;
+                let way = Way::new(simd, places, frame, chord, lines.y);
                 let mut passages = Vec::new();
                 way.passages(bumps, &mut passages);
                 if passages.is_empty() {
                     return missed.simd_into(simd);
                 }
                 let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
-                let slope = self.steepest(lines.lights);
+                let slope = self.finish.steepest(self.scene, lines.lights);
                 let parts = parts as f64;
                 for passage in &passages {
                     let Passage { lane, axis, sigma } = *passage;
                     let (normal, speed) = way.at(lane, axis, sigma);
                     let side = bumps.offset(normal[axis]).signum();
-                    let jump = bumps.jump(normal, (axis, side), noise);
+                    let jump = bumps.jump(normal, (axis, side), noise).length();
                     // The rule's interval is half as long as that of the parameter.
                     let step = 2.0 * speed * bumps.cells() / parts;
                     let (_, width) = chord.at(f64x8::splat(simd, sigma));
@@ -93,38 +95,31 @@ impl Sender<'_, '_> {
             },
         )
     }
+}
 
-    /// A bound of how fast light of some lights goes with the shading normal, for exponents from 1 on.
-    fn steepest(&self, lights: u64) -> f64 {
-        let [exponent, shininess] = self.finish.reflectance.exponents();
-        // At its steepest a power of a cosine goes by less than this with the angle.
-        let of_highlight = shininess.sqrt().max(shininess.min(1.0));
-        let mut slope = 0.0;
-        for index in set_bits(lights) {
-            let light = &self.scene.lights[index];
-            let [diffuse, specular] = self.finish.reflectance.brightest(light.intensity);
-            slope += diffuse * exponent.max(1.0) + specular * of_highlight;
-        }
-        slope
-    }
-
+impl<S: Simd> Way<S> {
+    /// That of chords on lines with these y.
     #[inline(always)]
-    fn way<S: Simd>(&self, simd: S, chord: &Chord<S>, lines: &Lines<S>) -> Way<S> {
-        let ball = &self.active.ball;
-        let zero = f64x8::splat(simd, 0.0);
+    fn new(
+        simd: S,
+        (cell, ball): (&Cell, &Ball),
+        world_from_camera: &DMat3,
+        chord: &Chord<S>,
+        y: f64x8<S>,
+    ) -> Self {
         let mut normals = [Vectors::splat(simd, DVec3::ZERO); 3];
-        let mut alongs = [zero; 3];
+        let mut alongs = [y * 0.0; 3];
         for (index, sigma) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
             let at = chord.homogeneous(sigma);
-            let ray = ray_times(self.cell, &at, lines.y);
+            let ray = ray_times(cell, &at, y);
             let (normal, length, along) = normal_times(simd, ball, &ray, at.root);
             let scale = along / (length * ball.radius);
-            normals[index] = normal.times(scale).rotated(&self.scene.world_from_camera);
+            normals[index] = normal.times(scale).rotated(world_from_camera);
             alongs[index] = along;
         }
         let [first, middle, last] = normals;
-        let half = zero + 0.5;
-        Way {
+        let half = f64x8::splat(simd, 0.5);
+        Self {
             normal: [
                 middle,
                 last.minus(&first).times(half),
@@ -137,9 +132,7 @@ impl Sender<'_, '_> {
             ],
         }
     }
-}
 
-impl<S: Simd> Way<S> {
     /// The places where the chords pass from cell to cell.
     #[inline(always)]
     fn passages(&self, bumps: &Bumps, into: &mut Vec<Passage>) {
@@ -197,3 +190,6 @@ fn roots(square: f64, linear: f64, constant: f64) -> [f64; 2] {
     let sum = -0.5 * (linear + root.copysign(linear));
     [sum / square, constant / sum]
 }
+
+#[cfg(test)]
+mod tests;
