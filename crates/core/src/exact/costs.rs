@@ -9,6 +9,7 @@ use super::scene::{InCamera, Light};
 use super::surface::Finish;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
+use crate::numeric::bits::set_bits;
 use crate::numeric::vectors::Vectors;
 
 impl Finish {
@@ -98,6 +99,19 @@ impl Finish {
     pub(crate) fn needs_cosines(&self) -> bool {
         const BLUNT: f64 = 2.0;
         self.is_rough() || self.sharpness() > BLUNT
+    }
+
+    /// A bound of how fast light of some lights, bit by bit, goes with the shading normal, for exponents from 1 on.
+    pub(crate) fn steepest(&self, scene: &InCamera<'_>, lights: u64) -> f64 {
+        let [exponent, shininess] = self.reflectance.exponents();
+        // At its steepest a power of a cosine goes by less than this with the angle.
+        let of_highlight = shininess.sqrt().max(shininess.min(1.0));
+        let mut slope = 0.0;
+        for index in set_bits(lights) {
+            let [diffuse, specular] = self.reflectance.brightest(scene.lights[index].intensity);
+            slope += diffuse * exponent.max(1.0) + specular * of_highlight;
+        }
+        slope
     }
 
     /// The diffuse light and the highlight of a light in the brightest channel, where the surface faces

@@ -84,14 +84,14 @@ impl ShadingNormal {
                     Self::Bumpy(bumps) => {
                         let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
                         for normal in &mut *normals {
-                            let Vectors { x, y, z } = rotated(normal, world_from_camera);
+                            let Vectors { x, y, z } = normal.rotated(world_from_camera);
                             let [x, y, z] = bumps.tilt_lanes(simd, [x, y, z], noise);
                             *normal = Vectors { x, y, z };
                         }
                     }
                     Self::Factors(factors) => {
                         for normal in &mut *normals {
-                            let mut rough = rotated(normal, world_from_camera);
+                            let mut rough = normal.rotated(world_from_camera);
                             rough.x *= factors.x;
                             rough.y *= factors.y;
                             rough.z *= factors.z;
@@ -101,20 +101,9 @@ impl ShadingNormal {
                 }
                 for normal in normals {
                     let [x, y, z] = unit([normal.x, normal.y, normal.z]);
-                    *normal = rotated(&Vectors { x, y, z }, camera_from_world);
+                    *normal = Vectors { x, y, z }.rotated(camera_from_world);
                 }
             },
         )
-    }
-}
-
-/// The vectors in another frame.
-#[inline(always)]
-fn rotated<S: Simd>(vectors: &Vectors<S>, matrix: &DMat3) -> Vectors<S> {
-    let rows = matrix.transpose();
-    Vectors {
-        x: vectors.dot_one(rows.x_axis),
-        y: vectors.dot_one(rows.y_axis),
-        z: vectors.dot_one(rows.z_axis),
     }
 }

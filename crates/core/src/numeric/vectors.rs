@@ -4,7 +4,7 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// Eight vectors, component by component. Sums of three add from left to right, as glam does for one
 /// vector.
@@ -89,6 +89,17 @@ impl<S: Simd> Vectors<S> {
             x: self.x * factor,
             y: self.y * factor,
             z: self.z * factor,
+        }
+    }
+
+    /// The vectors in another frame.
+    #[inline(always)]
+    pub(crate) fn rotated(&self, matrix: &DMat3) -> Self {
+        let rows = matrix.transpose();
+        Self {
+            x: self.dot_one(rows.x_axis),
+            y: self.dot_one(rows.y_axis),
+            z: self.dot_one(rows.z_axis),
         }
     }
 

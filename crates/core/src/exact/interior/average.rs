@@ -186,7 +186,12 @@ impl<S: Simd> Filled<'_, S> {
         // Five samples.
         let rest = &mut lights[into.samples..STAR_SAMPLES];
         self.light(simd, into.samples, cosines, noise, rest);
-        into.star = self.estimate(simd, Rule::Star, lights, cosines.as_ref());
+        let kinks = match self.is_wary() {
+            true => self.kinks(simd, noise),
+            false => None,
+        };
+        let kinks = kinks.as_ref();
+        into.star = self.estimate(simd, Rule::Star, lights, cosines.as_ref(), kinks);
         into.samples = STAR_SAMPLES;
         if self.finish.is_rough()
             && let Some(cosines) = &*cosines
@@ -203,7 +208,7 @@ impl<S: Simd> Filled<'_, S> {
         // Nine.
         let rest = &mut lights[STAR_SAMPLES..];
         self.light(simd, into.samples, cosines, noise, rest);
-        into.grid = self.estimate(simd, Rule::Grid, lights, cosines.as_ref());
+        into.grid = self.estimate(simd, Rule::Grid, lights, cosines.as_ref(), kinks);
         into.samples = GAUSS_SAMPLES;
         let is_done = is_done | into.grid.is_met;
         if self.which & !is_done.to_bitmask() == 0 {
@@ -270,7 +275,7 @@ impl<S: Simd> Filled<'_, S> {
             // Where a number is not finite, the estimate tells.
             error = error.max(difference * caution + natural + by_grid.abs() * ROUNDING);
             if self.is_wary() {
-                error = error.max(apart_on_bumps(&sampled.lights, channel));
+                error = error.max(apart_on_bumps(&sampled.lights, channel, zero));
             }
             let average = star.is_met.select(by_star, by_grid);
             for (value, average) in values.iter_mut().zip(average.iter()) {

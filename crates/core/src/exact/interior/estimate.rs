@@ -4,6 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
 use super::filled::{Filled, Radiance};
+use super::kinks::Kinks;
 use super::light_cosines::LightCosines;
 use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, WEIGHTS};
 use super::terminators::{MEDIUM, SMALL};
@@ -85,6 +86,7 @@ impl<S: Simd> Filled<'_, S> {
         rule: Rule,
         lights: &[Radiance<S>; GAUSS_SAMPLES],
         cosines: Option<&LightCosines<S>>,
+        kinks: Option<&Kinks<S>>,
     ) -> Estimate<S> {
         /// The terms of the fourth and of the sixth derivative of a root at a nearness of 1.
         const OF_ROOT: [f64; 2] = [1.3e-3, 7.3e-6];
@@ -111,6 +113,11 @@ impl<S: Simd> Filled<'_, S> {
             // Each term is less than ν² times that before.
             of_root /= (nearness_sq * -1.0 + 1.0).max(zero);
         }
+        let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
+        let slope = match cosines {
+            Some(cosines) if kinks.is_some() => self.slope_of_light(simd, cosines, from_samples),
+            _ => zero,
+        };
         let mut error = zero;
         for channel in 0..self.scene.channels {
             let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
@@ -128,13 +135,17 @@ impl<S: Simd> Filled<'_, S> {
             if is_star {
                 estimate += relative * OF_CHANGE[0];
             }
-            if is_rough {
+            if is_rough && kinks.is_none() {
                 estimate += OF_KINK;
             }
             error = error.max(estimate * bend + highest * (of_root + ROUNDING));
             if is_wary && !is_star {
-                error = error.max(apart_on_bumps(lights, channel));
+                let explained = kinks.map_or(zero, |kinks| kinks.apart(slope));
+                error = error.max(apart_on_bumps(lights, channel, explained));
             }
+        }
+        if is_wary {
+            error *= CAUTION;
         }
         if let Some(cosines) = cosines {
             error = error.max(self.of_lobes(simd, rule, cosines));
@@ -142,14 +153,13 @@ impl<S: Simd> Filled<'_, S> {
         let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
         if is_rough {
             is_known = self.nearness.simd_lt(MOST_NEARNESS_OF_BUMPS);
-            let from_samples = if is_star { FROM_STAR } else { FROM_GRID };
             if let Some(cosines) = cosines {
                 error += self.missed(simd, cosines, from_samples);
             }
             is_known &= self.is_within(if is_star { SMALL } else { MEDIUM });
         }
-        if is_wary {
-            error *= CAUTION;
+        if let Some(kinks) = kinks {
+            error += kinks.missed(rule, slope);
         }
         let mut is_met = is_known & error.simd_le(self.tolerance);
         if is_wary && is_star {
@@ -266,18 +276,21 @@ pub(super) fn bend_of_grid<S: Simd>(
     bend
 }
 
-/// The error of nine samples on bumps, by how far they are from five: at least a part of that.
+/// The error of nine samples on bumps, by how far they are from five: at least a part of that, but for what is
+/// explained.
 #[inline(always)]
 pub(super) fn apart_on_bumps<S: Simd>(
     lights: &[Radiance<S>; GAUSS_SAMPLES],
     channel: usize,
+    explained: f64x8<S>,
 ) -> f64x8<S> {
     const OF_DIFFERENCE: f64 = 0.3;
     let mut difference = lights[0][channel] * 0.0;
     for (light, sample) in lights.iter().zip(&POINTS) {
         difference += light[channel] * (sample.star - sample.gauss);
     }
-    difference.abs() * OF_DIFFERENCE
+    let zero = explained * 0.0;
+    (difference.abs() - explained).max(zero) * OF_DIFFERENCE
 }
 
 /// The sum of second differences of light along both diagonals.

@@ -6,6 +6,7 @@ mod domain;
 mod estimate;
 pub(crate) mod fill;
 pub(crate) mod filled;
+mod kinks;
 mod light_cosines;
 mod middle;
 pub(crate) mod parts;

@@ -168,7 +168,12 @@ impl<S: Simd> Filled<'_, S> {
                 let mut cosines = Some(LightCosines::new(simd));
                 let mut lights = [[zero; 3]; GAUSS_SAMPLES];
                 parts.light(simd, 0, &mut cosines, noise, &mut lights[..STAR_SAMPLES]);
-                let estimate = parts.estimate(simd, Rule::Star, &lights, cosines.as_ref());
+                let kinks = match parts.is_wary() {
+                    true => parts.kinks(simd, noise),
+                    false => None,
+                };
+                let (cosines, kinks) = (cosines.as_ref(), kinks.as_ref());
+                let estimate = parts.estimate(simd, Rule::Star, &lights, cosines, kinks);
                 let known = estimate.is_known.to_bitmask();
                 for channel in 0..self.scene.channels {
                     let mut sum = zero;

@@ -185,6 +185,35 @@ impl Bumps {
         1.0 + self.amplitude * (3.0 + 18.0 * self.cells * self.cells).sqrt()
     }
 
+    /// How much the second derivative of the tilted normal along a lattice axis jumps where the cell of the point
+    /// with this normal meets the next one on a side, 1 or −1, of that axis: a (Δ − (Δ·n) n), with Δ the noise's.
+    pub(crate) fn jump(
+        &self,
+        normal: DVec3,
+        (axis, side): (usize, f64),
+        cells: &mut NoiseCells,
+    ) -> DVec3 {
+        let (here, offset) = self.place(normal.to_array());
+        let mut there = here;
+        there[axis] += side;
+        let before = DVec3::from_array(cells.cell(self.key, here).bend(axis, offset));
+        let after = DVec3::from_array(cells.cell(self.key, there).bend(axis, offset));
+        let jump = after - before;
+        self.amplitude * (jump - normal * jump.dot(normal))
+    }
+
+    /// How far components of normals are from the lattice planes next to them, in cells, which end halfway between
+    /// planes.
+    #[inline(always)]
+    pub(crate) fn offset<L: Lanes>(&self, component: L) -> L {
+        let place = component * self.cells;
+        place - place.nearest_whole()
+    }
+
+    pub(crate) fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
     /// The lattice point next to a point of the surface, and the offset of the point from it: at most ½
     /// along each axis.
     #[inline(always)]

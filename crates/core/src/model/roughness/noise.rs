@@ -88,6 +88,24 @@ impl Cell {
         ]
     }
 
+    /// The second derivative along an axis, which is the same all along it, at an offset from the lattice point.
+    pub(super) fn bend(&self, axis: usize, offset: [f64; 3]) -> [f64; 3] {
+        let [one, other] = [(axis + 1) % 3, (axis + 2) % 3];
+        let mut bend = [0.0; 3];
+        for of_one in 0..3 {
+            for of_other in 0..3 {
+                let mut powers = [2; 3];
+                (powers[one], powers[other]) = (of_one, of_other);
+                let factor = 2.0 * power(offset[one], of_one) * power(offset[other], of_other);
+                let [x, y, z] = powers;
+                for (part, bend) in bend.iter_mut().enumerate() {
+                    *bend += factor * self.coefficients[x][9 * y + 3 * z + part];
+                }
+            }
+        }
+        bend
+    }
+
     /// The noise at one offset, the same to the bit: with eight coefficients at a time, where
     /// [`Self::blend`] takes eight offsets.
     #[inline(always)]
@@ -112,6 +130,11 @@ impl Cell {
             (ninth * z + eight[5]) * z + eight[2],
         ]
     }
+}
+
+/// A power up to the second.
+fn power(number: f64, exponent: usize) -> f64 {
+    [1.0, number, number * number][exponent]
 }
 
 #[inline(always)]
@@ -223,6 +246,30 @@ pub(crate) fn hash(key: u64, word: u64) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Second differences of a polynomial of the second degree are its second derivative.
+    #[test]
+    fn cells_bend_as_second_differences_tell() {
+        const STEP: f64 = 0.125;
+        let offset = [0.3, -0.2, 0.11];
+        for index in [[0, 0, 0], [-3, 7, 2], [5, -1, 1 << 40]] {
+            let cell = Cell::new(17, index);
+            for axis in 0..3 {
+                let at = |steps: f64| {
+                    let mut offset = offset;
+                    offset[axis] += steps * STEP;
+                    cell.blend(offset)
+                };
+                let (before, middle, after) = (at(-1.0), at(0.0), at(1.0));
+                let bend = cell.bend(axis, offset);
+                for part in 0..3 {
+                    let sides = before[part] + after[part] - 2.0 * middle[part];
+                    let difference = sides / (STEP * STEP) - bend[part];
+                    assert!(difference.abs() < 1e-12, "{axis} {part}: {difference:e}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn cells_of_a_block_stay_in_the_table() {

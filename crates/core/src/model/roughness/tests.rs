@@ -285,3 +285,34 @@ fn bumps_are_alike_in_all_directions() {
         );
     }
 }
+
+/// Second differences on both sides of where cells meet differ by what is said to jump there.
+#[test]
+fn second_derivatives_jump_as_they_are_said_to() {
+    const STEP: f64 = 0.125;
+    let mut cells = NoiseCells::new();
+    let bumps = Bumps {
+        key: hash(3, 5),
+        cells: 7.0,
+        amplitude: 0.6,
+    };
+    for start in walk().step_by(20) {
+        let normal = start.normalize();
+        for (axis, side) in [(0, 1.0), (1, -1.0), (2, 1.0), (0, -1.0)] {
+            let mut place = normal * bumps.cells;
+            place[axis] = place[axis].round() + 0.5 * side;
+            let bend = |side: f64| {
+                let at = |steps: f64| {
+                    let mut place = place;
+                    place[axis] += side * STEP * steps;
+                    surface_noise(3, 5, place)
+                };
+                (at(0.25) + at(2.25) - 2.0 * at(1.25)) / (STEP * STEP)
+            };
+            let jump = bend(side) - bend(-side);
+            let expected = bumps.amplitude * (jump - normal * jump.dot(normal));
+            let found = bumps.jump(normal, (axis, side), &mut cells);
+            assert!(found.distance(expected) < 1e-9, "{found} {expected}");
+        }
+    }
+}

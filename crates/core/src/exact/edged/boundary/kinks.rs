@@ -24,6 +24,8 @@ struct Stretch<S: Simd> {
     /// Whether light may go with a root of the distance to the ends.
     is_eased: bool,
     is_bumpy: bool,
+    /// Whether what cells of the noise cost where they meet is known.
+    is_followed: bool,
 }
 
 /// How closely chords are looked at.
@@ -93,6 +95,13 @@ impl Sender<'_, '_> {
                 let mut stops = Stops::default();
                 let (is_even, beyond) = self.find(simd, chord, lines, &search, &mut stops, noise);
                 let is_bumpy = self.active.terminators == Terminators::Anywhere;
+                let turns = stops.most();
+                let zero = f64x8::splat(simd, 0.0);
+                let is_followed = is_bumpy && self.is_followed(&search);
+                let mut missed = zero;
+                if is_followed {
+                    missed = self.jumps(simd, chord, lines, search.parts, &mut stops, noise);
+                }
                 let most = stops.most();
                 if !is_bumpy && most == 0 {
                     let mut sum = self.smooth(simd, chord, lines, noise);
@@ -100,11 +109,10 @@ impl Sender<'_, '_> {
                     return sum;
                 }
                 // A power that is not whole begins like a root.
-                let is_eased = most >= search.parts && !self.finish.has_whole_exponent();
-                let zero = f64x8::splat(simd, 0.0);
+                let is_eased = turns >= search.parts && !self.finish.has_whole_exponent();
                 let mut sum = Summed {
                     light: [zero; 3],
-                    doubt: zero,
+                    doubt: missed,
                     samples: stops.samples,
                     // Edges are cut at terminators that are no bumps'.
                     unevenness: match (is_even || !is_bumpy, jumps) {
@@ -122,6 +130,7 @@ impl Sender<'_, '_> {
                         end,
                         is_eased,
                         is_bumpy,
+                        is_followed,
                     };
                     self.add_stretch(simd, chord, lines, &stretch, noise, &mut sum);
                     start = end;
@@ -161,6 +170,14 @@ impl Sender<'_, '_> {
             looks: looks.div_ceil(parts).max(2),
             steps,
         }
+    }
+
+    /// Whether chords span so few cells of the noise that they are looked at where these meet.
+    fn is_followed(&self, search: &Search) -> bool {
+        /// Parts of half a cell.
+        const MOST: usize = 4;
+        let [exponent, _] = self.finish.reflectance.exponents();
+        search.parts <= MOST && exponent >= 1.0 && !self.scene.has_near_lights
     }
 
     /// The light where a surface turns to lights by so much between lines that it averts itself on.
@@ -356,7 +373,7 @@ impl Sender<'_, '_> {
                     let ratio = (difference * CAUTION / (spread + f64::MIN_POSITIVE)).min(one);
                     let estimate = (spread * ratio * ratio.sqrt()).min(difference);
                     // The noise has no third derivative where its cells meet.
-                    largest = largest.max(if stretch.is_bumpy {
+                    largest = largest.max(if stretch.is_bumpy && !stretch.is_followed {
                         difference
                     } else {
                         estimate

@@ -14,6 +14,7 @@ mod events;
 mod fractional;
 mod hard_arcs;
 mod integral;
+mod jumps;
 mod kinks;
 mod levels;
 mod lit;

@@ -30,7 +30,8 @@ const OF_TIP: f64 = 0.05;
 /// The share of the tolerance that this may take on an arc before it is halved: few arcs have any.
 const SHARE_OF_TIP: f64 = 0.1;
 
-/// The part of what the rules differ by that they are taken to be off by at least, at tolerances that are so fine.
+/// The part of what the rules differ by that they are taken to be off by at least, over bumps and at tolerances that are
+/// so fine.
 /// Sums along lines are not analytic everywhere: over bumps their second derivatives jump, and near corners of what
 /// is seen they are nearly singular. There Kronrod's rule is off by a tenth of the difference, as a median, seldom
 /// by all of it; a power of the difference claims a fiftieth, which one pixel in ten million found out.
@@ -105,6 +106,7 @@ impl Boundary {
                 let slip = (total(all) - rise).abs();
                 let mut error = 0.0_f64;
                 let kept = *sum;
+                let is_rough = setting.has_bumps || goal.tolerance < FINE;
                 if sides.empty != 0.0 {
                     let (one, other) = (places.x * all, places.x * dy * coarse);
                     sum.empty += one * sides.empty;
@@ -112,7 +114,7 @@ impl Boundary {
                     let of_odd = total(places.x * dy * odd);
                     let difference = doubt(total(one - other), of_odd);
                     error = error_estimate(difference, spread) + slip;
-                    if goal.tolerance < FINE {
+                    if is_rough {
                         error = error.max(LEAST_OF_DIFFERENCE * difference);
                     }
                 }
@@ -126,7 +128,7 @@ impl Boundary {
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
                     let mut estimate = error_estimate(difference, spread);
-                    if goal.tolerance < FINE {
+                    if is_rough {
                         estimate = estimate.max(LEAST_OF_DIFFERENCE * difference);
                     }
                     if is_singular {

@@ -1,0 +1,205 @@
+//! Places in pixels where cells of the noise meet: the second derivatives of bumps jump there, and nowhere else.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+
+use super::estimate::Rule;
+use super::filled::Filled;
+use super::light_cosines::LightCosines;
+use crate::exact::costs::highest_cosine;
+use crate::exact::points::Points;
+use crate::light::shading_normal::ShadingNormal;
+use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::bits::set_bits;
+
+/// Bumps in eight pixels, or parts of one, as far as rules may miss something of them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Kinks<S: Simd> {
+    /// How much second derivatives of shading normals jump in a pixel, with its sides as units, all jumps together.
+    jump: f64x8<S>,
+    /// The fourth powers of how many cells the pixels span, times the amplitude.
+    span: f64x8<S>,
+}
+
+/// What is missed of a jump of the second derivative by 1 across a line, wherever it lies, with the length of the
+/// line's gradient as the unit: half of the largest error for the squares of distances on one side of it. Along
+/// diagonals the star sees least. The test `rules_miss_no_more_of_jumps` computes both.
+const OF_JUMP_BY_STAR: f64 = 0.003;
+const OF_JUMP_BY_GRID: f64 = 0.0008;
+
+impl<S: Simd> Kinks<S> {
+    /// What a rule may miss of light that goes with shading normals as fast as `slope` says.
+    #[inline(always)]
+    pub(super) fn missed(&self, rule: Rule, slope: f64x8<S>) -> f64x8<S> {
+        /// How much larger than in the middle of a pixel jumps are taken to be, with what third derivatives jump by.
+        const CAUTION: f64 = 2.0;
+        /// What the star misses of smooth bumps, over the fourth power of cells from the middle to the corners: 1/720
+        /// of the mixed fourth derivative, which is taken to be 14 in cells, three times the root of its mean square.
+        const OF_SPAN: f64 = 0.08;
+        match rule {
+            Rule::Star => (self.jump * (CAUTION * OF_JUMP_BY_STAR) + self.span * OF_SPAN) * slope,
+            Rule::Grid => self.jump * slope * (CAUTION * OF_JUMP_BY_GRID),
+        }
+    }
+
+    /// By how much both rules may differ because of jumps.
+    #[inline(always)]
+    pub(super) fn apart(&self, slope: f64x8<S>) -> f64x8<S> {
+        self.jump * slope * (OF_JUMP_BY_STAR + OF_JUMP_BY_GRID)
+    }
+}
+
+impl<S: Simd> Filled<'_, S> {
+    /// The jumps in the pixels; `None` of surfaces whose normals have none.
+    ///
+    /// # Accuracy
+    /// An estimate: the lattice planes are taken to cut the pixel along straight lines, where the plane through the
+    /// middle of the surface there has them, and a little beyond; jumps are as large as in the pixel's middle, and
+    /// larger by what they change by as a rule. Bumps that are larger than that between the middle and a line could
+    /// fool it.
+    #[inline(never)]
+    pub(super) fn kinks(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Option<Kinks<S>> {
+        /// What jumps change by for each cell: as much as the root of their mean square, and twice that.
+        const CHANGE: f64 = 6.0;
+        let ShadingNormal::Bumpy(bumps) = &self.finish.shading_normal else {
+            return None;
+        };
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let zero = f64x8::splat(simd, 0.0);
+                let cells = bumps.cells();
+                let frame = &self.scene.world_from_camera;
+                let points = Points::new(simd, self.ball, self.middle);
+                let normal = points.normal.rotated(frame);
+                let ray = points.ray.rotated(frame);
+                let scale = match self.ball.is_parallel() {
+                    true => zero + 1.0,
+                    false => points.t,
+                };
+                let scale = scale * (cells / self.ball.radius);
+                let along = points.normal.dot(&points.ray);
+                let (across, down) = (points.normal.x / along, points.normal.y / along);
+                let [width, height] = self.size;
+                let bent = self.turn * cells * (self.nearness * 0.5 + self.turn);
+                let mut crossed = [[0; 2]; 3];
+                let mut reach = [zero; 3];
+                let mut steps = [zero; 3];
+                for axis in 0..3 {
+                    // Where the ray moves aside, the point moves along the surface.
+                    let right = (ray.along(axis) * across * -1.0 + frame.x_axis[axis]) * scale;
+                    let up = (ray.along(axis) * down * -1.0 + frame.y_axis[axis]) * scale;
+                    let (right, up) = (right * width, up * height);
+                    reach[axis] = (right.abs() + up.abs()) * 0.5 + bent;
+                    steps[axis] = right * right + up * up;
+                    let offset = bumps.offset(normal.along(axis));
+                    crossed[axis][0] = (offset - reach[axis]).simd_lt(-0.5).to_bitmask();
+                    crossed[axis][1] = (offset + reach[axis]).simd_gt(0.5).to_bitmask();
+                }
+                let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
+                let mut jump = [0.0; 8];
+                for (axis, sides) in crossed.into_iter().enumerate() {
+                    for (lanes, side) in sides.into_iter().zip([-1.0, 1.0]) {
+                        for lane in set_bits(lanes & self.which) {
+                            let beside = reach[(axis + 1) % 3][lane] + reach[(axis + 2) % 3][lane];
+                            let here = bumps.jump(normal.lane(lane), (axis, side), noise).length();
+                            let change = bumps.amplitude() * CHANGE * beside;
+                            jump[lane] += (here + change) * steps[axis][lane];
+                        }
+                    }
+                }
+                let span = self.turn * cells;
+                let span_sq = span * span;
+                Some(Kinks {
+                    jump: jump.simd_into(simd),
+                    span: span_sq * span_sq * bumps.amplitude(),
+                })
+            },
+        )
+    }
+
+    /// How fast light may go with the shading normal, in the brightest channel, by its cosines at samples from which no
+    /// point is farther than `from_samples` half diagonals.
+    #[inline(always)]
+    pub(super) fn slope_of_light(
+        &self,
+        simd: S,
+        cosines: &LightCosines<S>,
+        from_samples: f64,
+    ) -> f64x8<S> {
+        /// Cosines below which highlights are as steep as there.
+        const LEAST: f64 = 0.5;
+        let one = f64x8::splat(simd, 1.0);
+        let mut slope = f64x8::splat(simd, 0.0);
+        let [exponent, shininess] = self.finish.reflectance.exponents();
+        let turn = self.turn * (self.finish.usual_slope() * from_samples);
+        for (index, light) in self.scene.lights.iter().enumerate() {
+            if self.lit[index] == 0 {
+                continue;
+            }
+            let [diffuse, specular] = self.finish.reflectance.brightest(light.intensity);
+            let steepest = if exponent < 1.0 {
+                (cosines.lowest[index] - turn).max(one * f64::MIN_POSITIVE)
+            } else {
+                highest_cosine(simd, cosines.highest[index], turn)
+            };
+            let power = self
+                .finish
+                .reflectance
+                .diffuse
+                .of_clamped(steepest.min(one));
+            let of_diffuse = match exponent == 1.0 {
+                true => one,
+                false => power / steepest.max(one * f64::MIN_POSITIVE) * exponent,
+            };
+            slope += of_diffuse * diffuse;
+            if specular > 0.0 {
+                let highest = highest_cosine(simd, cosines.halves.highest[index], turn);
+                let highest = highest.max(one * LEAST);
+                slope += self.finish.highlight_of(highest) / highest * (shininess * specular);
+            }
+        }
+        slope
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::interior::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
+
+    /// Of the squares of distances on one side of lines, whose integrals are third powers of those at the upper and
+    /// lower sides.
+    #[test]
+    fn rules_miss_no_more_of_jumps() {
+        const ROWS: u32 = 400;
+        let mut worst = [0.0_f64; 2];
+        for angle in 0..=8 {
+            let (y, x) = libm::sincos(0.001 + f64::from(angle) * std::f64::consts::FRAC_PI_4 / 8.0);
+            for place in 0..70 {
+                let start = f64::from(place) * 0.01;
+                let square = |distance: f64| distance.max(0.0) * distance.max(0.0);
+                let cube = |distance: f64| square(distance) * distance;
+                let row = |row: u32| {
+                    let middle = y * ((f64::from(row) + 0.5) / f64::from(ROWS) - 0.5) + start;
+                    (cube(middle + 0.5 * x) - cube(middle - 0.5 * x)) / (3.0 * x)
+                };
+                let exact = (0..ROWS).map(row).sum::<f64>() / f64::from(ROWS);
+                let (mut star, mut grid) = (0.0, 0.0);
+                for (index, sample) in POINTS[..GAUSS_SAMPLES].iter().enumerate() {
+                    let light = square(x * sample.u + y * sample.v + start);
+                    grid += sample.gauss * light;
+                    if index < STAR_SAMPLES {
+                        star += sample.star * light;
+                    }
+                }
+                for (worst, sum) in worst.iter_mut().zip([star, grid]) {
+                    *worst = worst.max(0.5 * (sum - exact).abs());
+                }
+            }
+        }
+        for (worst, most) in worst.into_iter().zip([OF_JUMP_BY_STAR, OF_JUMP_BY_GRID]) {
+            assert!(worst <= most && worst > 0.9 * most, "{worst} {most}");
+        }
+    }
+}
