@@ -65,6 +65,9 @@ impl Quantity {
 pub struct Quantities(u8);
 
 impl Quantities {
+    /// No quantity.
+    pub const NONE: Self = Self(0);
+
     /// The set with one more.
     #[must_use]
     pub const fn with(self, quantity: Quantity) -> Self {

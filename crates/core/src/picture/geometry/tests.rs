@@ -3,7 +3,9 @@ use crate::picture::averages::AverageSettings;
 use crate::picture::quantities::{Axes, Depth};
 
 const SETTINGS: GeometrySettings = GeometrySettings {
-    quantities: Quantities(0).with(Quantity::Depth).with(Quantity::Position),
+    quantities: Quantities::NONE
+        .with(Quantity::Depth)
+        .with(Quantity::Position),
     depth: Depth::Axis,
     axes: Axes::World,
     precision: Precision::Single,
