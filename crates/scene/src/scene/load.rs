@@ -65,7 +65,8 @@ impl Scene {
                 let (valid, rest) = bytes.split_at(valid_up_to);
                 let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
                 let byte = rest.first().copied().unwrap_or_default();
-                let message = format!("expected text in UTF-8, found the byte 0x{byte:02x}");
+                let expected = if byte == 0 { "text" } else { "text in UTF-8" };
+                let message = format!("expected {expected}, found the byte 0x{byte:02x}");
                 let fault = Fault::new(valid.len()..valid.len(), message);
                 Err(SceneError::refused(path, valid, vec![fault]))
             }

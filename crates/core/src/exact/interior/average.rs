@@ -3,11 +3,11 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::estimate::{Estimate, ROUNDING, Rule, apart_on_bumps, bend_of_grid};
+use super::estimate::{Estimate, ROUNDING, apart_on_bumps, bend_of_grid};
 use super::filled::{Filled, Radiance};
 use super::light_cosines::LightCosines;
 use super::remainder::Rules;
-use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, SAMPLES, STAR_SAMPLES, Sample};
+use super::samples::{FROM_GRID, GAUSS_SAMPLES, POINTS, Rule, SAMPLES, STAR_SAMPLES, Sample};
 use super::terminators::MEDIUM;
 use crate::exact::points::Points;
 use crate::model::color::Color;

@@ -6,7 +6,7 @@ use fearless_simd::{f64x8, mask64x8};
 use super::filled::{Filled, Radiance};
 use super::kinks::Kinks;
 use super::light_cosines::LightCosines;
-use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, STAR_SAMPLES, WEIGHTS};
+use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, Rule, WEIGHTS};
 use super::terminators::{MEDIUM, SMALL};
 use crate::exact::costs::highest_cosine;
 
@@ -24,15 +24,6 @@ pub(super) const ROUNDING: f64 = 1e-15;
 /// second derivatives are not: found by `cargo truth hunt`. Then five samples are not enough, and nine must agree
 /// with them.
 const WARY: f64 = 5e-5;
-
-/// A rule that is estimated.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum Rule {
-    /// That of five samples.
-    Star,
-    /// Gauss's, of nine.
-    Grid,
-}
 
 /// The error of a rule in eight pixels.
 #[derive(Clone, Copy, Debug)]
@@ -53,16 +44,6 @@ impl<S: Simd> Estimate<S> {
             error: f64x8::splat(simd, 0.0),
             is_known: never,
             is_met: never,
-        }
-    }
-}
-
-impl Rule {
-    #[inline(always)]
-    fn samples(self) -> usize {
-        match self {
-            Self::Star => STAR_SAMPLES,
-            Self::Grid => GAUSS_SAMPLES,
         }
     }
 }

@@ -3,9 +3,9 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::estimate::Rule;
 use super::filled::Filled;
 use super::light_cosines::LightCosines;
+use super::samples::Rule;
 use crate::exact::costs::highest_cosine;
 use crate::exact::points::Points;
 use crate::light::shading_normal::ShadingNormal;

@@ -6,10 +6,9 @@ use std::collections::BinaryHeap;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
-use super::estimate::Rule;
 use super::filled::Filled;
 use super::light_cosines::LightCosines;
-use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
+use super::samples::{GAUSS_SAMPLES, POINTS, Rule, STAR_SAMPLES};
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::model::color::Color;

@@ -34,6 +34,25 @@ pub(crate) const FROM_GRID: f64 = 0.4;
 /// The distance of a corner from the middle over that of the star's other samples: √(5/3).
 pub(crate) const TO_CORNER: f64 = 1.290_994_448_735_805_6;
 
+/// A rule that is estimated.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Rule {
+    /// That of five samples.
+    Star,
+    /// Gauss's, of nine.
+    Grid,
+}
+
+impl Rule {
+    #[inline(always)]
+    pub(crate) fn samples(self) -> usize {
+        match self {
+            Self::Star => STAR_SAMPLES,
+            Self::Grid => GAUSS_SAMPLES,
+        }
+    }
+}
+
 /// The samples: the star's, the rest of Gauss's grid, then those of Kronrod's rule on either diagonal. The
 /// numbers are those of the rules for [−½, ½], half of the tabulated ones for [−1, 1].
 pub(crate) const POINTS: [Sample; SAMPLES] = {

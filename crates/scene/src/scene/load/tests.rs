@@ -23,7 +23,7 @@ fn what_is_no_text_is_read_up_to_there() {
     for (bytes, place) in [
         (
             &b"(image\0 more"[..],
-            "1:7: expected text in UTF-8, found the byte 0x00",
+            "1:7: expected text, found the byte 0x00",
         ),
         (
             b"(\n\xff\0",
