@@ -35,14 +35,19 @@ impl Begin {
     }
 }
 
+/// Returns whether all parallel rays of a cell begin inside of a sphere: of other spheres they see what is inside of it too,
+/// where no light gets that is outside.
+pub(super) fn begins_inside(cell: &Cell, ball: &Ball) -> bool {
+    ball.is_cut() && Begin::of(cell, ball) == Begin::Inside
+}
+
 /// Returns whether all rays of a cell that see an outer side begin inside of all spheres around a point light.
 fn is_inside_with(scene: &InCamera<'_>, cell: &Cell, light: &Light) -> bool {
     let around = scene.visibility.point_light(light.index);
     let around = around.map_or(&[][..], |occluders| occluders.enclosing());
     around.iter().all(|&sphere| {
-        let ball = scene.ball(sphere);
         // Where some rays begin outside, those that begin inside see the inner side alone.
-        ball.is_cut() && Begin::of(cell, &ball) == Begin::Inside
+        begins_inside(cell, &scene.ball(sphere))
     })
 }
 

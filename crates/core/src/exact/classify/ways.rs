@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::active::Active;
 use super::coincidence::{hides_all, is_at_eye};
 use super::contents::{Contents, ROUNDINGS};
+use super::cut::begins_inside;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
 use super::reach::Reach;
@@ -101,6 +102,9 @@ impl Contents {
                 let mut known = self.occluders[first..].iter();
                 if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
                     continue;
+                }
+                if begins_inside(cell, &scene.ball(sphere)) {
+                    return Reach::Nowhere;
                 }
                 let caster = in_camera.caster(center, radius);
                 let Some(cone) = caster.cone else { continue };
