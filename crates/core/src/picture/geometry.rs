@@ -18,7 +18,7 @@ use super::window::Window;
 ///
 /// Row 0 is the top row, column 0 the left one. A normal of the world is told as what it is; in a camera's
 /// axes it is the product with the transposed rotation of the [`Camera`](crate::Camera), and a position is
-/// t times the point (u, v, distance) of the retina, both with the signs of the [`Axes`].
+/// t times the point (u, v, distance) of the retina, both with the signs of the [`Axes`](crate::Axes).
 ///
 /// # Accuracy
 /// A bound for depths, positions and geometric normals, each component of its own however small: in the type

@@ -41,8 +41,8 @@ impl Sender<'_, '_> {
     /// nothing where the chords are to be divided there, too, which is noted.
     ///
     /// # Accuracy
-    /// Jumps are what they are where a chord meets a lattice plane. The light's slope is a bound. Jumps of third
-    /// derivatives are left out: to second order they are smaller by the part's length in cells over 8.
+    /// An estimate: jumps are those where a chord meets a lattice plane, and the light's slope is a bound; jumps of third
+    /// derivatives, which rules miss a twentieth as much of, are left out. Chords that are divided there miss nothing.
     #[inline(never)]
     pub(super) fn jumps<S: Simd>(
         &self,
