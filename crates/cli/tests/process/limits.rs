@@ -1,6 +1,6 @@
 //! What the system takes away: descriptors, room in files, signals.
 
-use std::process::{Command, Output, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
 use crate::signals::{signal, wait_until};
@@ -19,6 +19,19 @@ fn after(folder: &Folder, before: &str, arguments: &str) -> Command {
 
 fn run(folder: &Folder, before: &str, arguments: &str) -> Output {
     after(folder, before, arguments).output().unwrap()
+}
+
+/// Begins such a run, and waits for its first picture in `out`.
+fn begin(folder: &Folder, before: &str, arguments: &str) -> Child {
+    let child = after(folder, before, arguments)
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    wait_until("a picture", || {
+        folder.path("out").exists() && !folder.names("out").is_empty()
+    });
+    child
 }
 
 /// Asserts that there are whole pictures alone; returns their number.
@@ -74,14 +87,7 @@ fn signals_that_are_ignored_at_the_start_stay_ignored() {
     let folder = Folder::new();
     let arguments = "render ball.ron -o out/#.png --frames 1-40 --size 60x60 --samples 12";
     for (before, ignored) in [("trap '' HUP", "HUP"), ("trap '' INT", "INT")] {
-        let mut child = after(&folder, before, arguments)
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        wait_until("a picture", || {
-            folder.path("out").exists() && !folder.names("out").is_empty()
-        });
+        let mut child = begin(&folder, before, arguments);
         signal(ignored, &child);
         assert_eq!(child.wait().unwrap().code(), Some(0), "{ignored}");
         assert_eq!(whole_pictures(&folder, "out"), 40);
@@ -89,14 +95,7 @@ fn signals_that_are_ignored_at_the_start_stay_ignored() {
     }
     // Without that, they end it.
     for sent in ["HUP", "TERM"] {
-        let mut child = after(&folder, "true", &arguments.replace("1-40", "1-4000"))
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        wait_until("a picture", || {
-            folder.path("out").exists() && !folder.names("out").is_empty()
-        });
+        let mut child = begin(&folder, "true", &arguments.replace("1-40", "1-4000"));
         signal(sent, &child);
         assert_eq!(child.wait().unwrap().code(), Some(130), "{sent}");
         whole_pictures(&folder, "out");
