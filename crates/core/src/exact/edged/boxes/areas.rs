@@ -141,7 +141,7 @@ impl Setting<'_, '_> {
                         continue;
                     };
                     let region = &visible.region;
-                    let error = (visible.doubt + region.ambiguity).min(region.most);
+                    let error = (visible.doubt + visible.share.ambiguity).min(region.most);
                     found[visible.position] = [visible.share.area.into(), error.into()];
                     seen += visible.share.area;
                 }

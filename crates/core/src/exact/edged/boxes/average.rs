@@ -115,17 +115,11 @@ impl<S: Simd> Sum<S> {
         self.error += light.error;
         self.seen += visible.share.area;
         self.doubt += visible.doubt;
-        self.add_region(&visible.region);
+        self.ambiguity += visible.share.ambiguity;
         for (value, of_light) in self.value.iter_mut().zip(&light.value).take(self.channels) {
             *value += *of_light;
         }
         self.add_range(light, visible.is_possible);
-    }
-
-    /// Adds what the share of a region may be off by.
-    #[inline(always)]
-    fn add_region(&mut self, region: &Region<S>) {
-        self.ambiguity += region.ambiguity.min(region.most);
     }
 
     /// Makes what is seen fill these shares of boxes: of three spheres that meet in a box the products of shares do not.
@@ -163,8 +157,8 @@ impl<S: Simd> Sum<S> {
 }
 
 /// The share of what edges may hide of each other that counts, as a part of the contrast: what one region gains another
-/// loses, and products lie between the extremes.
-const OF_AMBIGUITY: f64 = 0.35;
+/// loses.
+pub(super) const OF_AMBIGUITY: f64 = 0.5;
 
 impl Setting<'_, '_> {
     /// The averages, with memory to work in.
@@ -204,11 +198,12 @@ impl Setting<'_, '_> {
                 sum.add(&visible, &light);
             }
         }
-        let open = outside.share(simd).area;
+        let left = outside.share(simd);
+        let open = left.area;
         // What no sphere was found to fill may belong to any of them.
         sum.doubt += (one - open - sum.seen).abs();
         sum.fill(simd, one - open);
-        sum.add_region(&outside);
+        sum.ambiguity += left.ambiguity;
         let background = Lit::ambient(simd, self.background, open);
         for (value, of_light) in sum.value.iter_mut().zip(&background.value) {
             *value += *of_light;

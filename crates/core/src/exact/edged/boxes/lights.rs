@@ -3,6 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
+use super::average::OF_AMBIGUITY;
 use super::falloffs::{Faced, Power};
 use super::normals::Normals;
 use super::outlines::Visible;
@@ -104,8 +105,10 @@ impl<S: Simd> Lit<S> {
         let ends = ramped.min(cut * diffuse.most) * weights[0]
             + shine.ambiguity.min(cut * shine.most) * weights[1];
         let brightness = diffuse.most * weights[0] + shine.most * weights[1];
-        let hidden =
-            (left.region.ambiguity - visible.region.ambiguity + left.doubt).min(left.region.most);
+        // What edges hide of what is seen counts as contrast.
+        let more = (lit.ambiguity - visible.share.ambiguity * OF_AMBIGUITY).max(zero);
+        let more = left.is_free.select(zero, more);
+        let hidden = (more + left.doubt).min(left.region.most);
         self.error += lit.area * (diffuse.doubt * weights[0] + shine.doubt * weights[1])
             + ends
             + hidden * brightness;

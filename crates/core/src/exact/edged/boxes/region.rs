@@ -17,11 +17,12 @@ pub(super) struct Region<S: Simd> {
     second: HalfPlane<S>,
     /// The smaller of what is on both sides of the two lines; 0 without a line.
     ambiguities: [f64x8<S>; 2],
-    /// The share that the others leave, as if they were independent of each other and of the lines.
+    /// The share that the others leave, as if they were independent of each other and of the lines; no more than the
+    /// least of their shares, and all without what they take away together.
     rest: f64x8<S>,
-    /// How much the share may be off because of that.
-    pub(super) ambiguity: f64x8<S>,
-    /// The largest share that it may have.
+    least: f64x8<S>,
+    taken: f64x8<S>,
+    /// The largest share that it may have, if edges are no lines.
     pub(super) most: f64x8<S>,
 }
 
@@ -30,6 +31,8 @@ pub(super) struct Region<S: Simd> {
 pub(super) struct Share<S: Simd> {
     pub(super) area: f64x8<S>,
     pub(super) moments: [f64x8<S>; 2],
+    /// How much the area may be off because shares were multiplied: a bound, if edges are lines.
+    pub(super) ambiguity: f64x8<S>,
 }
 
 impl<S: Simd> Region<S> {
@@ -44,7 +47,8 @@ impl<S: Simd> Region<S> {
             second: whole,
             ambiguities: [zero; 2],
             rest: one,
-            ambiguity: zero,
+            least: one,
+            taken: zero,
             most: one,
         }
     }
@@ -56,7 +60,7 @@ impl<S: Simd> Region<S> {
         let ambiguity = part.ambiguity(simd);
         let is_cut = ambiguity.simd_gt(LEAST_AMBIGUITY);
         if is_cut.to_bitmask() == 0 {
-            self.rest *= part.share;
+            self.leave(simd, part.share);
             return;
         }
         let [first, second] = self.ambiguities;
@@ -65,9 +69,7 @@ impl<S: Simd> Region<S> {
         let is_new = is_cut & ambiguity.simd_gt(lesser);
         let of_lesser = is_first.select(self.first.share, self.second.share);
         // What was known by its line is multiplied from now on, or what is new is.
-        self.rest *= is_new.select(of_lesser, part.share);
-        let zero = f64x8::splat(simd, 0.0);
-        self.ambiguity += is_new.select(lesser, is_cut.select(ambiguity, zero));
+        self.leave(simd, is_new.select(of_lesser, part.share));
         let is_second = is_new & !is_first;
         let is_first = is_new & is_first;
         self.first = self.first.or(is_first, part);
@@ -76,6 +78,14 @@ impl<S: Simd> Region<S> {
             is_first.select(ambiguity, first),
             is_second.select(ambiguity, second),
         ];
+    }
+
+    /// Leaves this share of what is left.
+    #[inline(always)]
+    fn leave(&mut self, simd: S, share: f64x8<S>) {
+        self.rest *= share;
+        self.least = self.least.min(share);
+        self.taken += f64x8::splat(simd, 1.0) - share;
     }
 
     /// Takes away what is inside of both of two half-planes.
@@ -97,8 +107,11 @@ impl<S: Simd> Region<S> {
             let zero = f64x8::splat(simd, 0.0);
             let left = full - one.share * other.share;
             self.rest *= is_cut_twice.select(left, full);
-            let ambiguity = left.min(full - left) + ambiguities[0].min(ambiguities[1]);
-            self.ambiguity += is_cut_twice.select(ambiguity, zero);
+            // They have no less in common than what makes them more than the box, and no more than the smaller of them.
+            let common = (one.share + other.share - full).max(zero);
+            let least = is_cut_twice.select(full - common, full);
+            self.least = self.least.min(least);
+            self.taken += is_cut_twice.select(one.share.min(other.share), zero);
         }
     }
 
@@ -107,6 +120,7 @@ impl<S: Simd> Region<S> {
     pub(super) fn darken(&mut self, simd: S, boxes: mask64x8<S>) {
         let zero = f64x8::splat(simd, 0.0);
         self.rest = boxes.select(zero, self.rest);
+        self.least = boxes.select(zero, self.least);
         self.most = boxes.select(zero, self.most);
     }
 
@@ -141,9 +155,15 @@ impl<S: Simd> Region<S> {
                 *moment = has_both.select(of_both, *moment);
             }
         }
+        // What is left lies between what all leave at least and the smallest of them.
+        let product = area * self.rest;
+        let zero = f64x8::splat(simd, 0.0);
+        let above = area.min(self.least) - product;
+        let below = product - (area - self.taken).max(zero);
         Share {
-            area: area * self.rest,
+            area: product,
             moments: [moments[0] * self.rest, moments[1] * self.rest],
+            ambiguity: above.max(below).max(zero),
         }
     }
 }

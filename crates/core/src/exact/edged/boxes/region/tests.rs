@@ -14,7 +14,8 @@ fn found(planes: &[Plane]) -> [f64; 3] {
             let across = [splat(*x), splat(*y)];
             region.cut(simd, &HalfPlane::new(simd, splat(*value), across, splat(0.0)));
         }
-        [region.share(simd).area, region.ambiguity, region.most].map(|lanes| lanes[6])
+        let share = region.share(simd);
+        [share.area, share.ambiguity, region.most].map(|lanes| lanes[6])
     })
 }
 
@@ -46,6 +47,50 @@ fn two_half_planes_are_exact_and_three_claim_enough() {
         assert!(
             error < ambiguity + 4e-4 && truth < most + 4e-4,
             "{planes:?}: {share} for {truth}, claims {ambiguity}, at most {most}"
+        );
+    }
+}
+
+#[test]
+fn a_strip_inside_of_nested_lines_and_a_third_claims_enough() {
+    for index in 0..24 {
+        let aside = 0.02 * f64::from(index) - 0.1;
+        let nested = |value: f64| (value, [1e-6, 1.0]);
+        let planes = [
+            nested(-0.330),
+            nested(-0.328),
+            (0.5 - aside, [0.05 + aside, -1.0]),
+        ];
+        let [share, ambiguity, _] = found(&planes);
+        let error = (share - truth(&planes)).abs();
+        assert!(error < ambiguity + 4e-4, "{planes:?}: {error}, {ambiguity}");
+        // A bound is no larger than what may be there.
+        assert!(ambiguity < 0.172, "{planes:?}: {ambiguity}");
+    }
+}
+
+#[test]
+fn what_is_inside_of_both_of_two_half_planes_claims_enough() {
+    for index in 0..24 {
+        let [one, other, third] = [plane(index), plane(index + 7), plane(2 * index + 3)];
+        let [share, ambiguity] = dispatch!(Level::new(), simd => {
+            let splat = |number| f64x8::splat(simd, number);
+            let part = |(value, [x, y]): Plane| {
+                HalfPlane::new(simd, splat(value), [splat(x), splat(y)], splat(0.0))
+            };
+            let mut region = Region::whole(simd);
+            region.cut(simd, &part(third));
+            region.cut_by_both(simd, &part(one), &part(other));
+            let share = region.share(simd);
+            [share.area, share.ambiguity].map(|lanes| lanes[3])
+        });
+        let inside = |(value, [x, y]): Plane, u: f64, v: f64| value + x * u + y * v > 0.0;
+        let [truth, ..] =
+            by_points(|u, v| inside(third, u, v) && !(inside(one, u, v) && inside(other, u, v)));
+        let error = (share - truth).abs();
+        assert!(
+            error < ambiguity + 4e-4,
+            "{index}: {share} for {truth}, claims {ambiguity}"
         );
     }
 }
