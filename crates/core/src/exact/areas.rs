@@ -76,6 +76,7 @@ impl<'scene> Areas<'scene> {
             index,
             is_moderate: is_view_moderate(view),
             context: Context {
+                normals: None,
                 scene,
                 view: *view,
                 tolerance,

@@ -4,7 +4,8 @@ use fearless_simd::prelude::*;
 
 use super::budget::Allowance;
 use super::part::Part;
-use super::scene::InCamera;
+use super::scene::{InCamera, Light};
+use super::surface::Finish;
 use crate::edges::cell::Cell;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
@@ -33,6 +34,9 @@ pub(crate) struct Context<'scene> {
     /// About the largest difference of light that an edge may make, highlights left out.
     pub(crate) contrast: f64,
     pub(crate) allowance: Allowance,
+    /// The scene whose light is its normals, where one light at a time makes pictures of the view: it has the average
+    /// over a pixel in common with others, which is the mean normal times the direction toward it.
+    pub(crate) normals: Option<InCamera<'scene>>,
 }
 
 impl Context<'_> {
@@ -53,6 +57,25 @@ impl Context<'_> {
             ],
             projection: self.scene.projection,
         }
+    }
+
+    /// The scene whose light is its normals, and the only light, where what a surface sends is the product of both.
+    pub(crate) fn normals_on(&self, finish: &Finish) -> Option<(&InCamera<'_>, &Light)> {
+        let normals = self.normals.as_ref().filter(|_| finish.is_plain())?;
+        Some((normals, self.scene.single_light()?))
+    }
+
+    /// The tolerance of mean normals, of which light differs by no more than `contrast`: a power of two of that of
+    /// pixels, which lights that are about as bright have in common.
+    pub(crate) fn tolerance_of_normals(&self, contrast: f64) -> f64 {
+        /// Below this contrast counts as this.
+        const LEAST: f64 = 0.25;
+        /// The bits of the fraction of a double.
+        const FRACTION: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
+        let contrast = contrast.max(LEAST);
+        let below = f64::from_bits(contrast.to_bits() & !FRACTION);
+        let power = if below < contrast { 2.0 * below } else { below };
+        self.tolerance / power
     }
 
     /// A pixel that sees no sphere.

@@ -80,19 +80,24 @@ impl<'scene> Exact<'scene> {
             + world.background.max_element()
             + lights.sum::<f64>();
         let channels = Channels::of(world, alpha);
-        let context = |group| Context {
-            scene: InCamera::new(world, &index.visibility, view, channels, group),
-            view: *view,
-            tolerance: tolerance / count as f64,
-            is_proved: true,
-            has_alpha: alpha,
-            background: if alpha || group > 0 {
-                Color::ZERO
-            } else {
-                world.background
-            },
-            contrast,
-            allowance: Allowance::still(count),
+        let context = |group| {
+            let scene = InCamera::new(world, &index.visibility, view, channels, group);
+            let normals = scene.single_light().map(|_| scene.of_normals());
+            Context {
+                scene,
+                normals,
+                view: *view,
+                tolerance: tolerance / count as f64,
+                is_proved: true,
+                has_alpha: alpha,
+                background: if alpha || group > 0 {
+                    Color::ZERO
+                } else {
+                    world.background
+                },
+                contrast,
+                allowance: Allowance::still(count),
+            }
         };
         Self {
             is_moderate: is_view_moderate(view),
@@ -111,6 +116,7 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn at_a_moment(mut self, level: u32) -> Self {
         for context in &mut self.groups {
             context.allowance = context.allowance.at_a_moment(level);
+            context.normals = None;
         }
         self
     }
@@ -119,6 +125,7 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn without_proofs(mut self) -> Self {
         for context in &mut self.groups {
             context.is_proved = false;
+            context.normals = None;
         }
         self
     }

@@ -41,6 +41,7 @@ use self::context::Context;
 use self::edged::cell::{EdgedPixel, Workspace};
 use self::interior::fill::fill;
 use self::interior::filled::FilledRow;
+use self::interior::reached::Extents;
 use self::part::GiveUp;
 use crate::edges::cell::Ball;
 use crate::numeric::bits::set_bits;
@@ -146,9 +147,30 @@ fn tile_pixels<S: Simd>(
             };
             edged.work.candidate_tests += candidates.len() as u64 * u64::from(start.width);
             seen.see(simd, first, start, (candidates, balls));
+            edged.normals.clear();
             let place = (row * tile.width + left) as usize;
             for (context, lit) in contexts.iter().zip(&mut *lit) {
-                row_pixels(simd, context, (start, place), seen, (edged, lit));
+                // Pixels that see no sphere are empty already; those with edges climb alone.
+                for (lane, spheres) in seen.edged() {
+                    lit.climb(simd, context, (start, place), (lane, spheres), edged);
+                }
+            }
+            for (coverage, which) in seen.filled() {
+                let row = FilledRow {
+                    start: Tile { width: 1, ..start },
+                    which,
+                    coverage,
+                };
+                let extents = (coverage.ball.outside > 0.0).then(|| {
+                    simd.vectorize(
+                        #[inline(always)]
+                        || Extents::new(simd, first, &row),
+                    )
+                });
+                for (context, lit) in contexts.iter().zip(&mut *lit) {
+                    let of_row = (&row, extents.as_ref());
+                    lit.fill(simd, context, of_row, (start, place), edged);
+                }
             }
         }
     }
@@ -157,73 +179,63 @@ fn tile_pixels<S: Simd>(
     }
 }
 
-/// Writes up to eight pixels of a row, which are empty so far and begin at a place of their tile.
-#[inline(always)]
-fn row_pixels<S: Simd>(
-    simd: S,
-    context: &Context<'_>,
-    (row, place): (Tile, usize),
-    seen: &SeenRow,
-    (edged, lit): (&mut Workspace, &mut LitTile),
-) {
-    let LitTile {
-        cache,
-        pixels,
-        costs,
-        unknown,
-    } = lit;
-    let pixels = &mut pixels[place..][..row.width as usize];
-    let pixel = |lane: usize| Tile {
-        col: row.col + lane as u32,
-        width: 1,
-        ..row
-    };
-
-    // Pixels that see no sphere are empty already; those with edges climb alone.
-    for (lane, spheres) in seen.edged() {
-        match edged_pixel(simd, context, pixel(lane), spheres, cache, edged) {
-            Ok(known) => pixels[lane] = known,
-            Err(_) => *unknown |= 1 << (place + lane),
+impl LitTile {
+    /// Writes a pixel that climbs alone, in a row of up to eight that begins at a place of the tile.
+    fn climb<S: Simd>(
+        &mut self,
+        simd: S,
+        context: &Context<'_>,
+        (row, place): (Tile, usize),
+        (lane, spheres): (usize, &[(usize, Ball)]),
+        edged: &mut Workspace,
+    ) {
+        let pixel = Tile {
+            col: row.col + lane as u32,
+            width: 1,
+            ..row
+        };
+        match edged_pixel(simd, context, pixel, spheres, &mut self.cache, edged) {
+            Ok(known) => self.pixels[place + lane] = known,
+            Err(_) => self.unknown |= 1 << (place + lane),
         }
-        costs.add(place + lane, edged.budget.spent());
+        self.costs.add(place + lane, edged.budget.spent());
     }
 
-    // Pixels that one sphere fills climb together, until a light has an edge in them, or bends too much.
-    for (coverage, which) in seen.filled() {
+    /// Writes the pixels of such a row that one sphere fills: they climb together, until a light has an edge in them, or
+    /// bends too much.
+    #[inline(always)]
+    fn fill<S: Simd>(
+        &mut self,
+        simd: S,
+        context: &Context<'_>,
+        (of_sphere, extents): (&FilledRow<'_>, Option<&Extents<S>>),
+        (row, place): (Tile, usize),
+        edged: &mut Workspace,
+    ) {
+        let FilledRow {
+            which, coverage, ..
+        } = *of_sphere;
+        let spheres = [(coverage.sphere, coverage.ball)];
         // Rules for pixels that one sphere fills know no point lights.
         if context.scene.has_near_lights && coverage.ball.outside > 0.0 {
             for lane in set_bits(which) {
-                let spheres = [(coverage.sphere, coverage.ball)];
-                match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
-                    Ok(known) => pixels[lane] = known,
-                    Err(_) => *unknown |= 1 << (place + lane),
-                }
-                costs.add(place + lane, edged.budget.spent());
+                self.climb(simd, context, (row, place), (lane, &spheres), edged);
             }
-            continue;
+            return;
         }
-        let of_sphere = FilledRow {
-            start: pixel(0),
-            which,
-            coverage,
-        };
-        let done = fill(simd, context, &of_sphere, cache, &mut edged.noise, pixels);
+        let memory = (&mut edged.noise, &mut edged.normals.filled);
+        let pixels = &mut self.pixels[place..][..row.width as usize];
+        let of_row = (of_sphere, extents);
+        let done = fill(simd, context, of_row, &mut self.cache, memory, pixels);
         edged.work.samples += done.samples;
         let material = context.scene.world.material(coverage.sphere);
         let is_rough = material.roughness.is_some();
         for lane in set_bits(which) {
-            costs.add(
-                place + lane,
-                FILLED[usize::from(is_rough)] + done.of_bumps[lane],
-            );
+            let cost = FILLED[usize::from(is_rough)] + done.of_bumps[lane];
+            self.costs.add(place + lane, cost);
         }
         for lane in set_bits(done.hard) {
-            let spheres = [(coverage.sphere, coverage.ball)];
-            match edged_pixel(simd, context, pixel(lane), &spheres, cache, edged) {
-                Ok(known) => pixels[lane] = known,
-                Err(_) => *unknown |= 1 << (place + lane),
-            }
-            costs.add(place + lane, edged.budget.spent());
+            self.climb(simd, context, (row, place), (lane, &spheres), edged);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! The world in the frame of a camera.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
@@ -35,7 +37,7 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) projection: Projection,
     camera_from_world: DMat3,
     /// All spheres; none in a world of very many, of which a view sees few.
-    balls: Vec<Ball>,
+    balls: Arc<[Ball]>,
     /// True if the eye is inside a sphere that casts shadows: so is all that it sees, and no directional light
     /// gets there.
     pub(crate) is_enclosed: bool,
@@ -45,6 +47,8 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) lights: Vec<Light>,
     /// The light of the surroundings, which counts with the first group.
     pub(crate) ambient: Color,
+    /// Whether the light of spheres is their normals: see [`Self::of_normals`].
+    pub(crate) is_of_normals: bool,
 }
 
 /// The number of spheres up to which all are brought into the camera's frame once for a view: they take
@@ -113,6 +117,7 @@ impl<'scene> InCamera<'scene> {
         } else {
             Vec::new()
         };
+        let balls = Arc::from(balls);
         let encloses = |sphere: &Sphere| {
             let distance_sq = (sphere.center() - viewpoint).length_squared();
             let radius_sq = sphere.radius() * sphere.radius();
@@ -178,6 +183,39 @@ impl<'scene> InCamera<'scene> {
             } else {
                 Color::ZERO
             },
+            is_of_normals: false,
+        }
+    }
+
+    /// The same scene whose smooth spheres send their normals, in the camera's frame, as red, green and blue: three
+    /// lights along the axes that go on, with the other sign, where a surface turns from them. What no sphere covers
+    /// sends nothing.
+    pub(crate) fn of_normals(&self) -> Self {
+        let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+        let lights = axes.into_iter().enumerate().map(|(index, axis)| Light {
+            index,
+            intensity: axis,
+            toward: axis,
+            right: axes[(index + 1) % 3],
+            up: axes[(index + 2) % 3],
+            near: None,
+            is_shut_off: false,
+        });
+        Self {
+            channels: axes.len(),
+            has_near_lights: false,
+            lights: lights.collect(),
+            ambient: Color::ZERO,
+            is_of_normals: true,
+            ..self.clone()
+        }
+    }
+
+    /// The only light of the group, if it is directional.
+    pub(crate) fn single_light(&self) -> Option<&Light> {
+        match &self.lights[..] {
+            [light] if light.near.is_none() => Some(light),
+            _ => None,
         }
     }
 

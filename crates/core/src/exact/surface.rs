@@ -7,6 +7,7 @@ use super::points::Points;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
 use crate::light::reflection::{Reflectance, ViewedPoints};
 use crate::light::shading_normal::ShadingNormal;
+use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::vectors::Vectors;
@@ -73,9 +74,14 @@ impl Light {
 
 impl Finish {
     pub(crate) fn new(scene: &InCamera<'_>, sphere: usize, pixel: PixelKey) -> Self {
+        let albedo = if scene.is_of_normals {
+            Color::ONE
+        } else {
+            scene.world.albedo(sphere)
+        };
         Self {
             reflectance: Reflectance {
-                albedo: scene.world.albedo(sphere),
+                albedo,
                 ..Reflectance::new(scene.world.material(sphere))
             },
             shading_normal: ShadingNormal::new(scene.world, sphere, pixel),

@@ -123,8 +123,9 @@ impl Shape {
             _ => 3,
         };
         let stored = color_count(image.channels());
-        let is_plain =
-            self.sample_bytes() == 1 && !image.has_alpha() && colors == stored && gain == 1.0;
+        let is_opaque = !image.has_alpha() && colors == stored;
+        let is_plain = self.sample_bytes() == 1 && is_opaque && gain == 1.0;
+        let is_linear_16 = self.sample_bytes() == 2 && is_opaque && self.is_linear;
         let pixel_bytes = self.pixel_bytes();
         let first = col as usize * pixel_bytes;
         let length = image.width() as usize * pixel_bytes;
@@ -135,6 +136,17 @@ impl Shape {
                 srgb::encode_all_8(light, samples);
                 let pixels = light.chunks_exact(stored);
                 let is_clipped = |pixel: &&[f64]| pixel.iter().any(|&value| value > most_light);
+                clipped += pixels.filter(is_clipped).count() as u64;
+                continue;
+            }
+            if is_linear_16 {
+                let (pixels, _) = samples.as_chunks_mut::<2>();
+                for (pair, &value) in pixels.iter_mut().zip(image.row(row)) {
+                    *pair = linear_16(gain * value).to_be_bytes();
+                }
+                let pixels = image.row(row).chunks_exact(stored);
+                let is_clipped =
+                    |pixel: &&[f64]| pixel.iter().any(|&value| gain * value > most_light);
                 clipped += pixels.filter(is_clipped).count() as u64;
                 continue;
             }

@@ -32,6 +32,8 @@ pub(crate) enum Terminators {
     Tilted(DVec3),
     /// Inside bumps.
     Anywhere,
+    /// Nowhere: light goes on with the other sign.
+    Nowhere,
 }
 
 impl Terminators {
@@ -52,7 +54,7 @@ impl Terminators {
     pub(crate) fn plane(&self, scene: &InCamera<'_>, ball: &Ball, light: usize) -> Option<Plane> {
         let toward = match &scene.lights[light].near {
             None => scene.lights[light].toward,
-            Some(_) if *self == Self::Anywhere => return None,
+            Some(_) if matches!(self, Self::Anywhere | Self::Nowhere) => return None,
             Some(near) => return Plane::of_near_light(near.position - ball.center, ball.radius),
         };
         let axis = match self {
@@ -62,7 +64,7 @@ impl Terminators {
                 let tilted = *factors * (to_world * toward);
                 Some((to_world.transpose() * tilted).normalize())
             }
-            Self::Anywhere => None,
+            Self::Anywhere | Self::Nowhere => None,
         };
         axis.map(|axis| Plane { axis, offset: 0.0 })
     }

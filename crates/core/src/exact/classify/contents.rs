@@ -193,6 +193,35 @@ impl Contents {
         self.rounding += unresolved;
     }
 
+    /// The same for the scene whose light is its normals: nothing shades them.
+    pub(crate) fn of_normals(&self, into: &mut Self) {
+        into.active.clear();
+        let active = self.active.iter().map(|active| Active {
+            terminators: Terminators::Nowhere,
+            ..*active
+        });
+        into.active.extend(active);
+        into.conics.clear();
+        let is_of_light = |kind: &Kind| matches!(kind, Kind::Terminator(..));
+        let conics = self.conics.iter().filter(|(kind, _)| !is_of_light(kind));
+        into.conics.extend(conics);
+        into.occluders.clear();
+        into.reach.clear();
+        let lights = 3 * self.active.len();
+        into.reach.extend((0..lights).map(|_| Reach::Past(0..0)));
+        into.pixel = self.pixel;
+        into.rounding = self.rounding;
+    }
+
+    /// Returns whether a cell sees one sphere alone, with nothing but its outline in it.
+    pub(crate) fn is_outline_alone(&self) -> bool {
+        let is_outline = |(kind, _): &(Kind, Quadratic)| matches!(kind, Kind::Silhouette(_));
+        matches!(&self.active[..], [active] if active.ball.outside > 0.0 && !active.is_dark)
+            && !self.is_mixed
+            && self.occluders.is_empty()
+            && self.conics.iter().all(is_outline)
+    }
+
     /// Adds the curves in which an active sphere intersects those before it.
     fn add_seams(&mut self, cell: &Cell, position: usize) {
         let ball = self.active[position].ball;

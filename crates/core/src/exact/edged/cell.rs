@@ -8,6 +8,7 @@ use fearless_simd::prelude::*;
 
 use super::boundary::{Boundary, Goal};
 use super::boxes::{self, Boxes};
+use super::mean_normals::Normals;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
@@ -23,16 +24,18 @@ use crate::picture::pixel::Work;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Workspace {
     pub(crate) contents: Contents,
-    boundary: Boundary,
+    pub(super) boundary: Boundary,
     boxes: Boxes,
     pub(crate) noise: Option<Box<NoiseCells>>,
     pub(crate) work: Work,
     /// The largest difference of light that something in the pixel may make.
-    contrast: f64,
+    pub(super) contrast: f64,
     /// What the pixel has cost so far.
     pub(crate) budget: Budget,
     /// Whether parts of the pixel are known by random samples.
     is_random: bool,
+    /// What the lights of a row of pixels have in common.
+    pub(crate) normals: Normals,
 }
 
 /// A pixel with edges.
@@ -52,7 +55,7 @@ const LOST_TO_ROUNDING: f64 = 0.25;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
 /// pixel and in parts of it: into more where something does not fit.
-const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
+pub(super) const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 
 /// How deep pixels are quartered: what is left of an edge in cells of the last depth is less than
 /// 2⁻¹² of the contrast.
@@ -83,7 +86,7 @@ impl EdgedPixel<'_, '_> {
     }
 
     /// The error that moving the pixel aside adds, where light differs by so much.
-    fn moved(&self, contrast: f64) -> f64 {
+    pub(super) fn moved(&self, contrast: f64) -> f64 {
         contrast * (ASIDE[0].abs() + ASIDE[1].abs())
     }
 }
@@ -119,6 +122,9 @@ impl Workspace {
         // Boxes know no point lights.
         let may_be_boxes = !is_fine && !self.contents.is_mixed && !scene.has_near_lights;
         if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
+            return Ok(part);
+        }
+        if let Some(part) = self.by_mean_normals(simd, pixel, &cell) {
             return Ok(part);
         }
         let mut part = self.part(simd, pixel, &cell, 0)?;

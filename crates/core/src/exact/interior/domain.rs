@@ -275,9 +275,28 @@ impl<'a, S: Simd> Domain<'a, S> {
         if self.ball.is_parallel() {
             return self.root * (toward.z.abs() * BEND_OF_ROOT / self.ball.radius);
         }
+        let aside = self.reach * (toward.x.abs() + toward.y.abs());
+        self.bend_of(self.ray.dot_one(toward).abs(), aside, eye)
+    }
+
+    /// Bounds of the change of n·l, and of what it differs by from a polynomial of degree 3, for all unit vectors l:
+    /// |l_x| + |l_y| is √2 at most.
+    #[inline(always)]
+    pub(super) fn of_any_light(&self, eye: &TowardEye<S>) -> [f64x8<S>; 2] {
+        if self.ball.is_parallel() {
+            let change = self.factors[0] * ROOT_OF_TWO + self.factors[1];
+            return [change, self.root * (BEND_OF_ROOT / self.ball.radius)];
+        }
+        let length = self.ray_sq.sqrt();
+        let change = self.factors[0] * ROOT_OF_TWO + self.factors[1] * length;
+        [change, self.bend_of(length, self.reach * ROOT_OF_TWO, eye)]
+    }
+
+    /// The bend of n·l, with |d₀·l| and h (|l_x| + |l_y|).
+    #[inline(always)]
+    fn bend_of(&self, along: f64x8<S>, aside: f64x8<S>, eye: &TowardEye<S>) -> f64x8<S> {
         let reach = self.reach;
-        let aside = reach * (toward.x.abs() + toward.y.abs());
-        let most = self.ray.dot_one(toward).abs() + aside;
+        let most = along + aside;
         // 1 / (1 − a) ≤ 1 + 2 a ≤ 2.
         let a = eye.stretch;
         let by_root =

@@ -3,11 +3,13 @@
 use fearless_simd::prelude::*;
 
 use super::filled::{Filled, FilledRow};
-use super::reached::Reached;
+use super::mean_normals::{MeanNormals, ROUNDING};
+use super::reached::{Extents, Reached};
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::row::Coverage;
 use crate::exact::context::Context;
 use crate::exact::part::Part;
+use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::material::Grain;
@@ -28,25 +30,27 @@ pub(crate) struct FilledPixels {
     pub(crate) of_bumps: [u64; 8],
 }
 
-/// Writes the pixels of a row that are not too hard.
+/// Writes the pixels of a row that are not too hard; `extents` tell where they see the sphere's outer side, if they do.
 #[inline(always)]
 pub(crate) fn fill<S: Simd>(
     simd: S,
     context: &Context<'_>,
-    row: &FilledRow<'_>,
+    (row, extents): (&FilledRow<'_>, Option<&Extents<S>>),
     cache: &mut OccluderCache,
-    noise: &mut Option<Box<NoiseCells>>,
+    (noise, normals): (&mut Option<Box<NoiseCells>>, &mut Vec<MeanNormals>),
     pixels: &mut [Pixel],
 ) -> FilledPixels {
     let scene = &context.scene;
-    let Coverage { sphere, ball, .. } = row.coverage;
+    let Coverage { sphere, .. } = row.coverage;
     let material = scene.world.material(*sphere);
     let mut reached = Reached::nothing(simd);
     let mut finish = Finish::new(scene, *sphere, context.key(row.start, 0));
-    if ball.outside > 0.0 && !scene.is_enclosed {
+    if let Some(extents) = extents
+        && !scene.is_enclosed
+    {
         simd.vectorize(
             #[inline(always)]
-            || reached = Reached::new(simd, context, row, &finish, cache),
+            || reached = Reached::new(simd, context, (row, extents), &finish, cache),
         );
     }
     let mut filled = FilledPixels {
@@ -70,6 +74,19 @@ pub(crate) fn fill<S: Simd>(
     let roughness = material.roughness.as_ref();
     let is_own = roughness.is_some_and(|roughness| matches!(roughness.grain, Grain::Pixel));
     let mut rest = lit;
+    if lit != 0
+        && let Some((_, light)) = context.normals_on(&finish)
+    {
+        rest &= !fill_plain(
+            simd,
+            context,
+            row,
+            (&finish, light),
+            (lit, &mut filled),
+            normals,
+            pixels,
+        );
+    }
     while rest != 0 {
         let group = if is_own {
             rest & rest.wrapping_neg()
@@ -93,6 +110,42 @@ pub(crate) fn fill<S: Simd>(
         }
     }
     filled
+}
+
+/// Writes those pixels of a plain surface that one light reaches for which mean normals are good enough; returns them,
+/// bit by bit.
+#[inline(always)]
+fn fill_plain<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    row: &FilledRow<'_>,
+    (finish, light): (&Finish, &Light),
+    (lit, filled): (u64, &mut FilledPixels),
+    normals: &mut Vec<MeanNormals>,
+    pixels: &mut [Pixel],
+) -> u64 {
+    let reflectance = &finish.reflectance;
+    let [brightest, _] = reflectance.brightest(light.intensity);
+    let tolerance = context.tolerance_of_normals(brightest);
+    let (means, samples) = MeanNormals::of(simd, context, row, tolerance, normals);
+    filled.samples += samples;
+    let ambient = reflectance.albedo * context.scene.ambient;
+    let color = reflectance.albedo * light.intensity;
+    let rounding = ambient.max_element() * ROUNDING;
+    let mut done = 0;
+    for lane in set_bits(lit) {
+        let bound = means.bounds[lane] * brightest + rounding;
+        if bound <= context.tolerance {
+            let cosine = means.dot(lane, light.toward);
+            let value = context.scene.spread(ambient + color * cosine);
+            pixels[lane] = Pixel {
+                evidence: Evidence::Bound,
+                ..met(value, bound)
+            };
+            done |= 1 << lane;
+        }
+    }
+    done
 }
 
 /// Writes pixels that lights reach, unless they are too hard.

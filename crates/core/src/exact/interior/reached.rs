@@ -30,6 +30,55 @@ pub(super) struct Reached<S: Simd> {
     pub(super) nearness: f64x8<S>,
 }
 
+/// Where eight pixels see a sphere that fills them: the same under all lights.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extents<S: Simd> {
+    /// The rays through the middles, and the side of a pixel on the retina at distance 1.
+    ray: Vectors<S>,
+    size: f64,
+    points: Points<S>,
+    /// The least and the largest distance, in multiples of the rays, and how far other points lie from the rays.
+    depths: [f64x8<S>; 2],
+    around: f64x8<S>,
+    /// How far normals turn in a pixel, and how near its light is to a singularity at the silhouette.
+    turn: f64x8<S>,
+    nearness: f64x8<S>,
+}
+
+impl<S: Simd> Extents<S> {
+    #[inline(always)]
+    pub(crate) fn new(simd: S, context: &Context<'_>, row: &FilledRow<'_>) -> Self {
+        let ball = &row.coverage.ball;
+        let zero = f64x8::splat(simd, 0.0);
+        let one = f64x8::splat(simd, 1.0);
+        let (ray, size) = context.rays(simd, row.start);
+        let points = Points::new(simd, ball, ray);
+        let nearest: f64x8<S> = row.coverage.nearest.simd_into(simd);
+        let farthest: f64x8<S> = row.coverage.farthest.simd_into(simd);
+        let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
+        let length = points.ray_sq.sqrt();
+        let away = (farthest - points.t).max(points.t - nearest) * length;
+        let mut around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
+        if ball.is_parallel() {
+            let extent = ball.center.length() + ball.radius;
+            let places = ray.x.abs() + ray.y.abs() + farthest.abs();
+            around = (places + extent) * GEOMETRY_SLACK + half_diagonal;
+        }
+        let turn = (away + around) * (1.0 / ball.radius);
+        let grazing = (points.normal.dot(&points.ray) * (-one / length)).max(zero);
+        Self {
+            ray,
+            size,
+            points,
+            depths: [nearest, farthest],
+            around,
+            turn,
+            // A root of what vanishes at the silhouette, with the square of this.
+            nearness: turn * 2.0 / grazing,
+        }
+    }
+}
+
 /// The ends, as a light sees them, of the ways along eight rays on which their pixels see a sphere: across
 /// the light, and their heights toward it.
 #[derive(Clone, Copy, Debug)]
@@ -57,34 +106,23 @@ impl<S: Simd> Reached<S> {
     pub(super) fn new(
         simd: S,
         context: &Context<'_>,
-        row: &FilledRow<'_>,
+        (row, extents): (&FilledRow<'_>, &Extents<S>),
         finish: &Finish,
         cache: &mut OccluderCache,
     ) -> Self {
         let scene = &context.scene;
         let which = row.which;
         let ball = &row.coverage.ball;
-
-        // How far normals turn in a pixel, and how near its light is to a singularity.
+        let Extents {
+            ref ray,
+            size,
+            ref points,
+            depths: [nearest, farthest],
+            around,
+            turn,
+            mut nearness,
+        } = *extents;
         let zero = f64x8::splat(simd, 0.0);
-        let one = f64x8::splat(simd, 1.0);
-        let (ray, size) = context.rays(simd, row.start);
-        let points = Points::new(simd, ball, ray);
-        let nearest: f64x8<S> = row.coverage.nearest.simd_into(simd);
-        let farthest: f64x8<S> = row.coverage.farthest.simd_into(simd);
-        let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
-        let length = points.ray_sq.sqrt();
-        let away = (farthest - points.t).max(points.t - nearest) * length;
-        let mut around = farthest * half_diagonal + farthest * length * GEOMETRY_SLACK;
-        if ball.is_parallel() {
-            let extent = ball.center.length() + ball.radius;
-            let places = ray.x.abs() + ray.y.abs() + farthest.abs();
-            around = (places + extent) * GEOMETRY_SLACK + half_diagonal;
-        }
-        let turn = (away + around) * (1.0 / ball.radius);
-        let grazing = (points.normal.dot(&points.ray) * (-one / length)).max(zero);
-        // A root of what vanishes at the silhouette, with the square of this.
-        let mut nearness = turn * 2.0 / grazing;
         let mut hard = 0;
         let mut lit = [0; MOST_LIGHTS];
         for (index, light) in scene.lights.iter().enumerate() {
@@ -107,7 +145,7 @@ impl<S: Simd> Reached<S> {
                     None => reached = 0,
                     Some(range) => {
                         cache.tests += range.len() as u64 * u64::from(reached.count_ones());
-                        let ends = Ends::new(ball, &ray, [nearest, farthest], light);
+                        let ends = Ends::new(ball, ray, [nearest, farthest], light);
                         for occluder in range {
                             let occluder = cache.occluder(occluder);
                             let [touched, dark] = ends.shade(simd, &occluder, around);
@@ -128,7 +166,7 @@ impl<S: Simd> Reached<S> {
                 if !ball.is_parallel() {
                     turn += size;
                 }
-                let sharp = finish.too_sharp(simd, &points, light, turn, SHARPEST, negligible);
+                let sharp = finish.too_sharp(simd, points, light, turn, SHARPEST, negligible);
                 hard |= sharp & reached;
                 reached &= !hard;
             }

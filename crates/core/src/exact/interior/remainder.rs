@@ -55,12 +55,12 @@ pub(super) const GRID: Remainder = Remainder {
 };
 
 /// The largest p: a pixel lies well within its domain, and 1 / (1 − p) is at most 2.
-const MOST: f64 = 0.5;
+pub(super) const MOST: f64 = 0.5;
 
 impl Remainder {
     /// What it misses, over M, by p: the first term, and a geometric series of others.
     #[inline(always)]
-    fn of<S: Simd>(&self, p: f64x8<S>) -> f64x8<S> {
+    pub(super) fn of<S: Simd>(&self, p: f64x8<S>) -> f64x8<S> {
         let mut power = p;
         for _ in 1..self.order {
             power *= p;

@@ -25,7 +25,7 @@ use crate::numeric::lanes::Lanes;
 const MOST_CELLS: f64 = (1_u64 << 50) as f64;
 
 /// The pixel that the numbers of [`Grain::Pixel`] are drawn for.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub(crate) struct PixelKey {
     pub(crate) col: u32,
     pub(crate) row: u32,

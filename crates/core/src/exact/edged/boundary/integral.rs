@@ -137,7 +137,7 @@ impl Boundary {
                 let around = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
                 // Without bumps, light reaches only one side of the sphere.
                 let sides: &[f64] = match active.terminators {
-                    Terminators::Plain => &[1.0],
+                    Terminators::Plain | Terminators::Nowhere => &[1.0],
                     Terminators::Tilted(_) | Terminators::Anywhere => &[1.0, -1.0],
                 };
                 for caster in casters.clone() {

@@ -1,0 +1,127 @@
+//! Pixels with an outline and no other edge: light on plain surfaces is the product of the normals' integral with its
+//! direction.
+
+use fearless_simd::prelude::*;
+
+use super::boundary::Goal;
+use super::cell::{EdgedPixel, FINER, Workspace};
+use crate::edges::cell::Cell;
+use crate::exact::classify::contents::Contents;
+use crate::exact::classify::reach::Reach;
+use crate::exact::interior::mean_normals::MeanNormals;
+use crate::exact::part::Part;
+use crate::exact::scene::InCamera;
+use crate::exact::surface::Finish;
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+
+/// What the pictures of a row of pixels under one light each have in common.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Normals {
+    /// Of pixels that a sphere fills.
+    pub(crate) filled: Vec<MeanNormals>,
+    /// The pixels with an outline, the tolerances that were asked for, and the integrals, where there are any.
+    outlined: Vec<(PixelKey, f64, Option<Part>)>,
+    contents: Contents,
+}
+
+impl Normals {
+    /// Forgets a row.
+    pub(crate) fn clear(&mut self) {
+        self.filled.clear();
+        self.outlined.clear();
+    }
+}
+
+/// The greatest sum of the components of a unit vector: their errors may add up to so many times as much.
+const TURNED: f64 = 1.7320508075688774;
+
+impl Workspace {
+    /// The average of a pixel that sees nothing but the outline of a plain sphere, under its only light, which reaches
+    /// all or nothing of what is seen; where it meets the tolerance.
+    ///
+    /// # Accuracy
+    /// An estimate: that of the integral of each component, and of the area.
+    pub(super) fn by_mean_normals<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: &EdgedPixel<'_, '_>,
+        cell: &Cell,
+    ) -> Option<Part> {
+        let context = pixel.context;
+        let contents = &self.contents;
+        if context.normals.is_none() || !contents.is_outline_alone() {
+            return None;
+        }
+        let finish = Finish::new(&context.scene, contents.active[0].sphere, contents.pixel);
+        let (normals, light) = context.normals_on(&finish)?;
+        let reflectance = &finish.reflectance;
+        let ambient = reflectance.albedo * context.scene.ambient;
+        let [brightest, _] = reflectance.brightest(light.intensity);
+        let of_area = (ambient - context.background).abs().max_element();
+        let contrast = brightest * TURNED + of_area;
+        let tolerance = context.tolerance_of_normals(contrast);
+        let is_lit = !matches!(contents.reach[0], Reach::Nowhere);
+
+        let known = self.normals.outlined.iter();
+        let known = known
+            .rev()
+            .find(|known| known.0 == pixel.key && known.1 == tolerance);
+        let found = match known {
+            Some((_, _, found)) => *found,
+            None => {
+                let found = self.integral_of_normals(simd, normals, cell, tolerance);
+                self.normals.outlined.push((pixel.key, tolerance, found));
+                found
+            }
+        };
+        let found = found?;
+        let mut value = context.background * (1.0 - found.covered) + ambient * found.covered;
+        if is_lit {
+            let color = reflectance.albedo * light.intensity;
+            value += color * found.value.dot(light.toward).max(0.0);
+        }
+        let part = Part {
+            value,
+            covered: found.covered,
+            error: found.error * contrast + pixel.moved(self.contrast),
+            rounding: found.rounding * contrast,
+        };
+        (part.error <= context.tolerance).then_some(part)
+    }
+
+    /// The integral of the normals over a cell that sees one sphere, and its area; if its error is within the
+    /// tolerance.
+    fn integral_of_normals<S: Simd>(
+        &mut self,
+        simd: S,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        tolerance: f64,
+    ) -> Option<Part> {
+        self.contents.of_normals(&mut self.normals.contents);
+        for &parts in FINER[0] {
+            let goal = Goal {
+                tolerance,
+                background: Color::ZERO,
+                contrast: 1.0,
+                parts,
+                units: self.budget.of_part(),
+            };
+            let contents = &self.normals.contents;
+            let boundary = &mut self.boundary;
+            let found = simd.vectorize(
+                #[inline(always)]
+                || boundary.integrate(simd, scene, cell, contents, &goal),
+            );
+            self.work.samples += std::mem::take(&mut boundary.work).samples;
+            self.work.lines += std::mem::take(&mut boundary.lines);
+            if let Ok(part) = found
+                && part.error <= tolerance
+            {
+                return Some(part);
+            }
+        }
+        None
+    }
+}

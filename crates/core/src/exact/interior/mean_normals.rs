@@ -1,0 +1,135 @@
+//! The mean normals of pixels that one sphere fills: light on plain surfaces is their product with its direction.
+
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
+use glam::DVec3;
+
+use super::domain::Domain;
+use super::filled::FilledRow;
+use super::remainder::{GRID, MIDDLE, MOST, STAR};
+use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES, Sample};
+use crate::exact::context::Context;
+use crate::exact::points::Points;
+use crate::numeric::rounding::UNIT_ROUNDOFF;
+use crate::numeric::vectors::Vectors;
+
+/// The mean normals of eight pixels of a row, in the camera's frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MeanNormals {
+    /// The sphere that fills them, those that count, bit by bit, and the error that was asked for.
+    sphere: usize,
+    which: u64,
+    tolerance: f64,
+    components: [[f64; 8]; 3],
+    /// Bounds of what their products with unit vectors are off by; infinite where nothing is proved.
+    pub(super) bounds: [f64; 8],
+    /// The samples that each of the pixels took.
+    pub(super) samples: usize,
+}
+
+/// More than products and sums make wrong, relatively.
+pub(super) const ROUNDING: f64 = 1024.0 * UNIT_ROUNDOFF;
+
+/// More than the rounding of domains makes wrong.
+const SLACK: f64 = 1.001;
+
+impl MeanNormals {
+    /// By one sample, five or nine, whichever is good enough: as [`Filled::bound`](super::filled::Filled) has it, for
+    /// the worst direction of light.
+    ///
+    /// # Accuracy
+    /// A bound: see [`remainder`](super::remainder).
+    #[inline(always)]
+    fn new<S: Simd>(simd: S, context: &Context<'_>, row: &FilledRow<'_>, tolerance: f64) -> Self {
+        let zero = f64x8::splat(simd, 0.0);
+        let ball = &row.coverage.ball;
+        let (middle, size) = context.rays(simd, row.start);
+        let domain = Domain::new(simd, ball, &middle, size);
+        let [change, bend] = domain.of_any_light(&domain.toward_eye());
+        let p = domain.share * domain.share;
+        let is_known = domain.is_known & p.simd_le(MOST);
+        let rounding = domain.rounding * 2.0 + ROUNDING;
+        // n·l is nearly a polynomial of degree 3, which one sample misses.
+        let missed = change.min(bend);
+        let of_rules = [
+            change * MIDDLE.of(p),
+            missed * STAR.of(p),
+            missed * GRID.of(p),
+        ]
+        .map(|of_rule| (of_rule + rounding) * SLACK);
+        let [by_middle, by_star, by_grid] = of_rules;
+        let is_met = by_middle.simd_le(tolerance);
+        let is_star = by_star.simd_le(tolerance);
+
+        let ray = |sample: &Sample| Vectors {
+            x: middle.x + sample.u * size,
+            y: middle.y + sample.v * size,
+            z: middle.z,
+        };
+        let normal = |sample: &Sample| Points::new(simd, ball, ray(sample)).normal;
+        let mut mean = normal(&POINTS[0]);
+        let mut samples = 1;
+        let (mut star, mut grid) = (mean.times(zero), mean.times(zero));
+        if row.which & !is_met.to_bitmask() != 0 {
+            let is_done = is_met | is_star;
+            samples = if row.which & !is_done.to_bitmask() == 0 {
+                STAR_SAMPLES
+            } else {
+                GAUSS_SAMPLES
+            };
+            star = mean.times(zero + POINTS[0].star);
+            grid = mean.times(zero + POINTS[0].gauss);
+            for sample in &POINTS[1..samples] {
+                let there = normal(sample);
+                star = star.plus(&there.times(zero + sample.star));
+                grid = grid.plus(&there.times(zero + sample.gauss));
+            }
+        }
+        let choose = |one, five, nine| is_met.select(one, is_star.select(five, nine));
+        mean.x = choose(mean.x, star.x, grid.x);
+        mean.y = choose(mean.y, star.y, grid.y);
+        mean.z = choose(mean.z, star.z, grid.z);
+        let bounds = choose(by_middle, by_star, by_grid);
+        Self {
+            sphere: row.coverage.sphere,
+            which: row.which,
+            tolerance,
+            components: [mean.x.into(), mean.y.into(), mean.z.into()],
+            bounds: is_known.select(bounds, zero + f64::INFINITY).into(),
+            samples,
+        }
+    }
+
+    /// Those of a row of pixels, out of what is known of this row; the number of samples that were taken for it.
+    #[inline(always)]
+    pub(super) fn of<'known, S: Simd>(
+        simd: S,
+        context: &Context<'_>,
+        row: &FilledRow<'_>,
+        tolerance: f64,
+        known: &'known mut Vec<Self>,
+    ) -> (&'known Self, u64) {
+        let is_same = |one: &Self| {
+            one.sphere == row.coverage.sphere
+                && one.which == row.which
+                && one.tolerance == tolerance
+        };
+        if let Some(index) = known.iter().position(is_same) {
+            return (&known[index], 0);
+        }
+        let found = simd.vectorize(
+            #[inline(always)]
+            || Self::new(simd, context, row, tolerance),
+        );
+        let samples = found.samples as u64 * u64::from(row.which.count_ones());
+        known.push(found);
+        (&known[known.len() - 1], samples)
+    }
+
+    /// The products of those of eight pixels with a direction.
+    #[inline(always)]
+    pub(super) fn dot(&self, lane: usize, toward: DVec3) -> f64 {
+        let [x, y, z] = &self.components;
+        x[lane] * toward.x + y[lane] * toward.y + z[lane] * toward.z
+    }
+}
