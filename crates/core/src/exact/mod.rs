@@ -208,7 +208,7 @@ impl LitTile {
         &mut self,
         simd: S,
         context: &Context<'_>,
-        (of_sphere, extents): (&FilledRow<'_>, Option<&Extents<S>>),
+        (of_sphere, extents): (&FilledRow<'_>, Option<&Extents<'_, S>>),
         (row, place): (Tile, usize),
         edged: &mut Workspace,
     ) {

@@ -86,6 +86,8 @@ pub(super) struct Domain<'a, S: Simd> {
     /// t₀, and √Q₀.
     t: f64x8<S>,
     root: f64x8<S>,
+    /// Half of the derivatives of Q along both axes.
+    half_slopes: [f64x8<S>; 2],
     /// What |l_x| + |l_y| and |d₀·l| are multiplied by for the change of n·l.
     factors: [f64x8<S>; 2],
     /// A bound of what rounding makes wrong in normals, anywhere in the pixel.
@@ -166,6 +168,7 @@ impl<'a, S: Simd> Domain<'a, S> {
             slack,
             t,
             root,
+            half_slopes: [by_u, by_v],
             factors: [sum * reach * scale, loss * scale],
             // A is its root or more.
             rounding: ray_sq * inverse * ((r + far) * ROUNDINGS),
@@ -208,6 +211,7 @@ impl<'a, S: Simd> Domain<'a, S> {
             slack: zero,
             t: root * -1.0 + c.z,
             root,
+            half_slopes: [by_u, by_v],
             factors: [reach * by_radius, root * (CHANGE_OF_ROOT * by_radius)],
             rounding: far / root * roundings,
             normal: Vectors {
@@ -239,6 +243,71 @@ impl<'a, S: Simd> Domain<'a, S> {
             limit: None,
             rounding: self.rounding,
         }
+    }
+
+    /// The derivatives of n·l along both axes of the retina at distance 1, and a bound of what rounding makes wrong in
+    /// them, relative to all of the slope.
+    ///
+    /// t = K / (B + √Q) changes by −t (B' + Q' / 2√Q) / (B + √Q). Rounding moves Q by 16 roundoffs of A r (r + |c|), as in
+    /// [`Self::new`], which is a part of what normals are off by, over √Q / r.
+    #[inline(always)]
+    pub(super) fn slopes(&self, toward: DVec3) -> ([f64x8<S>; 2], f64x8<S>) {
+        let radius = self.ball.radius;
+        let by_root = 1.0 / self.root;
+        let rounding = self.rounding * by_root * radius;
+        let [by_u, by_v] = self.half_slopes.map(|slope| slope * by_root);
+        if self.ball.is_parallel() {
+            let slopes = [
+                (by_u * -toward.z + toward.x) * (1.0 / radius),
+                (by_v * -toward.z + toward.y) * (1.0 / radius),
+            ];
+            return (slopes, rounding);
+        }
+        let center = self.ball.center;
+        let along = self.ray.dot_one(toward) / (self.along + self.root);
+        let scale = self.t * (1.0 / radius);
+        let slopes = [
+            (along * (by_u + center.x) * -1.0 + toward.x) * scale,
+            (along * (by_v + center.y) * -1.0 + toward.y) * scale,
+        ];
+        (slopes, rounding)
+    }
+
+    /// The second derivatives of n·l along both axes of the retina at distance 1: of x², x y and y².
+    ///
+    /// With W = B + √Q, that of t along the axes j and k is t (2 W_j W_k / W² − W_jk / W).
+    #[inline(always)]
+    pub(super) fn bends(&self, toward: DVec3) -> [f64x8<S>; 3] {
+        let by_radius = 1.0 / self.ball.radius;
+        let by_root = 1.0 / self.root;
+        let [u, v] = self.half_slopes.map(|slope| slope * by_root);
+        let (c, k) = (self.ball.center, self.ball.outside);
+        // Those of √Q, from half of those of Q.
+        let of_root = |half: f64, product: f64x8<S>| (half - product) * by_root;
+        if self.ball.is_parallel() {
+            let scale = -toward.z * by_radius;
+            return [
+                of_root(-1.0, u * u) * scale,
+                of_root(0.0, u * v) * scale,
+                of_root(-1.0, v * v) * scale,
+            ];
+        }
+        let by_sum = 1.0 / (self.along + self.root);
+        let (x, y) = ((u + c.x) * by_sum, (v + c.y) * by_sum);
+        let along = self.ray.dot_one(toward);
+        let scale = self.t * by_radius;
+        let bend = |product: f64x8<S>, of_root: f64x8<S>, slopes: f64x8<S>| {
+            ((product * 2.0 - of_root * by_sum) * along - slopes) * scale
+        };
+        [
+            bend(x * x, of_root(c.x * c.x - k, u * u), x * (2.0 * toward.x)),
+            bend(
+                x * y,
+                of_root(c.x * c.y, u * v),
+                x * toward.y + y * toward.x,
+            ),
+            bend(y * y, of_root(c.y * c.y - k, v * v), y * (2.0 * toward.y)),
+        ]
     }
 
     /// What the light of all lights depends on.

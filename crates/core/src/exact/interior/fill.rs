@@ -3,13 +3,13 @@
 use fearless_simd::prelude::*;
 
 use super::filled::{Filled, FilledRow};
-use super::mean_normals::{MeanNormals, ROUNDING};
+use super::mean_normals::MeanNormals;
+use super::plain::Plain;
 use super::reached::{Extents, Reached};
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::row::Coverage;
 use crate::exact::context::Context;
 use crate::exact::part::Part;
-use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::material::Grain;
@@ -35,7 +35,7 @@ pub(crate) struct FilledPixels {
 pub(crate) fn fill<S: Simd>(
     simd: S,
     context: &Context<'_>,
-    (row, extents): (&FilledRow<'_>, Option<&Extents<S>>),
+    (row, extents): (&FilledRow<'_>, Option<&Extents<'_, S>>),
     cache: &mut OccluderCache,
     (noise, normals): (&mut Option<Box<NoiseCells>>, &mut Vec<MeanNormals>),
     pixels: &mut [Pixel],
@@ -58,7 +58,14 @@ pub(crate) fn fill<S: Simd>(
         samples: 0,
         of_bumps: [0; 8],
     };
-    let easy = row.which & !reached.hard;
+    let analytic = extents.and_then(|extents| extents.analytic.as_ref());
+    let plain = Plain::new(context, row, analytic, &finish);
+    if let Some(plain) = &plain
+        && reached.turning != 0
+    {
+        filled.hard |= reached.turning & !plain.fill_turning(simd, reached.turning, pixels);
+    }
+    let easy = row.which & !reached.hard & !reached.turning;
     let lit = reached.lit.iter().fold(0, |any, lit| any | lit) & easy;
 
     // Pixels without light.
@@ -74,18 +81,12 @@ pub(crate) fn fill<S: Simd>(
     let roughness = material.roughness.as_ref();
     let is_own = roughness.is_some_and(|roughness| matches!(roughness.grain, Grain::Pixel));
     let mut rest = lit;
-    if lit != 0
-        && let Some((_, light)) = context.normals_on(&finish)
+    if let Some(plain) = &plain
+        && lit != 0
     {
-        rest &= !fill_plain(
-            simd,
-            context,
-            row,
-            (&finish, light),
-            (lit, &mut filled),
-            normals,
-            pixels,
-        );
+        let (done, samples) = plain.fill_lit(simd, lit, normals, pixels);
+        rest &= !done;
+        filled.samples += samples;
     }
     while rest != 0 {
         let group = if is_own {
@@ -110,42 +111,6 @@ pub(crate) fn fill<S: Simd>(
         }
     }
     filled
-}
-
-/// Writes those pixels of a plain surface that one light reaches for which mean normals are good enough; returns them,
-/// bit by bit.
-#[inline(always)]
-fn fill_plain<S: Simd>(
-    simd: S,
-    context: &Context<'_>,
-    row: &FilledRow<'_>,
-    (finish, light): (&Finish, &Light),
-    (lit, filled): (u64, &mut FilledPixels),
-    normals: &mut Vec<MeanNormals>,
-    pixels: &mut [Pixel],
-) -> u64 {
-    let reflectance = &finish.reflectance;
-    let [brightest, _] = reflectance.brightest(light.intensity);
-    let tolerance = context.tolerance_of_normals(brightest);
-    let (means, samples) = MeanNormals::of(simd, context, row, tolerance, normals);
-    filled.samples += samples;
-    let ambient = reflectance.albedo * context.scene.ambient;
-    let color = reflectance.albedo * light.intensity;
-    let rounding = ambient.max_element() * ROUNDING;
-    let mut done = 0;
-    for lane in set_bits(lit) {
-        let bound = means.bounds[lane] * brightest + rounding;
-        if bound <= context.tolerance {
-            let cosine = means.dot(lane, light.toward);
-            let value = context.scene.spread(ambient + color * cosine);
-            pixels[lane] = Pixel {
-                evidence: Evidence::Bound,
-                ..met(value, bound)
-            };
-            done |= 1 << lane;
-        }
-    }
-    done
 }
 
 /// Writes pixels that lights reach, unless they are too hard.

@@ -1,11 +1,11 @@
 //! The mean normals of pixels that one sphere fills: light on plain surfaces is their product with its direction.
 
-use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
+use fearless_simd::{f64x8, mask64x8};
 use glam::DVec3;
 
-use super::domain::Domain;
 use super::filled::FilledRow;
+use super::reached::Analytic;
 use super::remainder::{GRID, MIDDLE, MOST, STAR};
 use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES, Sample};
 use crate::exact::context::Context;
@@ -21,45 +21,37 @@ pub(crate) struct MeanNormals {
     which: u64,
     tolerance: f64,
     components: [[f64; 8]; 3],
-    /// Bounds of what their products with unit vectors are off by; infinite where nothing is proved.
-    pub(super) bounds: [f64; 8],
+    /// The pixels, bit by bit, for which one sample was enough, or five; nine were taken for the others.
+    by_middle: u64,
+    by_star: u64,
     /// The samples that each of the pixels took.
-    pub(super) samples: usize,
+    samples: usize,
 }
 
 /// More than products and sums make wrong, relatively.
 pub(super) const ROUNDING: f64 = 1024.0 * UNIT_ROUNDOFF;
 
 /// More than the rounding of domains makes wrong.
-const SLACK: f64 = 1.001;
+pub(super) const SLACK: f64 = 1.001;
 
 impl MeanNormals {
-    /// By one sample, five or nine, whichever is good enough: as [`Filled::bound`](super::filled::Filled) has it, for
-    /// the worst direction of light.
-    ///
-    /// # Accuracy
-    /// A bound: see [`remainder`](super::remainder).
+    /// By one sample, five or nine, whichever is good enough for the worst direction of light.
     #[inline(always)]
-    fn new<S: Simd>(simd: S, context: &Context<'_>, row: &FilledRow<'_>, tolerance: f64) -> Self {
+    fn new<S: Simd>(
+        simd: S,
+        context: &Context<'_>,
+        (row, analytic): (&FilledRow<'_>, &Analytic<'_, S>),
+        tolerance: f64,
+    ) -> Self {
         let zero = f64x8::splat(simd, 0.0);
         let ball = &row.coverage.ball;
         let (middle, size) = context.rays(simd, row.start);
-        let domain = Domain::new(simd, ball, &middle, size);
-        let [change, bend] = domain.of_any_light(&domain.toward_eye());
+        let domain = &analytic.domain;
+        let [change, bend] = domain.of_any_light(&analytic.eye);
         let p = domain.share * domain.share;
-        let is_known = domain.is_known & p.simd_le(MOST);
-        let rounding = domain.rounding * 2.0 + ROUNDING;
         // n·l is nearly a polynomial of degree 3, which one sample misses.
-        let missed = change.min(bend);
-        let of_rules = [
-            change * MIDDLE.of(p),
-            missed * STAR.of(p),
-            missed * GRID.of(p),
-        ]
-        .map(|of_rule| (of_rule + rounding) * SLACK);
-        let [by_middle, by_star, by_grid] = of_rules;
-        let is_met = by_middle.simd_le(tolerance);
-        let is_star = by_star.simd_le(tolerance);
+        let is_met = (change * MIDDLE.of(p)).simd_le(tolerance);
+        let is_star = (change.min(bend) * STAR.of(p)).simd_le(tolerance);
 
         let ray = |sample: &Sample| Vectors {
             x: middle.x + sample.u * size,
@@ -89,13 +81,13 @@ impl MeanNormals {
         mean.x = choose(mean.x, star.x, grid.x);
         mean.y = choose(mean.y, star.y, grid.y);
         mean.z = choose(mean.z, star.z, grid.z);
-        let bounds = choose(by_middle, by_star, by_grid);
         Self {
             sphere: row.coverage.sphere,
             which: row.which,
             tolerance,
             components: [mean.x.into(), mean.y.into(), mean.z.into()],
-            bounds: is_known.select(bounds, zero + f64::INFINITY).into(),
+            by_middle: is_met.to_bitmask(),
+            by_star: is_star.to_bitmask(),
             samples,
         }
     }
@@ -105,7 +97,7 @@ impl MeanNormals {
     pub(super) fn of<'known, S: Simd>(
         simd: S,
         context: &Context<'_>,
-        row: &FilledRow<'_>,
+        (row, analytic): (&FilledRow<'_>, &Analytic<'_, S>),
         tolerance: f64,
         known: &'known mut Vec<Self>,
     ) -> (&'known Self, u64) {
@@ -119,11 +111,39 @@ impl MeanNormals {
         }
         let found = simd.vectorize(
             #[inline(always)]
-            || Self::new(simd, context, row, tolerance),
+            || Self::new(simd, context, (row, analytic), tolerance),
         );
         let samples = found.samples as u64 * u64::from(row.which.count_ones());
         known.push(found);
         (&known[known.len() - 1], samples)
+    }
+
+    /// Bounds of what their products with a direction are off by; infinite where nothing is proved.
+    ///
+    /// # Accuracy
+    /// A bound, with rounding: see [`remainder`](super::remainder).
+    #[inline(always)]
+    pub(super) fn bounds<S: Simd>(
+        &self,
+        simd: S,
+        analytic: &Analytic<'_, S>,
+        toward: DVec3,
+    ) -> [f64; 8] {
+        let zero = f64x8::splat(simd, 0.0);
+        let domain = &analytic.domain;
+        let cosine = domain.cosine(toward);
+        let p = domain.share * domain.share;
+        let bend = domain.bend(toward, &analytic.eye);
+        let missed = cosine.change.min(bend);
+        let [is_middle, is_star] =
+            [self.by_middle, self.by_star].map(|bits| mask64x8::from_bitmask(simd, bits));
+        let of_rule = is_middle.select(
+            cosine.change * MIDDLE.of(p),
+            is_star.select(missed * STAR.of(p), missed * GRID.of(p)),
+        );
+        let bound = (of_rule + cosine.rounding * 2.0 + ROUNDING) * SLACK;
+        let is_known = domain.is_known & p.simd_le(MOST);
+        is_known.select(bound, zero + f64::INFINITY).into()
     }
 
     /// The products of those of eight pixels with a direction.

@@ -11,6 +11,8 @@ mod light_cosines;
 pub(crate) mod mean_normals;
 mod middle;
 pub(crate) mod parts;
+mod plain;
+mod ramps;
 pub(crate) mod reached;
 mod remainder;
 pub(crate) mod samples;

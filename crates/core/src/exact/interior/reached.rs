@@ -3,6 +3,7 @@
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
+use super::domain::{Domain, TowardEye};
 use super::filled::FilledRow;
 use crate::edges::cell::Ball;
 use crate::exact::classify::occluder_cache::OccluderCache;
@@ -26,13 +27,23 @@ pub(super) struct Reached<S: Simd> {
     pub(super) lit: [u64; MOST_LIGHTS],
     /// Pixels that have an edge, or may have one, or a highlight that is too sharp.
     pub(super) hard: u64,
+    /// Pixels in which the terminator of a plain surface's only light may be, and nothing else.
+    pub(super) turning: u64,
     pub(super) turn: f64x8<S>,
     pub(super) nearness: f64x8<S>,
 }
 
+/// Where the normals of eight pixels are analytic, and the side of a pixel on the retina at distance 1.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Analytic<'a, S: Simd> {
+    pub(super) domain: Domain<'a, S>,
+    pub(super) eye: TowardEye<S>,
+    pub(super) size: f64,
+}
+
 /// Where eight pixels see a sphere that fills them: the same under all lights.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Extents<S: Simd> {
+pub(crate) struct Extents<'a, S: Simd> {
     /// The rays through the middles, and the side of a pixel on the retina at distance 1.
     ray: Vectors<S>,
     size: f64,
@@ -43,12 +54,14 @@ pub(crate) struct Extents<S: Simd> {
     /// How far normals turn in a pixel, and how near its light is to a singularity at the silhouette.
     turn: f64x8<S>,
     nearness: f64x8<S>,
+    /// Where normals are analytic, if lights may have them in common.
+    pub(super) analytic: Option<Analytic<'a, S>>,
 }
 
-impl<S: Simd> Extents<S> {
+impl<'a, S: Simd> Extents<'a, S> {
     #[inline(always)]
-    pub(crate) fn new(simd: S, context: &Context<'_>, row: &FilledRow<'_>) -> Self {
-        let ball = &row.coverage.ball;
+    pub(crate) fn new(simd: S, context: &Context<'_>, row: &FilledRow<'a>) -> Self {
+        let ball: &'a Ball = &row.coverage.ball;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let (ray, size) = context.rays(simd, row.start);
@@ -75,6 +88,14 @@ impl<S: Simd> Extents<S> {
             turn,
             // A root of what vanishes at the silhouette, with the square of this.
             nearness: turn * 2.0 / grazing,
+            analytic: (context.normals.is_some()).then(|| {
+                let domain = Domain::new(simd, ball, &ray, size);
+                Analytic {
+                    eye: domain.toward_eye(),
+                    domain,
+                    size,
+                }
+            }),
         }
     }
 }
@@ -95,6 +116,7 @@ impl<S: Simd> Reached<S> {
         Self {
             lit: [0; MOST_LIGHTS],
             hard: 0,
+            turning: 0,
             turn: f64x8::splat(simd, 0.0),
             nearness: f64x8::splat(simd, 0.0),
         }
@@ -106,7 +128,7 @@ impl<S: Simd> Reached<S> {
     pub(super) fn new(
         simd: S,
         context: &Context<'_>,
-        (row, extents): (&FilledRow<'_>, &Extents<S>),
+        (row, extents): (&FilledRow<'_>, &Extents<'_, S>),
         finish: &Finish,
         cache: &mut OccluderCache,
     ) -> Self {
@@ -121,10 +143,12 @@ impl<S: Simd> Reached<S> {
             around,
             turn,
             mut nearness,
+            ..
         } = *extents;
         let zero = f64x8::splat(simd, 0.0);
-        let mut hard = 0;
+        let (mut hard, mut turning) = (0, 0);
         let mut lit = [0; MOST_LIGHTS];
+        let may_turn = context.normals_on(finish).is_some();
         for (index, light) in scene.lights.iter().enumerate() {
             let mut reached = which & !hard;
             // Terminators.
@@ -136,8 +160,13 @@ impl<S: Simd> Reached<S> {
                 }
                 let faces = cosine.simd_gt(turn).to_bitmask();
                 let averts = cosine.simd_lt(-turn).to_bitmask();
-                hard |= which & !faces & !averts;
-                reached &= faces;
+                if may_turn {
+                    turning = which & !faces & !averts;
+                    reached &= !averts;
+                } else {
+                    hard |= which & !faces & !averts;
+                    reached &= faces;
+                }
             }
             // Shadows.
             if scene.world.shadows && reached != 0 {
@@ -170,11 +199,13 @@ impl<S: Simd> Reached<S> {
                 hard |= sharp & reached;
                 reached &= !hard;
             }
-            lit[index] = reached;
+            turning &= reached;
+            lit[index] = reached & !turning;
         }
         Self {
             lit,
             hard,
+            turning,
             turn,
             nearness,
         }

@@ -226,7 +226,7 @@ impl<S: Simd> HalfPlane<S> {
 /// The averages over boxes of linear functions with these values in the middles and these changes across the
 /// boxes, where they are positive, and of 0 elsewhere.
 #[inline(always)]
-pub(super) fn ramp<S: Simd>(simd: S, value: f64x8<S>, across: [f64x8<S>; 2]) -> f64x8<S> {
+pub(crate) fn ramp<S: Simd>(simd: S, value: f64x8<S>, across: [f64x8<S>; 2]) -> f64x8<S> {
     let zero = f64x8::splat(simd, 0.0);
     let Slopes {
         large,

@@ -18,7 +18,7 @@ mod depth;
 mod division;
 mod eight_boxes;
 mod falloffs;
-mod half_plane;
+pub(crate) mod half_plane;
 mod lights;
 mod normals;
 mod orders;

@@ -135,23 +135,27 @@ impl Place {
         pixels[0]
     }
 
-    /// Whether the ball faces the light in the middle of the pixel.
+    /// Whether the ball faces the light in the middle of the pixel, in its corners and in the middles of its sides.
     pub(super) fn is_lit(&self) -> bool {
         let sphere = Sphere::new(self.center, self.radius).unwrap();
-        let ray = if self.is_parallel {
-            Ray {
-                origin: self.middle.extend(0.0),
-                direction: DVec3::Z,
-            }
-        } else {
-            Ray {
-                origin: DVec3::ZERO,
-                direction: self.middle.extend(1.0),
-            }
+        let is_lit = |u: f64, v: f64| {
+            let at = self.middle + DVec2::new(u, v) * self.size;
+            let ray = if self.is_parallel {
+                Ray {
+                    origin: at.extend(0.0),
+                    direction: DVec3::Z,
+                }
+            } else {
+                Ray {
+                    origin: DVec3::ZERO,
+                    direction: at.extend(1.0),
+                }
+            };
+            let hit = sphere.hit(&ray);
+            hit.is_some_and(|hit| hit.normal.dot(self.toward) > 0.0)
         };
-        sphere
-            .hit(&ray)
-            .is_some_and(|hit| hit.normal.dot(self.toward) > 0.0)
+        let places = [-0.5, 0.0, 0.5];
+        places.iter().all(|&v| places.iter().all(|&u| is_lit(u, v)))
     }
 
     /// How far a number is from the average.
