@@ -78,11 +78,15 @@ impl Scratch {
         self.balls.extend(balls);
     }
 
-    /// Begins with a tile under some groups of lights: with empty pixels.
+    /// Begins with a tile under some groups of lights: with empty pixels, in the memory of the last tile.
     fn begin(&mut self, contexts: &[&Context<'_>], tile: Tile) {
-        self.lit.clear();
-        let lit = contexts.iter().map(|context| LitTile::new(context, tile));
-        self.lit.extend(lit);
+        self.lit.truncate(contexts.len());
+        for (lit, context) in self.lit.iter_mut().zip(contexts) {
+            lit.begin(context, tile);
+        }
+        let others = contexts[self.lit.len()..].iter();
+        self.lit
+            .extend(others.map(|context| LitTile::new(context, tile)));
     }
 
     /// Whether the numbers of all candidates are moderate enough for edges in doubles.
@@ -97,21 +101,31 @@ impl Scratch {
 }
 
 impl LitTile {
-    /// Empty pixels.
     fn new(context: &Context<'_>, tile: Tile) -> Self {
+        let mut lit = Self {
+            cache: OccluderCache::new(context.cell(tile), 0.0),
+            pixels: Vec::new(),
+            costs: TileCosts::default(),
+            unknown: 0,
+        };
+        lit.begin(context, tile);
+        lit
+    }
+
+    /// Begins with the empty pixels of a tile.
+    fn begin(&mut self, context: &Context<'_>, tile: Tile) {
         let one = Tile {
             width: 1,
             height: 1,
             ..tile
         };
-        let mut costs = TileCosts::default();
-        costs.clear(tile.count());
-        Self {
-            cache: OccluderCache::new(context.cell(tile), context.cell(one).size[0]),
-            pixels: vec![context.empty_pixel(); tile.count() as usize],
-            costs,
-            unknown: 0,
-        }
+        self.cache
+            .begin(context.cell(tile), context.cell(one).size[0]);
+        self.pixels.clear();
+        self.pixels
+            .resize(tile.count() as usize, context.empty_pixel());
+        self.costs.clear(tile.count());
+        self.unknown = 0;
     }
 }
 

@@ -134,20 +134,16 @@ impl Shape {
             if is_plain {
                 let light = image.row(row);
                 srgb::encode_all_8(light, samples);
-                let pixels = light.chunks_exact(stored);
-                let is_clipped = |pixel: &&[f64]| pixel.iter().any(|&value| value > most_light);
-                clipped += pixels.filter(is_clipped).count() as u64;
+                clipped += count_clipped(light, stored, most_light);
                 continue;
             }
             if is_linear_16 {
-                let (pixels, _) = samples.as_chunks_mut::<2>();
-                for (pair, &value) in pixels.iter_mut().zip(image.row(row)) {
+                let light = image.row(row);
+                let (pairs, _) = samples.as_chunks_mut::<2>();
+                for (pair, &value) in pairs.iter_mut().zip(light) {
                     *pair = linear_16(gain * value).to_be_bytes();
                 }
-                let pixels = image.row(row).chunks_exact(stored);
-                let is_clipped =
-                    |pixel: &&[f64]| pixel.iter().any(|&value| gain * value > most_light);
-                clipped += pixels.filter(is_clipped).count() as u64;
+                clipped += count_clipped(light, stored, most_light / gain);
                 continue;
             }
             for (samples, col) in samples.chunks_exact_mut(pixel_bytes).zip(0..) {
@@ -169,6 +165,19 @@ impl Shape {
         }
         clipped
     }
+}
+
+/// The number of pixels, of so many values each, of which some are above a largest one: mostly none.
+fn count_clipped(light: &[f64], stored: usize, most: f64) -> u64 {
+    let highest = light
+        .iter()
+        .fold(0.0_f64, |highest, &value| highest.max(value));
+    if highest <= most {
+        return 0;
+    }
+    let pixels = light.chunks_exact(stored);
+    let is_clipped = |pixel: &&[f64]| pixel.iter().any(|&value| value > most);
+    pixels.filter(is_clipped).count() as u64
 }
 
 /// Puts the code of a value where a sample of one byte or two is.
@@ -201,7 +210,8 @@ fn linear_8(value: f64) -> u8 {
     (value * f64::from(u8::MAX) + 0.5) as u8
 }
 
-/// As [`linear_8`], in 16 bit.
+/// As [`linear_8`], in 16 bit; by way of a wider integer, which compilers make several of at a time.
 fn linear_16(value: f64) -> u16 {
-    (value * f64::from(u16::MAX) + 0.5) as u16
+    let most = f64::from(u16::MAX);
+    (value * most + 0.5).clamp(0.0, most) as i32 as u16
 }

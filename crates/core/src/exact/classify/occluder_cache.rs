@@ -70,6 +70,16 @@ impl OccluderCache {
         }
     }
 
+    /// Forgets a tile, and begins with the one that covers this cell, with pixels of this side.
+    pub(crate) fn begin(&mut self, tile: Cell, pixel: f64) {
+        self.tile = tile;
+        self.pixel = pixel;
+        self.known.clear();
+        self.occluders.clear();
+        self.spheres.clear();
+        self.tests = 0;
+    }
+
     /// One of the occluders of a range.
     pub(crate) fn occluder(&self, index: usize) -> Occluder {
         self.occluders.get(index)

@@ -52,6 +52,14 @@ impl Occluders {
         }
     }
 
+    pub(super) fn clear(&mut self) {
+        self.x.clear();
+        self.y.clear();
+        self.height.clear();
+        self.radius.clear();
+        self.slack.clear();
+    }
+
     pub(super) fn push(&mut self, occluder: &Occluder) {
         self.x.push(occluder.x);
         self.y.push(occluder.y);
