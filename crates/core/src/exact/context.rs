@@ -65,17 +65,16 @@ impl Context<'_> {
         Some((normals, self.scene.single_light()?))
     }
 
-    /// The tolerance of mean normals, of which light differs by no more than `contrast`: a power of two of that of
-    /// pixels, which lights that are about as bright have in common.
+    /// The tolerance of mean normals, of which light differs by no more than `contrast`. That counts as rounded up to
+    /// three binary digits: lights that are about as bright have the mean normals in common.
     pub(crate) fn tolerance_of_normals(&self, contrast: f64) -> f64 {
         /// Below this contrast counts as this.
         const LEAST: f64 = 0.25;
-        /// The bits of the fraction of a double.
-        const FRACTION: u64 = (1 << (f64::MANTISSA_DIGITS - 1)) - 1;
+        /// The bits of a double's fraction behind the first two.
+        const REST: u64 = (1 << (f64::MANTISSA_DIGITS - 3)) - 1;
         let contrast = contrast.max(LEAST);
-        let below = f64::from_bits(contrast.to_bits() & !FRACTION);
-        let power = if below < contrast { 2.0 * below } else { below };
-        self.tolerance / power
+        let rounded = f64::from_bits((contrast.to_bits() + REST) & !REST);
+        self.tolerance / rounded
     }
 
     /// A pixel that sees no sphere.

@@ -151,6 +151,7 @@ fn tile_pixels<S: Simd>(
     if candidates.is_empty() {
         return;
     }
+    let is_analytic = contexts.iter().any(|context| context.normals.is_some());
     for row in 0..tile.height {
         for left in (0..tile.width).step_by(8) {
             let start = Tile {
@@ -178,7 +179,7 @@ fn tile_pixels<S: Simd>(
                 let extents = (coverage.ball.outside > 0.0).then(|| {
                     simd.vectorize(
                         #[inline(always)]
-                        || Extents::new(simd, first, &row),
+                        || Extents::new(simd, first, &row, is_analytic),
                     )
                 });
                 for (context, lit) in contexts.iter().zip(&mut *lit) {

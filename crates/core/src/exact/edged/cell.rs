@@ -8,7 +8,7 @@ use fearless_simd::prelude::*;
 
 use super::boundary::{Boundary, Goal};
 use super::boxes::{self, Boxes};
-use super::mean_normals::Normals;
+use super::normals::Normals;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;

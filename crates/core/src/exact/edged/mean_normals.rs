@@ -6,42 +6,18 @@ use fearless_simd::prelude::*;
 use super::boundary::Goal;
 use super::cell::{EdgedPixel, FINER, Workspace};
 use crate::edges::cell::Cell;
-use crate::exact::classify::contents::Contents;
 use crate::exact::classify::reach::Reach;
-use crate::exact::interior::mean_normals::MeanNormals;
 use crate::exact::part::Part;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
-use crate::model::roughness::PixelKey;
-
-/// What the pictures of a row of pixels under one light each have in common.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Normals {
-    /// Of pixels that a sphere fills.
-    pub(crate) filled: Vec<MeanNormals>,
-    /// The pixels with an outline, the tolerances that were asked for, and the integrals, where there are any.
-    outlined: Vec<(PixelKey, f64, Option<Part>)>,
-    contents: Contents,
-}
-
-impl Normals {
-    /// Forgets a row.
-    pub(crate) fn clear(&mut self) {
-        self.filled.clear();
-        self.outlined.clear();
-    }
-}
-
-/// The greatest sum of the components of a unit vector: their errors may add up to so many times as much.
-const TURNED: f64 = 1.7320508075688774;
 
 impl Workspace {
     /// The average of a pixel that sees nothing but the outline of a plain sphere, under its only light, which reaches
     /// all or nothing of what is seen; where it meets the tolerance.
     ///
     /// # Accuracy
-    /// An estimate: that of the integral of each component, and of the area.
+    /// An estimate: that of the integral in any direction, and of the area.
     pub(super) fn by_mean_normals<S: Simd>(
         &mut self,
         simd: S,
@@ -59,7 +35,7 @@ impl Workspace {
         let ambient = reflectance.albedo * context.scene.ambient;
         let [brightest, _] = reflectance.brightest(light.intensity);
         let of_area = (ambient - context.background).abs().max_element();
-        let contrast = brightest * TURNED + of_area;
+        let contrast = brightest + of_area;
         let tolerance = context.tolerance_of_normals(contrast);
         let is_lit = !matches!(contents.reach[0], Reach::Nowhere);
 

@@ -60,7 +60,12 @@ pub(crate) struct Extents<'a, S: Simd> {
 
 impl<'a, S: Simd> Extents<'a, S> {
     #[inline(always)]
-    pub(crate) fn new(simd: S, context: &Context<'_>, row: &FilledRow<'a>) -> Self {
+    pub(crate) fn new(
+        simd: S,
+        context: &Context<'_>,
+        row: &FilledRow<'a>,
+        is_analytic: bool,
+    ) -> Self {
         let ball: &'a Ball = &row.coverage.ball;
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
@@ -88,7 +93,7 @@ impl<'a, S: Simd> Extents<'a, S> {
             turn,
             // A root of what vanishes at the silhouette, with the square of this.
             nearness: turn * 2.0 / grazing,
-            analytic: (context.normals.is_some()).then(|| {
+            analytic: is_analytic.then(|| {
                 let domain = Domain::new(simd, ball, &ray, size);
                 Analytic {
                     eye: domain.toward_eye(),
@@ -148,7 +153,7 @@ impl<S: Simd> Reached<S> {
         let zero = f64x8::splat(simd, 0.0);
         let (mut hard, mut turning) = (0, 0);
         let mut lit = [0; MOST_LIGHTS];
-        let may_turn = context.normals_on(finish).is_some();
+        let may_turn = extents.analytic.is_some() && context.normals_on(finish).is_some();
         for (index, light) in scene.lights.iter().enumerate() {
             let mut reached = which & !hard;
             // Terminators.

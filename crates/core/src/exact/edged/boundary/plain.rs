@@ -26,7 +26,12 @@ impl Sender<'_, '_> {
     #[inline(always)]
     pub(super) fn plain<S: Simd>(&self, simd: S, chord: &Chord<S>, lines: &Lines<S>) -> Summed<S> {
         let negligible = NEGLIGIBLE * self.tolerance;
-        let brightest = self.finish.brightest(self.scene, lines.lights);
+        // Normals are no longer than 1 in any direction.
+        let brightest = if self.scene.is_of_normals {
+            1.0
+        } else {
+            self.finish.brightest(self.scene, lines.lights)
+        };
         let way_sq = chord.way_sq();
         // The power of the way that is twice the nodes, less one: the size holds its square.
         let mut power = chord.size_of_way() * way_sq * way_sq * brightest;

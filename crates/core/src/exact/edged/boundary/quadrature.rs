@@ -118,6 +118,7 @@ impl Boundary {
                         error = error.max(LEAST_OF_DIFFERENCE * difference);
                     }
                 }
+                let mut square = 0.0;
                 for (channel, light) in sides.light.into_iter().enumerate().take(scene.channels) {
                     let part = light * dy;
                     let (one, other) = (part * fine, part * coarse);
@@ -138,7 +139,13 @@ impl Boundary {
                     if sides.unevenness > 0.0 {
                         estimate = difference.max(sides.unevenness * spread);
                     }
-                    error = error.max(estimate + slip * highest);
+                    estimate += slip * highest;
+                    error = error.max(estimate);
+                    square += estimate * estimate;
+                }
+                if scene.is_of_normals {
+                    // In any direction.
+                    error = error.max(square.sqrt());
                 }
                 let tip = OF_TIP * sides.tip * rise * rise;
                 let is_over = self.work.units() > goal.units;

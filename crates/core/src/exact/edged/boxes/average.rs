@@ -8,7 +8,7 @@ use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
 use super::outlines::{Outline, Visible};
-use super::region::Region;
+use super::region::{OF_AMBIGUITY, Region};
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
 use crate::exact::classify::contents::Contents;
@@ -155,10 +155,6 @@ impl<S: Simd> Sum<S> {
         contrast
     }
 }
-
-/// The share of what edges may hide of each other that counts, as a part of the contrast: what one region gains another
-/// loses.
-pub(super) const OF_AMBIGUITY: f64 = 0.5;
 
 impl Setting<'_, '_> {
     /// The averages, with memory to work in.

@@ -3,10 +3,10 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{f64x8, mask64x8};
 
-use super::average::OF_AMBIGUITY;
 use super::falloffs::{Faced, Power};
 use super::normals::Normals;
 use super::outlines::Visible;
+use super::region::OF_AMBIGUITY;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;

@@ -9,6 +9,10 @@ use super::wedge::intersection;
 /// Half-planes that leave less of a box, or take less from it, do not cut it.
 const LEAST_AMBIGUITY: f64 = 1e-9;
 
+/// The share of what edges may hide of each other that counts, as a part of the contrast: what one region gains another
+/// loses.
+pub(super) const OF_AMBIGUITY: f64 = 0.5;
+
 /// What is inside of several half-planes. The two that cut a box most evenly are known by their lines, so that their
 /// intersection is; the shares of the others are multiplied.
 #[derive(Clone, Copy, Debug)]

@@ -65,6 +65,44 @@ impl<S: Simd> Line<S> {
             is_rising.select(high, high.min(root)),
         ]
     }
+
+    /// The place on the line next to the middle of the box, and between which multiples of (−y, x) of its gradient,
+    /// counted from there, it lies in the box.
+    #[inline(always)]
+    fn chord(&self, simd: S) -> ([f64x8<S>; 2], [f64x8<S>; 2]) {
+        let half = f64x8::splat(simd, 0.5);
+        let [x, y] = self.across;
+        let step = -self.value * self.by_size_sq;
+        let foot = [x * step, y * step];
+        // |foot − along y| and |foot + along x| are no more than a half.
+        let middle = foot[0] * self.by_across[1];
+        let reach = (half * self.by_across[1]).abs();
+        let middle_y = -foot[1] * self.by_across[0];
+        let reach_y = (half * self.by_across[0]).abs();
+        let low = (middle - reach).max(middle_y - reach_y);
+        let high = (middle + reach).min(middle_y + reach_y);
+        (foot, [low, high])
+    }
+
+    /// The part of an interval along the line on the positive side of another, whose function changes by `change` along
+    /// it: its size has a reciprocal.
+    #[inline(always)]
+    fn beside(
+        &self,
+        simd: S,
+        other: &Self,
+        (foot, [low, high]): ([f64x8<S>; 2], [f64x8<S>; 2]),
+        (change, by_change): (f64x8<S>, f64x8<S>),
+    ) -> [f64x8<S>; 2] {
+        let zero = f64x8::splat(simd, 0.0);
+        let there = other.value + other.across[0] * foot[0] + other.across[1] * foot[1];
+        let is_rising = change.simd_ge(zero);
+        let root = there * by_change;
+        [
+            is_rising.select(low.max(-root), low),
+            is_rising.select(high, high.min(root)),
+        ]
+    }
 }
 
 impl<S: Simd> Triangles<S> {
@@ -79,22 +117,9 @@ impl<S: Simd> Triangles<S> {
         (change, by_change): (f64x8<S>, f64x8<S>),
     ) {
         let zero = f64x8::splat(simd, 0.0);
-        let half = f64x8::splat(simd, 0.5);
         let [x, y] = line.across;
-        let step = -line.value * line.by_size_sq;
-        let foot = [x * step, y * step];
-        // |foot − along y| and |foot + along x| are no more than a half.
-        let middle = foot[0] * line.by_across[1];
-        let reach = (half * line.by_across[1]).abs();
-        let middle_y = -foot[1] * line.by_across[0];
-        let reach_y = (half * line.by_across[0]).abs();
-        let low = (middle - reach).max(middle_y - reach_y);
-        let high = (middle + reach).min(middle_y + reach_y);
-        let there = other.value + other.across[0] * foot[0] + other.across[1] * foot[1];
-        let is_rising = change.simd_ge(zero);
-        let root = there * by_change;
-        let low = is_rising.select(low.max(-root), low);
-        let high = is_rising.select(high, high.min(root));
+        let (foot, ends) = line.chord(simd);
+        let [low, high] = line.beside(simd, other, (foot, ends), (change, by_change));
         let area = line.value * (high - low).max(zero) * 0.5;
         let along = low + high;
         self.area += area;
@@ -121,6 +146,23 @@ impl<S: Simd> Triangles<S> {
             self.moments[along] += area * (low + high) * (1.0 / 3.0);
         }
     }
+}
+
+/// The part of a line's way through boxes on the positive side of another line; 1 where it does not cross them.
+#[inline(always)]
+pub(super) fn part_beside<S: Simd>(simd: S, part: &HalfPlane<S>, other: &HalfPlane<S>) -> f64x8<S> {
+    let zero = f64x8::splat(simd, 0.0);
+    let one = f64x8::splat(simd, 1.0);
+    let least = f64x8::splat(simd, LEAST_CHANGE);
+    let [line, beside] = [Line::new(simd, part), Line::new(simd, other)];
+    let [[x, y], [u, v]] = [part.across, other.across];
+    let turn = x * v - y * u;
+    let by_turn = one / turn.abs().max(least);
+    let (foot, ends) = line.chord(simd);
+    let all = ends[1] - ends[0];
+    let [low, high] = line.beside(simd, &beside, (foot, ends), (turn, by_turn));
+    let share = ((high - low) / all.max(least)).max(zero).min(one);
+    all.simd_gt(zero).select(share, one)
 }
 
 /// The shares of boxes in both of two half-planes whose lines cut the boxes, and the integrals over them of the
