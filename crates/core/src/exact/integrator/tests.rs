@@ -16,8 +16,8 @@ use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
 use crate::search::visibility::Visibility;
 
-/// Balls of every finish that intersect and shade each other, on a floor, under two lights.
-fn world() -> World {
+/// Balls of every finish that intersect and shade each other, on a floor, under so many lights.
+fn world(lights: usize) -> World {
     let mut random = Random(1);
     let mut world = World::new();
     let materials = [0, 1, 2].map(|number| {
@@ -42,8 +42,10 @@ fn world() -> World {
     }
     let floor = Sphere::new(DVec3::new(0.0, -1e4 - 1.0, 4.0), 1e4).unwrap();
     world.add_sphere(floor, materials[0]);
-    for toward in [DVec3::new(-1.0, 1.0, -1.0), DVec3::new(0.5, 0.7, 0.2)] {
-        let intensity = Color::new(0.6, 0.5, 0.4);
+    for number in 0..lights {
+        let along = number as f64;
+        let toward = DVec3::new(1.5 * along - 1.0, 1.0 - 0.3 * along, 1.2 * along - 1.0);
+        let intensity = Color::new(0.6, 0.5, 0.4) * (2.0 / lights as f64);
         world.lights.extend(Light::directional(toward, intensity));
     }
     world.background = Color::new(0.0, 0.1, 0.2);
@@ -70,13 +72,13 @@ fn view() -> View {
     }
 }
 
-fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
-    let (world, view) = (world(), view());
-    let visibility = Visibility::new(&world);
+fn pixels(world: &World, level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
+    let view = view();
+    let visibility = Visibility::new(world);
     let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
     let integrator = Exact {
         level,
-        ..Exact::new(&world, &view, &seen, tolerance, true)
+        ..Exact::new(world, &view, &seen, tolerance, true)
     };
     let mut found = vec![None; (view.width * view.height) as usize];
     let mut room = GroupScratch::default();
@@ -100,8 +102,9 @@ fn pixels(level: Level, tolerance: f64, side: u32) -> Vec<Pixel> {
 
 #[test]
 fn processors_and_tiles_do_not_change_a_bit() {
-    for tolerance in [1e-2, 1e-4] {
-        let expected = pixels(Level::new(), tolerance, Tile::SIDE);
+    for (tolerance, lights) in [(1e-2, 2), (1e-4, 2), (1e-2, 1), (1e-4, 1), (1e-3, 9)] {
+        let world = world(lights);
+        let expected = pixels(&world, Level::new(), tolerance, Tile::SIDE);
         let partly = |pixel: &&Pixel| 0.0 < pixel.alpha && pixel.alpha < 1.0;
         assert!(expected.iter().filter(partly).count() > 50);
         // Some pixels with bumps end at their budget, which must not depend on tiles either.
@@ -109,14 +112,36 @@ fn processors_and_tiles_do_not_change_a_bit() {
         let over = expected.iter().filter(is_over).count();
         assert!(over < 5, "{over} fall back on samples");
         for level in levels().into_iter().chain([Level::baseline()]) {
-            let found = pixels(level, tolerance, Tile::SIDE);
+            let found = pixels(&world, level, tolerance, Tile::SIDE);
             assert!(expected == found, "{level:?}");
         }
         // Tiles of one, two and four pixels lie in those of eight.
         for side in [1, 2, 4] {
-            let found = pixels(Level::new(), tolerance, side);
+            let found = pixels(&world, Level::new(), tolerance, side);
             assert!(expected == found, "tiles of {side}");
         }
+    }
+}
+
+/// The ninth light is alone in its group.
+#[test]
+fn nine_lights_add_up() {
+    let all = world(9);
+    let found = pixels(&all, Level::new(), 1e-5, Tile::SIDE);
+    let mut sum = vec![Color::ZERO; found.len()];
+    let mut errors: Vec<f64> = found.iter().map(|pixel| pixel.error).collect();
+    for light in &all.lights {
+        let mut world = all.clone();
+        world.lights = vec![*light];
+        let alone = pixels(&world, Level::new(), 1e-5, Tile::SIDE);
+        for ((sum, error), pixel) in sum.iter_mut().zip(&mut errors).zip(alone) {
+            *sum += pixel.value;
+            *error += pixel.error;
+        }
+    }
+    for ((found, sum), error) in found.iter().zip(sum).zip(errors) {
+        let off = (found.value - sum).abs().max_element();
+        assert!(off <= error, "{off:e} {error:e}");
     }
 }
 
