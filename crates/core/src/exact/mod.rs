@@ -8,6 +8,7 @@
 //! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
 //! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
 //! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
+//! | one plain sphere under its only light: [`interior`], [`edged`] | its mean normal times the direction of light, or a ramp where the terminator is in the pixel | bound; along an outline estimate | other edges, claims above the tolerance |
 //! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
 //! | boxes with straight edges, to tolerances from about 1e-3 on: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
@@ -176,12 +177,14 @@ fn tile_pixels<S: Simd>(
                     which,
                     coverage,
                 };
-                let extents = (coverage.ball.outside > 0.0).then(|| {
-                    simd.vectorize(
+                let extents = if coverage.ball.outside > 0.0 {
+                    Some(simd.vectorize(
                         #[inline(always)]
                         || Extents::new(simd, first, &row, is_analytic),
-                    )
-                });
+                    ))
+                } else {
+                    None
+                };
                 for (context, lit) in contexts.iter().zip(&mut *lit) {
                     let of_row = (&row, extents.as_ref());
                     lit.fill(simd, context, of_row, (start, place), edged);

@@ -23,7 +23,7 @@ use crate::formats::encoding::NpyOptions;
 use crate::formats::form::Form;
 
 /// The meaning of the digest of a file beside that of the light.
-const PURPOSE: &str = "marbles 2026-11-23 (2) digest of an array beside a picture";
+const PURPOSE: &str = "marbles 2026-11-23 (3) digest of an array beside a picture";
 
 /// The part of its name that a file of errors has more.
 const ERROR: &str = "_error";

@@ -255,7 +255,7 @@ impl<'a, S: Simd> Domain<'a, S> {
         let radius = self.ball.radius;
         let by_root = 1.0 / self.root;
         let rounding = self.rounding * by_root * radius;
-        let [by_u, by_v] = self.half_slopes.map(|slope| slope * by_root);
+        let [by_u, by_v] = [self.half_slopes[0] * by_root, self.half_slopes[1] * by_root];
         if self.ball.is_parallel() {
             let slopes = [
                 (by_u * -toward.z + toward.x) * (1.0 / radius),
@@ -280,33 +280,40 @@ impl<'a, S: Simd> Domain<'a, S> {
     pub(super) fn bends(&self, toward: DVec3) -> [f64x8<S>; 3] {
         let by_radius = 1.0 / self.ball.radius;
         let by_root = 1.0 / self.root;
-        let [u, v] = self.half_slopes.map(|slope| slope * by_root);
-        let (c, k) = (self.ball.center, self.ball.outside);
+        let [u, v] = [self.half_slopes[0] * by_root, self.half_slopes[1] * by_root];
+        let c = self.ball.center;
+        let k = if self.ball.is_parallel() {
+            1.0
+        } else {
+            self.ball.outside
+        };
         // Those of √Q, from half of those of Q.
-        let of_root = |half: f64, product: f64x8<S>| (half - product) * by_root;
+        let (cx, cy) = match self.ball.is_parallel() {
+            true => (0.0, 0.0),
+            false => (c.x, c.y),
+        };
+        let roots = [
+            (cx * cx - k - u * u) * by_root,
+            (cx * cy - u * v) * by_root,
+            (cy * cy - k - v * v) * by_root,
+        ];
         if self.ball.is_parallel() {
             let scale = -toward.z * by_radius;
-            return [
-                of_root(-1.0, u * u) * scale,
-                of_root(0.0, u * v) * scale,
-                of_root(-1.0, v * v) * scale,
-            ];
+            return [roots[0] * scale, roots[1] * scale, roots[2] * scale];
         }
         let by_sum = 1.0 / (self.along + self.root);
         let (x, y) = ((u + c.x) * by_sum, (v + c.y) * by_sum);
         let along = self.ray.dot_one(toward);
         let scale = self.t * by_radius;
-        let bend = |product: f64x8<S>, of_root: f64x8<S>, slopes: f64x8<S>| {
-            ((product * 2.0 - of_root * by_sum) * along - slopes) * scale
-        };
+        let of_t = [
+            x * x * 2.0 - roots[0] * by_sum,
+            x * y * 2.0 - roots[1] * by_sum,
+            y * y * 2.0 - roots[2] * by_sum,
+        ];
         [
-            bend(x * x, of_root(c.x * c.x - k, u * u), x * (2.0 * toward.x)),
-            bend(
-                x * y,
-                of_root(c.x * c.y, u * v),
-                x * toward.y + y * toward.x,
-            ),
-            bend(y * y, of_root(c.y * c.y - k, v * v), y * (2.0 * toward.y)),
+            (of_t[0] * along - x * (2.0 * toward.x)) * scale,
+            (of_t[1] * along - (x * toward.y + y * toward.x)) * scale,
+            (of_t[2] * along - y * (2.0 * toward.y)) * scale,
         ]
     }
 

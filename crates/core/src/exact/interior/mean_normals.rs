@@ -8,6 +8,7 @@ use super::filled::FilledRow;
 use super::reached::Analytic;
 use super::remainder::{GRID, MIDDLE, MOST, STAR};
 use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES, Sample};
+use crate::edges::cell::Ball;
 use crate::exact::context::Context;
 use crate::exact::points::Points;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
@@ -53,13 +54,8 @@ impl MeanNormals {
         let is_met = (change * MIDDLE.of(p)).simd_le(tolerance);
         let is_star = (change.min(bend) * STAR.of(p)).simd_le(tolerance);
 
-        let ray = |sample: &Sample| Vectors {
-            x: middle.x + sample.u * size,
-            y: middle.y + sample.v * size,
-            z: middle.z,
-        };
-        let normal = |sample: &Sample| Points::new(simd, ball, ray(sample)).normal;
-        let mut mean = normal(&POINTS[0]);
+        let of_middle = (ball, &middle, size);
+        let mut mean = normal(simd, of_middle, &POINTS[0]);
         let mut samples = 1;
         let (mut star, mut grid) = (mean.times(zero), mean.times(zero));
         if row.which & !is_met.to_bitmask() != 0 {
@@ -72,15 +68,14 @@ impl MeanNormals {
             star = mean.times(zero + POINTS[0].star);
             grid = mean.times(zero + POINTS[0].gauss);
             for sample in &POINTS[1..samples] {
-                let there = normal(sample);
+                let there = normal(simd, of_middle, sample);
                 star = star.plus(&there.times(zero + sample.star));
                 grid = grid.plus(&there.times(zero + sample.gauss));
             }
         }
-        let choose = |one, five, nine| is_met.select(one, is_star.select(five, nine));
-        mean.x = choose(mean.x, star.x, grid.x);
-        mean.y = choose(mean.y, star.y, grid.y);
-        mean.z = choose(mean.z, star.z, grid.z);
+        mean.x = is_met.select(mean.x, is_star.select(star.x, grid.x));
+        mean.y = is_met.select(mean.y, is_star.select(star.y, grid.y));
+        mean.z = is_met.select(mean.z, is_star.select(star.z, grid.z));
         Self {
             sphere: row.coverage.sphere,
             which: row.which,
@@ -135,8 +130,8 @@ impl MeanNormals {
         let p = domain.share * domain.share;
         let bend = domain.bend(toward, &analytic.eye);
         let missed = cosine.change.min(bend);
-        let [is_middle, is_star] =
-            [self.by_middle, self.by_star].map(|bits| mask64x8::from_bitmask(simd, bits));
+        let is_middle = mask64x8::from_bitmask(simd, self.by_middle);
+        let is_star = mask64x8::from_bitmask(simd, self.by_star);
         let of_rule = is_middle.select(
             cosine.change * MIDDLE.of(p),
             is_star.select(missed * STAR.of(p), missed * GRID.of(p)),
@@ -152,4 +147,19 @@ impl MeanNormals {
         let [x, y, z] = &self.components;
         x[lane] * toward.x + y[lane] * toward.y + z[lane] * toward.z
     }
+}
+
+/// The normals at a sample of eight pixels with these rays through their middles and this side.
+#[inline(always)]
+fn normal<S: Simd>(
+    simd: S,
+    (ball, middle, size): (&Ball, &Vectors<S>, f64),
+    sample: &Sample,
+) -> Vectors<S> {
+    let ray = Vectors {
+        x: middle.x + sample.u * size,
+        y: middle.y + sample.v * size,
+        z: middle.z,
+    };
+    Points::new(simd, ball, ray).normal
 }

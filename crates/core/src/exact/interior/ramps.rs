@@ -41,14 +41,14 @@ impl Ramps {
         } = *analytic;
         let cosine = domain.cosine(toward);
         let (slopes, of_slopes) = domain.slopes(toward);
-        let across = slopes.map(|slope| slope * size);
+        let across = [slopes[0] * size, slopes[1] * size];
         let averages = ramp(simd, cosine.value, across);
         let s = domain.share;
         let rest = one - s;
         let s_sq = s * s;
         let higher = cosine.change * (s * s_sq) * (one * 4.0 - s * 3.0) / (rest * rest);
-        let [by_x, by_both, by_y] = domain.bends(toward).map(|bend| bend.abs());
-        let bend = (by_x + by_both * 2.0 + by_y) * (size * size / 8.0);
+        let [by_x, by_both, by_y] = domain.bends(toward);
+        let bend = (by_x.abs() + by_both.abs() * 2.0 + by_y.abs()) * (size * size / 8.0);
         let steep = across[0].abs() + across[1].abs();
         let rounding = cosine.rounding
             + steep * (of_slopes + OF_PARALLEL)

@@ -93,14 +93,16 @@ impl<'a, S: Simd> Extents<'a, S> {
             turn,
             // A root of what vanishes at the silhouette, with the square of this.
             nearness: turn * 2.0 / grazing,
-            analytic: is_analytic.then(|| {
+            analytic: if is_analytic {
                 let domain = Domain::new(simd, ball, &ray, size);
-                Analytic {
+                Some(Analytic {
                     eye: domain.toward_eye(),
                     domain,
                     size,
-                }
-            }),
+                })
+            } else {
+                None
+            },
         }
     }
 }
