@@ -83,7 +83,7 @@ impl<S: Simd> Filled<'_, S> {
         const CAUTION: f64 = 3.0;
         /// And more where light begins steeply, with a power below 1: near places of bumps that hardly face it one
         /// pixel in a hundred thousand was off by 2.6 times that.
-        const OF_STEEP: f64 = 4.0;
+        const OF_STEEP: f64 = 3.0;
         let is_star = rule == Rule::Star;
         let zero = f64x8::splat(simd, 0.0);
         let is_rough = self.finish.is_rough();
