@@ -34,8 +34,8 @@ pub(crate) struct Context<'scene> {
     /// About the largest difference of light that an edge may make, highlights left out.
     pub(crate) contrast: f64,
     pub(crate) allowance: Allowance,
-    /// The scene whose light is its normals, where one light at a time makes pictures of the view: it has the average
-    /// over a pixel in common with others, which is the mean normal times the direction toward it.
+    /// The scene whose light is its normals, if this one has a single light, which is directional. Plain surfaces send the
+    /// product of their mean normal and its direction: pictures of the same view under other lights share the former.
     pub(crate) normals: Option<InCamera<'scene>>,
 }
 

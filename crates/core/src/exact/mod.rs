@@ -27,6 +27,8 @@ mod costs;
 mod edged;
 pub(crate) mod integrator;
 mod interior;
+#[cfg(test)]
+mod only_pixel;
 mod part;
 mod points;
 mod scene;

@@ -1,6 +1,6 @@
 use glam::{DVec2, DVec3};
 
-use crate::exact::integrator::{Exact, GroupScratch};
+use crate::exact::only_pixel::only_pixel;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::Light;
@@ -11,11 +11,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::pixel::{Evidence, Pixel};
-use crate::picture::tile::Tile;
-use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
-use crate::search::view_index::ViewIndex;
-use crate::search::visibility::Visibility;
 
 /// A white ball, a light along its surface in or beside the middle of the only pixel, and that pixel.
 struct Place {
@@ -72,18 +68,7 @@ impl Place {
     }
 
     fn pixel(&self, tolerance: f64) -> Pixel {
-        let visibility = Visibility::new(&self.world);
-        let seen = ViewIndex::new(&visibility, &self.view, RayPoints::All);
-        let exact = Exact::new(&self.world, &self.view, &seen, tolerance, true);
-        let tile = Tile {
-            col: 0,
-            row: 0,
-            width: 1,
-            height: 1,
-        };
-        let mut pixels = Vec::new();
-        exact.integrate(tile, &mut GroupScratch::default(), &mut pixels);
-        pixels[0]
+        only_pixel(&self.world, &self.view, tolerance)
     }
 
     /// The average light over many points, and how far that may be off: of a kink in some of the cells around points.

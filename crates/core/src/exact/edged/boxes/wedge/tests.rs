@@ -72,3 +72,39 @@ fn parallel_lines_and_those_along_sides_share_what_points_say() {
         }
     }
 }
+
+/// Against points along the line.
+#[test]
+fn a_line_lies_beside_another_where_points_say() {
+    const POINTS: u32 = 40_000;
+    for turn in 0..24 {
+        let angle = 0.3 + 0.53 * f64::from(turn);
+        let line = (0.3 * (0.9 * angle).sin(), [angle.cos(), angle.sin()]);
+        let other = (
+            0.25 * angle.cos(),
+            [(2.3 * angle).sin(), (1.1 * angle).cos()],
+        );
+        let found = dispatch!(Level::new(), simd => {
+            let splat = |number| f64x8::splat(simd, number);
+            let [line, other] = [line, other].map(|(value, across): Plane| {
+                HalfPlane::new(simd, splat(value), across.map(splat), splat(0.0))
+            });
+            part_beside(simd, &line, &other)[2]
+        });
+        let (value, [x, y]) = line;
+        let [mut inside, mut beside] = [0_u32; 2];
+        for point in 0..POINTS {
+            let along = 2.0 * f64::from(point) / f64::from(POINTS) - 1.0;
+            let [u, v] = [-value * x - along * y, -value * y + along * x];
+            if u.abs() < 0.5 && v.abs() < 0.5 {
+                inside += 1;
+                beside += u32::from(other.0 + other.1[0] * u + other.1[1] * v > 0.0);
+            }
+        }
+        let expected = f64::from(beside) / f64::from(inside);
+        assert!(
+            (found - expected).abs() < 1e-3,
+            "{turn}: {found} for {expected}"
+        );
+    }
+}

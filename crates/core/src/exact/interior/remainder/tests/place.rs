@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::fixed::{Fixed, dot};
-use crate::exact::integrator::{Exact, GroupScratch};
+use crate::exact::only_pixel::only_pixel;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::Light;
@@ -14,11 +14,7 @@ use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::angle::Angle;
 use crate::picture::pixel::Pixel;
-use crate::picture::tile::Tile;
-use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
-use crate::search::view_index::ViewIndex;
-use crate::search::visibility::Visibility;
 
 /// Powers of cosines: whole exponents, and such with a half.
 const EXPONENTS: [f64; 8] = [1.0, 1.0, 1.0, 2.0, 3.0, 0.5, 1.5, 7.0];
@@ -121,18 +117,7 @@ impl Place {
             height: 1,
             frame: 1,
         };
-        let visibility = Visibility::new(&world);
-        let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
-        let exact = Exact::new(&world, &view, &seen, self.tolerance, true);
-        let tile = Tile {
-            col: 0,
-            row: 0,
-            width: 1,
-            height: 1,
-        };
-        let mut pixels = Vec::new();
-        exact.integrate(tile, &mut GroupScratch::default(), &mut pixels);
-        pixels[0]
+        only_pixel(&world, &view, self.tolerance)
     }
 
     /// Whether the ball faces the light in the middle of the pixel, in its corners and in the middles of its sides.
