@@ -4,14 +4,44 @@ use glam::DVec3;
 use marbles_core::Sphere;
 use rayon::prelude::*;
 
-/// The middle of the box around spheres, `None` for none.
-pub(crate) fn middle(spheres: &[Sphere]) -> Option<DVec3> {
-    let corners = |sphere: &Sphere| {
-        let reach = DVec3::splat(sphere.radius());
-        (sphere.center() - reach, sphere.center() + reach)
+/// The box around spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bounds {
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Bounds {
+    /// The box around none.
+    pub(crate) const NONE: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
     };
-    let corners = spheres.par_iter().map(corners);
-    let (low, high) = corners.reduce_with(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-    // Halved, no sum overflows.
-    Some(0.5 * low + 0.5 * high)
+
+    /// The box around these.
+    pub(crate) fn of(spheres: &[Sphere]) -> Self {
+        let of_sphere = |sphere: &Sphere| {
+            let reach = DVec3::splat(sphere.radius());
+            Self {
+                low: sphere.center() - reach,
+                high: sphere.center() + reach,
+            }
+        };
+        let boxes = spheres.par_iter().map(of_sphere);
+        boxes.reduce_with(Self::around).unwrap_or(Self::NONE)
+    }
+
+    /// The box around both.
+    pub(crate) fn around(self, other: Self) -> Self {
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+        }
+    }
+
+    /// The middle, `None` of the box around none.
+    pub(crate) fn middle(self) -> Option<DVec3> {
+        // Halved, no sum overflows.
+        (self.low.x <= self.high.x).then(|| 0.5 * self.low + 0.5 * self.high)
+    }
 }

@@ -21,6 +21,8 @@ pub struct World {
     /// True where some picture's own lights ([`crate::Exposure::with_lights`]) may have a color, so that all pictures
     /// have three channels.
     pub has_colored_lights: bool,
+    /// True where spheres that come and go between pictures may have a color, so that all pictures have three channels.
+    pub has_colored_spheres: bool,
     /// Light from everywhere, which no shadow stops.
     pub ambient: Color,
     /// Radiance where no sphere is seen.
@@ -70,6 +72,7 @@ impl World {
         Self {
             lights: Vec::new(),
             has_colored_lights: false,
+            has_colored_spheres: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: true,
@@ -116,6 +119,7 @@ impl World {
         Self {
             lights: lights.into_iter().flatten().collect(),
             has_colored_lights: false,
+            has_colored_spheres: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: false,
@@ -140,6 +144,14 @@ impl World {
         Arc::make_mut(&mut self.materials).push(material);
         self.surfaces_mut().is_used.push(false);
         id
+    }
+
+    /// Notes that a material may be that of spheres that come and go between pictures.
+    ///
+    /// # Panics
+    /// When `material` is not of this world.
+    pub fn use_material(&mut self, material: MaterialId) {
+        self.surfaces_mut().note_use(material);
     }
 
     /// Adds a sphere; where surfaces coincide, the one added first is seen.
@@ -285,6 +297,7 @@ impl World {
             .filter(|(_, used)| **used);
         is_grey(self.ambient)
             && !self.has_colored_lights
+            && !self.has_colored_spheres
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && used
                 .into_iter()

@@ -50,12 +50,24 @@ pub(crate) enum Camera {
         roll: Placed<Degrees>,
         #[serde(default)]
         fill: Placed<Fill>,
+        #[serde(default)]
+        frame_over: Placed<FrameOver>,
     },
     Pose {
         rotation: Placed<Rotation>,
         translation: Placed<Point>,
         axes: Placed<Axes>,
     },
+}
+
+/// The spheres that a framing camera has in its picture.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum FrameOver {
+    /// Those of all steps of clouds that change over time.
+    #[default]
+    Series,
+    /// Those of the frame's step.
+    Step,
 }
 
 /// The axes in which a pose is given.

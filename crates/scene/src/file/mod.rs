@@ -4,18 +4,21 @@
 //! their meaning.
 
 mod camera;
+mod cloud;
 mod names;
+mod table;
 
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-pub(crate) use self::camera::{Animation, Axes, Camera, Ease, Key, Turned};
-use crate::table::{Coloring, Colormap, Radii};
+pub(crate) use self::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
+pub(crate) use self::cloud::{Cloud, ColorScale, Columns, End, TakenFrames};
+pub(crate) use self::table::{Keep, Palette, Test, Wanted};
 use crate::text::{Placed, present};
 use crate::values::{
-    Amplitude, Color, ColumnName, Coordinate, Exponent, FieldOfView, FileName, Flag, FocalLength,
-    GrainSize, ImageSide, LightName, MaterialName, Point, Radius, Reference, RetinaDistance,
-    RetinaWidth, Scale, Seed, Shift, Shininess, Strength, ValueRange, Zoom,
+    Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,
+    LightName, MaterialName, Point, Radius, Reference, RetinaDistance, RetinaWidth, Seed, Shift,
+    Shininess, Strength, Zoom,
 };
 
 /// The whole file: black behind unlit, shadowed spheres unless it says more.
@@ -202,37 +205,6 @@ pub(crate) struct Sphere {
     pub(crate) material: Option<Placed<MaterialName>>,
 }
 
-/// Spheres of a table; matte white without a material, and where the table puts them.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Cloud {
-    pub(crate) file: Placed<FileName>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) material: Option<Placed<MaterialName>>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) radius: Option<Placed<Radius>>,
-    #[serde(default)]
-    pub(crate) radii: Placed<Radii>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) color: Option<Placed<Coloring>>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) value: Option<Placed<ColumnName>>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) colormap: Option<Placed<Colormap>>,
-    #[serde(default, deserialize_with = "present")]
-    pub(crate) range: Option<Placed<ValueRange>>,
-    #[serde(default = "no")]
-    pub(crate) center: Placed<Flag>,
-    #[serde(default = "no")]
-    pub(crate) right_handed: Placed<Flag>,
-    #[serde(default)]
-    pub(crate) scale: Placed<Scale>,
-    #[serde(default)]
-    pub(crate) rotate_degrees: Placed<Point>,
-    #[serde(default)]
-    pub(crate) position: Placed<Point>,
-}
-
 /// Materials in the file's order, a name given twice included.
 #[derive(Debug, Default)]
 pub(crate) struct Materials(pub(crate) Vec<(Placed<MaterialName>, Placed<Material>)>);
@@ -267,10 +239,6 @@ fn black() -> Placed<Color> {
 
 fn white() -> Placed<Color> {
     Color::WHITE.into()
-}
-
-fn no() -> Placed<Flag> {
-    Flag(false).into()
 }
 
 fn cast_shadows() -> Placed<Flag> {

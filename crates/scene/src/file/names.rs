@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Deserializer};
 
-use super::camera::{Animation, Axes, Camera, Ease, Key, Turned};
+use super::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 use super::{
-    Attached, Cloud, Falloff, File, Grain, Highlight, Image, Lens, Light, Material, Rough, Sphere,
+    Attached, Cloud, ColorScale, Columns, End, Falloff, File, Grain, Highlight, Image, Keep, Lens,
+    Light, Material, Palette, Rough, Sphere, TakenFrames, Test,
 };
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
@@ -41,8 +42,16 @@ structures! {
     Sphere: "sphere", "a sphere `(center: …, radius: …)`";
     Cloud: "cloud", "a cloud `(file: …)`";
     Radii: "kind of radii", "a kind of radii: `VanDerWaals` or `Covalent`";
-    Coloring: "coloring", "a coloring: `Material`, `Table`, `Element` or `Value`";
+    Coloring: "coloring", "a coloring: `Material`, `Table`, `Element`, `Value` or `Category`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
+    ColorScale: "scale of colors", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
+    Palette: "palette", "a palette `{\"…\": …}` of colors by name";
+    Columns: "choice of columns", "columns `(x: …, y: …, z: …)`";
+    Keep: "condition", "a condition `(column, Is(…))`, with `Is`, `Between` or `Every`";
+    Test: "condition", "a condition: `Is(…)`, `Between(…, …)` or `Every(…)`";
+    TakenFrames: "choice of frames", "a choice of frames: `First` or `All`";
+    End: "end", "an end: `Hold`, `Loop` or `Hide`";
+    FrameOver: "choice of what is framed", "what is framed: `Series` or `Step`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
     Turned: "thing that turns", "what turns: `Camera` or `Lights`";
     Key: "key", "a key `(frame: …)`";

@@ -3,16 +3,17 @@
 use std::ops::RangeInclusive;
 
 use glam::DVec3;
-use marbles_core::{Pose, Sphere};
+use marbles_core::Pose;
 
 use super::channels::{Channels, Keys};
 use super::checks;
 use super::curve::Curve;
 use super::error::FrameError;
-use super::framing::{Framing, Picture, Turning, axes_of_orbit};
+use super::framing::{Framed, Framing, Picture, Turning, axes_of_orbit};
 use super::turntable::Turntable;
 use crate::file::{Animation, File, Key, Turned};
 use crate::text::{Placed, optional};
+use crate::values::FramesPerSecond;
 
 /// The camera of a scene over time.
 #[derive(Clone, Debug)]
@@ -27,6 +28,8 @@ pub(crate) struct CameraMotion {
 #[derive(Clone, Debug)]
 pub(crate) struct Timing {
     pub(crate) frames: RangeInclusive<i32>,
+    /// The file says nothing of the frames.
+    is_open: bool,
     pub(crate) frames_per_second: f64,
     /// The time for which the shutter is open, in frames; `None` where frames show a moment.
     pub(crate) shutter: Option<f64>,
@@ -64,7 +67,7 @@ impl CameraMotion {
 
     /// Places a camera that frames; returns the factor on the sizes of its lens, `None` where there is nothing to
     /// be framed.
-    pub(crate) fn frame(&mut self, spheres: &[Sphere], picture: &Picture) -> Option<f64> {
+    pub(crate) fn frame(&mut self, framed: Framed<'_>, picture: &Picture) -> Option<f64> {
         let angles = self.channels.angles();
         let turning = match self.turntable {
             Some(_) => Turning::Around,
@@ -72,7 +75,7 @@ impl CameraMotion {
             None => Turning::Freely,
         };
         let axes = axes_of_orbit(angles.map(|curve| curve.at(0.0)));
-        let framing = Framing::new(spheres, picture, turning, axes)?;
+        let framing = Framing::of(framed, picture, turning, axes)?;
         self.channels.frame(&framing);
         Some(framing.scale)
     }
@@ -85,6 +88,20 @@ impl CameraMotion {
     /// The frames of the animation, `None` for a still.
     pub(crate) fn timing(&self) -> Option<&Timing> {
         self.timing.as_ref()
+    }
+
+    /// Makes so many frames, from 1 on, the animation of a scene that says nothing of its frames.
+    pub(crate) fn last(&mut self, frames: i32) {
+        let timing = self.timing.get_or_insert(Timing {
+            frames: 1..=1,
+            is_open: true,
+            frames_per_second: FramesPerSecond::default().0,
+            shutter: None,
+            key_frames: Vec::new(),
+        });
+        if timing.is_open {
+            timing.frames = 1..=frames;
+        }
     }
 
     /// The place of the camera so many frames after frame `frame`, fewer than 1.
@@ -114,6 +131,7 @@ impl CameraMotion {
 
 impl Timing {
     fn new(animation: &Animation) -> Option<Self> {
+        let mut is_open = false;
         let (frames, fps, shutter, keys) = match animation {
             Animation::Keyframes {
                 frames,
@@ -122,6 +140,7 @@ impl Timing {
                 keys,
             } => {
                 let given = optional(frames, |range| Some(range.first..=range.last))?;
+                is_open = given.is_none() && keys.is_empty();
                 let frames = given.unwrap_or_else(|| frames_of(keys));
                 (frames, fps, shutter, &keys[..])
             }
@@ -134,6 +153,7 @@ impl Timing {
         };
         Some(Self {
             frames,
+            is_open,
             frames_per_second: fps.get()?.0,
             shutter: optional(shutter, |shutter| Some(shutter.0))?,
             key_frames: keys.iter().filter_map(frame_of_camera).collect(),

@@ -20,7 +20,7 @@ use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{Angle, Camera, Lens, Sphere};
 use rayon::prelude::*;
 
-use crate::bounds::middle;
+use crate::bounds::Bounds;
 
 /// The axes of an orbiting camera with this azimuth, elevation and roll in degrees, in the world.
 pub(crate) fn axes_of_orbit(degrees: [f64; 3]) -> DMat3 {
@@ -62,20 +62,45 @@ pub(crate) struct Framing {
     pub(crate) scale: f64,
 }
 
+/// The spheres that are framed, all at once or some at a time.
+pub(crate) struct Framed<'a> {
+    /// The box around them.
+    pub(crate) bounds: Bounds,
+    /// The largest of what is found of some spheres at a time.
+    pub(crate) largest: Largest<'a>,
+}
+
+/// Finds the largest of what the function finds of some spheres at a time.
+pub(crate) type Largest<'a> = &'a mut dyn FnMut(&dyn Fn(&[Sphere]) -> Option<f64>) -> Option<f64>;
+
 impl Framing {
-    /// The nearest place from which all spheres are inside the picture; `None` without spheres.
+    /// The nearest place from which these spheres are inside the picture; `None` without spheres.
     pub(crate) fn new(
         spheres: &[Sphere],
         picture: &Picture,
         turning: Turning,
         world_from_camera: DMat3,
     ) -> Option<Self> {
+        let framed = Framed {
+            bounds: Bounds::of(spheres),
+            largest: &mut |find| find(spheres),
+        };
+        Self::of(framed, picture, turning, world_from_camera)
+    }
+
+    /// The nearest place from which all spheres are inside the picture; `None` without spheres.
+    pub(crate) fn of(
+        framed: Framed<'_>,
+        picture: &Picture,
+        turning: Turning,
+        world_from_camera: DMat3,
+    ) -> Option<Self> {
         /// More than rounding moves an outline.
         const SLACK: f64 = 1.0 + 1e-12;
-        let target = middle(spheres)?;
+        let target = framed.bounds.middle()?;
         let lens = &picture.lens;
         if lens.is_parallel() {
-            return Self::parallel(spheres, target, picture, turning, world_from_camera);
+            return Self::parallel(framed.largest, target, picture, turning, world_from_camera);
         }
         let shift = lens.shift / lens.distance;
         let half_width = 0.5 * lens.width / lens.distance;
@@ -87,7 +112,7 @@ impl Framing {
             (DVec3::new(0.0, -1.0, shift.y - half.y), half.y),
         ];
         let sides = sides.map(|(normal, half)| Side::new(world_from_camera * normal, half));
-        let distance = needed(spheres, target, &sides, turning)?;
+        let distance = (framed.largest)(&|spheres| needed(spheres, target, &sides, turning))?;
         Some(Self {
             target,
             distance: distance * SLACK,
@@ -98,7 +123,7 @@ impl Framing {
 
     /// The same for a parallel lens, which is scaled.
     fn parallel(
-        spheres: &[Sphere],
+        largest: Largest<'_>,
         target: DVec3,
         picture: &Picture,
         turning: Turning,
@@ -115,8 +140,9 @@ impl Framing {
             (-DVec3::Y, half_width * picture.aspect),
         ];
         let side = |(normal, half)| Side::new(world_from_camera * normal, half);
-        let scale = needed(spheres, target, &sides.map(side), turning)? * SLACK;
-        let distance = needed(spheres, target, &[side((-DVec3::Z, 0.5))], turning)?;
+        let (sides, behind) = (sides.map(side), [side((-DVec3::Z, 0.5))]);
+        let scale = largest(&|spheres| needed(spheres, target, &sides, turning))? * SLACK;
+        let distance = largest(&|spheres| needed(spheres, target, &behind, turning))?;
         Some(Self {
             target,
             distance,

@@ -13,6 +13,6 @@ mod turntable;
 
 pub(crate) use camera::CameraMotion;
 pub use error::{FrameError, FrameFault};
-pub(crate) use framing::{Framing, Picture, Turning, axes_of_orbit};
+pub(crate) use framing::{Framed, Framing, Picture, Turning, axes_of_orbit};
 pub(crate) use lights::Lights;
 pub(crate) use shutter::OpenShutter;

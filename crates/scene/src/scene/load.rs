@@ -4,14 +4,19 @@ use std::fs::File as OpenFile;
 use std::io::{self, ErrorKind, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use super::{CloudDescription, Description, Scene};
-use crate::file::{Camera, File, Materials};
-use crate::motion::{CameraMotion, Lights};
+use marbles_core::Lens;
+
+use super::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene};
+use crate::file::{Camera, File, FrameOver, Materials};
+use crate::bounds::Bounds;
+use crate::motion::{CameraMotion, Framed, Lights};
 use crate::report::SceneError;
-use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, token};
+use crate::text::{Fault, Placed, Read, Slice, collect, harmless, optional, reason, token};
 use crate::values::MaterialName;
-use crate::world::{self, Cloud, CloudError, Progress};
+use crate::table;
+use crate::world::{self, Cloud, CloudError, Learned, OpenCloud, Part, Progress, Scale, Series, Step};
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
 /// for files that never end.
@@ -105,8 +110,8 @@ impl Scene {
 struct Draft {
     scene: Scene,
     clouds: Vec<Cloud>,
-    /// The part of the picture that a framing camera fills.
-    fill: Option<f64>,
+    /// The part of the picture that a framing camera fills, and with which spheres.
+    fill: Option<(f64, FrameOver)>,
     /// The place of the camera in the text.
     camera: Range<usize>,
 }
@@ -125,7 +130,9 @@ impl Draft {
         world.has_colored_lights = lights.may_have_color();
         let camera = file.camera.value.as_ref()?;
         let fill = match camera {
-            Camera::Frame { fill, .. } => Some(fill.get()?.0),
+            Camera::Frame {
+                fill, frame_over, ..
+            } => Some((fill.get()?.0, frame_over.get()?)),
             _ => None,
         };
         let scene = Scene {
@@ -143,6 +150,9 @@ impl Draft {
                 lens: world::lens_as_written(&file.lens)?,
             },
             clouds: Vec::new(),
+            warnings: Vec::new(),
+            series: None,
+            framed: Vec::new(),
         };
         Some(Self {
             scene,
@@ -161,32 +171,202 @@ impl Draft {
     ) -> Result<Scene, SceneError> {
         let mut scene = self.scene;
         let folder = path.parent().unwrap_or(Path::new(""));
-        for cloud in &self.clouds {
-            let spheres = cloud.add_to(&mut scene.world, folder, watch);
-            let spheres = spheres.map_err(|error| match error {
-                CloudError::Scene(fault) => SceneError::refused(path, text, vec![fault]),
-                CloudError::Table(table, fault) => {
-                    SceneError::in_table(&table, fault, (path, text, &cloud.place))
-                }
-            })?;
-            let file = PathBuf::from(&cloud.name);
-            scene.clouds.push(CloudDescription { file, spheres });
+        let mut clouds = Vec::new();
+        for cloud in self.clouds {
+            let place = cloud.place.clone();
+            let open = OpenCloud::new(cloud, folder);
+            clouds.push(open.map_err(|error| refused(path, text, (place, error)))?);
         }
-        if let Some(fill) = self.fill {
-            let picture = scene.picture(fill);
-            let Some(scale) = scene.motion.frame(scene.world.spheres(), &picture) else {
+        let longest = clouds.iter().filter_map(OpenCloud::frames).max();
+        if let Some(frames) = longest {
+            scene.motion.last(frames);
+        }
+        let first_frame = scene.frames().map_or(1, |frames| *frames.start());
+        let mut parts = Vec::new();
+        let mut count = scene.world.spheres().len();
+        for mut cloud in clouds {
+            let place = cloud.cloud.place.clone();
+            let added = scene.add_cloud(&mut cloud, &mut count, watch);
+            let step = added.map_err(|error| refused(path, text, (place, error)))?;
+            let material = cloud.cloud.material;
+            if cloud.steps().is_some() {
+                scene.world.has_colored_spheres |= step.albedos.is_some();
+                scene.world.use_material(material);
+                parts.push(Part::Changing(Box::new(cloud)));
+                continue;
+            }
+            let Step {
+                spheres, albedos, ..
+            } = step;
+            match parts.is_empty() {
+                true => scene.world.add_spheres(spheres, material, albedos),
+                false => parts.push(Part::Still {
+                    spheres,
+                    albedos,
+                    material,
+                }),
+            }
+        }
+        if !parts.is_empty() {
+            let source = (path.to_owned(), text.to_owned());
+            let series = Series::new(scene.world.clone(), parts, first_frame, source);
+            scene.series = Some(Arc::new(series));
+        }
+        if let Some((fill, over)) = self.fill {
+            let is_framed = scene.frame(fill, over)?;
+            if is_framed.is_none() {
                 let place = self.camera.start..token::token_end(text, self.camera.start);
                 let message = "expected spheres for a `Frame` camera, found none";
                 let fault = Fault::new(place, message);
                 return Err(SceneError::refused(path, text, vec![fault]));
-            };
-            scene.lens.width *= scale;
-            scene.lens.shift *= scale;
+            }
         }
         scene.description.lights = scene.lights.names();
         scene.world.lights = scene.first_lights();
         Ok(scene)
     }
+}
+
+impl Scene {
+    /// Reads the first step of a cloud, behind so many spheres, and describes it.
+    fn add_cloud(
+        &mut self,
+        cloud: &mut OpenCloud,
+        count: &mut usize,
+        watch: &dyn Fn(Progress<'_>),
+    ) -> Result<Step, CloudError> {
+        if cloud.has_to_learn() {
+            cloud.learn()?;
+        }
+        let step = cloud.read(0, watch)?;
+        let file = PathBuf::from(&cloud.cloud.name);
+        if step.has_more {
+            self.warnings.push(format!(
+                "{}: the first frame of several is shown (`frames: All` shows them one after another)",
+                harmless(&cloud.cloud.name)
+            ));
+        }
+        let end = *count + step.spheres.len();
+        self.clouds.push(CloudDescription {
+            file,
+            spheres: *count..end,
+            rows: step.rows,
+            steps: cloud.steps(),
+            colors: colors(cloud.scale(), &step),
+        });
+        *count = end;
+        Ok(step)
+    }
+
+    /// Places the camera where it has spheres in its picture; `None` where there are none.
+    fn frame(&mut self, fill: f64, over: FrameOver) -> Result<Option<()>, SceneError> {
+        let picture = self.picture(fill);
+        let Some(series) = self.series.clone() else {
+            let spheres = self.world.spheres();
+            let framed = Framed {
+                bounds: Bounds::of(spheres),
+                largest: &mut |find| find(spheres),
+            };
+            let scale = self.motion.frame(framed, &picture);
+            return Ok(scale.map(|scale| scale_lens(&mut self.lens, scale)));
+        };
+        let refused = |error| explain(&series, error);
+        if over == FrameOver::Series {
+            let mut failed = None;
+            let framed = Framed {
+                bounds: series.bounds().map_err(refused)?,
+                largest: &mut |find| {
+                    let mut largest: Option<f64> = None;
+                    let all = series.for_each(&mut |spheres| {
+                        let found = find(spheres);
+                        largest = match (largest, found) {
+                            (Some(one), Some(other)) => Some(one.max(other)),
+                            (one, other) => one.or(other),
+                        };
+                    });
+                    failed = all.err();
+                    largest
+                },
+            };
+            let scale = self.motion.frame(framed, &picture);
+            if let Some(failed) = failed {
+                return Err(explain(&series, failed));
+            }
+            return Ok(scale.map(|scale| scale_lens(&mut self.lens, scale)));
+        }
+        let mut is_framed = None;
+        for frame in self.frames().unwrap_or(1..=1) {
+            let key = series.key(frame);
+            if self.framed.iter().any(|framed| framed.0 == key) {
+                continue;
+            }
+            let world = series.world(&key).map_err(refused)?;
+            let framed = Framed {
+                bounds: Bounds::of(world.spheres()),
+                largest: &mut |find| find(world.spheres()),
+            };
+            let (mut motion, mut lens) = (self.motion.clone(), self.lens);
+            // Where nothing is shown, the camera stays where it was.
+            match motion.frame(framed, &picture) {
+                Some(scale) => {
+                    is_framed = Some(());
+                    scale_lens(&mut lens, scale);
+                }
+                None => {
+                    if let Some((_, last, last_lens)) = self.framed.last() {
+                        (motion, lens) = (last.clone(), *last_lens);
+                    }
+                }
+            }
+            self.framed.push((key, motion, lens));
+        }
+        Ok(is_framed)
+    }
+}
+
+fn scale_lens(lens: &mut Lens, scale: f64) {
+    lens.width *= scale;
+    lens.shift *= scale;
+}
+
+/// The error of a cloud of a series.
+pub(super) fn explain(series: &Series, (place, error): (Range<usize>, CloudError)) -> SceneError {
+    let (path, text) = &series.source;
+    refused(path, text, (place, error))
+}
+
+/// The error of the cloud at this place of a scene file.
+fn refused(path: &Path, text: &str, (place, error): (Range<usize>, CloudError)) -> SceneError {
+    match error {
+        CloudError::Scene(fault) => SceneError::refused(path, text, vec![fault]),
+        CloudError::Table(table, fault) => SceneError::in_table(&table, fault, (path, text, &place)),
+    }
+}
+
+/// What the colors of a step mean.
+fn colors(scale: &Scale, step: &Step) -> Option<ColorDescription> {
+    let Learned {
+        low, categories, ..
+    } = &step.learned;
+    let meaning = if !categories.is_empty() {
+        ColorMeaning::Categories(scale.categories(&step.learned))
+    } else if low.is_finite() {
+        let (low, high) = scale.range(&step.learned);
+        ColorMeaning::Scale {
+            low,
+            high,
+            kind: scale.kind,
+            colors: scale.colors(),
+        }
+    } else {
+        return None;
+    };
+    let unit = step.value_name.as_deref().and_then(table::unit);
+    Some(ColorDescription {
+        column: step.value_name.clone(),
+        unit: unit.map(str::to_owned),
+        meaning,
+    })
 }
 
 /// The names of materials that were not refused.

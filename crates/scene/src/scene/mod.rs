@@ -1,9 +1,10 @@
 //! A scene: a world, a camera over time, and the image.
 
+mod description;
 mod load;
 
 use std::ops::{Range, RangeInclusive};
-use std::path::PathBuf;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, View, World};
@@ -11,6 +12,9 @@ use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, View, World};
 use crate::motion::{
     CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
 };
+use crate::report::SceneError;
+use crate::world::{Series, StepKey};
+pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
 
 /// A scene file that was read and found valid.
 #[derive(Clone, Debug)]
@@ -23,37 +27,56 @@ pub struct Scene {
     height: u32,
     description: Description,
     clouds: Vec<CloudDescription>,
-}
-
-/// The spheres of a table.
-#[derive(Clone, Debug, Eq, PartialEq)]
-pub struct CloudDescription {
-    /// The table as the scene file names it.
-    pub file: PathBuf,
-    /// The range of its spheres in the world.
-    pub spheres: Range<usize>,
-}
-
-/// A scene in words and numbers, for people.
-#[derive(Clone, Debug, Eq, PartialEq)]
-pub struct Description {
-    /// The names of the materials that the file defines, in the order of the world's.
-    pub materials: Vec<String>,
-    /// The names of the lights, where they have any, in the order of the world's.
-    pub lights: Vec<Option<String>>,
-    /// The kind of camera, for example `LookAt`.
-    pub camera: &'static str,
-    /// The kind of animation, `Keyframes` or `Turntable`; `None` for a still.
-    pub animation: Option<&'static str>,
-    /// The lens as the file writes it, for example `Fov(50)`.
-    pub lens: String,
+    warnings: Vec<String>,
+    /// Where some clouds change over time.
+    series: Option<Arc<Series>>,
+    /// Cameras that frame the spheres of each step alone.
+    framed: Vec<(StepKey, CameraMotion, Lens)>,
 }
 
 impl Scene {
     /// The spheres and materials, the same in every frame, and the lights of the first frame: [`Self::exposure`] has
     /// those of another one where they differ, and [`Self::lights`] tells them.
+    ///
+    /// The spheres of clouds that change over time are missing: [`Self::world_at`] has them, too.
     pub fn world(&self) -> &World {
         &self.world
+    }
+
+    /// True where some clouds change over time.
+    pub fn has_steps(&self) -> bool {
+        self.series.is_some()
+    }
+
+    /// The steps of clouds that change over time, in a frame; none where there are no such clouds.
+    pub fn steps_at(&self, frame: i32) -> Option<StepKey> {
+        Some(self.series.as_ref()?.key(frame))
+    }
+
+    /// The world of a frame: as [`Self::world`], with the spheres of its step, which are read from their tables on the
+    /// threads of the current rayon pool.
+    ///
+    /// # Errors
+    /// Refuses tables as [`Self::load`] does.
+    pub fn world_at(&self, frame: i32) -> Result<World, SceneError> {
+        let Some(series) = &self.series else {
+            return Ok(self.world.clone());
+        };
+        let mut world = series.world(&series.key(frame)).map_err(|refused| load::explain(series, refused))?;
+        world.lights.clone_from(&self.world.lights);
+        Ok(world)
+    }
+
+    /// The camera of a frame over time, and its lens.
+    fn motion_at(&self, frame: i32) -> (&CameraMotion, Lens) {
+        let key = self.steps_at(frame);
+        let framed = self.framed.iter().find(|framed| Some(&framed.0) == key.as_ref());
+        framed.map_or((&self.motion, self.lens), |(_, motion, lens)| (motion, *lens))
+    }
+
+    /// What may be an oversight, one line each.
+    pub fn warnings(&self) -> &[String] {
+        &self.warnings
     }
 
     /// The view of frame `frame`; any number, inside the animation or not.
@@ -62,15 +85,16 @@ impl Scene {
     /// Refuses frames in which the camera looks nowhere, in their middle or where their shutter opens
     /// or closes: keys may lead a `LookAt` camera to its target. So it does where a light has no direction.
     pub fn view(&self, frame: i32) -> Result<View, FrameError> {
-        let Pose { camera, zoom } = self.motion.pose(frame, 0.0)?;
+        let (motion, lens) = self.motion_at(frame);
+        let Pose { camera, zoom } = motion.pose(frame, 0.0)?;
         if let Some(shutter) = self.shutter() {
-            self.motion.pose(frame, -0.5 * shutter)?;
-            self.motion.pose(frame, 0.5 * shutter)?;
+            motion.pose(frame, -0.5 * shutter)?;
+            motion.pose(frame, 0.5 * shutter)?;
         }
-        self.lights.at(frame, &camera, self.motion.target())?;
+        self.lights.at(frame, &camera, motion.target())?;
         Ok(View {
             camera,
-            lens: self.lens,
+            lens,
             zoom,
             width: self.width,
             height: self.height,
@@ -81,12 +105,11 @@ impl Scene {
     /// A view of a frame, which may have another size, with the motion of the camera while the
     /// frame's shutter is open.
     pub fn exposure(&self, view: &View) -> Exposure<'_> {
-        let motion = &self.motion;
         match (self.shutter(), i32::try_from(view.frame)) {
             (Some(duration), Ok(frame)) => Exposure::of_motion(
                 *view,
                 OpenShutter {
-                    motion,
+                    motion: self.motion_at(frame).0,
                     frame,
                     duration,
                 },

@@ -1,65 +1,23 @@
 //! Rows of bytes, each value at its place.
 
-use std::fs::Metadata;
-use std::io::{ErrorKind, Read, Seek, SeekFrom};
+use std::borrow::Cow;
+use std::io::{ErrorKind, Read};
 
 use rayon::prelude::*;
 
-use super::columns::{Plan, Slot};
+use super::columns::{Nature, Plan, Slot};
+use super::element;
 use super::error::TableError;
-use super::rows::{Numbers, Rows};
-use super::source::Source;
-use crate::text::{LocatedFault, Place};
-
-/// Declares the kinds of numbers.
-macro_rules! kinds {
-    ($($name:ident($type:ty),)*) => {
-        /// The way in which a value is stored, little-endian.
-        #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-        pub(crate) enum Kind {
-            $($name,)*
-            /// So many bytes that are no number.
-            Other(u64),
-        }
-
-        impl Kind {
-            /// The size of a value, in bytes.
-            pub(crate) fn size(self) -> u64 {
-                match self {
-                    $(Self::$name => size_of::<$type>() as u64,)*
-                    Self::Other(size) => size,
-                }
-            }
-
-            /// The number at the start of these bytes; none where there are too few.
-            #[inline(always)]
-            fn decode(self, bytes: &[u8]) -> Option<f64> {
-                Some(match self {
-                    $(Self::$name => <$type>::from_le_bytes(*bytes.first_chunk()?) as f64,)*
-                    Self::Other(_) => return None,
-                })
-            }
-        }
-    };
-}
-
-kinds! {
-    I8(i8),
-    U8(u8),
-    I16(i16),
-    U16(u16),
-    I32(i32),
-    U32(u32),
-    I64(i64),
-    U64(u64),
-    F32(f32),
-    F64(f64),
-}
+use super::input::Input;
+use super::kind::Kind;
+use super::request::{Coloring, Request};
+use super::rows::{Numbers, Row, Rows};
+use crate::text::{LocatedFault, Place, show};
 
 /// The arrangement of the values of a table.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
-    /// The byte of the file at which the table starts.
+    /// The byte of the file at which the table starts, which comes next.
     pub(crate) start: u64,
     pub(crate) rows: u64,
     /// The way in which each column is stored.
@@ -68,6 +26,53 @@ pub(crate) struct Layout {
     pub(crate) is_by_column: bool,
     /// The noun for rows in messages.
     pub(crate) noun: &'static str,
+}
+
+/// A column that is in memory.
+#[derive(Clone, Debug)]
+pub(crate) struct Column<'a> {
+    pub(crate) kind: Kind,
+    pub(crate) bytes: Cow<'a, [u8]>,
+    /// The place of its first value among the bytes, and the way to the next.
+    pub(crate) offset: usize,
+    pub(crate) step: usize,
+    /// The byte of the file at which the bytes start.
+    pub(crate) start: u64,
+}
+
+/// The plan by which columns of these names and kinds are read.
+///
+/// # Errors
+/// Returns what is missing, and what is no number where one is needed.
+pub(crate) fn plan(
+    names: Vec<String>,
+    kinds: &[Kind],
+    request: &Request,
+) -> Result<Plan, String> {
+    let kind = |column: usize| kinds.get(column).copied().unwrap_or(Kind::Other(0));
+    let nature = Nature {
+        is_byte: &|column| kind(column).is_byte(),
+        is_text: &|column| kind(column).is_text(),
+        angstrom: 1.0,
+    };
+    let plan = Plan::new(names, request, &nature)?;
+    for (column, uses) in plan.uses.iter().enumerate() {
+        let is_number = matches!(kind(column), Kind::Number(..));
+        let may_be_text = |slot: &Slot| match slot {
+            Slot::Element => true,
+            Slot::Value => plan.coloring == Coloring::Category,
+            Slot::Filter(filter) => plan.filters[usize::from(*filter)].text().is_some(),
+            _ => false,
+        };
+        let is_good = is_number || kind(column).is_text() && uses.slots().iter().all(may_be_text);
+        if !uses.slots().is_empty() && !is_good {
+            let name = show(&plan.names.0[column]);
+            return Err(format!(
+                "expected numbers in the column {name}, found something else"
+            ));
+        }
+    }
+    Ok(plan)
 }
 
 impl Layout {
@@ -85,22 +90,14 @@ impl Layout {
     }
 
     /// Refuses a table that cannot be read from a file of this size.
-    fn check(&self, plan: &Plan, file: &Metadata) -> Result<(), LocatedFault> {
+    fn check(&self, size: Option<u64>) -> Result<(), LocatedFault> {
         let stride = self.stride();
-        let behind = file.len().saturating_sub(self.start);
+        let behind = size.unwrap_or(0).saturating_sub(self.start);
         let needed = self.rows.checked_mul(stride);
         let is_short = needed.is_none_or(|needed| needed > behind);
-        if is_short && (file.is_file() || needed.is_none()) {
+        if is_short && (size.is_some() || needed.is_none()) {
             let message = format!("{}, found {behind}", self.expected());
             return Err(LocatedFault::of_file(message));
-        }
-        for (column, (slot, kind)) in plan.slots.iter().zip(&self.kinds).enumerate() {
-            if slot.is_some() && matches!(kind, Kind::Other(_)) {
-                let name = &plan.names[column];
-                return Err(LocatedFault::of_file(format!(
-                    "expected numbers in the column `{name}`, found something else"
-                )));
-            }
         }
         if stride > BLOCK {
             let message = format!("expected rows of at most {BLOCK} bytes, found {stride}");
@@ -117,22 +114,30 @@ const BLOCK: u64 = 1 << 21;
 const PIECE: usize = 1 << 13;
 
 /// Reads a table.
-pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result<Rows, TableError> {
-    let metadata = file.metadata()?;
-    layout.check(plan, &metadata)?;
+pub(crate) fn read(
+    input: &mut Input<'_>,
+    layout: &Layout,
+    plan: &Plan,
+) -> Result<Rows, TableError> {
+    let size = input.size();
+    layout.check(size)?;
     let stride = layout.stride();
     let mut rows = Rows::new(plan);
-    rows.reserve(if metadata.is_file() { layout.rows } else { 0 })?;
-    file.seek(SeekFrom::Start(layout.start))?;
+    let is_known = size.is_some() && plan.filters.is_empty();
+    rows.reserve(if is_known { layout.rows } else { 0 })?;
+    if layout.is_by_column && !input.can_seek() {
+        let columns = whole_columns(input, layout)?;
+        return read_columns(&columns, layout.rows, plan);
+    }
     let mut buffer = Vec::new();
     let mut first = 0;
     while first < layout.rows {
-        let count = (BLOCK / stride).min(layout.rows - first);
+        let count = (BLOCK / stride.max(1)).min(layout.rows - first);
         buffer.resize((count * stride) as usize, 0);
         let read = if layout.is_by_column {
-            read_columns(&mut file, layout, first, count, &mut buffer)
+            read_parts(input, layout, first, count, &mut buffer)
         } else {
-            file.read_exact(&mut buffer)
+            input.read_exact(&mut buffer)
         };
         read.map_err(|error| match error.kind() {
             ErrorKind::UnexpectedEof => {
@@ -141,28 +146,75 @@ pub(crate) fn read(mut file: Source<'_>, layout: &Layout, plan: &Plan) -> Result
             _ => TableError::from(error),
         })?;
         let block = Block {
-            layout,
             plan,
-            stride,
-            bytes: &buffer,
             first,
             count: count as usize,
-            values: values(layout, plan, stride, count),
+            values: values(layout, plan, &buffer, (first, count)),
         };
-        // The rows do not depend on the thread that decodes a piece.
-        let starts = (0..block.count).into_par_iter().step_by(PIECE);
-        let pieces: Vec<_> = starts.map(|start| block.decode(start)).collect();
-        for piece in pieces {
-            rows.append(piece?, usize::MAX);
-        }
+        block.decode_all(&mut rows)?;
         first += count;
     }
     Ok(rows)
 }
 
+/// Reads the rows of columns that are in memory.
+pub(crate) fn read_columns(
+    columns: &[Column<'_>],
+    count: u64,
+    plan: &Plan,
+) -> Result<Rows, TableError> {
+    let mut rows = Rows::new(plan);
+    let mut values = Vec::new();
+    for (index, (uses, column)) in plan.uses.iter().zip(columns).enumerate() {
+        values.extend(uses.slots().iter().map(|&slot| Value {
+            slot,
+            kind: column.kind,
+            column: index,
+            bytes: &column.bytes,
+            offset: column.offset,
+            step: column.step,
+            place: column.start,
+        }));
+    }
+    let block = Block {
+        plan,
+        first: 0,
+        count: count as usize,
+        values,
+    };
+    block.decode_all(&mut rows)?;
+    Ok(rows)
+}
+
+/// Reads columns whose values lie side by side, one after another.
+fn whole_columns(
+    input: &mut Input<'_>,
+    layout: &Layout,
+) -> Result<Vec<Column<'static>>, TableError> {
+    let mut columns = Vec::new();
+    for kind in &layout.kinds {
+        let start = input.position;
+        let size = layout.rows * kind.size();
+        let mut bytes = Vec::new();
+        input.by_ref().take(size).read_to_end(&mut bytes)?;
+        if (bytes.len() as u64) < size {
+            let message = format!("{}, found fewer", layout.expected());
+            return Err(LocatedFault::of_file(message).into());
+        }
+        columns.push(Column {
+            kind: *kind,
+            bytes: Cow::Owned(bytes),
+            offset: 0,
+            step: kind.size() as usize,
+            start,
+        });
+    }
+    Ok(columns)
+}
+
 /// Reads a part of every column.
-fn read_columns(
-    file: &mut Source<'_>,
+fn read_parts(
+    input: &mut Input<'_>,
     layout: &Layout,
     first: u64,
     count: u64,
@@ -171,9 +223,9 @@ fn read_columns(
     let mut rest = buffer;
     let mut start = layout.start;
     for kind in &layout.kinds {
-        file.seek(SeekFrom::Start(start + first * kind.size()))?;
+        input.skip_to(start + first * kind.size(), 0)?;
         let (part, after) = rest.split_at_mut((count * kind.size()) as usize);
-        file.read_exact(part)?;
+        input.read_exact(part)?;
         rest = after;
         start += layout.rows * kind.size();
     }
@@ -182,99 +234,150 @@ fn read_columns(
 
 /// A value of a row that is needed.
 #[derive(Clone, Copy, Debug)]
-struct Value {
+struct Value<'a> {
     slot: Slot,
     kind: Kind,
     column: usize,
-    /// The place of its first in a block, and the way to the next, in bytes.
+    bytes: &'a [u8],
+    /// The place of its first in the bytes, and the way to the next.
     offset: usize,
     step: usize,
+    /// The byte of the file at which the bytes start.
+    place: u64,
 }
 
-/// The values that are needed of the `count` rows of a block.
-fn values(layout: &Layout, plan: &Plan, stride: u64, count: u64) -> Vec<Value> {
+/// The values that are needed of the `count` rows of a block that begins with the row `first`.
+fn values<'a>(
+    layout: &Layout,
+    plan: &Plan,
+    bytes: &'a [u8],
+    (first, count): (u64, u64),
+) -> Vec<Value<'a>> {
+    let stride = layout.stride();
     let mut values = Vec::new();
-    let mut offset = 0;
-    for (column, (slot, kind)) in plan.slots.iter().zip(&layout.kinds).enumerate() {
+    let (mut offset, mut before) = (0, 0);
+    for (column, (uses, kind)) in plan.uses.iter().zip(&layout.kinds).enumerate() {
         let (step, size) = if layout.is_by_column {
             (kind.size(), kind.size() * count)
         } else {
             (stride, kind.size())
         };
-        if let Some(slot) = *slot {
-            values.push(Value {
-                slot,
-                kind: *kind,
-                column,
-                offset: offset as usize,
-                step: step as usize,
-            });
-        }
+        let place = if layout.is_by_column {
+            // As if the bytes began where those of this column would.
+            layout.start + layout.rows * before + first * kind.size()
+        } else {
+            layout.start + first * stride + before
+        };
+        values.extend(uses.slots().iter().map(|&slot| Value {
+            slot,
+            kind: *kind,
+            column,
+            bytes,
+            offset: offset as usize,
+            step: step as usize,
+            place: place.saturating_sub(offset),
+        }));
         offset += size;
+        before += kind.size();
     }
     values
 }
 
 /// Some rows, as they are stored.
-struct Block<'file> {
-    layout: &'file Layout,
-    plan: &'file Plan,
-    /// Bytes of a row.
-    stride: u64,
-    bytes: &'file [u8],
+struct Block<'a> {
+    plan: &'a Plan,
     /// The place of the first row in the table.
     first: u64,
     count: usize,
-    values: Vec<Value>,
+    values: Vec<Value<'a>>,
 }
 
 impl Block<'_> {
+    /// Adds all rows, decoded on the threads of the current rayon pool: they do not depend on the thread that
+    /// decodes a piece.
+    fn decode_all(&self, rows: &mut Rows) -> Result<(), TableError> {
+        let starts = (0..self.count).into_par_iter().step_by(PIECE);
+        let pieces: Vec<_> = starts.map(|start| self.decode(start)).collect();
+        pieces.into_iter().try_for_each(|piece| rows.append(piece?))
+    }
+
     /// The rows of the piece that begins with the row `start` of the block.
     fn decode(&self, start: usize) -> Result<Rows, TableError> {
+        let plan = self.plan;
         let end = self.count.min(start + PIECE);
-        let mut rows = Rows::new(self.plan);
+        let mut rows = Rows::new(plan);
         rows.reserve((end - start) as u64)?;
         let mut numbers: Numbers = [0.0; Slot::COUNT];
         for row in start..end {
+            let mut element = 0;
+            let mut category = Cow::Borrowed(&[][..]);
             for value in &self.values {
-                let bytes = self.bytes.get(value.offset + row * value.step..);
-                let number = bytes.and_then(|bytes| value.kind.decode(bytes));
-                let number = number.unwrap_or(f64::NAN);
-                if let Some(expected) = value.slot.refusal(number, self.plan.is_encoded) {
-                    let expected = self.plan.expected(value.column, expected);
-                    return Err(self.fault(row, value.column, &expected, number).into());
+                let bytes = value.bytes.get(value.offset + row * value.step..);
+                let bytes = bytes.unwrap_or_default();
+                if let Slot::Filter(filter) = value.slot
+                    && let Some(wanted) = plan.filters[usize::from(filter)].text()
+                {
+                    let is_wanted = *value.kind.text(bytes) == *wanted.as_bytes();
+                    numbers[value.slot.index()] = f64::from(u8::from(is_wanted));
+                    continue;
                 }
-                numbers[value.slot as usize] = number;
+                if value.slot == Slot::Value && plan.coloring == Coloring::Category {
+                    category = value.kind.text(bytes);
+                    continue;
+                }
+                if value.slot == Slot::Element && value.kind.is_text() {
+                    let text = value.kind.text(bytes);
+                    let number = element::of_label(&text);
+                    element = number.ok_or_else(|| {
+                        let found = show(&String::from_utf8_lossy(&text));
+                        self.fault(row, value, "the symbol of an element", found)
+                    })?;
+                    continue;
+                }
+                let number = value.kind.decode(bytes).unwrap_or(f64::NAN);
+                if let Some(expected) = value.slot.refusal(number, plan) {
+                    let expected = plan.expected(value.column, expected);
+                    return Err(self.fault(row, value, &expected, number.to_string()).into());
+                }
+                numbers[value.slot.index()] = number;
+                if value.slot == Slot::Element {
+                    element = number as u8;
+                }
             }
-            let atom = numbers[Slot::Element as usize];
-            if let Err(expected) = rows.push(self.plan, &numbers, atom as u8) {
+            let pushed = rows.push(
+                plan,
+                Row {
+                    numbers: &numbers,
+                    element,
+                    category: &category,
+                },
+            );
+            if let Err(expected) = pushed {
                 let mut values = self.values.iter();
-                let element = values.find(|value| value.slot == Slot::Element);
-                let column = element.map_or(0, |value| value.column);
-                return Err(self.fault(row, column, expected, atom).into());
+                let of_element = values.find(|value| value.slot == Slot::Element);
+                let value = of_element.or(self.values.first());
+                let found = element.to_string();
+                return Err(match value {
+                    Some(value) => self.fault(row, value, expected, found),
+                    None => LocatedFault::of_file(format!("expected {expected}, found {found}")),
+                }
+                .into());
             }
         }
         Ok(rows)
     }
 
-    /// Something else was expected than this number.
+    /// Something else was expected than what this row has there.
     #[cold]
-    fn fault(&self, row: usize, column: usize, expected: &str, number: f64) -> LocatedFault {
-        let layout = self.layout;
-        let row = self.first + row as u64;
-        let before: u64 = layout.kinds[..column].iter().map(|kind| kind.size()).sum();
-        let byte = if layout.is_by_column {
-            layout.rows * before + row * layout.kinds[column].size()
-        } else {
-            row * self.stride + before
-        };
+    fn fault(&self, row: usize, value: &Value<'_>, expected: &str, found: String) -> LocatedFault {
+        let byte = value.place + (value.offset + row * value.step) as u64;
         LocatedFault {
             place: Place::Row {
-                row: row + 1,
-                column: column + 1,
-                byte: layout.start + byte,
+                row: self.first + row as u64 + 1,
+                column: value.column + 1,
+                byte,
             },
-            message: format!("expected {expected}, found {number}"),
+            message: format!("expected {expected}, found {found}"),
         }
     }
 }

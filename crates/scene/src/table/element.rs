@@ -88,6 +88,38 @@ pub(crate) fn number(text: &[u8]) -> Option<u8> {
     (number > 0).then_some(number)
 }
 
+/// The atomic number of a label that begins with a symbol: `C12`, `Fe2+`; or of a symbol or a number.
+pub(crate) fn of_label(text: &[u8]) -> Option<u8> {
+    number(text).or_else(|| {
+        let count = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let (symbol, rest) = text.split_at(count);
+        let is_rest = |byte: &u8| byte.is_ascii_digit() || b"+-_*'".contains(byte);
+        (count > 0 && rest.iter().all(is_rest)).then(|| number(symbol))?
+    })
+}
+
+/// The atomic number that the name of an atom in a residue tells, as force fields write it: the symbol first, and
+/// what distinguishes it from others behind, so that `CA` is carbon unless the residue is called so, too.
+pub(crate) fn of_atom(name: &[u8], residue: &[u8]) -> Option<u8> {
+    /// Symbols of two letters that no usual name of hydrogen, carbon, nitrogen and the like begins with.
+    const LONG: [&[u8]; 10] = [
+        b"CL", b"BR", b"SI", b"FE", b"ZN", b"MG", b"MN", b"LI", b"CU", b"RB",
+    ];
+    let name = name.trim_ascii();
+    let digits = name.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let name = &name[digits..];
+    let letters = |text: &[u8]| {
+        let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic());
+        letters.map(u8::to_ascii_uppercase).collect::<Vec<u8>>()
+    };
+    let (name, residue) = (letters(name), letters(residue.trim_ascii()));
+    let start = name.get(..2).unwrap_or(&name);
+    if name == residue && name.len() <= 2 || LONG.contains(&start) {
+        return number(start);
+    }
+    number(name.get(..1)?)
+}
+
 /// The symbol that a misspelled one probably stands for.
 pub(crate) fn suggestion(text: &str) -> Option<&'static str> {
     let mut symbols = ELEMENTS.iter().map(|element| element.symbol);

@@ -9,8 +9,8 @@ use crate::text::LocatedFault;
 pub(crate) enum TableError {
     /// The file cannot be opened or read.
     Unreadable(io::Error),
-    /// The name has no ending that tells a format.
-    UnknownFormat,
+    /// Neither the name nor the contents tell a format that is read; the remedy, where one is known.
+    UnknownFormat(Option<&'static str>),
     /// There is no memory for it.
     OutOfMemory(u64),
     /// Something is wrong in it.

@@ -1,33 +1,49 @@
-//! Tables of spheres beside the scene file: CSV, NPY, PLY, XYZ.
+//! Tables of spheres beside the scene file, in the formats of many programs.
 //!
 //! Files are read in blocks and never held as a whole: what stays is a sphere for each row and what
-//! colors it. `columns` finds the purpose of each column, `text` and `binary` read rows, and a file
-//! for each format reads what stands before them.
+//! colors it. `source` and `input` hand out bytes and lines, decompressed. `columns` finds the purpose of each
+//! column, `text` and `binary` read rows, and a file for each format reads what stands before them.
+//! `frames` reads the frames of a file one after another.
 
 mod binary;
 mod colormap;
 mod columns;
-mod csv;
+mod compression;
+mod delimited;
 mod element;
 mod error;
+mod fields;
+mod form;
 mod format;
-mod lines;
+mod frames;
+mod gro;
+mod header;
+mod input;
+mod kind;
+mod lammps;
+mod mmcif;
 mod npy;
+mod npz;
+mod number;
 mod paint;
+mod pdb;
 mod ply;
 mod python;
 mod request;
 mod rows;
 mod source;
 mod text;
+mod vtk;
 mod xyz;
 
 pub(crate) use colormap::{Colormap, index as color_index};
+pub(crate) use columns::{Filter, MOST_FILTERS, Test, unit};
 pub(crate) use element::{Radii, colors as element_colors};
 pub(crate) use error::TableError;
-pub(crate) use format::{ENDINGS, read};
-pub(crate) use paint::Paint;
-pub(crate) use request::{Coloring, Request};
+pub(crate) use format::ENDINGS;
+pub(crate) use frames::{FramePlace, Frames};
+pub(crate) use paint::{Categories, Paint};
+pub(crate) use request::{Coloring, ColumnRef, Columns, Missing, Request, Value, ValueRange};
 pub(crate) use rows::Rows;
 
 #[cfg(test)]

@@ -6,24 +6,57 @@
 use std::fmt::Display;
 use std::io::Read;
 
-use super::binary::{self, Kind, Layout};
-use super::columns::{MOST_COLUMNS, Plan, components};
+use super::binary::{self, Layout};
+use super::columns::{MOST_COLUMNS, components};
 use super::error::TableError;
+use super::input::Input;
+use super::kind::{Kind, Number, Order};
 use super::python::Literal;
 use super::request::Request;
 use super::rows::Rows;
-use super::source::Source;
 use crate::text::{LocatedFault, show};
 
-const MAGIC: &[u8] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 /// The longest header that is read, in bytes.
 const LONGEST_HEADER: u64 = 1 << 20;
 
+/// What the header of an array says.
+#[derive(Clone, Debug)]
+pub(crate) struct Header {
+    pub(crate) elements: Elements,
+    pub(crate) shape: Vec<u64>,
+    /// The first index is that of neighbors, not the last.
+    pub(crate) is_by_column: bool,
+}
+
+/// The elements of an array.
+#[derive(Clone, Debug)]
+pub(crate) enum Elements {
+    Plain(Kind),
+    /// Names and kinds of fields.
+    Records(Vec<(String, Kind)>),
+}
+
 /// Reads a table.
-pub(crate) fn read(mut file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
-    let (start, header) = header(&mut file)?;
-    let refused = |expected: &str| fault(expected, show(header.trim()));
-    let literal = Literal::read(&header);
+pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, TableError> {
+    let header = header_of(input)?;
+    let (rows, names, kinds) = header.columns()?;
+    let plan = binary::plan(names, &kinds, request).map_err(LocatedFault::of_file)?;
+    let layout = Layout {
+        start: input.position,
+        rows,
+        is_by_column: header.is_by_column,
+        kinds,
+        noun: "rows",
+    };
+    binary::read(input, &layout, &plan)
+}
+
+/// Reads what stands before the numbers.
+pub(crate) fn header_of(input: &mut dyn Read) -> Result<Header, TableError> {
+    let text = header_text(input)?;
+    let refused = |expected: &str| fault(expected, show(text.trim()));
+    let literal = Literal::read(&text);
     let literal = literal.ok_or_else(|| refused("a header that describes an array"))?;
     let fields = ["descr", "fortran_order", "shape"].map(|key| literal.get(key));
     let [
@@ -34,29 +67,30 @@ pub(crate) fn read(mut file: Source<'_>, request: &Request) -> Result<Rows, Tabl
     else {
         return Err(refused("`descr`, `fortran_order` and `shape` in the header").into());
     };
-    let (rows, names, kinds) = match descr {
-        Literal::Text(kind) => plain(kind, shape)?,
-        Literal::List(fields) => records(fields, shape)?,
+    let length = |length: &Literal| match length {
+        Literal::Whole(length) => Some(*length),
+        _ => None,
+    };
+    let shape: Option<Vec<u64>> = shape.iter().map(length).collect();
+    let shape = shape.ok_or_else(|| refused("whole numbers in the shape"))?;
+    let (elements, is_by_column) = match descr {
+        Literal::Text(kind) => (Elements::Plain(self::kind(kind)?), *is_by_column),
+        Literal::List(fields) => (Elements::Records(records(fields)?), false),
         _ => return Err(fault("a type", "none").into()),
     };
-    let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
-    let plan = Plan::new(names, request, is_byte).map_err(LocatedFault::of_file)?;
-    let layout = Layout {
-        start,
-        rows,
-        is_by_column: *is_by_column && matches!(descr, Literal::Text(_)),
-        kinds,
-        noun: "rows",
-    };
-    binary::read(file, &layout, &plan)
+    Ok(Header {
+        elements,
+        shape,
+        is_by_column,
+    })
 }
 
-/// The byte at which the array starts, and the text before it.
-fn header(file: &mut Source<'_>) -> Result<(u64, String), TableError> {
+/// The text of the header.
+fn header_text(input: &mut dyn Read) -> Result<String, TableError> {
     /// The bytes before the length: `MAGIC` and two of the version.
     const START: u64 = 8;
     let mut start = Vec::new();
-    file.by_ref().take(START).read_to_end(&mut start)?;
+    input.take(START).read_to_end(&mut start)?;
     if !start.starts_with(MAGIC) {
         let found = show(&String::from_utf8_lossy(&start));
         return Err(fault("an NPY file, which starts with \\x93NUMPY", found).into());
@@ -69,7 +103,7 @@ fn header(file: &mut Source<'_>) -> Result<(u64, String), TableError> {
         None => return Err(cut().into()),
     };
     let mut length = [0; 4];
-    if start.len() as u64 != START || file.read_exact(&mut length[..size]).is_err() {
+    if start.len() as u64 != START || input.read_exact(&mut length[..size]).is_err() {
         return Err(cut().into());
     }
     let length = u64::from(u32::from_le_bytes(length));
@@ -78,53 +112,58 @@ fn header(file: &mut Source<'_>) -> Result<(u64, String), TableError> {
         return Err(fault("a header of at most 1 MiB", found).into());
     }
     let mut text = Vec::new();
-    file.by_ref().take(length).read_to_end(&mut text)?;
+    input.take(length).read_to_end(&mut text)?;
     if text.len() as u64 != length {
         return Err(cut().into());
     }
-    let start = START + size as u64 + length;
-    Ok((start, String::from_utf8_lossy(&text).into_owned()))
+    Ok(String::from_utf8_lossy(&text).into_owned())
 }
 
 /// The number of rows, and the names and types of the columns.
 type Columns = (u64, Vec<String>, Vec<Kind>);
 
-/// The columns of an array of numbers.
-fn plain(kind: &str, shape: &[Literal]) -> Result<Columns, LocatedFault> {
-    const ALL: [&str; 7] = ["x", "y", "z", "radius", "red", "green", "blue"];
-    let (rows, names) = match *shape {
-        [Literal::Whole(rows), Literal::Whole(3)] => (rows, &ALL[..3]),
-        [Literal::Whole(rows), Literal::Whole(4)] => (rows, &ALL[..4]),
-        [Literal::Whole(rows), Literal::Whole(5)] => {
-            (rows, &["x", "y", "z", "radius", "value"][..])
+impl Header {
+    /// The columns of an array that is a table.
+    pub(crate) fn columns(&self) -> Result<Columns, LocatedFault> {
+        match &self.elements {
+            Elements::Plain(kind) => self.plain(*kind),
+            Elements::Records(fields) => {
+                let [rows] = self.shape[..] else {
+                    return Err(fault("records in an array of one dimension", "more"));
+                };
+                let (names, kinds) = fields.iter().cloned().unzip();
+                Ok((rows, names, kinds))
+            }
         }
-        [Literal::Whole(rows), Literal::Whole(7)] => (rows, &ALL[..]),
-        _ => {
-            let length = |length: &Literal| match length {
-                Literal::Whole(length) => length.to_string(),
-                _ => String::from("…"),
-            };
-            let found: Vec<String> = shape.iter().map(length).collect();
-            let expected = "an array of shape (rows, 3), (rows, 4), (rows, 5) or (rows, 7)";
-            return Err(fault(expected, format!("({})", found.join(", "))));
-        }
-    };
-    let kind = match kind {
-        "<f4" => Kind::F32,
-        "<f8" => Kind::F64,
-        _ => return Err(fault("numbers of type `<f4` or `<f8`", show(kind))),
-    };
-    let names: Vec<String> = names.iter().copied().map(String::from).collect();
-    let kinds = vec![kind; names.len()];
-    Ok((rows, names, kinds))
+    }
+
+    /// The columns of an array of numbers.
+    fn plain(&self, kind: Kind) -> Result<Columns, LocatedFault> {
+        const ALL: [&str; 7] = ["x", "y", "z", "radius", "red", "green", "blue"];
+        const WITH_VALUE: [&str; 5] = ["x", "y", "z", "radius", "value"];
+        let (rows, columns) = match self.shape[..] {
+            [rows, columns] if (3..=MOST_COLUMNS as u64).contains(&columns) => {
+                (rows, columns as usize)
+            }
+            _ => {
+                let found: Vec<String> = self.shape.iter().map(u64::to_string).collect();
+                let expected = "an array of shape (rows, 3), (rows, 4), (rows, 5), (rows, 7), or of more columns";
+                return Err(fault(expected, format!("({})", found.join(", "))));
+            }
+        };
+        let names: Vec<String> = match columns {
+            3 | 4 | 7 => ALL[..columns].iter().copied().map(String::from).collect(),
+            5 => WITH_VALUE.map(String::from).into(),
+            // `columns` of the scene file tells what they are.
+            _ => (1..=columns).map(|column| column.to_string()).collect(),
+        };
+        Ok((rows, names, vec![kind; columns]))
+    }
 }
 
-/// The columns of an array of records.
-fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, LocatedFault> {
-    let [Literal::Whole(rows)] = *shape else {
-        return Err(fault("records in an array of one dimension", "more"));
-    };
-    let (mut names, mut kinds) = (Vec::new(), Vec::new());
+/// The fields of records.
+fn records(fields: &[Literal]) -> Result<Vec<(String, Kind)>, LocatedFault> {
+    let mut columns: Vec<(String, Kind)> = Vec::new();
     for field in fields {
         let Literal::List(parts) = field else {
             return Err(no_field());
@@ -139,18 +178,18 @@ fn records(fields: &[Literal], shape: &[Literal]) -> Result<Columns, LocatedFaul
             _ => return Err(no_field()),
         };
         let kind = self::kind(kind)?;
-        if count > (MOST_COLUMNS - kinds.len()) as u64 {
+        if count > (MOST_COLUMNS - columns.len()) as u64 {
             let expected = format!("at most {MOST_COLUMNS} values in a record");
             return Err(fault(&expected, "more"));
         }
-        kinds.extend((0..count).map(|_| kind));
-        names.extend(match (name.to_ascii_lowercase().as_str(), count) {
+        let names = match (name.to_ascii_lowercase().as_str(), count) {
             ("center", 3) => components("position", count),
             ("rgb", 3) => components("color", count),
             _ => components(name, count),
-        });
+        };
+        columns.extend(names.into_iter().map(|name| (name, kind)));
     }
-    Ok((rows, names, kinds))
+    Ok(columns)
 }
 
 /// The number of values in a field of this shape.
@@ -172,36 +211,41 @@ fn no_field() -> LocatedFault {
 
 /// The type of a field.
 fn kind(text: &str) -> Result<Kind, LocatedFault> {
-    let characters = |digits: &str, size: u64| {
-        let count: u64 = digits.parse().ok()?;
-        count.checked_mul(size).map(Kind::Other)
-    };
     let (order, kind) = match text.as_bytes().first() {
-        Some(b'<' | b'>' | b'|' | b'=') => text.split_at(1),
-        _ => ("", text),
+        Some(b'>') => (Order::Big, &text[1..]),
+        Some(b'<' | b'|' | b'=') => (Order::Little, &text[1..]),
+        _ => (Order::Little, text),
     };
+    let size = |digits: &str| digits.parse::<u64>().ok();
     let known = match kind {
-        "i1" => Some(Kind::I8),
-        "u1" => Some(Kind::U8),
-        "b1" => Some(Kind::Other(1)),
-        _ if kind.starts_with(['S', 'V']) => characters(&kind[1..], 1),
-        _ if order == ">" => None,
-        "i2" => Some(Kind::I16),
-        "u2" => Some(Kind::U16),
-        "i4" => Some(Kind::I32),
-        "u4" => Some(Kind::U32),
-        "i8" => Some(Kind::I64),
-        "u8" => Some(Kind::U64),
-        "f2" => Some(Kind::Other(2)),
-        "f4" => Some(Kind::F32),
-        "f8" => Some(Kind::F64),
-        _ if kind.starts_with('U') => characters(&kind[1..], 4),
+        "b1" | "?" | "u1" => Some(Number::U8),
+        "i1" => Some(Number::I8),
+        "i2" => Some(Number::I16),
+        "u2" => Some(Number::U16),
+        "i4" => Some(Number::I32),
+        "u4" => Some(Number::U32),
+        "i8" => Some(Number::I64),
+        "u8" => Some(Number::U64),
+        "f2" => Some(Number::F16),
+        "f4" => Some(Number::F32),
+        "f8" => Some(Number::F64),
+        "f12" => Some(Number::F80(12)),
+        "f16" => Some(Number::F80(16)),
         _ => None,
     };
-    known.ok_or_else(|| {
-        let expected = "a little-endian type such as `<f8`, `<f4`, `<i4` or `|u1`";
-        fault(expected, show(text))
-    })
+    let known = known.map(|number| Kind::Number(number, order));
+    let known = known.or_else(|| match kind.split_at_checked(1)? {
+        ("S", digits) => size(digits).map(Kind::Text),
+        ("U", digits) => size(digits)
+            .filter(|count| count.checked_mul(4).is_some())
+            .map(|count| Kind::Characters(count, order)),
+        ("V" | "M" | "m" | "c", digits) => {
+            let digits = digits.split('[').next().unwrap_or_default();
+            size(digits).map(Kind::Other)
+        }
+        _ => None,
+    });
+    known.ok_or_else(|| fault("a type such as `<f8`, `>f4`, `<i4` or `|u1`", show(text)))
 }
 
 fn fault(expected: &str, found: impl Display) -> LocatedFault {

@@ -1,6 +1,6 @@
 //! The colors of a table's spheres.
 
-use std::collections::TryReserveError;
+use std::collections::{HashMap, TryReserveError};
 
 use super::request::Coloring;
 
@@ -15,6 +15,47 @@ pub(crate) enum Paint {
     Elements(Vec<u8>),
     /// Those that a colormap gives to these numbers.
     Values(Vec<f64>),
+    /// Those of categories.
+    Categories(Categories),
+}
+
+/// The categories of spheres, by their indices among the names.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Categories {
+    pub(crate) names: Vec<String>,
+    pub(crate) indices: Vec<u32>,
+    known: HashMap<Box<[u8]>, u32>,
+}
+
+impl Categories {
+    /// The most names.
+    pub(crate) const MOST: usize = 1 << 16;
+
+    /// The index of a name; `None` where there are too many.
+    pub(crate) fn index(&mut self, name: &[u8]) -> Option<u32> {
+        if let Some(index) = self.known.get(name) {
+            return Some(*index);
+        }
+        if self.names.len() == Self::MOST {
+            return None;
+        }
+        let index = self.names.len() as u32;
+        self.names.push(String::from_utf8_lossy(name).into_owned());
+        self.known.insert(name.into(), index);
+        Some(index)
+    }
+
+    /// Adds others behind these; returns whether there are too many names.
+    fn append(&mut self, others: Self) -> bool {
+        let names: Vec<Option<u32>> = others
+            .names
+            .iter()
+            .map(|name| self.index(name.as_bytes()))
+            .collect();
+        let of = |index: &u32| names[*index as usize].unwrap_or(0);
+        self.indices.extend(others.indices.iter().map(of));
+        names.contains(&None)
+    }
 }
 
 impl Paint {
@@ -25,6 +66,7 @@ impl Paint {
             Coloring::Table => Self::Colors(Vec::new()),
             Coloring::Element => Self::Elements(Vec::new()),
             Coloring::Value => Self::Values(Vec::new()),
+            Coloring::Category => Self::Categories(Categories::default()),
         }
     }
 
@@ -35,20 +77,19 @@ impl Paint {
             Self::Colors(colors) => colors.try_reserve_exact(more),
             Self::Elements(numbers) => numbers.try_reserve_exact(more),
             Self::Values(values) => values.try_reserve_exact(more),
+            Self::Categories(categories) => categories.indices.try_reserve_exact(more),
         }
     }
 
-    /// Adds the first `most` of others from the same source.
-    pub(crate) fn append(&mut self, others: Self, most: usize) {
-        fn append<T>(own: &mut Vec<T>, mut others: Vec<T>, most: usize) {
-            others.truncate(most);
-            own.append(&mut others);
-        }
+    /// Adds others from the same source; returns whether they have too many names together.
+    pub(crate) fn append(&mut self, others: Self) -> bool {
         match (self, others) {
-            (Self::Colors(own), Self::Colors(others)) => append(own, others, most),
-            (Self::Elements(own), Self::Elements(others)) => append(own, others, most),
-            (Self::Values(own), Self::Values(others)) => append(own, others, most),
+            (Self::Colors(own), Self::Colors(mut others)) => own.append(&mut others),
+            (Self::Elements(own), Self::Elements(mut others)) => own.append(&mut others),
+            (Self::Values(own), Self::Values(mut others)) => own.append(&mut others),
+            (Self::Categories(own), Self::Categories(others)) => return own.append(others),
             _ => {}
         }
+        false
     }
 }

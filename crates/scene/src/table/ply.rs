@@ -1,4 +1,4 @@
-//! PLY, text or little-endian: the element `vertex`, which has to come first.
+//! PLY, text or binary: the element `vertex`, which has to come first.
 //!
 //! Colors in bytes are sRGB, as programs show them; in floating point they are linear.
 //!
@@ -7,59 +7,67 @@
 
 use std::ops::Range;
 
-use super::binary::{self, Kind, Layout};
-use super::columns::Plan;
+use super::binary::{self, Layout};
 use super::error::TableError;
-use super::lines::Lines;
+use super::fields::{Division, Fields};
+use super::form::Form;
+use super::input::Input;
+use super::kind::{Kind, Number, Order};
 use super::request::Request;
 use super::rows::Rows;
-use super::source::Source;
-use super::text::{self, Form};
+use super::text;
 use crate::text::{LocatedFault, either};
 
 /// The contents of a header.
 #[derive(Default)]
 struct Header {
     /// `None` before the format is told.
-    is_text: Option<bool>,
+    format: Option<Format>,
     /// The number of elements; of those after the first nothing is read.
     elements: usize,
     rows: u64,
     names: Vec<String>,
-    kinds: Vec<Kind>,
+    numbers: Vec<Number>,
+}
+
+/// The format of the rows.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+enum Format {
+    Text,
+    Binary(Order),
 }
 
 /// Reads the vertices.
-pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
-    let mut lines = Lines::new(file)?;
-    let header = header(&mut lines)?;
-    let kinds = &header.kinds;
-    let is_byte = |column: usize| kinds.get(column) == Some(&Kind::U8);
-    let plan = Plan::new(header.names, request, is_byte).map_err(|message| {
-        LocatedFault::in_line(lines.number, END.as_bytes(), 0..END.len(), message)
+pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, TableError> {
+    let header = header(input)?;
+    let order = match header.format {
+        Some(Format::Binary(order)) => order,
+        _ => Order::Little,
+    };
+    let kind = |number: &Number| Kind::Number(*number, order);
+    let kinds: Vec<Kind> = header.numbers.iter().map(kind).collect();
+    let plan = binary::plan(header.names, &kinds, request).map_err(|message| {
+        LocatedFault::in_line(input.number, END.as_bytes(), 0..END.len(), message)
     })?;
-    if header.is_text == Some(false) {
+    if matches!(header.format, Some(Format::Binary(_))) {
         let layout = Layout {
-            start: lines.position,
+            start: input.position,
             rows: header.rows,
-            kinds: header.kinds,
+            kinds,
             is_by_column: false,
             noun: "vertices",
         };
-        return binary::read(lines.into_file(), &layout, &plan);
+        return binary::read(input, &layout, &plan);
     }
-    let form = Form {
-        separator: None,
-        may_be_longer: false,
-    };
+    let form = Form::new(Division::Words);
     let noun = "vertices, as the header says";
-    text::read_count(&mut lines, &plan, form, header.rows, noun)
+    text::read_count(input, &plan, &form, header.rows, noun)
 }
 
 /// The line that ends a header.
 const END: &str = "end_header";
 
-fn header(lines: &mut Lines<'_>) -> Result<Header, TableError> {
+fn header(lines: &mut Input<'_>) -> Result<Header, TableError> {
     let mut header = Header::default();
     loop {
         let number = lines.number + 1;
@@ -93,10 +101,17 @@ impl Header {
         let refuse = |part: usize, expected: &str| Err((part, expected.to_owned()));
         match *words {
             ["comment" | "obj_info", ..] | [] => {}
-            ["format", form @ ("ascii" | "binary_little_endian"), "1.0"] => {
-                self.is_text = Some(form == "ascii");
+            ["format", "ascii", "1.0"] => self.format = Some(Format::Text),
+            ["format", "binary_little_endian", "1.0"] => {
+                self.format = Some(Format::Binary(Order::Little));
             }
-            ["format", ..] => return refuse(1, "`ascii 1.0` or `binary_little_endian 1.0`"),
+            ["format", "binary_big_endian", "1.0"] => {
+                self.format = Some(Format::Binary(Order::Big));
+            }
+            ["format", ..] => {
+                let known = "`ascii 1.0`, `binary_little_endian 1.0` or `binary_big_endian 1.0`";
+                return refuse(1, known);
+            }
             ["element", name, count] => {
                 self.elements += 1;
                 if self.elements > 1 {
@@ -113,17 +128,17 @@ impl Header {
             ["property", ..] if self.elements > 1 => {}
             ["property", "list", ..] => return refuse(1, "a number as the property of a vertex"),
             ["property", kind, name] if self.elements == 1 => {
-                let Some(kind) = self::kind(kind) else {
+                let Some(number) = self::number(kind) else {
                     let expected = format!("a type ({})", either(KINDS.map(|known| known.0)));
                     return refuse(1, &expected);
                 };
                 if self.names.len() == MOST_COLUMNS {
                     return refuse(0, "at most 1000 properties");
                 }
-                self.kinds.push(kind);
+                self.numbers.push(number);
                 self.names.push(name.to_owned());
             }
-            [END] if self.is_text.is_none() => return refuse(0, "a line `format …` before"),
+            [END] if self.format.is_none() => return refuse(0, "a line `format …` before"),
             [END] if self.elements == 0 => return refuse(0, "a line `element vertex …` before"),
             [END] => {}
             _ => {
@@ -137,7 +152,7 @@ impl Header {
 
 /// The place of a word in a line; its end if there are fewer.
 fn word(line: &[u8], number: usize) -> Range<usize> {
-    let mut fields = text::Fields::new(line, None);
+    let mut fields = Fields::new(line, &Division::Words);
     for _ in 0..number {
         fields.next();
     }
@@ -145,20 +160,20 @@ fn word(line: &[u8], number: usize) -> Range<usize> {
 }
 
 /// The kind of number with this name.
-fn kind(name: &str) -> Option<Kind> {
+fn number(name: &str) -> Option<Number> {
     let mut known = KINDS.iter();
     let known = known.find(|known| name == known.0 || name == known.1)?;
     Some(known.2)
 }
 
 /// The kinds of numbers, with the names of the format and those that tell their size.
-const KINDS: [(&str, &str, Kind); 8] = [
-    ("char", "int8", Kind::I8),
-    ("uchar", "uint8", Kind::U8),
-    ("short", "int16", Kind::I16),
-    ("ushort", "uint16", Kind::U16),
-    ("int", "int32", Kind::I32),
-    ("uint", "uint32", Kind::U32),
-    ("float", "float32", Kind::F32),
-    ("double", "float64", Kind::F64),
+const KINDS: [(&str, &str, Number); 8] = [
+    ("char", "int8", Number::I8),
+    ("uchar", "uint8", Number::U8),
+    ("short", "int16", Number::I16),
+    ("ushort", "uint16", Number::U16),
+    ("int", "int32", Number::I32),
+    ("uint", "uint32", Number::U32),
+    ("float", "float32", Number::F32),
+    ("double", "float64", Number::F64),
 ];

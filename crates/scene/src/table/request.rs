@@ -1,7 +1,9 @@
 //! The settings of a cloud that concern its table.
 
+use glam::DVec3;
 use serde::Deserialize;
 
+use super::columns::Filter;
 use super::element::Radii;
 
 /// The settings by which a table is read.
@@ -11,12 +13,64 @@ pub(crate) struct Request {
     pub(crate) radius: Option<f64>,
     /// The kind of radii that elements have.
     pub(crate) radii: Radii,
+    /// The columns that the scene file names.
+    pub(crate) columns: Columns,
     /// The source of the colors; `None` for the best that the table has.
     pub(crate) coloring: Option<Coloring>,
-    /// The column of the numbers that a colormap turns into colors.
-    pub(crate) value: Option<String>,
+    /// The source of the numbers that a colormap turns into colors, or of categories.
+    pub(crate) value: Option<Value>,
+    /// The treatment of rows that have no such number.
+    pub(crate) missing: Missing,
+    /// The conditions on rows that are kept.
+    pub(crate) keep: Vec<Filter>,
     /// The colors of elements are left out unless they are asked for.
     pub(crate) has_material: bool,
+}
+
+/// The columns that the scene file names; those that it does not are found by their names.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Columns {
+    pub(crate) position: [Option<ColumnRef>; 3],
+    pub(crate) radius: Option<ColumnRef>,
+    pub(crate) element: Option<ColumnRef>,
+    /// The factor on radii.
+    pub(crate) radius_scale: Option<f64>,
+}
+
+/// A column.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub(crate) enum ColumnRef {
+    Name(String),
+    /// By its place, from 1.
+    Number(usize),
+}
+
+/// The source of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Value {
+    Column(ColumnRef),
+    /// The length of a vector.
+    Length([ColumnRef; 3]),
+}
+
+/// The numbers that have the first and the last color of a colormap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ValueRange {
+    Fixed(f64, f64),
+    /// Those below which so many in a hundred lie.
+    Percentile(f64, f64),
+}
+
+/// The treatment of rows without a number to color them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum Missing {
+    /// They are a fault.
+    #[default]
+    Refuse,
+    /// They are left out.
+    Hide,
+    /// They have this color.
+    Color(DVec3),
 }
 
 /// The source of the colors of spheres.
@@ -30,4 +84,6 @@ pub(crate) enum Coloring {
     Element,
     /// A column of numbers, by a colormap.
     Value,
+    /// A column of names or numbers, each with a color of its own.
+    Category,
 }

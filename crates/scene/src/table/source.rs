@@ -1,39 +1,91 @@
-//! The file of a table, which tells how much of it was read.
+//! The file of a table, decompressed where it is compressed, which tells how much of it was read.
 
-use std::fs::{File, Metadata};
+use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
+use std::path::Path;
 
-/// A file whose reader somebody watches.
+use super::compression::{Compression, Decoded};
+
+/// The bytes of a table, whose reading somebody watches.
 pub(crate) struct Source<'watch> {
-    file: File,
+    stream: Stream,
+    /// The bytes of the file, where it is an ordinary one.
+    stored: Option<u64>,
+    /// The bytes of the file that were read.
     read: u64,
-    /// Called with the number of bytes read so far.
-    watch: &'watch dyn Fn(u64),
+    /// Called with the number of bytes read so far, and those that there are.
+    watch: &'watch dyn Fn(u64, u64),
+}
+
+/// The way from the file to its bytes.
+enum Stream {
+    Plain(File),
+    Decoded(Decoded),
 }
 
 impl<'watch> Source<'watch> {
-    /// `watch` is called after every reading, of which there is one for megabytes.
-    pub(crate) fn new(file: File, watch: &'watch dyn Fn(u64)) -> Self {
-        let read = 0;
-        Self { file, read, watch }
+    /// Opens the file at `path`. `watch` is called after every reading, of which there is one for megabytes.
+    pub(crate) fn open(path: &Path, watch: &'watch dyn Fn(u64, u64)) -> io::Result<Self> {
+        let mut file = File::open(path)?;
+        let metadata = file.metadata()?;
+        if metadata.is_dir() {
+            return Err(io::ErrorKind::IsADirectory.into());
+        }
+        let stored = metadata.is_file().then_some(metadata.len());
+        // What is no ordinary file cannot be read twice.
+        let compression = match stored {
+            Some(_) => Compression::of(&mut file)?,
+            None => None,
+        };
+        let stream = match compression {
+            None => Stream::Plain(file),
+            Some(compression) => Stream::Decoded(Decoded::new(file, compression)?),
+        };
+        Ok(Self {
+            stream,
+            stored,
+            read: 0,
+            watch,
+        })
     }
 
-    pub(crate) fn metadata(&self) -> io::Result<Metadata> {
-        self.file.metadata()
+    /// The number of bytes, where it is known before they are read.
+    pub(crate) fn size(&self) -> Option<u64> {
+        self.stored.filter(|_| self.can_seek())
+    }
+
+    /// True where any byte can be read next.
+    pub(crate) fn can_seek(&self) -> bool {
+        matches!(self.stream, Stream::Plain(_)) && self.stored.is_some()
+    }
+
+    /// Continues at this byte.
+    ///
+    /// # Errors
+    /// Fails where the bytes come in their order only.
+    pub(crate) fn seek(&mut self, to: u64) -> io::Result<()> {
+        match &mut self.stream {
+            Stream::Plain(file) => file.seek(SeekFrom::Start(to)).map(|_| ()),
+            Stream::Decoded(_) => Err(io::ErrorKind::NotSeekable.into()),
+        }
     }
 }
 
 impl Read for Source<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.file.read(buffer)?;
-        self.read += count as u64;
-        (self.watch)(self.read);
+        let count = match &mut self.stream {
+            Stream::Plain(file) => {
+                let count = file.read(buffer)?;
+                self.read += count as u64;
+                count
+            }
+            Stream::Decoded(decoded) => {
+                let count = decoded.read(buffer)?;
+                self.read = decoded.taken();
+                count
+            }
+        };
+        (self.watch)(self.read, self.stored.unwrap_or(0));
         Ok(count)
-    }
-}
-
-impl Seek for Source<'_> {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.file.seek(to)
     }
 }

@@ -165,7 +165,7 @@ fn what_is_no_table_is_refused_where_it_is_named() {
         ),
         (
             "file: \"argon.pdb\"",
-            "2:17: expected the name of a table that ends in `.csv`, `.npy`, `.ply`, `.xyz` or `.extxyz`, found \"argon.pdb\"",
+            "2:17: expected a table, found no file \"argon.pdb\", did you mean \"argon.xyz\"?",
         ),
         (
             "file: \"argon.xyz\", color: Element, colormap: Viridis",

@@ -4,93 +4,101 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::columns::{Plan, RadiusSource, Slot};
+use super::columns::{Plan, RadiusSource, Slot, Uses};
 use super::element;
 use super::error::TableError;
-use super::lines::{Lines, without_return};
+use super::fields::Fields;
+use super::form::{Form, LineKind};
+use super::input::{Input, without_return};
+use super::number::{is_missing, parse};
 use super::request::Coloring;
-use super::rows::{Numbers, Rows};
+use super::rows::{Numbers, Row, Rows};
 use crate::text::{LocatedFault, show};
-
-/// The division of lines into fields.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Form {
-    /// The byte between fields; `None` for any spaces and tabs.
-    pub(crate) separator: Option<u8>,
-    /// Lines may have more fields than there are columns.
-    pub(crate) may_be_longer: bool,
-}
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;
 
-/// Reads rows: `count` of them, or all, in which case empty lines are passed over. Returns how
-/// many there were.
+/// Reads rows: `count` of them, or all up to the end that the form tells.
 ///
 /// The pieces of a block are read on all threads of the current pool; what comes of it does not
-/// depend on their number.
+/// depend on their number. Afterwards comes what stands behind the rows.
 pub(crate) fn read(
-    lines: &mut Lines<'_>,
+    input: &mut Input<'_>,
     plan: &Plan,
-    form: Form,
+    form: &Form,
     count: Option<u64>,
 ) -> Result<Rows, TableError> {
     let mut rows = Rows::new(plan);
-    let wanted = |rows: &Rows| match count {
-        Some(count) => count - rows.len() as u64,
-        None => u64::MAX,
-    };
-    let (size, mut number) = (lines.size()?, lines.number);
-    while wanted(&rows) > 0 {
-        let start = lines.position;
-        let Some(block) = lines.next_block()? else {
+    let wanted = |rows: &Rows| count.map_or(u64::MAX, |count| count - rows.read);
+    let (size, mut number) = (input.size().unwrap_or(0), input.number);
+    let mut is_at_end = false;
+    while wanted(&rows) > 0 && !is_at_end {
+        let start = input.position;
+        let Some(block) = input.next_block(wanted(&rows))? else {
             break;
         };
-        let bytes = block.len() as u64;
+        let bytes = block.len();
         let pieces: Vec<&[u8]> = pieces(block).collect();
         let pieces: Vec<Piece> = pieces
             .into_par_iter()
-            .map(|text| read_piece(text, plan, form, count.is_none()))
+            .map(|text| read_piece(text, plan, form, count.is_some()))
             .collect();
-        if start == 0 || rows.len() == 0 {
+        if rows.read == 0 && plan.filters.is_empty() {
             // As if all lines were as long as those of the first block.
-            let found: usize = pieces.iter().map(|piece| piece.rows.len()).sum();
+            let found: usize = pieces.iter().map(|piece| piece.rows.spheres.len()).sum();
             let share = size.saturating_sub(start) as f64 / bytes as f64;
             let more = (1.01 * share * found as f64) as u64;
             rows.reserve(more.min(wanted(&rows)))?;
         }
+        let mut taken = 0;
         for piece in pieces {
-            let wanted = wanted(&rows);
-            let is_enough = piece.rows.len() as u64 >= wanted;
-            rows.append(piece.rows, wanted.try_into().unwrap_or(usize::MAX));
-            if is_enough {
-                break;
-            }
+            rows.append(piece.rows)?;
             if let Some(fault) = piece.fault {
                 return Err(fault.lower(number).into());
             }
             number += piece.lines;
+            taken += piece.bytes;
+            is_at_end = piece.is_at_end;
+            if is_at_end {
+                break;
+            }
         }
+        input.take_back(bytes - taken);
     }
-    lines.number = number;
+    input.number = number;
     Ok(rows)
 }
 
 /// Reads `count` rows, which are called by `noun` where there are fewer.
 pub(crate) fn read_count(
-    lines: &mut Lines<'_>,
+    input: &mut Input<'_>,
     plan: &Plan,
-    form: Form,
+    form: &Form,
     count: u64,
     noun: &str,
 ) -> Result<Rows, TableError> {
-    let rows = read(lines, plan, form, Some(count))?;
-    let found = rows.len();
-    if (found as u64) < count {
-        let expected = format!("{count} {noun}, and after {found} of them another");
-        return Err(LocatedFault::at_end(lines.number + 1, &expected).into());
+    let rows = read(input, plan, form, Some(count))?;
+    match rows.read < count {
+        true => Err(too_few(input.number, rows.read, count, noun).into()),
+        false => Ok(rows),
     }
-    Ok(rows)
+}
+
+/// Passes over rows as [`read`] does; returns how many lines there were.
+pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<u64, TableError> {
+    let mut lines = 0;
+    let is_row = |line: &[u8]| (form.kind)(line) != LineKind::End && !is_of_another(line, form);
+    while input.peek()?.is_some_and(is_row) {
+        input.next()?;
+        lines += 1;
+    }
+    Ok(lines)
+}
+
+/// The file has ended before so many rows.
+pub(crate) fn too_few(lines: u64, found: u64, count: u64, noun: &str) -> LocatedFault {
+    let expected = format!("{count} {noun}, and after {found} of them another");
+    LocatedFault::at_end(lines + 1, &expected)
 }
 
 /// Parts of a block, each of whole lines.
@@ -100,7 +108,7 @@ fn pieces(block: &[u8]) -> impl Iterator<Item = &[u8]> {
         if rest.is_empty() {
             return None;
         }
-        let ahead = rest.iter().skip(PIECE).position(|&byte| byte == b'\n');
+        let ahead = rest.get(PIECE..).and_then(|ahead| memchr::memchr(b'\n', ahead));
         let length = ahead.map_or(rest.len(), |ahead| PIECE + ahead + 1);
         let (piece, after) = rest.split_at(length);
         rest = after;
@@ -113,29 +121,59 @@ struct Piece {
     rows: Rows,
     /// Lines that were looked at, the one with the fault included.
     lines: u64,
+    /// The bytes of these lines.
+    bytes: usize,
+    /// The next line is not of this table any more.
+    is_at_end: bool,
     /// The first fault, by the line in the piece.
     fault: Option<LocatedFault>,
 }
 
-fn read_piece(text: &[u8], plan: &Plan, form: Form, skips_empty: bool) -> Piece {
+fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piece {
     let mut piece = Piece {
         rows: Rows::new(plan),
         lines: 0,
+        bytes: 0,
+        is_at_end: false,
         fault: None,
     };
-    let text = text.strip_suffix(b"\n").unwrap_or(text);
-    for line in text.split(|&byte| byte == b'\n') {
-        let line = without_return(line);
-        piece.lines += 1;
-        if skips_empty && line.trim_ascii().is_empty() {
-            continue;
-        }
-        piece.fault = read_line(line, piece.lines, plan, form, &mut piece.rows).err();
-        if piece.fault.is_some() {
+    let mut numbers: Numbers = [0.0; Slot::COUNT];
+    while piece.bytes < text.len() {
+        let rest = &text[piece.bytes..];
+        let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
+        let line = without_return(&rest[..length]);
+        let kind = if all_are_rows {
+            LineKind::Row
+        } else {
+            (form.kind)(line)
+        };
+        piece.is_at_end = kind == LineKind::End || is_of_another(line, form);
+        if piece.is_at_end {
             break;
+        }
+        piece.lines += 1;
+        piece.bytes += (length + 1).min(rest.len());
+        if kind == LineKind::Row {
+            let read = read_line(line, piece.lines, plan, form, &mut numbers, &mut piece.rows);
+            piece.fault = read.err();
+            if piece.fault.is_some() {
+                break;
+            }
         }
     }
     piece
+}
+
+/// Says whether a line has something else in the column in which all rows are the same.
+fn is_of_another(line: &[u8], form: &Form) -> bool {
+    let Some((column, same)) = &form.same else {
+        return false;
+    };
+    let mut fields = Fields::new(line, &form.division);
+    for _ in 0..*column {
+        fields.next();
+    }
+    fields.next().is_some_and(|field| line[field] != same[..])
 }
 
 /// Reads the row in the line with this number.
@@ -144,56 +182,74 @@ fn read_line(
     line: &[u8],
     number: u64,
     plan: &Plan,
-    form: Form,
+    form: &Form,
+    numbers: &mut Numbers,
     rows: &mut Rows,
 ) -> Result<(), LocatedFault> {
     let refused = |span: Range<usize>, expected: &str| {
         Err(LocatedFault::expected(number, line, span, expected))
     };
-    let mut numbers: Numbers = [0.0; Slot::COUNT];
-    let (mut atom, mut symbol) = (0, 0..0);
-    let mut fields = Fields::new(line, form.separator);
-    for (column, slot) in plan.slots.iter().enumerate() {
+    let (mut atom, mut symbol, mut category) = (0, 0..0, 0..0);
+    let mut fields = Fields::new(line, &form.division);
+    for (column, uses) in plan.uses.iter().enumerate() {
         let Some(field) = fields.next() else {
             let end = line.trim_ascii_end().len();
-            return refused(end..end, &plan.expected(column, kind(*slot)));
+            return refused(end..end, &plan.expected(column, kind(uses)));
         };
-        match slot {
-            None => {}
-            Some(Slot::Element) => {
-                atom = element::number(&line[field.clone()])
-                    .ok_or_else(|| no_element(line, number, field.clone(), plan))?;
-                symbol = field;
-            }
-            Some(slot) => {
-                let value = parse(&line[field.clone()]);
-                let refusal = match value {
-                    Some(value) => slot.refusal(value, plan.is_encoded),
-                    None => Some("a number"),
-                };
-                if let Some(expected) = refusal {
-                    return refused(field, &plan.expected(column, expected));
+        for slot in uses.slots() {
+            let text = &line[field.clone()];
+            match slot {
+                Slot::Element => {
+                    atom = (form.element)(line, field.clone())
+                        .ok_or_else(|| no_element(line, number, field.clone(), plan))?;
+                    symbol = field.clone();
                 }
-                numbers[*slot as usize] = value.unwrap_or_default();
+                Slot::Value if plan.coloring == Coloring::Category => category = field.clone(),
+                Slot::Filter(filter) => {
+                    numbers[slot.index()] = match plan.filters[usize::from(*filter)].text() {
+                        Some(wanted) => f64::from(u8::from(text == wanted.as_bytes())),
+                        None => parse(text, form.has_decimal_commas).unwrap_or(f64::NAN),
+                    };
+                }
+                slot => {
+                    let mut value = parse(text, form.has_decimal_commas);
+                    let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
+                    if value.is_none() && is_value && plan.may_miss && is_missing(text) {
+                        value = Some(f64::NAN);
+                    }
+                    let refusal = match value {
+                        Some(value) => slot.refusal(value, plan),
+                        None => Some("a number"),
+                    };
+                    if let Some(expected) = refusal {
+                        return refused(field, &plan.expected(column, expected));
+                    }
+                    numbers[slot.index()] = value.unwrap_or_default();
+                }
             }
         }
     }
     if !form.may_be_longer
         && let Some(field) = fields.next()
     {
-        let count = plan.slots.len();
+        let count = plan.uses.len();
         return refused(field, &format!("the end of the line after {count} columns"));
     }
-    let pushed = rows.push(plan, &numbers, atom);
+    let row = Row {
+        numbers,
+        element: atom,
+        category: &line[category],
+    };
+    let pushed = rows.push(plan, row);
     pushed.or_else(|expected| refused(symbol, expected))
 }
 
 /// The contents of a column, for messages.
-fn kind(slot: Option<Slot>) -> &'static str {
-    match slot {
-        None => "a value",
-        Some(Slot::Element) => "an element",
-        Some(_) => "a number",
+fn kind(uses: &Uses) -> &'static str {
+    match uses.slots() {
+        [] => "a value",
+        [Slot::Element, ..] => "an element",
+        _ => "a number",
     }
 }
 
@@ -206,7 +262,7 @@ fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> Loc
         Some(symbol) => format!(", did you mean {}?", show(symbol)),
         None => {
             let mut instead = Vec::new();
-            if matches!(plan.radius, RadiusSource::Element(_)) {
+            if matches!(plan.radius, RadiusSource::Element(..)) {
                 instead.push("`radius: …`");
             }
             if plan.coloring == Coloring::Element {
@@ -216,80 +272,4 @@ fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> Loc
         }
     };
     fault
-}
-
-/// The number that is all of this text.
-#[inline(always)]
-fn parse(text: &[u8]) -> Option<f64> {
-    str::from_utf8(text).ok()?.parse().ok()
-}
-
-/// The fields of a line.
-#[derive(Clone, Debug)]
-pub(crate) struct Fields<'line> {
-    line: &'line [u8],
-    at: usize,
-    separator: Option<u8>,
-    is_at_end: bool,
-}
-
-impl<'line> Fields<'line> {
-    pub(crate) fn new(line: &'line [u8], separator: Option<u8>) -> Self {
-        Self {
-            line,
-            at: 0,
-            separator,
-            is_at_end: false,
-        }
-    }
-
-    /// The next field, without the spaces and the quotation marks around it.
-    #[inline(always)]
-    pub(crate) fn next(&mut self) -> Option<Range<usize>> {
-        match self.separator {
-            None => self.next_word(),
-            Some(separator) => self.next_between(separator),
-        }
-    }
-
-    #[inline(always)]
-    fn next_word(&mut self) -> Option<Range<usize>> {
-        let is_space = |byte: &u8| *byte == b' ' || *byte == b'\t';
-        let rest = &self.line[self.at..];
-        let start = rest.iter().position(|byte| !is_space(byte))?;
-        let length = rest[start..].iter().position(is_space);
-        let word =
-            self.at + start..length.map_or(self.line.len(), |length| self.at + start + length);
-        self.at = word.end;
-        Some(word)
-    }
-
-    #[inline(always)]
-    fn next_between(&mut self, separator: u8) -> Option<Range<usize>> {
-        if self.is_at_end {
-            return None;
-        }
-        let start = self.at;
-        let mut end = start;
-        let mut is_quoted = false;
-        while end < self.line.len() && (is_quoted || self.line[end] != separator) {
-            is_quoted ^= self.line[end] == b'"';
-            end += 1;
-        }
-        self.is_at_end = end == self.line.len();
-        self.at = end + 1;
-        let field = trimmed(self.line, start..end);
-        match self.line[field.clone()] {
-            [b'"', .., b'"'] => Some(trimmed(self.line, field.start + 1..field.end - 1)),
-            _ => Some(field),
-        }
-    }
-}
-
-/// The part of the line without the spaces around it.
-#[inline(always)]
-fn trimmed(line: &[u8], part: Range<usize>) -> Range<usize> {
-    let end = part.start + line[part.clone()].trim_ascii_end().len();
-    let rest = line[part.start..end].trim_ascii_start();
-    end - rest.len()..end
 }

@@ -1,57 +1,66 @@
-//! XYZ and extended XYZ: the number of atoms, a comment, a line for each atom; the first frame.
+//! XYZ and extended XYZ: the number of atoms, a comment, a line for each atom, and so on for each frame.
 //!
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
-use super::columns::{MOST_COLUMNS, Plan, components};
+use super::columns::{MOST_COLUMNS, components};
+use super::element;
 use super::error::TableError;
-use super::lines::Lines;
-use super::request::Request;
-use super::rows::Rows;
-use super::source::Source;
-use super::text::{self, Form};
+use super::fields::Division;
+use super::form::Form;
+use super::header::Header;
+use super::input::Input;
 use crate::text::{LocatedFault, show};
 
-/// Reads the first frame.
-pub(crate) fn read(file: Source<'_>, request: &Request) -> Result<Rows, TableError> {
-    let mut lines = Lines::new(file)?;
-    let count = count(&mut lines)?;
-    let comment = lines.next()?.map(<[u8]>::to_vec);
-    let comment = comment.ok_or_else(|| LocatedFault::at_end(2, "a comment"))?;
-    let columns = columns(&comment)?;
+/// The header of the next frame; `None` behind the last one.
+pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
+    let is_first = input.number == 0;
+    while !is_first && input.peek()?.is_some_and(|line| line.trim_ascii().is_empty()) {
+        input.next()?;
+    }
+    let first = input.number + 1;
+    if !is_first && input.peek()?.is_none() {
+        return Ok(None);
+    }
+    let count = count(input)?;
+    let comment = input.next()?.map(<[u8]>::to_vec);
+    let comment = comment.ok_or_else(|| LocatedFault::at_end(first + 1, "a comment"))?;
+    let columns = columns(&comment, first + 1)?;
     let is_extended = columns.is_some();
     let columns = columns.unwrap_or_else(|| ["element", "x", "y", "z"].map(String::from).into());
-    let plan = Plan::new(columns, request, |_| false)
-        .map_err(|message| LocatedFault::in_line(2, &comment, 0..comment.len(), message))?;
     let form = Form {
-        separator: None,
         may_be_longer: !is_extended,
+        element: |line, field| element::of_label(&line[field]),
+        ..Form::new(Division::Words)
     };
-    text::read_count(
-        &mut lines,
-        &plan,
-        form,
-        count,
-        "atoms, as the first line says",
-    )
+    let noun = match is_first {
+        true => "atoms, as the first line says",
+        false => "atoms, as the first line of the frame says",
+    };
+    let header = Header::new(columns, form, (first + 1, &comment));
+    Ok(Some(Header {
+        count: Some((count, noun)),
+        ..header
+    }))
 }
 
-/// The number in the first line.
-fn count(lines: &mut Lines<'_>) -> Result<u64, TableError> {
+/// The number in the first line of a frame.
+fn count(input: &mut Input<'_>) -> Result<u64, TableError> {
     let expected = "the number of atoms";
-    let Some(line) = lines.next()? else {
-        return Err(LocatedFault::at_end(1, expected).into());
+    let number = input.number + 1;
+    let Some(line) = input.next()? else {
+        return Err(LocatedFault::at_end(number, expected).into());
     };
     let text = line.trim_ascii();
-    let number = str::from_utf8(text).ok().and_then(|text| text.parse().ok());
-    number.ok_or_else(|| {
+    let count = str::from_utf8(text).ok().and_then(|text| text.parse().ok());
+    count.ok_or_else(|| {
         let start = line.len() - line.trim_ascii_start().len();
-        LocatedFault::expected(1, line, start..start + text.len(), expected).into()
+        LocatedFault::expected(number, line, start..start + text.len(), expected).into()
     })
 }
 
 /// The names of the columns that an extended comment lists.
-fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LocatedFault> {
+fn columns(comment: &[u8], number: u64) -> Result<Option<Vec<String>>, LocatedFault> {
     const KEY: &[u8] = b"Properties=";
     let mut parts = comment.windows(KEY.len());
     let Some(key) = parts.position(|part| part.eq_ignore_ascii_case(KEY)) else {
@@ -76,11 +85,11 @@ fn columns(comment: &[u8]) -> Result<Option<Vec<String>>, LocatedFault> {
         let Some(count) = count else {
             let expected = "expected properties `name:type:columns`, of type S, R, I or L";
             let message = format!("{expected}, found {}", show(&property.join(":")));
-            return Err(LocatedFault::in_line(2, comment, span, message));
+            return Err(LocatedFault::in_line(number, comment, span, message));
         };
         if count > (MOST_COLUMNS - names.len()) as u64 {
             let message = format!("expected at most {MOST_COLUMNS} columns, found more");
-            return Err(LocatedFault::in_line(2, comment, span, message));
+            return Err(LocatedFault::in_line(number, comment, span, message));
         }
         names.extend(match (property[0], count) {
             // The atomic number, beside a species.

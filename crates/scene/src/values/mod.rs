@@ -7,11 +7,11 @@ mod rotation;
 mod words;
 
 pub(crate) use color::{Color, from_srgb, linear};
-pub(crate) use point::{FrameRange, Point, Shift, ValueRange};
+pub(crate) use point::{FrameRange, Point, Shift};
 pub(crate) use quantity::{
-    Amplitude, Coordinate, Degrees, Exponent, FieldOfView, Fill, FocalLength, Frame, FrameCount,
-    FramesPerSecond, GrainSize, ImageSide, Radius, Reference, RetinaDistance, RetinaWidth, Scale,
-    Seed, Shininess, Shutter, Strength, Turns, Zoom,
+    Amplitude, Coordinate, Degrees, Every, Exponent, FieldOfView, Fill, FocalLength, Frame, FrameCount,
+    FramesPerSecond, GrainSize, ImageSide, Percent, Radius, RadiusScale, Reference, RetinaDistance, RetinaWidth, Scale,
+    Seed, Shininess, Shutter, Speed, Step, Strength, Turns, Zoom,
 };
 pub(crate) use rotation::Rotation;
-pub(crate) use words::{ColumnName, FileName, Flag, LightName, MaterialName};
+pub(crate) use words::{FileName, Flag, LightName, MaterialName};

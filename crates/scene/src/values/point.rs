@@ -20,13 +20,6 @@ pub(crate) struct FrameRange {
     pub(crate) last: i32,
 }
 
-/// The numbers that have the first and the last color of a colormap.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ValueRange {
-    pub(crate) low: f64,
-    pub(crate) high: f64,
-}
-
 impl<'t> Read<'t> for Point {
     fn read(slice: Slice<'t>) -> Option<Self> {
         let [x, y, z]: [Coordinate; 3] = read_tuple(slice, "three numbers `(x, y, z)`")?;
@@ -48,15 +41,5 @@ impl<'t> Read<'t> for FrameRange {
             return slice.refuse("a first frame that is not after the last");
         }
         Some(Self { first, last })
-    }
-}
-
-impl<'t> Read<'t> for ValueRange {
-    fn read(slice: Slice<'t>) -> Option<Self> {
-        let [Coordinate(low), Coordinate(high)] = read_tuple(slice, "two numbers `(low, high)`")?;
-        if low >= high {
-            return slice.refuse("a low number that is less than the high one");
-        }
-        Some(Self { low, high })
     }
 }

@@ -52,6 +52,14 @@ quantities! {
     Fill(f64): "a fill greater than 0 and at most 1", |x| x > 0.0 && x <= 1.0, default 0.9;
     /// The factor on the lengths of a table.
     Scale(f64): "a scale greater than 0", |x| x > 0.0, default 1.0;
+    /// The factor on the radii of a table.
+    RadiusScale(f64): "a factor greater than 0", |x| x > 0.0;
+    /// Steps of a time series that a frame is on from the one before.
+    Speed(f64): "a speed greater than 0, in steps a frame", |x| x > 0.0, default 1.0;
+    /// A number of which others are multiples.
+    Step(f64): "a number greater than 0", |x| x > 0.0;
+    /// A part in a hundred.
+    Percent(f64): "a number from 0 to 100", |x| (0.0..=100.0).contains(&x);
     /// A channel of a color.
     ColorChannel(f64): "a color channel of at least 0", |x| x >= 0.0;
     /// The contrast exponent; Lambert's law by default.
@@ -76,6 +84,8 @@ quantities! {
     Frame(i32): "a whole number (a frame)", |_| true;
     /// A number of frames.
     FrameCount(i32): "a whole number of frames, at least 1", |n| n >= 1, default 120;
+    /// One of so many steps.
+    Every(u32): "a whole number, at least 1", |n| n >= 1, default 1;
     /// The seed of a rough surface.
     Seed(u64): "a whole number from 0 to 18446744073709551615", |_| true, default 0;
 }

@@ -27,6 +27,4 @@ words! {
     LightName(String): "the name of a light in quotation marks";
     /// The name of a file, relative to the scene file.
     FileName(String): "the name of a file in quotation marks";
-    /// The name of a column of a table.
-    ColumnName(String): "the name of a column in quotation marks";
 }

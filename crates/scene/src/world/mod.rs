@@ -5,8 +5,12 @@ mod cloud;
 mod lens;
 mod materials;
 mod placement;
+mod series;
 
 pub(crate) use assemble::world;
 pub use cloud::Progress;
-pub(crate) use cloud::{Cloud, CloudError};
+pub use cloud::ScaleKind;
+pub(crate) use cloud::{Cloud, CloudError, Learned, OpenCloud, Scale, Step};
+pub use series::StepKey;
+pub(crate) use series::{Part, Series};
 pub(crate) use lens::{lens, lens_as_written};

@@ -4,12 +4,14 @@ use glam::{DMat3, DVec3};
 use marbles_core::{Angle, Sphere};
 use rayon::prelude::*;
 
-use crate::bounds::middle;
+use crate::bounds::Bounds;
 
 /// The steps by which a cloud is placed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     pub(super) is_centered: bool,
+    /// The middle of all steps of a cloud that changes over time.
+    pub(super) middle: Option<DVec3>,
     pub(super) is_right_handed: bool,
     pub(super) scale: f64,
     pub(super) turn: Option<DMat3>,
@@ -20,7 +22,7 @@ impl Placement {
     /// Puts spheres to their place; returns whether they are still finite and have radii.
     pub(super) fn place(&self, spheres: &mut [Sphere]) -> bool {
         let middle = match self.is_centered {
-            true => middle(spheres).unwrap_or(DVec3::ZERO),
+            true => self.middle.or_else(|| Bounds::of(spheres).middle()).unwrap_or(DVec3::ZERO),
             false => DVec3::ZERO,
         };
         let is_as_it_is = middle == DVec3::ZERO

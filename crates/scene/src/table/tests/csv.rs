@@ -30,8 +30,8 @@ fn csv_is_refused_at_its_place() {
             "a.csv:1:1: expected a line with the names of the columns, found the end of the line",
         ),
         (
-            "1,2,3\n",
-            "a.csv:1:1: expected a column `x`, found `1`, `2`, `3`",
+            "1,2\n",
+            "a.csv:1:1: expected a column `x`, found `1`, `2` (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
         ),
         (
             "x,y,zz\n",

@@ -70,8 +70,8 @@ fn ply_is_refused_at_its_place() {
             "a.ply:2:1: expected `end_header`, found the end of the file",
         ),
         (
-            "ply\nformat binary_big_endian 1.0\n",
-            "a.ply:2:8: expected `ascii 1.0` or `binary_little_endian 1.0`, found `binary_big_endian`",
+            "ply\nformat binary 1.0\n",
+            "a.ply:2:8: expected `ascii 1.0`, `binary_little_endian 1.0` or `binary_big_endian 1.0`, found `binary`",
         ),
         (
             "ply\nelement face 3\n",

@@ -93,8 +93,8 @@ fn xyz_is_refused_at_its_place() {
             "a.xyz:3:5: expected a number for `y`, found `x`",
         ),
         (
-            "1\n\nC1 1 2 3\n",
-            "a.xyz:3:1: expected the symbol of an element, found `C1`, did you mean `C`?",
+            "1\n\nCx1 1 2 3\n",
+            "a.xyz:3:1: expected the symbol of an element, found `Cx1` (with `radius: …` and `color: Material` none is needed)",
         ),
         (
             "1\n\nbead 1 2 3\n",

@@ -20,6 +20,7 @@ fn placing_centers_mirrors_scales_turns_and_moves() {
     let mut spheres = [sphere(0.0, 0.0, 0.0, 1.0), sphere(9.0, 0.0, 4.0, 2.0)];
     let placement = Placement {
         is_centered: true,
+        middle: None,
         is_right_handed: true,
         scale: 2.0,
         turn: turn(DVec3::new(0.0, 90.0, 0.0)),

@@ -1,0 +1,122 @@
+//! The clouds of a scene file.
+
+use serde::Deserialize;
+
+use super::table::{Keep, Palette};
+use crate::table::{Coloring, Colormap, ColumnRef, Missing, Radii, Value, ValueRange};
+use crate::text::{Placed, present};
+use crate::values::{
+    Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale, Scale,
+    Speed,
+};
+
+/// Spheres of a table; matte white without a material, and where the table puts them.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Cloud {
+    pub(crate) file: Placed<FileName>,
+    #[serde(default)]
+    pub(crate) frames: Placed<TakenFrames>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) steps: Option<Placed<FrameRange>>,
+    #[serde(default)]
+    pub(crate) every: Placed<Every>,
+    #[serde(default)]
+    pub(crate) speed: Placed<Speed>,
+    #[serde(default)]
+    pub(crate) end: Placed<End>,
+    #[serde(default)]
+    pub(crate) columns: Placed<Columns>,
+    #[serde(default)]
+    pub(crate) keep: Vec<Placed<Keep>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) material: Option<Placed<MaterialName>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius: Option<Placed<Radius>>,
+    #[serde(default)]
+    pub(crate) radii: Placed<Radii>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) color: Option<Placed<Coloring>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) value: Option<Placed<Value>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) colormap: Option<Placed<Colormap>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) color_scale: Option<Placed<ColorScale>>,
+    #[serde(default = "no")]
+    pub(crate) reversed: Placed<Flag>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) range: Option<Placed<ValueRange>>,
+    #[serde(default)]
+    pub(crate) missing: Placed<Missing>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) palette: Option<Placed<Palette>>,
+    #[serde(default = "no")]
+    pub(crate) center: Placed<Flag>,
+    #[serde(default = "no")]
+    pub(crate) right_handed: Placed<Flag>,
+    #[serde(default)]
+    pub(crate) scale: Placed<Scale>,
+    #[serde(default)]
+    pub(crate) rotate_degrees: Placed<Point>,
+    #[serde(default)]
+    pub(crate) position: Placed<Point>,
+}
+
+/// The frames of a file that are taken.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum TakenFrames {
+    /// The first alone.
+    #[default]
+    First,
+    /// All of them, one after another.
+    All,
+}
+
+/// What a cloud shows behind its last step.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum End {
+    /// The last step.
+    #[default]
+    Hold,
+    /// The steps once more.
+    Loop,
+    /// Nothing.
+    Hide,
+}
+
+/// The columns of a table; those that are left out are found by their names.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Columns {
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) x: Option<Placed<ColumnRef>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) y: Option<Placed<ColumnRef>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) z: Option<Placed<ColumnRef>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius: Option<Placed<ColumnRef>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) radius_scale: Option<Placed<RadiusScale>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) element: Option<Placed<ColumnRef>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) value: Option<Placed<Value>>,
+}
+
+/// The way from numbers to the colors of a colormap.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum ColorScale {
+    /// Equal steps of numbers are equal steps of colors.
+    Linear,
+    /// Equal factors of numbers are equal steps of colors.
+    Log,
+    /// This number has the middle color, and both sides have one scale.
+    Diverging(Placed<Coordinate>),
+}
+
+fn no() -> Placed<Flag> {
+    Flag(false).into()
+}

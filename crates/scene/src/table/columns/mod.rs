@@ -1,0 +1,11 @@
+//! The purpose of each column of a table.
+
+mod filter;
+mod names;
+mod plan;
+mod slot;
+
+pub(crate) use filter::{Filter, Test};
+pub(crate) use names::{MOST_COLUMNS, components, unit};
+pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
+pub(crate) use slot::{MOST_FILTERS, Slot};

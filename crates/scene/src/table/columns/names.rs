@@ -1,0 +1,190 @@
+//! The names of columns, as programs write them.
+
+use super::super::request::ColumnRef;
+use super::slot::Slot;
+use crate::text::{did_you_mean, show};
+
+/// The most columns that a table may have, whose header may multiply what it asks for.
+pub(crate) const MOST_COLUMNS: usize = 10_000;
+
+/// The names of a table's columns.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Names(pub(crate) Vec<String>);
+
+impl Names {
+    /// The column that the scene file means.
+    ///
+    /// # Errors
+    /// Returns the message that says which columns there are.
+    pub(crate) fn chosen(&self, column: &ColumnRef) -> Result<usize, String> {
+        match column {
+            ColumnRef::Number(number) => {
+                let index = number.checked_sub(1).filter(|index| *index < self.0.len());
+                index.ok_or_else(|| {
+                    let count = self.0.len();
+                    format!("expected the number of a column, from 1 to {count}, found {number}")
+                })
+            }
+            ColumnRef::Name(name) => {
+                let found = self.find(name).or_else(|| self.find_synonym(name));
+                let index = found.ok_or_else(|| self.missing(name))?;
+                self.once(index)
+            }
+        }
+    }
+
+    /// The only column for this purpose, by the first of its names that there is.
+    ///
+    /// # Errors
+    /// Returns the message that says that there is none.
+    pub(super) fn of(&self, slot: Slot) -> Result<usize, String> {
+        let found = self.find_slot(slot);
+        let index = found.ok_or_else(|| self.missing(slot.names()[0]))?;
+        self.once(index)
+    }
+
+    /// The column for this purpose, if there is one.
+    pub(super) fn find_slot(&self, slot: Slot) -> Option<usize> {
+        let plain = slot.names().iter().find_map(|name| self.find(name));
+        let axis = match slot {
+            Slot::X => Some(0),
+            Slot::Y => Some(1),
+            Slot::Z => Some(2),
+            _ => None,
+        };
+        plain.or_else(|| self.find_position(axis?))
+    }
+
+    /// The column of this name, in upper or lower case, with or without a unit behind it.
+    pub(super) fn find(&self, name: &str) -> Option<usize> {
+        let same = |other: &String| other.eq_ignore_ascii_case(name);
+        let bare = |other: &String| bare(other).eq_ignore_ascii_case(name);
+        let mut names = self.0.iter();
+        let exact = names.position(same);
+        exact.or_else(|| self.0.iter().position(bare))
+    }
+
+    /// The column with this coordinate of positions, by the names that programs give it.
+    fn find_position(&self, axis: usize) -> Option<usize> {
+        let letter = ["x", "y", "z"][axis];
+        let mut names = [
+            "points", "position", "positions", "pos", "coordinates", "coords", "center", "centroid",
+        ]
+        .into_iter()
+        .flat_map(|stem| {
+            [
+                format!("{stem}:{axis}"),
+                format!("{stem}_{axis}"),
+                format!("{stem}.{letter}"),
+                format!("{stem}_{letter}"),
+                format!("{stem}-{letter}"),
+                format!("{stem} {letter}"),
+                format!("{stem}{letter}"),
+                format!("{stem}[{axis}]"),
+                format!("{letter}_{stem}"),
+            ]
+        });
+        names.find_map(|name| self.find(&name))
+    }
+
+    /// The column that other formats call otherwise: `residue` for `label_comp_id`, and the like.
+    fn find_synonym(&self, name: &str) -> Option<usize> {
+        const SYNONYMS: [&[&str]; 8] = [
+            &["x", "Cartn_x", "xu", "xs", "xsu"],
+            &["y", "Cartn_y", "yu", "ys", "ysu"],
+            &["z", "Cartn_z", "zu", "zs", "zsu"],
+            &["element", "species", "symbol", "type_symbol"],
+            &["residue", "resname", "label_comp_id", "auth_comp_id"],
+            &["chain", "label_asym_id", "auth_asym_id"],
+            &["name", "atom", "label_atom_id", "auth_atom_id"],
+            &["b_factor", "bfactor", "B_iso_or_equiv"],
+        ];
+        let is_name = |other: &&str| other.eq_ignore_ascii_case(name);
+        let group = SYNONYMS.iter().find(|group| group.iter().any(|other| is_name(&other)))?;
+        group.iter().find_map(|other| self.find(other))
+    }
+
+    /// Refuses a column whose name another one has, too.
+    fn once(&self, column: usize) -> Result<usize, String> {
+        let name = &self.0[column];
+        let same = |other: &&String| other.eq_ignore_ascii_case(name);
+        if self.0.iter().filter(same).count() > 1 {
+            let name = marked(name);
+            return Err(format!(
+                "expected every column once, found {name} a second time"
+            ));
+        }
+        Ok(column)
+    }
+
+    /// The message that there is no column of this name.
+    fn missing(&self, name: &str) -> String {
+        let known = self.0.iter().map(String::as_str);
+        let meant = did_you_mean(name, known, marked);
+        let (name, list) = (marked(name), self.list());
+        let hint = match self.0.iter().all(|name| name.parse::<u32>().is_ok()) {
+            true if !self.0.is_empty() => " (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
+            _ => "",
+        };
+        format!("expected a column {name}, found {list}{meant}{hint}")
+    }
+
+    /// The names of the columns as a message shows them.
+    pub(super) fn list(&self) -> String {
+        const LONGEST_LIST: usize = 12;
+        let names = self.0.iter().take(LONGEST_LIST);
+        let mut names: Vec<String> = names.map(|name| marked(name)).collect();
+        if self.0.len() > LONGEST_LIST {
+            names.push(String::from("…"));
+        }
+        match names.is_empty() {
+            true => String::from("none"),
+            false => names.join(", "),
+        }
+    }
+}
+
+/// The names of the columns that hold `count` values called `name` together.
+pub(crate) fn components(name: &str, count: u64) -> Vec<String> {
+    let names = match (name.to_ascii_lowercase().as_str(), count) {
+        ("pos" | "position" | "positions" | "coordinates" | "coords" | "points" | "xyz", 3) => {
+            ["x", "y", "z"]
+        }
+        ("color" | "colour", 3) => ["red", "green", "blue"],
+        (_, 1) => return vec![name.to_owned()],
+        _ => {
+            let numbers = 1..=count;
+            return numbers.map(|number| format!("{name}_{number}")).collect();
+        }
+    };
+    names.map(String::from).into()
+}
+
+/// The unit behind a name: `mm` of `X (mm)` and of `x [mm]`.
+pub(crate) fn unit(name: &str) -> Option<&str> {
+    let (start, end) = match name.chars().last()? {
+        ')' => ('(', ')'),
+        ']' => ('[', ']'),
+        _ => return None,
+    };
+    let (before, unit) = name.strip_suffix(end)?.rsplit_once(start)?;
+    let is_unit = !before.trim().is_empty() && unit.parse::<u32>().is_err();
+    is_unit.then_some(unit.trim())
+}
+
+/// The name without its unit.
+fn bare(name: &str) -> &str {
+    match unit(name) {
+        Some(_) => name.rfind(['(', '[']).map_or(name, |at| name[..at].trim_end()),
+        None => name,
+    }
+}
+
+/// A name between marks, as a message shows it.
+pub(super) fn marked(name: &str) -> String {
+    let shown = show(name);
+    match shown.starts_with('`') {
+        true => shown,
+        false => format!("`{shown}`"),
+    }
+}

@@ -1,0 +1,281 @@
+//! The way in which the columns of a table are read.
+
+use glam::{DMat3, DVec3};
+
+use super::super::element::Radii;
+use super::super::request::{ColumnRef, Coloring, Missing, Request, Value};
+use super::filter::Test;
+use super::names::{Names, marked};
+use super::slot::Slot;
+use crate::values::linear;
+
+/// The source of radii.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RadiusSource {
+    /// All are this one.
+    Fixed(f64),
+    /// From the table, times this.
+    Column(f64),
+    /// From the element, times this.
+    Element(Radii, f64),
+}
+
+/// The source of the numbers that a colormap turns into colors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ValueSource {
+    /// A column.
+    Column,
+    /// The length of a vector.
+    Length,
+}
+
+/// What is known of columns beside their names.
+pub(crate) struct Nature<'a> {
+    /// Numbers from 0 to 255 that are sRGB where they are colors.
+    pub(crate) is_byte: &'a dyn Fn(usize) -> bool,
+    /// Text that is no number.
+    pub(crate) is_text: &'a dyn Fn(usize) -> bool,
+    /// The length of an ångström, in the table's unit.
+    pub(crate) angstrom: f64,
+}
+
+impl Default for Nature<'_> {
+    fn default() -> Self {
+        Self {
+            is_byte: &|_| false,
+            is_text: &|_| false,
+            angstrom: 1.0,
+        }
+    }
+}
+
+/// The purposes of a column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) enum Uses {
+    /// It is passed over.
+    #[default]
+    None,
+    One(Slot),
+    Several(Vec<Slot>),
+}
+
+impl Uses {
+    /// The purposes, one after another.
+    #[inline(always)]
+    pub(crate) fn slots(&self) -> &[Slot] {
+        match self {
+            Self::None => &[],
+            Self::One(slot) => std::slice::from_ref(slot),
+            Self::Several(slots) => slots,
+        }
+    }
+}
+
+/// The way in which the columns of a table are read.
+#[derive(Clone, Debug)]
+pub(crate) struct Plan {
+    /// The purposes of each column.
+    pub(crate) uses: Vec<Uses>,
+    /// The columns' names.
+    pub(crate) names: Names,
+    pub(crate) radius: RadiusSource,
+    pub(crate) coloring: Coloring,
+    pub(crate) value: ValueSource,
+    /// The conditions on rows that are kept.
+    pub(crate) filters: Vec<Test>,
+    /// Values may be missing: they are NaN.
+    pub(crate) may_miss: bool,
+    /// Rows whose value is missing are left out.
+    pub(crate) hides_missing: bool,
+    /// Colors are sRGB values from 0 to 255.
+    pub(crate) is_encoded: bool,
+    /// The axes and the origin of the positions, where they are not those of the table's lengths.
+    pub(crate) axes: Option<(DMat3, DVec3)>,
+    /// The linear values of sRGB ones.
+    linear: Vec<f32>,
+}
+
+impl Plan {
+    /// Plans the reading of a table with columns of these names as `request` says.
+    ///
+    /// Upper and lower case are the same.
+    ///
+    /// # Errors
+    /// Returns the message that says what is missing.
+    pub(crate) fn new(
+        names: Vec<String>,
+        request: &Request,
+        nature: &Nature<'_>,
+    ) -> Result<Self, String> {
+        let columns = &request.columns;
+        let mut plan = Self {
+            uses: vec![Uses::None; names.len()],
+            radius: RadiusSource::Column(1.0),
+            coloring: Coloring::Material,
+            value: ValueSource::Column,
+            filters: request.keep.iter().map(|filter| filter.test.clone()).collect(),
+            may_miss: request.missing != Missing::Refuse,
+            hides_missing: request.missing == Missing::Hide,
+            is_encoded: false,
+            axes: None,
+            linear: (0..=255).map(|value| linear(value) as f32).collect(),
+            names: Names(names),
+        };
+        let [x, y, z] = &columns.position;
+        for (slot, chosen) in [(Slot::X, x), (Slot::Y, y), (Slot::Z, z)] {
+            plan.take(slot, chosen.as_ref())?;
+        }
+        let colors = [Slot::Red, Slot::Green, Slot::Blue];
+        let has_colors = colors.into_iter().all(|slot| plan.names.find_slot(slot).is_some());
+        let element = columns.element.as_ref();
+        let has_element = element.is_some() || plan.names.find_slot(Slot::Element).is_some();
+        plan.coloring = match request.coloring {
+            Some(coloring) => coloring,
+            None if request.value.is_some() => Coloring::Value,
+            None if has_colors => Coloring::Table,
+            None if has_element && !request.has_material => Coloring::Element,
+            None => Coloring::Material,
+        };
+        plan.radius = plan.radius(request, nature, has_colors, has_element)?;
+        match plan.coloring {
+            Coloring::Material => {}
+            Coloring::Element => plan.take_element(element)?,
+            Coloring::Value | Coloring::Category => plan.take_value(request, nature)?,
+            Coloring::Table => {
+                for slot in colors {
+                    plan.take(slot, None)?;
+                }
+                let is_red = |uses: &Uses| uses.slots().contains(&Slot::Red);
+                let red = plan.uses.iter().position(is_red);
+                plan.is_encoded = red.is_some_and(nature.is_byte);
+            }
+        }
+        for (index, filter) in (0..).zip(&request.keep) {
+            let column = plan.names.chosen(&filter.column)?;
+            if (nature.is_text)(column) && filter.test.text().is_none() {
+                let (name, written) = (marked(&plan.names.0[column]), filter.test.written());
+                return Err(format!(
+                    "expected numbers in the column {name} for `{written}`, found text"
+                ));
+            }
+            plan.use_for(column, Slot::Filter(index));
+        }
+        Ok(plan)
+    }
+
+    /// The source of the radii, whose column is taken.
+    fn radius(
+        &mut self,
+        request: &Request,
+        nature: &Nature<'_>,
+        has_colors: bool,
+        has_element: bool,
+    ) -> Result<RadiusSource, String> {
+        let scale = request.columns.radius_scale;
+        if let Some(radius) = request.radius {
+            return Ok(RadiusSource::Fixed(radius));
+        }
+        if let Some(chosen) = &request.columns.radius {
+            self.take(Slot::Radius, Some(chosen))?;
+            return Ok(RadiusSource::Column(scale.unwrap_or(1.0)));
+        }
+        if let Some(column) = self.find_radius(has_colors) {
+            self.use_for(column, Slot::Radius);
+            return Ok(RadiusSource::Column(scale.unwrap_or(1.0)));
+        }
+        if let Some(column) = self.names.find("diameter") {
+            self.use_for(column, Slot::Radius);
+            return Ok(RadiusSource::Column(scale.unwrap_or(0.5)));
+        }
+        if has_element {
+            self.take_element(request.columns.element.as_ref())?;
+            let scale = scale.unwrap_or(1.0) * nature.angstrom;
+            return Ok(RadiusSource::Element(request.radii, scale));
+        }
+        Err(format!(
+            "expected a column `radius`, or else `radius: …` in the scene, found {}",
+            self.names.list()
+        ))
+    }
+
+    /// The linear value of a color channel that is allowed.
+    #[inline(always)]
+    pub(crate) fn channel(&self, value: f64) -> f32 {
+        if self.is_encoded {
+            self.linear[usize::from(value as u8)]
+        } else {
+            value as f32
+        }
+    }
+
+    /// The expected thing in a column, for messages.
+    pub(crate) fn expected(&self, column: usize, what: &str) -> String {
+        match self.names.0.get(column) {
+            Some(name) => format!("{what} for {}", marked(name)),
+            None => what.to_owned(),
+        }
+    }
+
+    /// The name of the column that is used for this.
+    pub(crate) fn name_of(&self, slot: Slot) -> Option<&str> {
+        let column = self.uses.iter().position(|uses| uses.slots().contains(&slot));
+        Some(&self.names.0[column?])
+    }
+
+    /// Uses a column for this: the one that the scene file means, or else the one of its name.
+    fn take(&mut self, slot: Slot, chosen: Option<&ColumnRef>) -> Result<(), String> {
+        let column = match chosen {
+            Some(chosen) => self.names.chosen(chosen)?,
+            None => self.names.of(slot)?,
+        };
+        self.use_for(column, slot);
+        Ok(())
+    }
+
+    fn take_element(&mut self, chosen: Option<&ColumnRef>) -> Result<(), String> {
+        let is_taken = self.name_of(Slot::Element).is_some();
+        if is_taken { Ok(()) } else { self.take(Slot::Element, chosen) }
+    }
+
+    /// Uses columns for the numbers of a colormap, or for categories.
+    fn take_value(&mut self, request: &Request, nature: &Nature<'_>) -> Result<(), String> {
+        match &request.value {
+            Some(Value::Length(components)) => {
+                self.value = ValueSource::Length;
+                for (index, name) in (0..).zip(components) {
+                    let column = self.names.chosen(name)?;
+                    self.use_for(column, Slot::Vector(index));
+                }
+            }
+            Some(Value::Column(name)) => {
+                let column = self.names.chosen(name)?;
+                self.use_for(column, Slot::Value);
+                if request.coloring.is_none() && (nature.is_text)(column) {
+                    self.coloring = Coloring::Category;
+                }
+            }
+            None => self.take(Slot::Value, None)?,
+        }
+        Ok(())
+    }
+
+    fn use_for(&mut self, column: usize, slot: Slot) {
+        let uses = &mut self.uses[column];
+        *uses = match std::mem::take(uses) {
+            Uses::None => Uses::One(slot),
+            Uses::One(first) => Uses::Several(vec![first, slot]),
+            Uses::Several(mut slots) => {
+                slots.push(slot);
+                Uses::Several(slots)
+            }
+        };
+    }
+
+    /// The column of radii; one called `r` may be red instead.
+    fn find_radius(&self, has_colors: bool) -> Option<usize> {
+        let is_red = has_colors && self.names.find("red").is_none();
+        let names = Slot::Radius.names().iter();
+        let mut names = names.filter(|name| !(is_red && **name == "r"));
+        names.find_map(|name| self.names.find(name))
+    }
+}

@@ -1,0 +1,88 @@
+//! The purposes that columns have.
+
+use super::plan::Plan;
+
+/// The purpose of a column.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Slot {
+    X,
+    Y,
+    Z,
+    Radius,
+    Red,
+    Green,
+    Blue,
+    Value,
+    Element,
+    /// A component of the vector whose length is the value.
+    Vector(u8),
+    /// Some condition is on it.
+    Filter(u8),
+}
+
+/// The most conditions on rows.
+pub(crate) const MOST_FILTERS: usize = 16;
+
+impl Slot {
+    /// The number of purposes.
+    pub(crate) const COUNT: usize = 12 + MOST_FILTERS;
+
+    /// The place of the number among those of a row.
+    #[inline(always)]
+    pub(crate) fn index(self) -> usize {
+        match self {
+            Self::X => 0,
+            Self::Y => 1,
+            Self::Z => 2,
+            Self::Radius => 3,
+            Self::Red => 4,
+            Self::Green => 5,
+            Self::Blue => 6,
+            Self::Value => 7,
+            Self::Element => 8,
+            Self::Vector(component) => 9 + usize::from(component) % 3,
+            Self::Filter(filter) => 12 + usize::from(filter) % MOST_FILTERS,
+        }
+    }
+
+    /// The name that a column for this has, or one of the others.
+    pub(super) fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::X => &["x", "xu", "xs", "xsu", "cartn_x"],
+            Self::Y => &["y", "yu", "ys", "ysu", "cartn_y"],
+            Self::Z => &["z", "zu", "zs", "zsu", "cartn_z"],
+            Self::Radius => &["radius", "r", "particle radius", "particle_radius", "radii"],
+            Self::Red => &["red", "r"],
+            Self::Green => &["green", "g"],
+            Self::Blue => &["blue", "b"],
+            Self::Value => &["value"],
+            Self::Element => &["element", "species", "symbol", "type_symbol"],
+            Self::Vector(_) | Self::Filter(_) => &[],
+        }
+    }
+
+    /// The expected thing instead of this number; `None` where it is allowed.
+    #[inline(always)]
+    pub(crate) fn refusal(self, number: f64, plan: &Plan) -> Option<&'static str> {
+        match self {
+            Self::Value | Self::Vector(_) if plan.may_miss && number.is_nan() => None,
+            Self::Filter(_) => None,
+            _ if !number.is_finite() => Some("a finite number"),
+            Self::Element => {
+                let is_known = (1.0..=118.0).contains(&number) && number.fract() == 0.0;
+                (!is_known).then_some("the number of an element, from 1 to 118")
+            }
+            Self::Radius if number <= 0.0 => Some("a radius greater than 0"),
+            Self::Red | Self::Green | Self::Blue => {
+                if plan.is_encoded {
+                    let is_byte = (0.0..=255.0).contains(&number) && number.fract() == 0.0;
+                    (!is_byte).then_some("a whole number from 0 to 255")
+                } else {
+                    let most = f64::from(f32::MAX);
+                    (!(0.0..=most).contains(&number)).then_some("a color channel of at least 0")
+                }
+            }
+            _ => None,
+        }
+    }
+}

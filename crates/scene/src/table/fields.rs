@@ -1,0 +1,127 @@
+//! The fields of a line.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The division of lines into fields.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Division {
+    /// Between spaces and tabs.
+    Words,
+    /// Between spaces and tabs, unless quotation marks or apostrophes stand around them.
+    QuotedWords,
+    /// Between such bytes; quotation marks may stand around fields.
+    Between(u8),
+    /// In these columns of characters.
+    Fixed(Arc<[Range<usize>]>),
+}
+
+/// The fields of a line, one after another.
+#[derive(Clone, Debug)]
+pub(crate) struct Fields<'line> {
+    line: &'line [u8],
+    division: &'line Division,
+    at: usize,
+    /// Fields that were handed out.
+    count: usize,
+    is_at_end: bool,
+}
+
+impl<'line> Fields<'line> {
+    pub(crate) fn new(line: &'line [u8], division: &'line Division) -> Self {
+        Self {
+            line,
+            division,
+            at: 0,
+            count: 0,
+            is_at_end: false,
+        }
+    }
+
+    /// The next field, without the spaces and the quotation marks around it.
+    #[inline(always)]
+    pub(crate) fn next(&mut self) -> Option<Range<usize>> {
+        match self.division {
+            Division::Words => self.next_word(),
+            Division::Between(separator) => self.next_between(*separator),
+            Division::QuotedWords => self.next_quoted_word(),
+            Division::Fixed(places) => self.next_place(places),
+        }
+    }
+
+    #[inline(always)]
+    fn next_word(&mut self) -> Option<Range<usize>> {
+        let rest = &self.line[self.at..];
+        let start = rest.iter().position(|byte| !is_space(byte))?;
+        let length = rest[start..].iter().position(is_space);
+        let word =
+            self.at + start..length.map_or(self.line.len(), |length| self.at + start + length);
+        self.at = word.end;
+        Some(word)
+    }
+
+    #[inline(always)]
+    fn next_between(&mut self, separator: u8) -> Option<Range<usize>> {
+        if self.is_at_end {
+            return None;
+        }
+        let start = self.at;
+        let mut end = start;
+        let mut is_quoted = false;
+        while end < self.line.len() && (is_quoted || self.line[end] != separator) {
+            is_quoted ^= self.line[end] == b'"';
+            end += 1;
+        }
+        self.is_at_end = end == self.line.len();
+        self.at = end + 1;
+        let field = trimmed(self.line, start..end);
+        match self.line[field.clone()] {
+            [b'"', .., b'"'] => Some(trimmed(self.line, field.start + 1..field.end - 1)),
+            _ => Some(field),
+        }
+    }
+
+    fn next_quoted_word(&mut self) -> Option<Range<usize>> {
+        let rest = &self.line[self.at..];
+        let start = self.at + rest.iter().position(|byte| !is_space(byte))?;
+        let quote = self.line[start];
+        if quote != b'"' && quote != b'\'' {
+            return self.next_word();
+        }
+        // A quotation mark inside of a word ends nothing.
+        let is_end = |at: &usize| {
+            let next = self.line.get(at + 1);
+            self.line[*at] == quote && next.is_none_or(is_space)
+        };
+        let end = (start + 1..self.line.len()).find(is_end);
+        let end = end.unwrap_or(self.line.len());
+        self.at = (end + 1).min(self.line.len());
+        Some(start + 1..end)
+    }
+
+    fn next_place(&mut self, places: &[Range<usize>]) -> Option<Range<usize>> {
+        let place = places.get(self.count)?;
+        self.count += 1;
+        // Lines may end before their last fields, which are empty then.
+        let end = place.end.min(self.line.len());
+        Some(trimmed(self.line, place.start.min(end)..end))
+    }
+}
+
+/// All fields of a line.
+pub(crate) fn all<'line>(line: &'line [u8], division: &Division) -> Vec<&'line [u8]> {
+    let mut fields = Fields::new(line, division);
+    std::iter::from_fn(|| fields.next()).map(|field| &line[field]).collect()
+}
+
+fn is_space(byte: &u8) -> bool {
+    *byte == b' ' || *byte == b'\t'
+}
+
+/// The part of the line without the spaces around it.
+#[inline(always)]
+fn trimmed(line: &[u8], part: Range<usize>) -> Range<usize> {
+    let end = part.start + line[part.clone()].trim_ascii_end().len();
+    let rest = line[part.start..end].trim_ascii_start();
+    end - rest.len()..end
+}

@@ -1,0 +1,54 @@
+//! The form of a text's rows.
+
+use std::ops::Range;
+
+use super::element;
+use super::fields::Division;
+
+/// The form of the rows of a text.
+#[derive(Clone, Debug)]
+pub(crate) struct Form {
+    pub(crate) division: Division,
+    /// Lines may have more fields than there are columns.
+    pub(crate) may_be_longer: bool,
+    /// Numbers have commas where others have points.
+    pub(crate) has_decimal_commas: bool,
+    /// What lines are, where the header does not tell how many rows follow.
+    pub(crate) kind: fn(&[u8]) -> LineKind,
+    /// The atomic number that a line tells in this field.
+    pub(crate) element: fn(&[u8], Range<usize>) -> Option<u8>,
+    /// Rows end before one that has something else in this column.
+    pub(crate) same: Option<(usize, Vec<u8>)>,
+}
+
+/// What a line is.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum LineKind {
+    Row,
+    /// It says nothing of spheres.
+    Other,
+    /// It is not of this table any more.
+    End,
+}
+
+impl Form {
+    /// Rows that are divided so, as long as the header says; blank lines and comments are passed over.
+    pub(crate) fn new(division: Division) -> Self {
+        Self {
+            division,
+            may_be_longer: false,
+            has_decimal_commas: false,
+            kind: of_table,
+            element: |line, field| element::number(&line[field]),
+            same: None,
+        }
+    }
+}
+
+/// What a line of a table is that may have comments.
+pub(crate) fn of_table(line: &[u8]) -> LineKind {
+    match line.trim_ascii_start().first() {
+        None | Some(b'#' | b'%') => LineKind::Other,
+        Some(_) => LineKind::Row,
+    }
+}

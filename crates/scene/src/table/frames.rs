@@ -1,0 +1,145 @@
+//! A table that is open, whose frames are read one after another.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::error::TableError;
+use super::format::Format;
+use super::header::Header;
+use super::input::Input;
+use super::request::Request;
+use super::rows::Rows;
+use super::source::Source;
+use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, vtk, xyz};
+
+/// The frames of a table, one after another.
+pub(crate) struct Frames<'watch> {
+    path: PathBuf,
+    format: Format,
+    input: Input<'watch>,
+    /// The header of the frame before the next one.
+    previous: Option<Header>,
+    /// The next frame's header, where it was read already.
+    next: Option<Header>,
+    /// True behind the frame of a format that has one.
+    is_at_end: bool,
+}
+
+/// The place of a frame in a table.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) struct FramePlace {
+    /// The byte at which it begins, of the decompressed file.
+    position: u64,
+    /// The lines before it.
+    lines: u64,
+}
+
+impl<'watch> Frames<'watch> {
+    /// Opens the table at `path`. `watch` is called with the bytes that were read and those that there are.
+    pub(crate) fn open(
+        path: &Path,
+        watch: &'watch dyn Fn(u64, u64),
+    ) -> Result<Self, TableError> {
+        let input = Input::new(Source::open(path, watch)?)?;
+        let format = Format::of(path, input.head());
+        let format = format.ok_or_else(|| TableError::UnknownFormat(Format::remedy(path)))?;
+        Ok(Self {
+            path: path.to_owned(),
+            format,
+            input,
+            previous: None,
+            next: None,
+            is_at_end: false,
+        })
+    }
+
+    /// True where the format may have more frames than one.
+    pub(crate) fn may_be_several(&self) -> bool {
+        matches!(
+            self.format,
+            Format::Xyz | Format::Lammps | Format::Gro | Format::Pdb | Format::MmCif
+        )
+    }
+
+    /// Reads the next frame; `None` behind the last one.
+    pub(crate) fn read(&mut self, request: &Request) -> Result<Option<Rows>, TableError> {
+        let input = &mut self.input;
+        if self.is_at_end {
+            return Ok(None);
+        }
+        let rows = match self.format {
+            Format::Npy => npy::read(input, request),
+            Format::Npz => npz::read(&self.path, request),
+            Format::Ply => ply::read(input, request),
+            Format::Vtk => vtk::read(input, request),
+            _ => {
+                let Some(header) = self.header()? else {
+                    return Ok(None);
+                };
+                let rows = header.read(&mut self.input, request);
+                self.previous = Some(header);
+                rows
+            }
+        };
+        self.is_at_end = !self.may_be_several();
+        rows.map(Some)
+    }
+
+    /// Passes over the next frame; returns whether there was one.
+    pub(crate) fn skip(&mut self) -> Result<bool, TableError> {
+        if !self.may_be_several() {
+            return Ok(!std::mem::replace(&mut self.is_at_end, true));
+        }
+        let Some(header) = self.header()? else {
+            return Ok(false);
+        };
+        header.skip(&mut self.input)?;
+        self.previous = Some(header);
+        Ok(true)
+    }
+
+    /// Says whether another frame follows.
+    pub(crate) fn has_next(&mut self) -> Result<bool, TableError> {
+        if self.is_at_end {
+            return Ok(false);
+        }
+        self.next = self.header()?;
+        Ok(self.next.is_some())
+    }
+
+    /// The place of the next frame, before anything of it was read.
+    pub(crate) fn place(&self) -> FramePlace {
+        FramePlace {
+            position: self.input.position,
+            lines: self.input.number,
+        }
+    }
+
+    /// Continues with the frame at this place, which must not lie before the next one in a compressed file.
+    pub(crate) fn go_to(&mut self, place: FramePlace) -> io::Result<()> {
+        self.next = None;
+        if self.format == Format::MmCif && self.previous.is_none() {
+            // The loop names its columns once.
+            self.previous = self.header().ok().flatten();
+        }
+        self.input.skip_to(place.position, place.lines)
+    }
+
+    /// The next frame's header.
+    fn header(&mut self) -> Result<Option<Header>, TableError> {
+        if let Some(header) = self.next.take() {
+            return Ok(Some(header));
+        }
+        let input = &mut self.input;
+        match self.format {
+            Format::Csv => delimited::header(input, true).map(Some),
+            Format::Text => delimited::header(input, false).map(Some),
+            Format::Xyz => xyz::header(input),
+            Format::Lammps => lammps::header(input),
+            Format::Gro => gro::header(input),
+            Format::Pdb => pdb::header(input),
+            Format::MmCif => mmcif::header(input, self.previous.as_ref()),
+            Format::Npy | Format::Npz | Format::Ply | Format::Vtk => Ok(None),
+        }
+    }
+}

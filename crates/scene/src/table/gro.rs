@@ -1,0 +1,85 @@
+//! GRO, the structures of GROMACS, in nanometers: a title, the number of atoms, a line for each, the box.
+//!
+//! # Source
+//! The reference manual of GROMACS, "gro".
+
+use std::ops::Range;
+
+use super::element;
+use super::error::TableError;
+use super::fields::Division;
+use super::form::Form;
+use super::header::Header;
+use super::input::Input;
+use crate::text::LocatedFault;
+
+/// The columns before the numbers: number and name of the residue, name and number of the atom.
+const PLACES: [Range<usize>; 4] = [0..5, 5..10, 10..15, 15..20];
+/// The element follows from the atom's name.
+const NAMES: [&str; 11] = [
+    "residue_number",
+    "residue",
+    "name",
+    "id",
+    "x",
+    "y",
+    "z",
+    "vx",
+    "vy",
+    "vz",
+    "element",
+];
+
+/// The header of the next frame; `None` behind the last one.
+pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
+    let is_first = input.number == 0;
+    let Some(title) = input.next()?.map(<[u8]>::to_vec) else {
+        return match is_first {
+            true => Err(LocatedFault::at_end(1, "a title").into()),
+            false => Ok(None),
+        };
+    };
+    let number = input.number + 1;
+    let line = input.next()?.map(<[u8]>::to_vec);
+    if !is_first && title.trim_ascii().is_empty() && line.as_ref().is_none_or(|line| line.trim_ascii().is_empty()) {
+        return Ok(None);
+    }
+    let expected = "the number of atoms";
+    let line = line.ok_or_else(|| LocatedFault::at_end(number, expected))?;
+    let count = str::from_utf8(line.trim_ascii()).ok().and_then(|text| text.parse().ok());
+    let count: u64 = count
+        .ok_or_else(|| LocatedFault::expected(number, &line, 0..line.len(), expected))?;
+    let row = input.peek()?.unwrap_or_default();
+    let width = width(row);
+    let mut places = PLACES.to_vec();
+    places.extend((0..6).map(|column| 20 + column * width..20 + (column + 1) * width));
+    places.push(10..15);
+    let form = Form {
+        element: |line, field| {
+            let residue = line.get(5..10).unwrap_or_default();
+            element::of_atom(&line[field], residue)
+        },
+        ..Form::new(Division::Fixed(places.into()))
+    };
+    let names = NAMES.map(String::from).into();
+    let texts = NAMES.iter().map(|name| ["residue", "name", "element"].contains(name)).collect();
+    Ok(Some(Header {
+        count: Some((count, "atoms, as the line above says")),
+        behind: 1,
+        angstrom: 0.1,
+        texts: Some(texts),
+        ..Header::new(names, form, (number, &line))
+    }))
+}
+
+/// The width of numbers, which is that between their points.
+fn width(row: &[u8]) -> usize {
+    const USUAL: usize = 8;
+    const WIDEST: usize = 32;
+    let mut points = memchr::memchr_iter(b'.', row.get(20..).unwrap_or_default());
+    let width = match (points.next(), points.next()) {
+        (Some(first), Some(second)) => second - first,
+        _ => USUAL,
+    };
+    width.min(WIDEST)
+}

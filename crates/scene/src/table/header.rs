@@ -1,0 +1,109 @@
+//! What a text says of its rows before they come.
+
+use std::ops::Range;
+
+use glam::{DMat3, DVec3};
+
+use super::columns::{Nature, Plan, Slot};
+use super::error::TableError;
+use super::fields;
+use super::form::{Form, LineKind};
+use super::input::Input;
+use super::number::{is_missing, parse};
+use super::request::Request;
+use super::rows::Rows;
+use super::text;
+use crate::text::LocatedFault;
+
+/// What a text says of its rows before they come.
+#[derive(Clone, Debug)]
+pub(crate) struct Header {
+    pub(crate) names: Vec<String>,
+    pub(crate) form: Form,
+    /// The number of rows, and what they are called; `None` where the form tells the end.
+    pub(crate) count: Option<(u64, &'static str)>,
+    /// Lines behind the rows that belong to them.
+    pub(crate) behind: u64,
+    /// The length of an ångström, in the table's unit.
+    pub(crate) angstrom: f64,
+    /// The axes and the origin of positions that are parts of a box.
+    pub(crate) scaled: Option<(DMat3, DVec3)>,
+    /// Columns of text; `None` where the first row tells them.
+    pub(crate) texts: Option<Vec<bool>>,
+    /// The line that names the columns, for messages, and the part of it that does.
+    pub(crate) place: (u64, Vec<u8>, Range<usize>),
+}
+
+impl Header {
+    /// The header of rows with columns of these names, which are listed in this line.
+    pub(crate) fn new(names: Vec<String>, form: Form, (number, line): (u64, &[u8])) -> Self {
+        Self {
+            names,
+            form,
+            count: None,
+            behind: 0,
+            angstrom: 1.0,
+            scaled: None,
+            texts: None,
+            place: (number, line.to_vec(), 0..line.len()),
+        }
+    }
+
+    /// Reads the rows behind the header.
+    pub(crate) fn read(&self, input: &mut Input<'_>, request: &Request) -> Result<Rows, TableError> {
+        let texts = match &self.texts {
+            Some(texts) => texts.clone(),
+            None => self.texts_of_first_row(input)?,
+        };
+        let nature = Nature {
+            is_byte: &|_| false,
+            is_text: &|column| texts.get(column).copied().unwrap_or(false),
+            angstrom: self.angstrom,
+        };
+        let plan = Plan::new(self.names.clone(), request, &nature);
+        let mut plan = plan.map_err(|message| {
+            let (number, line, span) = &self.place;
+            LocatedFault::in_line(*number, line, span.clone(), message)
+        })?;
+        let is_scaled = plan.name_of(Slot::X).is_some_and(|name| name.starts_with("xs"));
+        plan.axes = self.scaled.filter(|_| is_scaled);
+        let rows = match self.count {
+            Some((count, noun)) => text::read_count(input, &plan, &self.form, count, noun)?,
+            None => text::read(input, &plan, &self.form, None)?,
+        };
+        input.skip_lines(self.behind)?;
+        Ok(rows)
+    }
+
+    /// Passes over the rows behind the header, and what belongs to them.
+    pub(crate) fn skip(&self, input: &mut Input<'_>) -> Result<(), TableError> {
+        match self.count {
+            Some((count, noun)) => {
+                let found = input.skip_lines(count)?;
+                if found < count {
+                    return Err(text::too_few(input.number, found, count, noun).into());
+                }
+            }
+            None => {
+                text::skip(input, &self.form)?;
+            }
+        }
+        input.skip_lines(self.behind)?;
+        Ok(())
+    }
+
+    /// The columns that are no numbers in the first row.
+    fn texts_of_first_row(&self, input: &mut Input<'_>) -> Result<Vec<bool>, TableError> {
+        let Some(line) = input.peek()? else {
+            return Ok(Vec::new());
+        };
+        if (self.form.kind)(line) != LineKind::Row {
+            return Ok(Vec::new());
+        }
+        let is_text = |field: &&[u8]| {
+            parse(field, self.form.has_decimal_commas).is_none() && !is_missing(field)
+        };
+        let fields = fields::all(line, &self.form.division);
+        Ok(fields.iter().map(is_text).collect())
+    }
+}

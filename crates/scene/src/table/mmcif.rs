@@ -1,0 +1,94 @@
+//! mmCIF: the loop `_atom_site` of a file of the Protein Data Bank, whose models are frames.
+//!
+//! # Source
+//! Hall, Allen and Brown, "The crystallographic information file (CIF)", 1991; the dictionary PDBx/mmCIF.
+
+use super::error::TableError;
+use super::fields::{self, Division};
+use super::form::{Form, LineKind};
+use super::header::Header;
+use super::input::Input;
+use crate::text::LocatedFault;
+
+/// The category of atoms.
+const CATEGORY: &str = "_atom_site.";
+const MODEL: &str = "pdbx_PDB_model_num";
+
+/// The header of the next model, behind another one's where that is given; `None` behind the last one.
+pub(crate) fn header(
+    input: &mut Input<'_>,
+    previous: Option<&Header>,
+) -> Result<Option<Header>, TableError> {
+    if let Some(previous) = previous {
+        let row = input.peek()?.filter(|line| kind(line) == LineKind::Row);
+        return Ok(row.map(|row| {
+            let mut header = previous.clone();
+            header.form.same = same(&header.names, row);
+            header
+        }));
+    }
+    let mut is_crystal = false;
+    let mut is_in_text = false;
+    loop {
+        let number = input.number + 1;
+        let Some(line) = input.next()? else {
+            let expected = match is_crystal {
+                true => {
+                    "coordinates `_atom_site.Cartn_x` (a crystal's are parts of its cell: save it as XYZ, or as PDB)"
+                }
+                false => "a loop of `_atom_site.…`",
+            };
+            return Err(LocatedFault::at_end(number, expected).into());
+        };
+        // Lines between two that begin with a semicolon are text.
+        is_in_text ^= line.starts_with(b";");
+        let line = line.trim_ascii();
+        is_crystal |= line.starts_with(b"_atom_site_fract_x");
+        if is_in_text || !starts_with(line, CATEGORY) {
+            continue;
+        }
+        let first = (number, line.to_vec());
+        let mut names = vec![name(line)];
+        while let Some(line) = input.peek()? {
+            let line = line.trim_ascii();
+            if !starts_with(line, CATEGORY) {
+                break;
+            }
+            names.push(name(line));
+            input.next()?;
+        }
+        let mut form = Form {
+            kind,
+            ..Form::new(Division::QuotedWords)
+        };
+        form.same = input.peek()?.and_then(|row| same(&names, row));
+        return Ok(Some(Header::new(names, form, (first.0, &first.1))));
+    }
+}
+
+/// The model of a row, which all rows of a frame have.
+fn same(names: &[String], row: &[u8]) -> Option<(usize, Vec<u8>)> {
+    let column = names.iter().position(|name| name == MODEL)?;
+    let fields = fields::all(row, &Division::QuotedWords);
+    Some((column, fields.get(column)?.to_vec()))
+}
+
+fn starts_with(line: &[u8], prefix: &str) -> bool {
+    line.get(..prefix.len())
+        .is_some_and(|start| start.eq_ignore_ascii_case(prefix.as_bytes()))
+}
+
+/// The name behind that of the category.
+fn name(line: &[u8]) -> String {
+    let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    String::from_utf8_lossy(&word[CATEGORY.len().min(word.len())..]).into_owned()
+}
+
+fn kind(line: &[u8]) -> LineKind {
+    match line {
+        [b'#' | b'_' | b';', ..] => LineKind::End,
+        _ if starts_with(line, "loop_") || starts_with(line, "data_") => LineKind::End,
+        _ if line.trim_ascii().is_empty() => LineKind::Other,
+        _ => LineKind::Row,
+    }
+}

@@ -1,0 +1,61 @@
+//! Why there is no table.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+
+use crate::table::{self, TableError};
+use crate::text::{closest, list, quoted, reason};
+
+/// The reason for which there is no table at `path`, which the scene file calls `name`.
+pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
+    let shown = quoted(name);
+    let error = match error {
+        TableError::Fault(fault) => return fault.message.clone(),
+        TableError::UnknownFormat(remedy) => {
+            let endings = table::ENDINGS.map(|ending| format!("`.{}`", ending.0));
+            let endings = list(&endings);
+            return match remedy {
+                Some(remedy) => {
+                    format!("expected a table ({endings}), found {shown}: {remedy}")
+                }
+                None => format!("expected a table ({endings}), found {shown}, which is none"),
+            };
+        }
+        TableError::OutOfMemory(count) => {
+            return format!("expected a table that fits into memory, found {count} rows");
+        }
+        TableError::Unreadable(error) => error,
+    };
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            let message = format!("expected a table, found no file {shown}");
+            match neighbor(name, path) {
+                Some(other) => format!("{message}, did you mean {}?", quoted(&other)),
+                None => message,
+            }
+        }
+        io::ErrorKind::IsADirectory => format!("expected a table, found the folder {shown}"),
+        io::ErrorKind::PermissionDenied => {
+            format!("expected a table, found {shown}, which nobody here may read")
+        }
+        _ => {
+            let why = reason(error);
+            format!("expected a table, found {shown}, which cannot be read: {why}")
+        }
+    }
+}
+
+/// The name of a file beside `path` that is probably meant.
+fn neighbor(name: &str, path: &Path) -> Option<String> {
+    const MOST_COMPARED: usize = 10_000;
+    let entries = fs::read_dir(path.parent()?).ok()?.take(MOST_COMPARED);
+    let mut names: Vec<String> = entries
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    names.sort_unstable();
+    let names = names.iter().map(String::as_str);
+    let close = closest(path.file_name()?.to_str()?, names)?;
+    let close = Path::new(name).with_file_name(close);
+    Some(close.display().to_string())
+}

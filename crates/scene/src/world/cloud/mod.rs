@@ -1,0 +1,36 @@
+//! Clouds: the spheres of tables.
+
+mod coloring;
+mod explain;
+mod open;
+mod settings;
+mod steps;
+
+use std::path::{Path, PathBuf};
+
+pub use coloring::ScaleKind;
+pub(crate) use coloring::{Learned, Scale};
+pub(crate) use open::{OpenCloud, Step};
+pub(crate) use settings::Cloud;
+
+use crate::text::{Fault, LocatedFault};
+
+/// The reason for which a table was refused.
+#[derive(Debug)]
+pub(crate) enum CloudError {
+    /// Something is wrong in what the scene file says of it.
+    Scene(Fault),
+    /// Something is wrong in the table with this path.
+    Table(PathBuf, LocatedFault),
+}
+
+/// The state of reading a table.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Progress<'scene> {
+    /// The table as the scene file names it, or the file of one of its steps.
+    pub table: &'scene Path,
+    /// Bytes that were read.
+    pub read: u64,
+    /// Bytes of the whole file; 0 where it does not say.
+    pub size: u64,
+}

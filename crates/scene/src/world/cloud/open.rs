@@ -1,0 +1,293 @@
+//! A cloud whose steps are known and can be read.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use glam::DVec3;
+use marbles_core::{Albedos, Sphere};
+
+use super::coloring::{Learned, Scale};
+use super::explain::explain;
+use super::settings::Cloud;
+use super::steps::{self, Steps};
+use super::{CloudError, Progress};
+use crate::bounds::Bounds;
+use crate::table::{Frames, Rows, TableError};
+use crate::text::{Fault, quoted};
+
+/// A cloud whose steps are known and can be read.
+pub(crate) struct OpenCloud {
+    pub(crate) cloud: Cloud,
+    folder: PathBuf,
+    steps: Steps,
+    learned: Learned,
+    /// The file of frames, ready for one of them.
+    open: Mutex<Option<Frames<'static>>>,
+}
+
+/// The spheres of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Step {
+    pub(crate) spheres: Vec<Sphere>,
+    pub(crate) albedos: Option<Albedos>,
+    /// The rows of the table, those that were not kept among them.
+    pub(crate) rows: u64,
+    /// The column of the numbers or names that colors stand for.
+    pub(crate) value_name: Option<String>,
+    /// What the colors mean.
+    pub(crate) learned: Learned,
+    /// The table has frames that are not read.
+    pub(crate) has_more: bool,
+}
+
+/// Progress that nobody watches.
+const UNWATCHED: &dyn Fn(u64, u64) = &|_, _| {};
+
+impl OpenCloud {
+    /// Finds the steps of a cloud.
+    pub(crate) fn new(cloud: Cloud, folder: &Path) -> Result<Self, CloudError> {
+        let path = folder.join(&cloud.name);
+        let mut open = Self {
+            cloud,
+            folder: folder.to_owned(),
+            steps: Steps::One,
+            learned: Learned::default(),
+            open: Mutex::new(None),
+        };
+        let files = steps::files(folder, &open.cloud.name);
+        let files = files.map_err(|error| open.refuse_table(&path, error.into()))?;
+        if let Some(files) = files {
+            let chosen = open.choose(files.iter().map(|file| file.0))?;
+            let file = |place: usize| files[place].1.clone();
+            open.steps = Steps::Files(chosen.into_iter().map(file).collect());
+        } else if open.cloud.takes_all {
+            let refused = |error| open.refuse_table(&path, error);
+            let mut frames = Frames::open(&path, UNWATCHED).map_err(refused)?;
+            let all = steps::index(&mut frames).map_err(refused)?;
+            let chosen = open.choose(1..=all.len() as i64)?;
+            open.steps = Steps::Frames(chosen.into_iter().map(|place| all[place]).collect());
+        }
+        Ok(open)
+    }
+
+    /// The steps of the cloud's timeline.
+    fn choose(&self, numbers: impl DoubleEndedIterator<Item = i64> + Clone) -> Result<Vec<usize>, CloudError> {
+        let chosen = self.cloud.timeline.choose(numbers.clone());
+        if !chosen.is_empty() {
+            return Ok(chosen);
+        }
+        let name = quoted(&self.cloud.name);
+        let ends = (numbers.clone().next(), numbers.clone().next_back());
+        let found = match ends {
+            (Some(first), Some(last)) => format!("those from {first} to {last}"),
+            _ => String::from("none"),
+        };
+        let range = self.cloud.timeline.range.as_ref();
+        let wanted = range.map_or(String::new(), |range| {
+            format!(" with a number from {} to {}", range.start(), range.end())
+        });
+        Err(self.refused(format!("expected steps {name}{wanted}, found {found}")))
+    }
+
+    /// The number of steps; `None` of a cloud that does not change.
+    pub(crate) fn steps(&self) -> Option<usize> {
+        match &self.steps {
+            Steps::One => None,
+            Steps::Files(files) => Some(files.len()),
+            Steps::Frames(places) => Some(places.len()),
+        }
+    }
+
+    /// The way from numbers to colors.
+    pub(crate) fn scale(&self) -> &Scale {
+        &self.cloud.scale
+    }
+
+    /// The number of frames in which all steps are shown once.
+    pub(crate) fn frames(&self) -> Option<i32> {
+        Some(self.cloud.timeline.frames(self.steps()?))
+    }
+
+    /// The step that is shown so many frames behind the first one; `None` for nothing.
+    pub(crate) fn step_at(&self, frames: i64) -> Option<usize> {
+        match self.steps() {
+            None => Some(0),
+            Some(count) => self.cloud.timeline.at(frames, count),
+        }
+    }
+
+    /// True where something has to be learned of all steps before one can be shown as one of them.
+    pub(crate) fn has_to_learn(&self) -> bool {
+        let Cloud {
+            request,
+            scale,
+            placement,
+            ..
+        } = &self.cloud;
+        let is_colored = request.value.is_some() || request.coloring.is_some();
+        self.steps().is_some() && (placement.is_centered || is_colored && scale.has_open_range())
+    }
+
+    /// Reads all steps for what has to be the same in all of them.
+    pub(crate) fn learn(&mut self) -> Result<(), CloudError> {
+        let mut bounds = Bounds::NONE;
+        let mut learned = Learned::default();
+        for step in 0..self.steps().unwrap_or(1) {
+            let (rows, _) = self.rows(step, UNWATCHED)?;
+            self.cloud.scale.learn(&rows.paint, &mut learned);
+            bounds = bounds.around(Bounds::of(&rows.spheres));
+        }
+        self.learned = learned;
+        self.cloud.placement.middle = Some(bounds.middle().unwrap_or(DVec3::ZERO));
+        Ok(())
+    }
+
+    /// Reads a step; of a cloud that does not change there is step 0.
+    pub(crate) fn read(
+        &self,
+        step: usize,
+        watch: &dyn Fn(Progress<'_>),
+    ) -> Result<Step, CloudError> {
+        let table = self.path(step);
+        let table = match self.steps {
+            Steps::Files(_) => table.as_path(),
+            _ => Path::new(&self.cloud.name),
+        };
+        let watch = |read, size| watch(Progress { table, read, size });
+        let (rows, has_more) = self.rows(step, &watch)?;
+        let Rows {
+            mut spheres,
+            paint,
+            read: rows,
+            value_name,
+        } = rows;
+        self.place(&mut spheres)?;
+        let mut learned = self.learned.clone();
+        if !self.has_to_learn() {
+            self.cloud.scale.learn(&paint, &mut learned);
+        }
+        let albedos = self.albedos(paint, &learned);
+        Ok(Step {
+            spheres,
+            albedos: albedos.map_err(|message| self.refused(message))?,
+            rows,
+            value_name,
+            learned,
+            has_more,
+        })
+    }
+
+    /// The spheres of a step alone.
+    pub(crate) fn spheres(&self, step: usize) -> Result<Vec<Sphere>, CloudError> {
+        let (Rows { mut spheres, .. }, _) = self.rows(step, UNWATCHED)?;
+        self.place(&mut spheres)?;
+        Ok(spheres)
+    }
+
+    fn place(&self, spheres: &mut [Sphere]) -> Result<(), CloudError> {
+        if self.cloud.placement.place(spheres) {
+            return Ok(());
+        }
+        let message = "expected finite spheres with radii greater than 0 after `scale`, \
+                       `rotate_degrees` and `position`, found others";
+        Err(self.refused(message.to_owned()))
+    }
+
+    fn albedos(
+        &self,
+        paint: crate::table::Paint,
+        learned: &Learned,
+    ) -> Result<Option<Albedos>, String> {
+        let missing = self.cloud.request.missing;
+        self.cloud.scale.albedos(paint, missing, learned)
+    }
+
+    /// The file of a step.
+    fn path(&self, step: usize) -> PathBuf {
+        match &self.steps {
+            Steps::Files(files) => files[step].clone(),
+            Steps::One | Steps::Frames(_) => self.folder.join(&self.cloud.name),
+        }
+    }
+
+    /// The rows of a step, and whether frames follow that are not read.
+    fn rows(&self, step: usize, watch: &dyn Fn(u64, u64)) -> Result<(Rows, bool), CloudError> {
+        let path = self.path(step);
+        let rows = match &self.steps {
+            Steps::Frames(places) => {
+                let rows = self.frame(&path, step, places);
+                rows.map(|rows| (rows, false))
+            }
+            Steps::One | Steps::Files(_) => self.first_frame(&path, watch),
+        };
+        rows.map_err(|error| self.refuse_table(&path, error))
+    }
+
+    fn first_frame(
+        &self,
+        path: &Path,
+        watch: &dyn Fn(u64, u64),
+    ) -> Result<(Rows, bool), TableError> {
+        let mut frames = Frames::open(path, watch)?;
+        let rows = frames.read(&self.cloud.request)?;
+        let rows = rows.ok_or_else(gone)?;
+        // What is no frame behind the first one is passed over.
+        let has_more = frames.may_be_several() && frames.has_next().unwrap_or(false);
+        Ok((rows, has_more))
+    }
+
+    fn frame(
+        &self,
+        path: &Path,
+        step: usize,
+        places: &[crate::table::FramePlace],
+    ) -> Result<Rows, TableError> {
+        let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
+        let ready = open.take().and_then(|mut frames| {
+            let is_there = frames.go_to(places[step]).is_ok();
+            is_there.then_some(frames)
+        });
+        let mut frames = match ready {
+            Some(frames) => frames,
+            None => {
+                let mut frames = Frames::open(path, UNWATCHED)?;
+                frames.go_to(places[step])?;
+                frames
+            }
+        };
+        let rows = frames.read(&self.cloud.request)?;
+        *open = Some(frames);
+        rows.ok_or_else(gone)
+    }
+
+    fn refused(&self, message: String) -> CloudError {
+        CloudError::Scene(Fault::new(self.cloud.place.clone(), message))
+    }
+
+    fn refuse_table(&self, path: &Path, error: TableError) -> CloudError {
+        match error {
+            TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
+            error => {
+                let name = match self.steps {
+                    Steps::Files(_) => path.display().to_string(),
+                    _ => self.cloud.name.clone(),
+                };
+                self.refused(explain(&name, path, &error))
+            }
+        }
+    }
+}
+
+/// The file became shorter since its frames were counted.
+fn gone() -> TableError {
+    std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
+}
+
+impl fmt::Debug for OpenCloud {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = formatter.debug_struct("OpenCloud");
+        shown.field("cloud", &self.cloud).field("steps", &self.steps);
+        shown.finish_non_exhaustive()
+    }
+}

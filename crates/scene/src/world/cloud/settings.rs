@@ -1,0 +1,138 @@
+//! What a scene file says of a cloud.
+
+use std::ops::Range;
+
+use marbles_core::MaterialId;
+
+use super::super::placement::{Placement, turn};
+use super::coloring::Scale;
+use super::steps::Timeline;
+use crate::file::{self, Keep, TakenFrames};
+use crate::table::{Coloring, Filter, MOST_FILTERS, Request, Test};
+use crate::text::{Placed, optional, refuse};
+use crate::values::{Every, Flag, Speed};
+
+/// A cloud of the scene file whose table is not yet read.
+#[derive(Clone, Debug)]
+pub(crate) struct Cloud {
+    /// The table as the file names it.
+    pub(crate) name: String,
+    /// The place of its name, in bytes of the scene file.
+    pub(crate) place: Range<usize>,
+    pub(crate) material: MaterialId,
+    /// All frames of its file are steps.
+    pub(super) takes_all: bool,
+    pub(super) timeline: Timeline,
+    pub(super) request: Request,
+    pub(super) scale: Scale,
+    pub(super) placement: Placement,
+}
+
+impl Cloud {
+    /// The cloud that the file describes; `None` where a fault was reported.
+    pub(crate) fn new(cloud: &file::Cloud, material: MaterialId) -> Option<Self> {
+        let columns = cloud.columns.value.as_ref()?;
+        let own_value = optional(&cloud.value, |value| Some(value.clone()))?;
+        let value = optional(&columns.value, |value| Some(value.clone()))?;
+        if let (Some(own), Some(_)) = (&cloud.value, &columns.value) {
+            let message = "expected `value` in the cloud or in `columns`, found both";
+            return refuse(own.place.clone(), message);
+        }
+        let coloring = optional(&cloud.color, |coloring| Some(*coloring))?;
+        let of_scale = [
+            cloud.colormap.as_ref().map(|colormap| &colormap.place),
+            cloud.color_scale.as_ref().map(|scale| &scale.place),
+            cloud.range.as_ref().map(|range| &range.place),
+        ];
+        let of_scale = of_scale.into_iter().flatten().next();
+        let of_palette = cloud.palette.as_ref().map(|palette| &palette.place);
+        let of_value = cloud.value.as_ref().map(|value| &value.place);
+        let of_value = of_value.or(columns.value.as_ref().map(|value| &value.place));
+        let implied = match (of_scale, of_palette) {
+            (Some(_), _) => Some(Coloring::Value),
+            (None, Some(_)) => Some(Coloring::Category),
+            // Whether the column has text or numbers decides.
+            (None, None) => None,
+        };
+        let place = of_scale.or(of_palette).or(of_value);
+        if let (Some(place), Some(coloring)) = (place, coloring) {
+            let wanted = implied.unwrap_or(Coloring::Value);
+            let is_known = matches!(coloring, Coloring::Value | Coloring::Category);
+            if implied.map_or(!is_known, |implied| implied != coloring) {
+                let message =
+                    format!("expected `color: {wanted:?}` with this, found `color: {coloring:?}`");
+                return refuse(place.clone(), message);
+            }
+        }
+        let column = |column: &Option<Placed<_>>| optional(column, |column| Some(Clone::clone(column)));
+        Some(Self {
+            name: cloud.file.value.as_ref()?.0.clone(),
+            place: cloud.file.place.clone(),
+            material,
+            takes_all: cloud.frames.get()? == TakenFrames::All,
+            timeline: Timeline {
+                range: optional(&cloud.steps, |range| Some(range.first..=range.last))?,
+                every: cloud.every.get().map(|Every(every)| every)?,
+                speed: cloud.speed.get().map(|Speed(speed)| speed)?,
+                end: cloud.end.get()?,
+            },
+            request: Request {
+                radius: optional(&cloud.radius, |radius| Some(radius.0))?,
+                radii: cloud.radii.get()?,
+                columns: crate::table::Columns {
+                    position: [column(&columns.x)?, column(&columns.y)?, column(&columns.z)?],
+                    radius: column(&columns.radius)?,
+                    element: column(&columns.element)?,
+                    radius_scale: optional(&columns.radius_scale, |scale| Some(scale.0))?,
+                },
+                coloring: coloring.or(implied),
+                value: own_value.or(value),
+                missing: cloud.missing.get()?,
+                keep: filters(&cloud.keep)?,
+                has_material: cloud.material.is_some(),
+            },
+            scale: Scale::new(cloud)?,
+            placement: Placement {
+                is_centered: cloud.center.get().map(|Flag(flag)| flag)?,
+                middle: None,
+                is_right_handed: cloud.right_handed.get().map(|Flag(flag)| flag)?,
+                scale: cloud.scale.get()?.0,
+                turn: turn(cloud.rotate_degrees.get()?.0),
+                position: cloud.position.get()?.0,
+            },
+        })
+    }
+}
+
+/// The conditions on rows that are kept.
+fn filters(keep: &[Placed<Keep>]) -> Option<Vec<Filter>> {
+    if let Some(keep) = keep.get(MOST_FILTERS) {
+        let message = format!("expected at most {MOST_FILTERS} conditions, found more");
+        return refuse(keep.place.clone(), message);
+    }
+    keep.iter().map(filter).collect()
+}
+
+fn filter(keep: &Placed<Keep>) -> Option<Filter> {
+    let Keep(column, test) = keep.value.as_ref()?;
+    let place = test.place.clone();
+    let test = match test.value.as_ref()? {
+        file::Test::Is(wanted) => match wanted.value.as_ref()? {
+            file::Wanted::Number(number) => Test::Is(*number),
+            file::Wanted::Text(text) => Test::IsText(text.clone()),
+        },
+        file::Test::Between(low, high) => {
+            let (low, high) = (low.get()?.0, high.get()?.0);
+            if low > high {
+                let message = "expected a low number that is not above the high one, found others";
+                return refuse(place, message);
+            }
+            Test::Between(low, high)
+        }
+        file::Test::Every(step) => Test::Every(step.get()?.0),
+    };
+    Some(Filter {
+        column: column.value.clone()?,
+        test,
+    })
+}

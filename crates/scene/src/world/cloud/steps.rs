@@ -1,0 +1,183 @@
+//! The steps of a cloud that changes over time.
+
+use std::fs;
+use std::io;
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
+
+use crate::file::End;
+use crate::table::{FramePlace, Frames, TableError};
+
+/// The steps that a cloud has.
+#[derive(Clone, Debug)]
+pub(super) enum Steps {
+    /// The first frame of a file, which does not change.
+    One,
+    /// A file for each.
+    Files(Vec<PathBuf>),
+    /// Frames of one file.
+    Frames(Vec<FramePlace>),
+}
+
+/// The step that each frame of the animation shows.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Timeline {
+    /// The numbers of the steps that are shown; `None` for all.
+    pub(super) range: Option<RangeInclusive<i32>>,
+    /// One of so many is shown.
+    pub(super) every: u32,
+    /// Steps that a frame is on from the one before.
+    pub(super) speed: f64,
+    /// What comes behind the last one.
+    pub(super) end: End,
+}
+
+impl Timeline {
+    /// The steps with these numbers that are shown, by their places.
+    pub(super) fn choose(&self, numbers: impl Iterator<Item = i64>) -> Vec<usize> {
+        let is_in_range = |number: i64| {
+            let range = self.range.as_ref();
+            range.is_none_or(|range| (i64::from(*range.start())..=i64::from(*range.end())).contains(&number))
+        };
+        let chosen = numbers.enumerate().filter(|(_, number)| is_in_range(*number));
+        chosen.step_by(self.every as usize).map(|(place, _)| place).collect()
+    }
+
+    /// The number of frames in which `count` steps are shown once.
+    pub(super) fn frames(&self, count: usize) -> i32 {
+        let frames = libm::ceil(count as f64 / self.speed - SLACK);
+        // Saturating; an animation has a frame at least.
+        (frames as i32).max(1)
+    }
+
+    /// The step that is shown so many frames behind the first one; `None` for nothing.
+    pub(super) fn at(&self, frames: i64, count: usize) -> Option<usize> {
+        let step = libm::floor(frames.max(0) as f64 * self.speed + SLACK);
+        // Saturating, beyond all steps.
+        let step = step as usize;
+        match self.end {
+            _ if step < count => Some(step),
+            End::Hold => count.checked_sub(1),
+            End::Loop => step.checked_rem(count),
+            End::Hide => None,
+        }
+    }
+}
+
+/// Products of frames and speeds that should be whole numbers are, within this.
+const SLACK: f64 = 1e-9;
+
+/// The files whose names have a number where `name` has its mark, in their order; `None` where it has no mark.
+pub(super) fn files(folder: &Path, name: &str) -> io::Result<Option<Vec<(i64, PathBuf)>>> {
+    let path = folder.join(name);
+    let file_name = path.file_name().and_then(|name| name.to_str());
+    let Some((before, width, after)) = file_name.and_then(mark) else {
+        return Ok(None);
+    };
+    if path.exists() {
+        return Ok(None);
+    }
+    let parent = match path.parent() {
+        Some(parent) if parent != Path::new("") => parent,
+        _ => Path::new("."),
+    };
+    let mut files = Vec::new();
+    for entry in fs::read_dir(parent)? {
+        let entry = entry?;
+        let name = entry.file_name();
+        let digits = name.to_str().and_then(|name| {
+            let digits = name.strip_prefix(before)?.strip_suffix(after)?;
+            let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+            // As many digits as the mark has, or more where the number needs them.
+            let is_wide = digits.len() == width || digits.len() > width && !digits.starts_with('0');
+            (is_number && is_wide).then_some(digits)
+        });
+        if let Some(number) = digits.and_then(|digits| digits.parse().ok()) {
+            files.push((number, parent.join(&name)));
+        }
+    }
+    files.sort_unstable();
+    Ok(Some(files))
+}
+
+/// The parts of a name before and behind `####` or `%04d`, and the least number of digits between them.
+fn mark(name: &str) -> Option<(&str, usize, &str)> {
+    if let Some((before, rest)) = name.split_once('%') {
+        let (width, after) = rest.split_once('d')?;
+        let width = match width {
+            "" => 1,
+            width => width.parse().ok()?,
+        };
+        return Some((before, width, after));
+    }
+    let start = name.find('#')?;
+    let width = name[start..].bytes().take_while(|&byte| byte == b'#').count();
+    Some((&name[..start], width, &name[start + width..]))
+}
+
+/// The places of all frames of a table.
+pub(super) fn index(frames: &mut Frames<'_>) -> Result<Vec<FramePlace>, TableError> {
+    let mut places = Vec::new();
+    loop {
+        let place = frames.place();
+        if !frames.skip()? {
+            return Ok(places);
+        }
+        places.push(place);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn timeline(speed: f64, end: End) -> Timeline {
+        Timeline {
+            range: None,
+            every: 1,
+            speed,
+            end,
+        }
+    }
+
+    #[test]
+    fn frames_show_steps_at_their_speed() {
+        let all = |timeline: &Timeline| -> Vec<_> { (0..7).map(|frame| timeline.at(frame, 3)).collect() };
+        let [zero, one, two] = [0, 1, 2].map(Some);
+        assert_eq!(all(&timeline(1.0, End::Hold)), [zero, one, two, two, two, two, two]);
+        assert_eq!(all(&timeline(1.0, End::Loop)), [zero, one, two, zero, one, two, zero]);
+        assert_eq!(all(&timeline(1.0, End::Hide)), [zero, one, two, None, None, None, None]);
+        assert_eq!(all(&timeline(0.5, End::Hide)), [zero, zero, one, one, two, two, None]);
+        let tenth = timeline(0.1, End::Hold);
+        assert!((0..30).all(|frame| tenth.at(frame, 3) == Some(frame as usize / 10)));
+        assert_eq!(tenth.frames(3), 30);
+        assert_eq!(timeline(2.0, End::Hold).frames(5), 3);
+        assert_eq!(timeline(2.0, End::Loop).at(3, 5), Some(1));
+        assert_eq!(timeline(1.0, End::Loop).at(3, 0), None);
+    }
+
+    #[test]
+    fn steps_are_chosen_by_their_numbers() {
+        let chosen = |range, every| {
+            let timeline = Timeline {
+                range,
+                every,
+                ..timeline(1.0, End::Hold)
+            };
+            timeline.choose([0, 5, 10, 15, 20].into_iter())
+        };
+        assert_eq!(chosen(None, 1), [0, 1, 2, 3, 4]);
+        assert_eq!(chosen(Some(5..=15), 1), [1, 2, 3]);
+        assert_eq!(chosen(Some(5..=20), 3), [1, 4]);
+        assert!(chosen(Some(30..=40), 1).is_empty());
+    }
+
+    #[test]
+    fn marks_stand_for_numbers() {
+        assert_eq!(mark("run.####.csv"), Some(("run.", 4, ".csv")));
+        assert_eq!(mark("run%03d.xyz.gz"), Some(("run", 3, ".xyz.gz")));
+        assert_eq!(mark("run%d.xyz"), Some(("run", 1, ".xyz")));
+        assert_eq!(mark("run.csv"), None);
+        assert_eq!(mark("100%.csv"), None);
+    }
+}

@@ -1,0 +1,118 @@
+//! A world that changes over time.
+
+use std::path::PathBuf;
+
+use marbles_core::{Albedos, MaterialId, Sphere, World};
+
+use super::cloud::{CloudError, OpenCloud, Step};
+use crate::bounds::Bounds;
+
+/// A world some of whose clouds have several steps.
+#[derive(Debug)]
+pub(crate) struct Series {
+    /// Everything before the first cloud that changes.
+    base: World,
+    parts: Vec<Part>,
+    /// The frame of the first step.
+    first_frame: i32,
+    /// The scene file, and its text, for messages.
+    pub(crate) source: (PathBuf, String),
+}
+
+/// A cloud behind the base.
+#[derive(Debug)]
+pub(crate) enum Part {
+    Still {
+        spheres: Vec<Sphere>,
+        albedos: Option<Albedos>,
+        material: MaterialId,
+    },
+    Changing(Box<OpenCloud>),
+}
+
+/// The steps of all clouds that change, in a frame; frames with the same ones show the same world.
+#[derive(Clone, Debug, Eq, Hash, PartialEq)]
+pub struct StepKey(Vec<Option<usize>>);
+
+/// What was wrong with the cloud at this place of the scene file.
+pub(crate) type Refused = (std::ops::Range<usize>, CloudError);
+
+impl Series {
+    pub(crate) fn new(
+        base: World,
+        parts: Vec<Part>,
+        first_frame: i32,
+        source: (PathBuf, String),
+    ) -> Self {
+        Self {
+            base,
+            parts,
+            first_frame,
+            source,
+        }
+    }
+
+    /// The clouds that change.
+    pub(crate) fn changing(&self) -> impl Iterator<Item = &OpenCloud> {
+        self.parts.iter().filter_map(|part| match part {
+            Part::Still { .. } => None,
+            Part::Changing(cloud) => Some(&**cloud),
+        })
+    }
+
+    /// The steps of a frame.
+    pub(crate) fn key(&self, frame: i32) -> StepKey {
+        let frames = i64::from(frame) - i64::from(self.first_frame);
+        StepKey(self.changing().map(|cloud| cloud.step_at(frames)).collect())
+    }
+
+    /// The world of these steps.
+    pub(crate) fn world(&self, key: &StepKey) -> Result<World, Refused> {
+        let mut world = self.base.clone();
+        let mut steps = key.0.iter();
+        for part in &self.parts {
+            match part {
+                Part::Still {
+                    spheres,
+                    albedos,
+                    material,
+                } => world.add_spheres(spheres.clone(), *material, albedos.clone()),
+                Part::Changing(cloud) => {
+                    let Some(Some(step)) = steps.next() else {
+                        continue;
+                    };
+                    let step = cloud.read(*step, &|_| {});
+                    let Step {
+                        spheres, albedos, ..
+                    } = step.map_err(|error| (cloud.cloud.place.clone(), error))?;
+                    world.add_spheres(spheres, cloud.cloud.material, albedos);
+                }
+            }
+        }
+        Ok(world)
+    }
+
+    /// The box around the spheres of all steps.
+    pub(crate) fn bounds(&self) -> Result<Bounds, Refused> {
+        let mut bounds = Bounds::NONE;
+        self.for_each(&mut |spheres| bounds = bounds.around(Bounds::of(spheres)))?;
+        Ok(bounds)
+    }
+
+    /// Hands over the spheres of all steps, some at a time.
+    pub(crate) fn for_each(&self, take: &mut dyn FnMut(&[Sphere])) -> Result<(), Refused> {
+        take(self.base.spheres());
+        for part in &self.parts {
+            match part {
+                Part::Still { spheres, .. } => take(spheres),
+                Part::Changing(cloud) => {
+                    for step in 0..cloud.steps().unwrap_or(0) {
+                        let spheres = cloud.spheres(step);
+                        take(&spheres.map_err(|error| (cloud.cloud.place.clone(), error))?);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
