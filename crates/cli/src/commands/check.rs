@@ -5,7 +5,7 @@ mod costs;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View};
+use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{CloudDescription, FrameError, Scene};
 
 use super::args::CheckArguments;
@@ -27,6 +27,7 @@ const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, console, false)?;
+    let world = scene::world(&scene, None)?;
     if arguments.json {
         return json(&scene, arguments, console);
     }
@@ -39,7 +40,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
         let written = &scene.description().lens;
         rows.push(("lens", format!("{written}: {}", lens(view))));
     }
-    rows.extend(world(&scene));
+    rows.extend(self::world(&scene, &world));
     rows.push(("frames", duration(&scene)));
     let (count, looked_at) = (count(&frames), views.len() + errors.len());
     if looked_at as i64 != count {
@@ -50,7 +51,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    for warning in costs::warnings(&scene, &views) {
+    for warning in costs::warnings(&world, &views) {
         console.warn(&warning);
     }
     match errors.first() {
@@ -121,12 +122,11 @@ fn lens(view: &View) -> String {
     text
 }
 
-fn world(scene: &Scene) -> Vec<(&'static str, String)> {
-    let world = scene.world();
+fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     let mut rows = vec![("spheres", spheres(world.spheres()))];
     rows.extend(bounds(world.spheres()));
     for cloud in scene.clouds() {
-        rows.extend(self::cloud(scene, cloud));
+        rows.extend(self::cloud(scene, world, cloud));
     }
     let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
@@ -156,13 +156,13 @@ fn world(scene: &Scene) -> Vec<(&'static str, String)> {
 }
 
 /// A table, and a camera that has all of it in the picture.
-fn cloud(scene: &Scene, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
+fn cloud(scene: &Scene, world: &World, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
     const ELEVATION: f64 = 15.0;
-    let all = &scene.world().spheres()[cloud.spheres.clone()];
+    let all = &world.spheres()[cloud.spheres.clone()];
     let file = cloud.file.shown();
     let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
     rows.extend(bounds(all));
-    if let Some((target, radius)) = scene.orbit_around(cloud.spheres.clone(), ELEVATION) {
+    if let Some((target, radius)) = scene.orbit_around(all, ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
         let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
         rows.push(("  seen by", camera));

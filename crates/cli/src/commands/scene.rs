@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use marbles_core::View;
+use marbles_core::{View, World};
 use marbles_scene::{Progress, Scene};
 
 use crate::base::failure::Failure;
@@ -41,7 +41,13 @@ pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
     if let Some(bar) = &bar {
         bar.finish_and_clear();
     }
-    scene.map_err(|error| Failure::Scene(Box::new(error)))
+    let scene = scene.map_err(|error| Failure::Scene(Box::new(error)))?;
+    if !quiet {
+        for warning in scene.warnings() {
+            console.warn(warning);
+        }
+    }
+    Ok(scene)
 }
 
 /// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where
@@ -64,6 +70,17 @@ pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, F
     }
     let view = scene.view(frame);
     view.map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// The world of the frame that `--frame` names; of the first where it names none.
+pub(super) fn world(scene: &Scene, frame: Option<i32>) -> Result<World, Failure> {
+    world_of(scene, frame.unwrap_or(*frames_of(scene).start()))
+}
+
+/// The world of a frame.
+pub(super) fn world_of(scene: &Scene, frame: i32) -> Result<World, Failure> {
+    let world = scene.world_at(frame);
+    world.map_err(|error| Failure::Scene(Box::new(error)))
 }
 
 /// The progress of reading a table, in a line.

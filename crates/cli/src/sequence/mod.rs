@@ -15,6 +15,7 @@ mod reorder_buffer;
 pub(crate) mod request;
 mod results;
 mod source;
+mod steps;
 mod strip_encoder;
 mod workers;
 mod writer;

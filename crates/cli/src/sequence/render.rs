@@ -1,7 +1,6 @@
-//! The rendering of a sequence: threads that render, and one that writes.
+//! The rendering of a sequence: threads that render, one that writes, and one that reads what changes over time.
 
 use std::panic;
-use std::sync::OnceLock;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
@@ -11,6 +10,7 @@ use super::outcome::Outcome;
 use super::pipeline::Pipeline;
 use super::request::Request;
 use super::source::Source;
+use super::steps::Steps;
 use super::{workers, writer};
 use crate::base::failure::Failure;
 use crate::terminal::interrupt;
@@ -39,10 +39,13 @@ pub(crate) fn render(
                 writer::write_files(receiver, &pipeline)
             }
         });
+        let (steps, reading) = Steps::new(request);
+        if let Some(task) = reading {
+            scope.spawn(|| task.run(&request.scene));
+        }
         threads.install(|| {
             let _closing = pipeline.buffer.closing();
-            let renderers = OnceLock::new();
-            let mut source = Source::new(&pipeline, &renderers, sender);
+            let mut source = Source::new(&pipeline, steps, sender);
             workers::run(|| source.next());
         });
         let written = writer.join();

@@ -4,16 +4,18 @@ use std::collections::VecDeque;
 use std::iter::Peekable;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::sync::mpsc::{SyncSender, channel};
 
 use blake3::Hash;
-use marbles_core::{Renderer, Rendering, Sink};
+use marbles_core::{Exposure, Renderer, Rendering, Sink};
+use self_cell::self_cell;
 
-use super::digest::{self, Digests, hashes_of_spheres};
+use super::digest;
 use super::messages;
 use super::pipeline::{Order, Pipeline};
+use super::steps::{Step, Steps};
 use super::strip_encoder::{LayerEncoder, OpenStrip, PictureEncoder};
 use super::workers::SharedWork;
 use crate::base::failure::Failure;
@@ -27,14 +29,11 @@ use crate::formats::{load, sidecar};
 /// Gives pictures to render, and orders to write them.
 pub(super) struct Source<'a> {
     pipeline: &'a Pipeline<'a>,
-    /// Ready as soon as a frame is; one for each picture of a frame, and then one for each layer.
-    renderers: &'a OnceLock<Vec<Renderer<'a>>>,
+    steps: Steps<'a>,
     writer: SyncSender<Order>,
     shots: Peekable<Box<dyn Iterator<Item = Shot> + Send + 'a>>,
     /// Pictures that another process is rendering.
     postponed: VecDeque<Shot>,
-    /// One for each picture of a frame.
-    digests: Vec<Digests>,
     left_over: LeftOver,
     /// The number of pictures that were begun.
     begun: u64,
@@ -50,10 +49,24 @@ struct Shot {
 
 /// Pictures of a frame that threads render together.
 pub(super) struct InFlight<'a> {
-    rendering: Rendering<'a>,
+    rendering: RenderingOfStep<'a>,
     pictures: Vec<PictureEncoder<'a>>,
     pipeline: &'a Pipeline<'a>,
 }
+
+/// The world that is rendered, and how it is seen.
+struct Seen<'a> {
+    step: Arc<Step>,
+    exposure: Exposure<'a>,
+}
+
+self_cell!(
+    struct RenderingOfStep<'a> {
+        owner: Seen<'a>,
+        #[not_covariant]
+        dependent: Rendering,
+    }
+);
 
 /// The decision about a picture.
 enum Decision {
@@ -66,6 +79,7 @@ enum Decision {
 
 /// A picture that is wanted.
 struct Wanted {
+    step: Arc<Step>,
     facts: Facts,
     part: usize,
     path: PathBuf,
@@ -77,7 +91,7 @@ impl<'a> Source<'a> {
     /// Begins before the first frame. Orders go to `writer`.
     pub(super) fn new(
         pipeline: &'a Pipeline<'a>,
-        renderers: &'a OnceLock<Vec<Renderer<'a>>>,
+        steps: Steps<'a>,
         writer: SyncSender<Order>,
     ) -> Self {
         let request = pipeline.request;
@@ -87,29 +101,12 @@ impl<'a> Source<'a> {
             .iter()
             .flat_map(move |frame| (0..parts).map(move |part| Shot { frame, part }));
         let shots: Box<dyn Iterator<Item = Shot> + Send + 'a> = Box::new(shots);
-        let world = request.scene.world();
-        let spheres = hashes_of_spheres(world);
-        let (names, layers) = (&request.scene.description().lights, request.layer_names());
-        let digests = request.parts.iter().map(|part| {
-            let centers = request.centers.filter(|_| part.has_centers());
-            let (settings, encoding) = (&request.settings, request.encoding);
-            Digests::new(
-                &part.of(world),
-                &spheres,
-                settings,
-                encoding,
-                centers.as_ref(),
-            )
-            .with_names(part.names_of(names))
-            .with_layers(&layers)
-        });
         Self {
             pipeline,
-            renderers,
+            steps,
             writer,
             shots: shots.peekable(),
             postponed: VecDeque::new(),
-            digests: digests.collect(),
             left_over: LeftOver::default(),
             begun: 0,
         }
@@ -185,13 +182,14 @@ impl<'a> Source<'a> {
     ) -> Result<Decision, Failure> {
         let request = self.pipeline.request;
         let view = request.view(frame)?;
+        let step = self.steps.of(frame)?;
         let exposure = request.scene.exposure(&view);
         let facts = Facts {
             view,
             frame,
             frames_per_second: request.frames_per_second,
             method: request.settings.method,
-            digest: self.digests[part].of(&digest::Shot {
+            digest: step.digests[part].of(&digest::Shot {
                 exposure: &exposure,
                 frame,
                 // Other files do not tell it, and an animated one keeps no digest.
@@ -228,6 +226,7 @@ impl<'a> Source<'a> {
             Some(file)
         };
         Ok(Decision::Render(Box::new(Wanted {
+            step,
             facts,
             part,
             path: path.to_owned(),
@@ -242,22 +241,12 @@ impl<'a> Source<'a> {
         let Pipeline {
             request, progress, ..
         } = pipeline;
-        let renderers = self.renderers.get_or_init(|| {
-            let world = request.scene.world();
-            progress.prepare(world.spheres().len());
-            let renderer = Renderer::new(world);
-            let parts = request.parts.iter().map(|part| part.light);
-            let layers = request.layers.iter().map(|layer| Some(layer.light));
-            let lights = parts.chain(layers);
-            let renderers = lights.map(|light| match light {
-                Some(light) => renderer.under(light),
-                None => renderer.clone(),
-            });
-            renderers.collect()
-        });
         let parts: Vec<usize> = wanted.iter().map(|picture| picture.part).collect();
         let (first, last) = (*parts.first()?, *parts.last()?);
-        let exposure = request.scene.exposure(&wanted[0].facts.view);
+        let seen = Seen {
+            step: Arc::clone(&wanted[0].step),
+            exposure: request.scene.exposure(&wanted[0].facts.view),
+        };
         let encoder = &pipeline.encoders[first];
         let region = encoder.form.region;
         let mut pictures = Vec::new();
@@ -266,20 +255,25 @@ impl<'a> Source<'a> {
             progress.begin(self.begun, region.size().pixels() * encoder.layers() as u64);
             self.begun += 1;
         }
-        // Where there are layers, the frame has one picture, and they come after it.
-        let own = parts.iter().map(|&part| &renderers[part]);
-        let own = own.chain(&renderers[request.parts.len()..]);
-        let renderers: Vec<&Renderer<'_>> = own.collect();
         Some(InFlight {
-            rendering: Rendering::of_each(
-                &renderers,
-                exposure,
-                region.window,
-                &request.settings,
-                encoder.bands(),
-                // The part that has them is the last.
-                pipeline.encoders[last].geometry().as_ref(),
-            ),
+            rendering: RenderingOfStep::new(seen, |Seen { step, exposure }| {
+                let begin = || progress.prepare(step.spheres());
+                step.with_renderers(request, begin, |renderers| {
+                    // Where there are layers, the frame has one picture, and they come after it.
+                    let own = parts.iter().map(|&part| &renderers[part]);
+                    let own = own.chain(&renderers[request.parts.len()..]);
+                    let renderers: Vec<&Renderer<'_>> = own.collect();
+                    Rendering::of_each(
+                        &renderers,
+                        exposure.clone(),
+                        region.window,
+                        &request.settings,
+                        encoder.bands(),
+                        // The part that has them is the last.
+                        pipeline.encoders[last].geometry().as_ref(),
+                    )
+                })
+            }),
             pictures,
             pipeline,
         })
@@ -298,6 +292,7 @@ impl<'a> Source<'a> {
             part,
             path,
             file,
+            ..
         } = wanted;
         let encoder = &encoders[part];
         let first_piece = self.begun * u64::from(encoder.pieces());
@@ -334,7 +329,7 @@ fn is_there(
 
 impl SharedWork for InFlight<'_> {
     fn left(&self) -> u32 {
-        self.rendering.strips_left()
+        self.rendering.with_dependent(|_, rendering| rendering.strips_left())
     }
 
     fn help(&self) -> ControlFlow<()> {
@@ -344,14 +339,17 @@ impl SharedWork for InFlight<'_> {
         let layers = pictures.flat_map(|(picture, open)| picture.layers(open));
         let layers: Vec<LayerEncoder<'_, '_>> = layers.collect();
         let sinks: Vec<&dyn Sink> = layers.iter().map(|layer| layer as &dyn Sink).collect();
-        let rendered = self.rendering.help_each(&sinks, &|pixels| {
+        let progress = |pixels| {
             self.pipeline.progress.advance(pixels);
             if stop() {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        });
+        };
+        let rendered = self
+            .rendering
+            .with_dependent(|_, rendering| rendering.help_each(&sinks, &progress));
         // Where the writer wants nothing more of these pictures, the next ones are rendered.
         if rendered.is_err() && (stop() || self.pipeline.buffer.is_closed()) {
             ControlFlow::Break(())

@@ -42,7 +42,7 @@ impl Scene {
     ///
     /// # Errors
     /// As [`Self::load`].
-    pub fn load_watched(path: &Path, watch: &dyn Fn(Progress<'_>)) -> Result<Self, SceneError> {
+    pub fn load_watched(path: &Path, watch: &(dyn Fn(Progress<'_>) + Sync)) -> Result<Self, SceneError> {
         if path.is_dir() {
             let reason = "expected a scene file, found a folder";
             return Err(SceneError::unreadable(path, reason));
@@ -91,7 +91,7 @@ impl Scene {
     fn parse_watched(
         text: &str,
         path: &Path,
-        watch: &dyn Fn(Progress<'_>),
+        watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Self, SceneError> {
         let text = without_byte_order_mark(text);
         let (draft, faults) = collect(text, || {
@@ -167,7 +167,7 @@ impl Draft {
         self,
         text: &str,
         path: &Path,
-        watch: &dyn Fn(Progress<'_>),
+        watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Scene, SceneError> {
         let mut scene = self.scene;
         let folder = path.parent().unwrap_or(Path::new(""));
@@ -233,7 +233,7 @@ impl Scene {
         &mut self,
         cloud: &mut OpenCloud,
         count: &mut usize,
-        watch: &dyn Fn(Progress<'_>),
+        watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Step, CloudError> {
         if cloud.has_to_learn() {
             cloud.learn()?;

@@ -3,11 +3,11 @@
 mod description;
 mod load;
 
-use std::ops::{Range, RangeInclusive};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, View, World};
+use marbles_core::{Angle, Camera, Exposure, Lens, Light, Pose, Sphere, View, World};
 
 use crate::motion::{
     CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
@@ -98,7 +98,11 @@ impl Scene {
             zoom,
             width: self.width,
             height: self.height,
-            frame: i64::from(self.lights.looped(self.motion.looped(frame))),
+            // What a camera frames alone tells turns apart.
+            frame: i64::from(match self.framed.is_empty() {
+                true => self.lights.looped(motion.looped(frame)),
+                false => frame,
+            }),
         })
     }
 
@@ -175,17 +179,16 @@ impl Scene {
     }
 
     /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens
-    /// that has some of the world's spheres in its picture from any azimuth.
+    /// that has these spheres in its picture from any azimuth.
     ///
     /// `None` for no spheres, for a parallel lens, whose picture no distance makes larger, and where the lens is shifted,
     /// so that no target is in the middle.
-    pub fn orbit_around(&self, spheres: Range<usize>, elevation: f64) -> Option<(DVec3, f64)> {
+    pub fn orbit_around(&self, spheres: &[Sphere], elevation: f64) -> Option<(DVec3, f64)> {
         const FILL: f64 = 0.9;
         if self.lens.shift != DVec2::ZERO || self.lens.is_parallel() {
             return None;
         }
         let axes = axes_of_orbit([0.0, elevation, 0.0]);
-        let spheres = self.world.spheres().get(spheres)?;
         let framing = Framing::new(spheres, &self.picture(FILL), Turning::Around, axes)?;
         Some((framing.target, framing.distance))
     }

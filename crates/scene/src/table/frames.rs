@@ -38,7 +38,7 @@ impl<'watch> Frames<'watch> {
     /// Opens the table at `path`. `watch` is called with the bytes that were read and those that there are.
     pub(crate) fn open(
         path: &Path,
-        watch: &'watch dyn Fn(u64, u64),
+        watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Self, TableError> {
         let input = Input::new(Source::open(path, watch)?)?;
         let format = Format::of(path, input.head());

@@ -14,7 +14,7 @@ pub(crate) struct Source<'watch> {
     /// The bytes of the file that were read.
     read: u64,
     /// Called with the number of bytes read so far, and those that there are.
-    watch: &'watch dyn Fn(u64, u64),
+    watch: &'watch (dyn Fn(u64, u64) + Sync),
 }
 
 /// The way from the file to its bytes.
@@ -25,7 +25,7 @@ enum Stream {
 
 impl<'watch> Source<'watch> {
     /// Opens the file at `path`. `watch` is called after every reading, of which there is one for megabytes.
-    pub(crate) fn open(path: &Path, watch: &'watch dyn Fn(u64, u64)) -> io::Result<Self> {
+    pub(crate) fn open(path: &Path, watch: &'watch (dyn Fn(u64, u64) + Sync)) -> io::Result<Self> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
         if metadata.is_dir() {

@@ -1,7 +1,7 @@
 //! Tables of every format, good and bad, read by way of a scene.
 
-use std::cell::RefCell;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicU32, Ordering};
 use std::{env, fs, process};
 
@@ -242,14 +242,14 @@ fn reading_tells_how_far_it_is() {
         );
         let path = folder.0.join("scene.ron");
         fs::write(&path, scene).unwrap();
-        let told = RefCell::new(Vec::new());
+        let told = Mutex::new(Vec::new());
         let scene = Scene::load_watched(&path, &|progress| {
             assert_eq!(progress.table, Path::new(name));
             assert_eq!(progress.size, bytes.len() as u64);
-            told.borrow_mut().push(progress.read);
+            told.lock().unwrap().push(progress.read);
         });
         assert_eq!(scene.unwrap().world().spheres().len(), ROWS);
-        let told = told.into_inner();
+        let told = told.into_inner().unwrap();
         assert!(told.is_sorted() && told.last() == Some(&(bytes.len() as u64)));
         // In megabytes, so that telling costs nothing.
         assert!((3..30).contains(&told.len()), "{}", told.len());

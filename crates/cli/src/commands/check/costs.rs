@@ -1,7 +1,6 @@
 //! What in a scene costs much, or cannot be known to small tolerances.
 
-use marbles_core::{Grain, Sphere, View};
-use marbles_scene::Scene;
+use marbles_core::{Grain, Sphere, View, World};
 
 use crate::base::numbers::short;
 
@@ -15,18 +14,18 @@ const COARSE: f64 = 1e-6;
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
 /// Plain sentences: what costs much and where, what follows, and what to do.
-pub(super) fn warnings(scene: &Scene, views: &[View]) -> Vec<String> {
+pub(super) fn warnings(world: &World, views: &[View]) -> Vec<String> {
     let step = views.len().div_ceil(VIEWS).max(1);
     let views: Vec<&View> = views.iter().step_by(step).collect();
-    let (grains, highlights) = (fine_grains(scene, &views), narrow_highlights(scene, &views));
+    let (grains, highlights) = (fine_grains(world, &views), narrow_highlights(world, &views));
     let all = [grains, highlights, coarse_lens(&views)];
     all.into_iter().flatten().collect()
 }
 
 /// Bumps that are smaller than pixels even where their sphere is nearest to the eye.
-fn fine_grains(scene: &Scene, views: &[&View]) -> Option<String> {
-    let (place, grain, pixel) = smaller_than_pixels(scene, views, |index, _| {
-        let roughness = scene.world().material(index).roughness.as_ref()?;
+fn fine_grains(world: &World, views: &[&View]) -> Option<String> {
+    let (place, grain, pixel) = smaller_than_pixels(world, views, |index, _| {
+        let roughness = world.material(index).roughness.as_ref()?;
         match roughness.grain {
             Grain::Surface(size) if roughness.amplitude > 0.0 => Some(size),
             Grain::Surface(_) | Grain::Pixel => None,
@@ -40,9 +39,9 @@ fn fine_grains(scene: &Scene, views: &[&View]) -> Option<String> {
 }
 
 /// Highlights whose width at half of their height is less than a pixel's.
-fn narrow_highlights(scene: &Scene, views: &[&View]) -> Option<String> {
-    let (place, width, pixel) = smaller_than_pixels(scene, views, |index, sphere| {
-        let highlight = scene.world().material(index).highlight?;
+fn narrow_highlights(world: &World, views: &[&View]) -> Option<String> {
+    let (place, width, pixel) = smaller_than_pixels(world, views, |index, sphere| {
+        let highlight = world.material(index).highlight?;
         // cos(θ) to the power of s is a half at about θ = √(2 ln 2 / s).
         let angle = (2.0 * std::f64::consts::LN_2 / highlight.shininess).sqrt();
         (highlight.strength > 0.0).then(|| 2.0 * angle.min(1.0) * sphere.radius())
@@ -69,13 +68,13 @@ fn coarse_lens(views: &[&View]) -> Option<String> {
 /// The first sphere on which something is smaller than a pixel in all views that look at it, the count of
 /// others, how large that is, and the pixel there.
 fn smaller_than_pixels(
-    scene: &Scene,
+    world: &World,
     views: &[&View],
     size: impl Fn(usize, &Sphere) -> Option<f64>,
 ) -> Option<(String, String, String)> {
     let mut first = None;
     let mut others = 0;
-    for (index, sphere) in scene.world().spheres().iter().enumerate() {
+    for (index, sphere) in world.spheres().iter().enumerate() {
         let Some(size) = size(index, sphere) else {
             continue;
         };
@@ -119,6 +118,8 @@ fn pixel_at_one(view: &View) -> f64 {
 mod tests {
     use std::path::Path;
 
+    use marbles_scene::Scene;
+
     use super::*;
 
     /// The warnings of a scene with a ball of this material, and of this lens from this far away.
@@ -132,7 +133,7 @@ mod tests {
         );
         let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
         let view = scene.view(1).unwrap();
-        warnings(&scene, &[view])
+        warnings(scene.world(), &[view])
     }
 
     #[test]

@@ -49,11 +49,13 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     let view = arguments.size.map_or(view, |size| size.resize(view));
     let lights = scene.lights(&view);
     let layout = Layout::new(arguments, &view, &lights)?;
-    let gain = gain(scene.world(), &lights);
+    let world = pool.install(|| scene::world(&scene, arguments.frame))?;
+    let gain = gain(&world, &lights);
     let request = request(arguments, scene, (&layout, lights.len()), gain)?;
     interrupt::listen(console);
 
-    layout.write(arguments, &request, (&view, gain), &pool)?;
+    layout.write(arguments, &request, (&view, gain), (&world, &pool))?;
+    drop(world);
     let (form, quiet) = (arguments.progress, arguments.quiet);
     let progress = Progress::new(console, form, quiet, request.pictures());
     let outcome = render(&request, &pool, &progress);
@@ -98,9 +100,9 @@ impl Layout {
         arguments: &DatasetArguments,
         request: &Request,
         (view, gain): (&View, f64),
-        pool: &ThreadPool,
+        (world, pool): (&World, &ThreadPool),
     ) -> Result<(), Failure> {
-        let renderer = || Renderer::new(request.scene.world());
+        let renderer = || Renderer::new(world);
         let centers = pool.install(|| Centers::of(&renderer(), view));
         let folder = &arguments.output;
         let names = folder.join("filenames.txt");

@@ -32,7 +32,8 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     interrupt::listen(console);
     let progress = Progress::new(console, None, false, 1);
     progress.begin(0, Size::of(&view).pixels());
-    let render = || render(&scene, &view, arguments.tolerance, Some(&progress));
+    let world = threads.install(|| scene::world(&scene, arguments.frame))?;
+    let render = || render((&scene, &world), &view, arguments.tolerance, Some(&progress));
     let picture = threads.install(render);
     progress.finish();
     let Ok(picture) = picture else {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use marbles_core::{Cancelled, Method, Renderer, Settings, View};
+use marbles_core::{Cancelled, Method, Renderer, Settings, View, World};
 use marbles_scene::Scene;
 
 use crate::base::size::Size;
@@ -26,12 +26,11 @@ impl Picture {
 
 /// Renders on the threads of the current pool.
 pub(super) fn render(
-    scene: &Scene,
+    (scene, world): (&Scene, &World),
     view: &View,
     tolerance: f64,
     progress: Option<&Progress<'_>>,
 ) -> Result<Picture, Cancelled> {
-    let world = scene.world();
     if let Some(progress) = progress {
         progress.prepare(world.spheres().len());
     }

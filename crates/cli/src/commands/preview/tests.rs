@@ -93,7 +93,7 @@ fn pixels_are_those_of_a_file() {
         enlarges: true,
     };
     let view = area.fit(scene.view(1).unwrap());
-    let picture = render(&scene, &view, 1e-2, None).unwrap();
+    let picture = render((&scene, scene.world()), &view, 1e-2, None).unwrap();
     assert_eq!((picture.size.width, picture.size.height), (20, 20));
     assert_eq!(picture.codes.as_flattened(), codes);
     assert!(codes.iter().any(|&code| code > 100) && codes.contains(&0));

@@ -73,7 +73,8 @@ fn look(
     }
     let scene = scene?;
     let view = area.fit(scene::view(&scene, arguments.frame)?);
-    Ok(render(&scene, &view, arguments.tolerance, None))
+    let world = scene::world(&scene, arguments.frame)?;
+    Ok(render((&scene, &world), &view, arguments.tolerance, None))
 }
 
 /// The tables that a scene names.

@@ -49,10 +49,11 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     for path in outputs() {
         prepare(path)?;
     }
-    check_memory(Size::of(&view), Channels::of(scene.world(), false))?;
+    let world = scene::world(&scene, arguments.frame)?;
+    check_memory(Size::of(&view), Channels::of(&world, false))?;
 
     let progress = Progress::new(console, arguments.quiet);
-    let renderer = Renderer::new(scene.world());
+    let renderer = Renderer::new(&world);
     let plan = Plan {
         renderer: &renderer,
         exposure: &scene.exposure(&view),

@@ -39,13 +39,13 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
 
     let table = Table {
         scene: &scene,
-        renderer: &pool.install(|| Renderer::new(scene.world())),
         tolerance: arguments.tolerance,
         pool: &pool,
     };
+    let mut spheres = 0;
     let written = save(&path, |mut file| {
         let mut to = BufWriter::new(file.file());
-        table.write(&views, &mut to)?;
+        spheres = table.write(&views, &mut to)?;
         to.flush()?;
         drop(to);
         Ok(file)
@@ -59,7 +59,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
         Ok(()) => {}
     }
     if !arguments.quiet {
-        let (spheres, frames) = (scene.world().spheres().len(), views.len());
+        let frames = views.len();
         let path = path.shown();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         console.result(&format!(
@@ -71,15 +71,15 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
     Ok(status::SUCCESS)
 }
 
-/// The views of the frames, which have to be the scene's where they are asked for.
+/// The frames and their views, which have to be the scene's where they are asked for.
 fn views(
     scene: &Scene,
     frames: &FrameList,
     arguments: &SpheresArguments,
-) -> Result<Vec<View>, Failure> {
+) -> Result<Vec<(i32, View)>, Failure> {
     let view = |frame| {
         let view = scene::view_of(scene, frame, "--frames")?;
-        Ok(arguments.size.map_or(view, |size| size.resize(view)))
+        Ok((frame, arguments.size.map_or(view, |size| size.resize(view))))
     };
     frames.iter().map(view).collect()
 }
@@ -94,29 +94,38 @@ fn named_after(scene: &Path) -> PathBuf {
 /// What the table is made of.
 struct Table<'a> {
     scene: &'a Scene,
-    renderer: &'a Renderer<'a>,
     tolerance: f64,
     pool: &'a ThreadPool,
 }
 
 impl Table<'_> {
-    /// Writes the rows of all frames.
-    fn write(&self, views: &[View], to: &mut impl Write) -> Result<(), Fault> {
+    /// Writes the rows of all frames; returns the number of spheres in the first of them.
+    fn write(&self, views: &[(i32, View)], to: &mut impl Write) -> Result<usize, Fault> {
         to.write_all(HEADER.as_bytes())?;
         let go_on = |_| match interrupt::requested() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        for view in views {
-            let measured = self
-                .pool
-                .install(|| self.renderer.visible_areas(view, self.tolerance, &go_on));
-            let areas = measured.map_err(|_| Fault::Stopped)?;
-            let spheres = self.scene.world().spheres().iter();
-            for (id, (sphere, visible)) in spheres.zip(&areas).enumerate() {
-                write_row(to, view, (id, sphere), visible)?;
+        let mut count = None;
+        let same_step = |one: &(i32, View), other: &(i32, View)| {
+            self.scene.steps_at(one.0) == self.scene.steps_at(other.0)
+        };
+        for views in views.chunk_by(same_step) {
+            let world = self.pool.install(|| scene::world_of(self.scene, views[0].0));
+            let world = world.map_err(Fault::Failed)?;
+            let renderer = self.pool.install(|| Renderer::new(&world));
+            count.get_or_insert(world.spheres().len());
+            for (_, view) in views {
+                let measured = self
+                    .pool
+                    .install(|| renderer.visible_areas(view, self.tolerance, &go_on));
+                let areas = measured.map_err(|_| Fault::Stopped)?;
+                let spheres = world.spheres().iter();
+                for (id, (sphere, visible)) in spheres.zip(&areas).enumerate() {
+                    write_row(to, view, (id, sphere), visible)?;
+                }
             }
         }
-        Ok(())
+        Ok(count.unwrap_or(0))
     }
 }

@@ -42,7 +42,7 @@ pub(crate) struct Step {
 }
 
 /// Progress that nobody watches.
-const UNWATCHED: &dyn Fn(u64, u64) = &|_, _| {};
+const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
 
 impl OpenCloud {
     /// Finds the steps of a cloud.
@@ -147,7 +147,7 @@ impl OpenCloud {
     pub(crate) fn read(
         &self,
         step: usize,
-        watch: &dyn Fn(Progress<'_>),
+        watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Step, CloudError> {
         let table = self.path(step);
         let table = match self.steps {
@@ -212,7 +212,7 @@ impl OpenCloud {
     }
 
     /// The rows of a step, and whether frames follow that are not read.
-    fn rows(&self, step: usize, watch: &dyn Fn(u64, u64)) -> Result<(Rows, bool), CloudError> {
+    fn rows(&self, step: usize, watch: &(dyn Fn(u64, u64) + Sync)) -> Result<(Rows, bool), CloudError> {
         let path = self.path(step);
         let rows = match &self.steps {
             Steps::Frames(places) => {
@@ -227,7 +227,7 @@ impl OpenCloud {
     fn first_frame(
         &self,
         path: &Path,
-        watch: &dyn Fn(u64, u64),
+        watch: &(dyn Fn(u64, u64) + Sync),
     ) -> Result<(Rows, bool), TableError> {
         let mut frames = Frames::open(path, watch)?;
         let rows = frames.read(&self.cloud.request)?;

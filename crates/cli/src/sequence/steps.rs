@@ -1,0 +1,252 @@
+//! The worlds of a sequence, each ready to be rendered: one, or one for each step of clouds that change over time.
+//!
+//! A thread of its own reads the step that comes next while one is rendered. No more than two are in memory: it waits
+//! until the one before is dropped.
+
+use std::iter::Peekable;
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
+use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+
+use marbles_core::{Renderer, World};
+use marbles_scene::{Scene, SceneError, StepKey};
+use rayon::ThreadPoolBuilder;
+use self_cell::self_cell;
+
+use super::digest::{Digests, hashes_of_spheres};
+use super::request::Request;
+use crate::base::failure::Failure;
+
+/// The most steps that are in memory.
+const MOST: usize = 2;
+
+/// A world, and what was made ready of it.
+pub(super) struct Step {
+    key: Option<StepKey>,
+    world: PreparedWorld,
+    /// One for each picture of a frame.
+    pub(super) digests: Vec<Digests>,
+    /// Counts it among those in memory, as long as it is.
+    _place: Place,
+}
+
+self_cell!(
+    struct PreparedWorld {
+        owner: World,
+        #[not_covariant]
+        dependent: Renderers,
+    }
+);
+
+/// Ready as soon as a frame is; one for each picture of a frame, and then one for each layer.
+type Renderers<'world> = OnceLock<Vec<Renderer<'world>>>;
+
+impl Step {
+    fn new(request: &Request, key: Option<StepKey>, world: World, place: Place) -> Self {
+        let spheres = hashes_of_spheres(&world);
+        let names = &request.scene.description().lights;
+        let layers = request.layer_names();
+        let digests = request.parts.iter().map(|part| {
+            let centers = request.centers.filter(|_| part.has_centers());
+            let (settings, encoding) = (&request.settings, request.encoding);
+            let of_light = part.of(&world);
+            Digests::new(&of_light, &spheres, settings, encoding, centers.as_ref())
+                .with_names(part.names_of(names))
+                .with_layers(&layers)
+        });
+        Self {
+            key,
+            digests: digests.collect(),
+            world: PreparedWorld::new(world, |_| OnceLock::new()),
+            _place: place,
+        }
+    }
+
+    /// The number of its spheres.
+    pub(super) fn spheres(&self) -> usize {
+        self.world.borrow_owner().spheres().len()
+    }
+
+    /// Hands over the renderers, which are made when they are wanted first; `begin` is called before.
+    pub(super) fn with_renderers<'a, T>(
+        &'a self,
+        request: &Request,
+        begin: impl FnOnce(),
+        take: impl for<'world> FnOnce(&'a [Renderer<'world>]) -> T,
+    ) -> T {
+        self.world.with_dependent(|world, renderers| {
+            let renderers = renderers.get_or_init(|| {
+                begin();
+                let renderer = Renderer::new(world);
+                let parts = request.parts.iter().map(|part| part.light);
+                let layers = request.layers.iter().map(|layer| Some(layer.light));
+                let lights = parts.chain(layers);
+                let renderers = lights.map(|light| match light {
+                    Some(light) => renderer.under(light),
+                    None => renderer.clone(),
+                });
+                renderers.collect()
+            });
+            take(renderers)
+        })
+    }
+}
+
+/// The steps of a sequence, of which one is at hand.
+pub(super) struct Steps<'a> {
+    request: &'a Request,
+    current: Option<Arc<Step>>,
+    /// The frame whose step is being read.
+    asked: Option<i32>,
+    /// The frames whose steps were not yet read ahead.
+    upcoming: Peekable<Box<dyn Iterator<Item = i32> + Send + 'a>>,
+    reader: Option<Reader>,
+    places: Places,
+}
+
+/// The thread that reads.
+struct Reader {
+    frames: Sender<i32>,
+    worlds: Receiver<(Result<World, SceneError>, Place)>,
+}
+
+/// The other ends of a [`Reader`].
+pub(super) struct ReaderTask {
+    frames: Receiver<i32>,
+    worlds: SyncSender<(Result<World, SceneError>, Place)>,
+    places: Places,
+}
+
+impl<'a> Steps<'a> {
+    /// The steps of a request, and the task of the thread that reads them, where there are any to read.
+    pub(super) fn new(request: &'a Request) -> (Self, Option<ReaderTask>) {
+        let places = Places::default();
+        let (reader, task) = if request.scene.has_steps() {
+            let (frames, wanted) = channel();
+            let (sender, worlds) = sync_channel(1);
+            let task = ReaderTask {
+                frames: wanted,
+                worlds: sender,
+                places: places.clone(),
+            };
+            (Some(Reader { frames, worlds }), Some(task))
+        } else {
+            (None, None)
+        };
+        let frames: Box<dyn Iterator<Item = i32> + Send + 'a> = Box::new(request.frames.iter());
+        let steps = Self {
+            request,
+            current: None,
+            asked: None,
+            upcoming: frames.peekable(),
+            reader,
+            places,
+        };
+        (steps, task)
+    }
+
+    /// The step that a frame shows.
+    ///
+    /// # Errors
+    /// Fails where its tables cannot be read.
+    pub(super) fn of(&mut self, frame: i32) -> Result<Arc<Step>, Failure> {
+        let request = self.request;
+        let scene = &request.scene;
+        let key = scene.steps_at(frame);
+        if let Some(current) = self.current.as_ref().filter(|step| step.key == key) {
+            return Ok(Arc::clone(current));
+        }
+        self.current = None;
+        let (world, place) = match &self.reader {
+            None => (Ok(scene.world().clone()), self.places.take()),
+            Some(reader) => reader.read(scene, frame, key.as_ref(), &mut self.asked),
+        };
+        let world = world.map_err(|error| Failure::Work(error.to_string()))?;
+        let step = Arc::new(Step::new(request, key, world, place));
+        self.current = Some(Arc::clone(&step));
+        self.read_ahead(&step);
+        Ok(step)
+    }
+
+    /// Has the step read that is likely to come next.
+    fn read_ahead(&mut self, step: &Step) {
+        let Some(reader) = self.reader.as_ref().filter(|_| self.asked.is_none()) else {
+            return;
+        };
+        let scene = &self.request.scene;
+        let is_this = |frame: &i32| scene.steps_at(*frame) == step.key;
+        while self.upcoming.next_if(|frame| !is_this(frame)).is_some() {}
+        while self.upcoming.next_if(is_this).is_some() {}
+        if let Some(&frame) = self.upcoming.peek()
+            && reader.frames.send(frame).is_ok()
+        {
+            self.asked = Some(frame);
+        }
+    }
+}
+
+impl Reader {
+    /// The world of a frame, which may have been asked for before.
+    fn read(
+        &self,
+        scene: &Scene,
+        frame: i32,
+        key: Option<&StepKey>,
+        asked: &mut Option<i32>,
+    ) -> (Result<World, SceneError>, Place) {
+        let lost = "the reader ends after its frames";
+        if let Some(asked) = asked.take() {
+            let read = self.worlds.recv().expect(lost);
+            if scene.steps_at(asked).as_ref() == key {
+                return read;
+            }
+        }
+        self.frames.send(frame).expect(lost);
+        self.worlds.recv().expect(lost)
+    }
+}
+
+impl ReaderTask {
+    /// Reads worlds as long as some are wanted.
+    pub(super) fn run(self, scene: &Scene) {
+        // The threads that render are busy: what is asked of their pool waits for them.
+        let own = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+        for frame in self.frames {
+            let place = self.places.take();
+            let world = match &own {
+                Ok(pool) => pool.install(|| scene.world_at(frame)),
+                Err(_) => scene.world_at(frame),
+            };
+            if self.worlds.send((world, place)).is_err() {
+                return;
+            }
+        }
+    }
+}
+
+/// The places for steps in memory.
+#[derive(Clone, Default)]
+struct Places(Arc<(Mutex<usize>, Condvar)>);
+
+/// A place that is taken until it is dropped.
+struct Place(Places);
+
+impl Places {
+    /// Waits for a place.
+    fn take(&self) -> Place {
+        let (taken, changed) = &*self.0;
+        let mut taken = taken.lock().unwrap_or_else(PoisonError::into_inner);
+        while *taken >= MOST {
+            taken = changed.wait(taken).unwrap_or_else(PoisonError::into_inner);
+        }
+        *taken += 1;
+        Place(self.clone())
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let (taken, changed) = &*self.0.0;
+        *taken.lock().unwrap_or_else(PoisonError::into_inner) -= 1;
+        changed.notify_all();
+    }
+}
