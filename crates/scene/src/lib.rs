@@ -23,6 +23,6 @@ mod world;
 
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
-pub use scene::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene};
+pub use scene::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting};
 pub use text::harmless;
 pub use world::{Progress, ScaleKind, StepKey};

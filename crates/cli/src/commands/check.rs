@@ -26,7 +26,7 @@ const LIGHTS_LISTED: usize = 8;
 const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
-    let scene = scene::load(&arguments.scene, console, false)?;
+    let scene = scene::load(&arguments.scene, &arguments.options, console, false)?;
     let world = scene::world(&scene, None)?;
     if arguments.json {
         return json(&scene, arguments, console);

@@ -32,14 +32,41 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         console.speak_to(form.reader());
     }
     let threads = threads::start(arguments.threads)?;
-    let request = request(arguments, &threads, console)?;
+    if let ([_, _, ..], Some(output)) = (&arguments.scenes[..], &arguments.output)
+        && !output.as_os_str().to_string_lossy().contains(SCENE)
+    {
+        let why = format!("several scenes need a place for their names: {SCENE}");
+        return Err(Failure::unusable(output, &why));
+    }
+    let mut code = status::SUCCESS;
+    for scene in &arguments.scenes {
+        let ended = run_scene(arguments, scene, &threads, console)?;
+        code = code.max(ended);
+        if ended == status::INTERRUPTED {
+            break;
+        }
+    }
+    Ok(code)
+}
+
+/// The place for the name of the scene in names of files.
+const SCENE: &str = "{scene}";
+
+/// Renders one of the scenes.
+fn run_scene(
+    arguments: &RenderArguments,
+    scene: &Path,
+    threads: &ThreadPool,
+    console: &Console,
+) -> Result<u8, Failure> {
+    let request = request(arguments, scene, threads, console)?;
 
     interrupt::listen(console);
     prepare(&request.path(request.frames.first(), 0))?;
 
     let (form, quiet) = (arguments.progress, arguments.quiet);
     let progress = Progress::new(console, form, quiet, request.pictures());
-    let outcome = render(&request, &threads, &progress);
+    let outcome = render(&request, threads, &progress);
     progress.finish();
     let outcome = outcome?;
     // A frame has one picture, or one for each light.
@@ -58,23 +85,25 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
 /// Reads the scene and checks what can be before anything is rendered.
 pub(super) fn request(
     arguments: &RenderArguments,
+    path: &Path,
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<Request, Failure> {
-    let pattern = arguments.output.as_deref().map(Pattern::parse).transpose();
+    let output = arguments.output.as_deref().map(|output| output_of(output, path));
+    let pattern = output.as_deref().map(Pattern::parse).transpose();
     let pattern = pattern.map_err(Failure::Usage)?;
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
     let encoding = encoding(arguments, format)?;
 
     let silent = arguments.quiet || arguments.progress.is_some();
-    let scene = threads.install(|| scene::load(&arguments.scene, console, silent))?;
+    let scene = threads.install(|| scene::load(path, &arguments.options, console, silent))?;
     let frames = arguments.frames.clone();
     let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
     let pattern = pattern.unwrap_or_else(|| {
         let numbered = arguments.frames.is_some() || scene.frames().is_some();
-        Pattern::named_after(&arguments.scene, numbered)
+        Pattern::named_after(path, numbered)
     });
-    check_names(&pattern, &frames, arguments.output.as_deref())?;
+    check_names(&pattern, &frames, output.as_deref())?;
     let centers = (!arguments.channels.is_empty()).then(|| {
         CenterChannels::new(
             &arguments.channels,
@@ -109,7 +138,7 @@ pub(super) fn request(
         },
         frames_per_second: arguments.fps.or(scene.frames_per_second()),
         scene,
-        scene_path: arguments.scene.clone(),
+        scene_path: path.to_owned(),
         frames,
         parts,
         layers,
@@ -122,6 +151,15 @@ pub(super) fn request(
     };
     check_outputs(&request)?;
     Ok(request)
+}
+
+/// The output of the scene at `path`, whose name stands in its place.
+fn output_of(output: &Path, path: &Path) -> PathBuf {
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    match output.to_str() {
+        Some(text) if text.contains(SCENE) => PathBuf::from(text.replace(SCENE, &name)),
+        _ => output.to_owned(),
+    }
 }
 
 /// Refuses names that are too many or too few for the frames.

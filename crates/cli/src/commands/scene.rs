@@ -6,6 +6,7 @@ use std::path::Path;
 use marbles_core::{View, World};
 use marbles_scene::{Progress, Scene};
 
+use super::args::SceneOptions;
 use crate::base::failure::Failure;
 use crate::base::numbers;
 use crate::base::shown::Shown;
@@ -18,7 +19,12 @@ const LARGE: u64 = 1 << 20;
 
 /// Loads the scene file at `path`, and the tables that it names, on the threads of the current
 /// rayon pool.
-pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene, Failure> {
+pub(super) fn load(
+    path: &Path,
+    options: &SceneOptions,
+    console: &Console,
+    quiet: bool,
+) -> Result<Scene, Failure> {
     let bar = if quiet { None } else { bar(console) };
     let show = |line: String| {
         if let Some(bar) = &bar {
@@ -33,7 +39,7 @@ pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
             path.shown()
         ));
     }
-    let scene = Scene::load_watched(path, &|progress| {
+    let scene = Scene::load_with(path, &options.set, &|progress| {
         if progress.read.max(progress.size) >= LARGE {
             show(line(&progress));
         }
@@ -42,12 +48,29 @@ pub(super) fn load(path: &Path, console: &Console, quiet: bool) -> Result<Scene,
         bar.finish_and_clear();
     }
     let scene = scene.map_err(|error| Failure::Scene(Box::new(error)))?;
-    if !quiet {
-        for warning in scene.warnings() {
-            console.warn(warning);
+    warn(scene.warnings(), path, options, console)?;
+    Ok(scene)
+}
+
+/// Prints warnings about the scene at `path`, which `--strict` makes reasons to refuse it.
+pub(super) fn warn(
+    warnings: &[String],
+    path: &Path,
+    options: &SceneOptions,
+    console: &Console,
+) -> Result<(), Failure> {
+    for warning in warnings {
+        console.warn(warning);
+    }
+    match warnings.len() {
+        0 => Ok(()),
+        _ if !options.strict => Ok(()),
+        1 => Err(Failure::unusable(path, "with --strict the warning is an error")),
+        count => {
+            let why = format!("with --strict the {count} warnings are errors");
+            Err(Failure::unusable(path, &why))
         }
     }
-    Ok(scene)
 }
 
 /// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where

@@ -4,6 +4,7 @@ use std::fs::File as OpenFile;
 use std::io::{self, ErrorKind, Read as _};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::sync::Arc;
 
 use marbles_core::Lens;
@@ -13,7 +14,7 @@ use crate::file::{Camera, File, FrameOver, Materials};
 use crate::bounds::Bounds;
 use crate::motion::{CameraMotion, Framed, Lights};
 use crate::report::SceneError;
-use crate::text::{Fault, Placed, Read, Slice, collect, harmless, optional, reason, token};
+use crate::text::{Fault, Placed, Read, Slice, collect, harmless, optional, reason, set, token};
 use crate::values::MaterialName;
 use crate::table;
 use crate::world::{self, Cloud, CloudError, Learned, OpenCloud, Part, Progress, Scale, Series, Step};
@@ -34,15 +35,20 @@ impl Scene {
     /// Refuses what is not a readable file of at most 1 GiB, and everything that the format and
     /// those of the tables do not allow.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
-        Self::load_watched(path, &|_| {})
+        Self::load_with(path, &[], &|_| {})
     }
 
-    /// Loads as [`Self::load`] does, and calls `watch` each time that some megabytes of a table were
-    /// read.
+    /// Loads as [`Self::load`] does with the values of `settings` in place of the file's own, and calls `watch` each
+    /// time that some megabytes of a table were read.
     ///
     /// # Errors
-    /// As [`Self::load`].
-    pub fn load_watched(path: &Path, watch: &(dyn Fn(Progress<'_>) + Sync)) -> Result<Self, SceneError> {
+    /// As [`Self::load`]; places in messages are those of the file with the settings. Refuses settings of what the
+    /// file does not have.
+    pub fn load_with(
+        path: &Path,
+        settings: &[Setting],
+        watch: &(dyn Fn(Progress<'_>) + Sync),
+    ) -> Result<Self, SceneError> {
         if path.is_dir() {
             let reason = "expected a scene file, found a folder";
             return Err(SceneError::unreadable(path, reason));
@@ -65,7 +71,17 @@ impl Scene {
                 .map_or(Ok(text), |text| Err(text.len()))
         });
         match text {
-            Ok(text) => Self::parse_watched(text, path, watch),
+            Ok(text) if settings.is_empty() => Self::parse_watched(text, path, watch),
+            Ok(text) => {
+                let mut text = without_byte_order_mark(text).to_owned();
+                for Setting { path: at, value } in settings {
+                    text = set(&text, at, value).map_err(|message| {
+                        let message = format!("--set {at}: {message}");
+                        SceneError::unreadable(path, &message)
+                    })?;
+                }
+                Self::parse_watched(&text, path, watch)
+            }
             Err(valid_up_to) => {
                 let (valid, rest) = bytes.split_at(valid_up_to);
                 let valid = without_byte_order_mark(str::from_utf8(valid).unwrap_or_default());
@@ -103,6 +119,33 @@ impl Scene {
             Some(draft) if faults.is_empty() => draft.finish(text, path, watch),
             _ => Err(SceneError::refused(path, text, faults)),
         }
+    }
+}
+
+/// A value that takes the place of a scene file's own.
+#[derive(Clone, Debug, Eq, PartialEq)]
+pub struct Setting {
+    /// The place of the value, for example `lights[0].toward`.
+    path: String,
+    /// The value, as the file would have it.
+    value: String,
+}
+
+impl FromStr for Setting {
+    type Err = String;
+
+    /// Reads `PATH=VALUE`.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = "expected PATH=VALUE, such as `lights[0].intensity=2`";
+        let (path, value) = text.split_once('=').ok_or(expected)?;
+        let (path, value) = (path.trim(), value.trim());
+        if path.is_empty() || value.is_empty() {
+            return Err(expected.to_owned());
+        }
+        Ok(Self {
+            path: path.to_owned(),
+            value: value.to_owned(),
+        })
     }
 }
 

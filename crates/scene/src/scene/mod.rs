@@ -14,6 +14,7 @@ use crate::motion::{
 };
 use crate::report::SceneError;
 use crate::world::{Series, StepKey};
+pub use load::Setting;
 pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
 
 /// A scene file that was read and found valid.

@@ -243,7 +243,7 @@ fn reading_tells_how_far_it_is() {
         let path = folder.0.join("scene.ron");
         fs::write(&path, scene).unwrap();
         let told = Mutex::new(Vec::new());
-        let scene = Scene::load_watched(&path, &|progress| {
+        let scene = Scene::load_with(&path, &[], &|progress| {
             assert_eq!(progress.table, Path::new(name));
             assert_eq!(progress.size, bytes.len() as u64);
             told.lock().unwrap().push(progress.read);

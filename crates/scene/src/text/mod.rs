@@ -1,5 +1,6 @@
 //! The text of a scene file: its tokens, values that know their place, and what is wrong there.
 
+mod edit;
 mod explain;
 mod fault;
 mod located;
@@ -10,6 +11,7 @@ mod slice;
 mod suggest;
 pub(crate) mod token;
 
+pub(crate) use edit::set;
 pub(crate) use fault::{Fault, Names, collect, note_failure, refuse};
 pub(crate) use located::{LocatedFault, Place};
 pub(crate) use placed::{

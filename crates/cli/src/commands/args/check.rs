@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::scene::SceneOptions;
+
 const EXAMPLES: &str = "\
 Examples:
   marbles check ball.ron                              what the scene contains
@@ -20,6 +22,9 @@ Exit codes:
 pub(crate) struct CheckArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
 
     /// Print camera and lights of a frame as JSON: what `marbles render --sidecar` writes, without what only
     /// rendering knows

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::scene::SceneOptions;
 use super::values::{threads, tolerance_above_zero};
 use crate::base::size::Size;
 use crate::terminal::progress::ProgressForm;
@@ -57,6 +58,9 @@ pub(crate) enum LayoutForm {
 pub(crate) struct DatasetArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
 
     /// Folder of the files
     #[arg(short, long, value_name = "FOLDER")]

@@ -10,6 +10,7 @@ mod new;
 mod preview;
 mod render;
 mod report;
+mod scene;
 mod spheres;
 mod values;
 
@@ -25,6 +26,7 @@ pub(crate) use self::new::NewArguments;
 pub(crate) use self::preview::PreviewArguments;
 pub(crate) use self::render::{PerLight, RenderArguments};
 pub(crate) use self::report::ReportArguments;
+pub(crate) use self::scene::SceneOptions;
 pub(crate) use self::spheres::SpheresArguments;
 
 /// Render scenes of spheres to pictures whose pixels are known

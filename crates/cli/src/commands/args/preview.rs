@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::scene::SceneOptions;
 use super::values::tolerance_above_zero;
 
 const EXAMPLES: &str = "\
@@ -32,6 +33,9 @@ Exit codes:
 pub(crate) struct PreviewArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
 
     /// Frame to show [default: the first]
     #[arg(long, value_name = "FRAME", allow_hyphen_values = true)]

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use marbles_core::Window;
 
+use super::scene::SceneOptions;
 use super::values::{above_zero, bits, exposure, samples, threads, tolerance_above_zero};
 use crate::base::region::window_of;
 use crate::base::size::Size;
@@ -17,6 +18,8 @@ const EXAMPLES: &str = "\
 Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
   marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
+  marbles render a.ron b.ron -o out/{scene}.png       several scenes
+  marbles render ball.ron --set camera.azimuth=30     with another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.apng                a loop that browsers play
@@ -47,10 +50,15 @@ pub(crate) enum PerLight {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// Scene file
-    pub(crate) scene: PathBuf,
+    /// Scene file; several are rendered one after another
+    #[arg(required = true, value_name = "SCENE")]
+    pub(crate) scenes: Vec<PathBuf>,
 
-    /// File names, with ####, %04d or {frame:04} in place of the frame number; the ending .png,
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
+
+    /// File names, with ####, %04d or {frame:04} in place of the frame number, and {scene} in place of the scene's
+    /// name; the ending .png,
     /// .exr or .npy chooses the format, and .apng has all frames in one file, an animated PNG that
     /// plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]

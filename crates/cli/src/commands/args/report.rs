@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::scene::SceneOptions;
 use super::values::{runs, seconds, threads};
 use crate::base::size::Size;
 
@@ -44,6 +45,9 @@ Exit codes:
 pub(crate) struct ReportArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
 
     /// Frame to render [default: the scene's first]
     #[arg(long, value_name = "N", allow_hyphen_values = true)]

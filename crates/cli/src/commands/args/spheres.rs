@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::scene::SceneOptions;
 use super::values::{threads, tolerance_above_zero};
 use crate::base::size::Size;
 use crate::sequence::frames::FrameList;
@@ -41,6 +42,9 @@ Exit codes:
 pub(crate) struct SpheresArguments {
     /// Scene file
     pub(crate) scene: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) options: SceneOptions,
 
     /// The table, with commas [default: SCENE.spheres.csv, in the current folder]
     #[arg(short, long, value_name = "FILE")]

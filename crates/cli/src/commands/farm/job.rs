@@ -39,7 +39,10 @@ impl Job {
         console: &Console,
     ) -> Result<Self, Failure> {
         let render = &arguments.render.parsed;
-        let request = request(render, &threads::start(None)?, console)?;
+        let [scene] = &render.scenes[..] else {
+            return Err(Failure::Usage("expected one scene, found several".to_owned()));
+        };
+        let request = request(render, scene, &threads::start(None)?, console)?;
         if request.is_animation() {
             return Err(Failure::Usage(
                 "tasks write a file for each frame, and the output has all of them".to_owned(),
@@ -62,8 +65,8 @@ impl Job {
         let mut output_option = OsString::from("--output=");
         output_option.push(absolute(output)?);
         Ok(Self {
-            name: name(&render.scene),
-            scene: text(absolute(&render.scene)?)?,
+            name: name(scene),
+            scene: text(absolute(scene)?)?,
             frames: request.frames.iter().collect(),
             chunk: arguments.chunk,
             output: text(output_option)?,

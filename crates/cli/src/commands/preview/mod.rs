@@ -26,7 +26,7 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     if arguments.watch {
         return threads.install(|| watch::run(arguments, &screen, console));
     }
-    let scene = threads.install(|| scene::load(&arguments.scene, console, false))?;
+    let scene = threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = screen.area(PROMPT_LINES).fit(view);
     interrupt::listen(console);

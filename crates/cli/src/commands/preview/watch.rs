@@ -65,7 +65,7 @@ fn look(
     console: &Console,
 ) -> Result<Result<Picture, Cancelled>, Failure> {
     let started = SystemTime::now();
-    let scene = scene::load(&arguments.scene, console, true);
+    let scene = scene::load(&arguments.scene, &arguments.options, console, true);
     match &scene {
         Ok(scene) => files.name(tables(scene, &arguments.scene), started),
         Err(Failure::Scene(error)) => files.add(SceneError::path(error).to_owned(), started),

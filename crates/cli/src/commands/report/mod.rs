@@ -37,7 +37,7 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     arguments.plot.as_deref().map_or(Ok(()), check_plot)?;
-    let scene = scene::load(&arguments.scene, console, arguments.quiet)?;
+    let scene = scene::load(&arguments.scene, &arguments.options, console, arguments.quiet)?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
     // What cannot be written is refused before the long work.

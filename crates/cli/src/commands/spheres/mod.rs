@@ -27,7 +27,7 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8, Failure> {
     let pool = threads::start(arguments.threads)?;
-    let scene = pool.install(|| scene::load(&arguments.scene, console, arguments.quiet))?;
+    let scene = pool.install(|| scene::load(&arguments.scene, &arguments.options, console, arguments.quiet))?;
     let path = arguments.output.clone();
     let path = path.unwrap_or_else(|| named_after(&arguments.scene));
     Inputs::of(&arguments.scene, &scene).refuse([path.clone()])?;

@@ -1,0 +1,17 @@
+//! The arguments of all commands that read a scene.
+
+use clap::Args;
+use marbles_scene::Setting;
+
+/// What changes a scene, and how it is looked at.
+#[derive(Clone, Debug, Default, Args)]
+pub(crate) struct SceneOptions {
+    /// Put VALUE into the scene in place of its own, or beside it: --set 'lights[0].toward=(1, 1, -1)',
+    /// --set materials.candy.exponent=2; several times for several values
+    #[arg(long, value_name = "PATH=VALUE")]
+    pub(crate) set: Vec<Setting>,
+
+    /// Refuse scenes that have warnings
+    #[arg(long)]
+    pub(crate) strict: bool,
+}

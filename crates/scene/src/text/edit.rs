@@ -1,0 +1,235 @@
+//! Values put into the text of a scene in place of its own: `lights[0].toward` by its path.
+
+use std::ops::Range;
+
+use super::show::show;
+use super::suggest::did_you_mean;
+use super::token::{is_white_space, skip_trivia, token_end, value_end};
+
+/// A step of a path.
+#[derive(Clone, Debug, PartialEq)]
+enum Part<'p> {
+    Name(&'p str),
+    Index(usize),
+}
+
+/// An item of a structure, a list or a map.
+struct Item<'t> {
+    /// The name before the colon, without its quotation marks.
+    key: Option<&'t str>,
+    value: Range<usize>,
+}
+
+/// What stands between brackets.
+struct Inside<'t> {
+    items: Vec<Item<'t>>,
+    /// The place of the closing bracket, and whether a comma has to come before another item.
+    end: usize,
+    needs_comma: bool,
+    bracket: u8,
+}
+
+/// The text with `value` at `path`. A field that is missing is added to its structure.
+///
+/// # Errors
+/// Returns what was expected instead of the path, or of a part of it.
+pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
+    let parts = parts(path)?;
+    let start = skip_trivia(text, 0);
+    let mut place = start..value_end(text, start);
+    for (index, part) in parts.iter().enumerate() {
+        let is_last = index + 1 == parts.len();
+        let inside = inside(text, place.clone());
+        let inside = inside.ok_or_else(|| {
+            let found = show(text[place.clone()].trim());
+            format!("expected something with {}, found {found}", shown(part))
+        })?;
+        match find(&inside, part) {
+            Some(item) => place = item,
+            None if is_last && may_have(&inside, part) => {
+                let Part::Name(name) = part else {
+                    return Err(missing(&inside, part));
+                };
+                let comma = if inside.needs_comma { ", " } else { "" };
+                let key = match inside.bracket {
+                    b'{' => format!("{name:?}"),
+                    _ => (*name).to_owned(),
+                };
+                let (before, after) = text.split_at(inside.end);
+                return Ok(format!("{before}{comma}{key}: {value}{after}"));
+            }
+            None => return Err(missing(&inside, part)),
+        }
+    }
+    let (before, after) = (&text[..place.start], &text[place.end..]);
+    Ok(format!("{before}{value}{after}"))
+}
+
+/// The steps of a path: names with points between them, and numbers from 0 in brackets.
+fn parts(path: &str) -> Result<Vec<Part<'_>>, String> {
+    let wrong = || format!("expected a path such as `lights[0].toward`, found {}", show(path));
+    let mut parts = Vec::new();
+    let mut rest = path;
+    while !rest.is_empty() {
+        if let Some(inside) = rest.strip_prefix('[') {
+            let (index, after) = inside.split_once(']').ok_or_else(wrong)?;
+            parts.push(Part::Index(index.trim().parse().map_err(|_| wrong())?));
+            rest = after;
+            continue;
+        }
+        if !parts.is_empty() {
+            rest = rest.strip_prefix('.').ok_or_else(wrong)?;
+        }
+        let (name, after) = match rest.strip_prefix('"') {
+            Some(inside) => inside.split_once('"').ok_or_else(wrong)?,
+            None => rest.split_at(rest.find(['.', '[']).unwrap_or(rest.len())),
+        };
+        if name.is_empty() {
+            return Err(wrong());
+        }
+        parts.push(Part::Name(name));
+        rest = after;
+    }
+    match parts.is_empty() {
+        true => Err(wrong()),
+        false => Ok(parts),
+    }
+}
+
+/// What stands in the brackets of the value at this place; `None` where it has none.
+fn inside(text: &str, place: Range<usize>) -> Option<Inside<'_>> {
+    let is_open = |at: usize| text[at..].starts_with(['(', '[', '{']);
+    let mut open = place.start;
+    if !is_open(open) {
+        open = skip_trivia(text, token_end(text, open));
+    }
+    if open >= place.end || !is_open(open) {
+        return None;
+    }
+    let mut items = Vec::new();
+    let mut at = skip_trivia(text, open + 1);
+    let mut needs_comma = false;
+    while at < place.end && !text[at..].starts_with([')', ']', '}']) {
+        let word_end = token_end(text, at);
+        let colon = skip_trivia(text, word_end);
+        let mut key = None;
+        let mut start = at;
+        if text[colon..].starts_with(':') {
+            key = Some(text[at..word_end].trim_matches('"'));
+            start = skip_trivia(text, colon + 1);
+        }
+        let end = value_end(text, start);
+        if end <= at {
+            return None;
+        }
+        items.push(Item {
+            key,
+            value: start..end,
+        });
+        at = skip_trivia(text, end);
+        needs_comma = !text[at..].starts_with(',');
+        if !needs_comma {
+            at = skip_trivia(text, at + 1);
+        }
+    }
+    // Behind the last item, not behind the line that ends it.
+    let before = text[..at].trim_end_matches(is_white_space);
+    let last = items.last().map_or(open + 1, |item| item.value.end);
+    let has_comment = text[last..at].contains("//");
+    Some(Inside {
+        items,
+        end: if has_comment { at } else { before.len() },
+        needs_comma,
+        bracket: text.as_bytes()[open],
+    })
+}
+
+fn find(inside: &Inside<'_>, part: &Part<'_>) -> Option<Range<usize>> {
+    let item = match part {
+        Part::Name(name) => inside.items.iter().find(|item| item.key == Some(name)),
+        Part::Index(index) => inside.items.get(*index).filter(|item| item.key.is_none()),
+    };
+    item.map(|item| item.value.clone())
+}
+
+/// Says whether a field of this name can be added.
+fn may_have(inside: &Inside<'_>, part: &Part<'_>) -> bool {
+    let has_names = inside.items.iter().all(|item| item.key.is_some());
+    matches!(part, Part::Name(_)) && has_names && inside.bracket != b'['
+}
+
+/// The message that there is no such item.
+fn missing(inside: &Inside<'_>, part: &Part<'_>) -> String {
+    let keys: Vec<&str> = inside.items.iter().filter_map(|item| item.key).collect();
+    let count = inside.items.len();
+    match part {
+        Part::Name(name) if !keys.is_empty() => {
+            let meant = did_you_mean(name, keys.iter().copied(), |name| format!("`{name}`"));
+            let list = match meant.is_empty() {
+                true => format!(" among `{}`", keys.join("`, `")),
+                false => meant,
+            };
+            format!("expected {}, found none{list}", shown(part))
+        }
+        Part::Index(_) if keys.is_empty() && count > 0 => {
+            format!("expected {}, found those from [0] to [{}]", shown(part), count - 1)
+        }
+        _ => format!("expected {}, found none", shown(part)),
+    }
+}
+
+fn shown(part: &Part<'_>) -> String {
+    match part {
+        Part::Name(name) => format!("`{name}`"),
+        Part::Index(index) => format!("[{index}]"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "// A scene.
+(
+    lens: Fov(50), // degrees
+    camera: Orbit(target: (0, 0, 0), radius: 9),
+    lights: [Directional(toward: (1, 1, -1)), Point(position: (0, 1, 2))],
+    materials: {\"candy\": (albedo: \"#d02840\", exponent: 2), \"b.c\": ()},
+)";
+
+    #[test]
+    fn values_take_the_place_of_others() {
+        for (path, value, from, to) in [
+            ("lens", "Fov(20)", "Fov(50)", "Fov(20)"),
+            ("camera.radius", "3", "radius: 9", "radius: 3"),
+            ("lights[0].toward", "(1, 0, 0)", "(1, 1, -1)", "(1, 0, 0)"),
+            ("lights[1].position[2]", "7", "(0, 1, 2)", "(0, 1, 7)"),
+            ("materials.candy.exponent", "1", "exponent: 2", "exponent: 1"),
+            ("materials.\"b.c\".exponent", "1", "\"b.c\": ()", "\"b.c\": (exponent: 1)"),
+            ("camera.azimuth", "30", "radius: 9)", "radius: 9, azimuth: 30)"),
+            ("materials.new", "()", "\"b.c\": ()", "\"b.c\": (), \"new\": ()"),
+            ("lights[0].intensity", "2", "-1))", "-1), intensity: 2)"),
+        ] {
+            assert_eq!(set(TEXT, path, value).unwrap(), TEXT.replacen(from, to, 1), "{path}");
+        }
+        let added = set(TEXT, "ambient", "0.5").unwrap();
+        assert_eq!(added, TEXT.replace("},\n)", "},ambient: 0.5\n)"));
+        assert_eq!(set("(a: 1 // one\n)", "b", "2").unwrap(), "(a: 1 // one\n, b: 2)");
+    }
+
+    #[test]
+    fn paths_that_lead_nowhere_are_refused() {
+        for (path, expected) in [
+            ("lights[2].toward", "expected [2], found those from [0] to [1]"),
+            ("light[0].toward", "expected `light`, found none, did you mean `lights`?"),
+            ("materials.gold.exponent", "expected `gold`, found none among `candy`, `b.c`"),
+            ("lens.x.y", "expected `x`, found none"),
+            ("camera.radius.x", "expected something with `x`, found 9"),
+            ("", "expected a path such as `lights[0].toward`, found ``"),
+            ("a..b", "expected a path such as `lights[0].toward`, found `a..b`"),
+            ("a[x]", "expected a path such as `lights[0].toward`, found `a[x]`"),
+        ] {
+            assert_eq!(set(TEXT, path, "1").unwrap_err(), expected, "{path}");
+        }
+    }
+}
