@@ -23,6 +23,8 @@ pub(crate) struct Frames<'watch> {
     next: Option<Header>,
     /// True behind the frame of a format that has one.
     is_at_end: bool,
+    /// The array of an NPY file.
+    array: Option<npy::Array>,
 }
 
 /// The place of a frame in a table.
@@ -50,6 +52,7 @@ impl<'watch> Frames<'watch> {
             previous: None,
             next: None,
             is_at_end: false,
+            array: None,
         })
     }
 
@@ -57,7 +60,12 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn may_be_several(&self) -> bool {
         matches!(
             self.format,
-            Format::Xyz | Format::Lammps | Format::Gro | Format::Pdb | Format::MmCif
+            Format::Xyz
+                | Format::Lammps
+                | Format::Gro
+                | Format::Pdb
+                | Format::MmCif
+                | Format::Npy
         )
     }
 
@@ -68,7 +76,15 @@ impl<'watch> Frames<'watch> {
             return Ok(None);
         }
         let rows = match self.format {
-            Format::Npy => npy::read(input, request),
+            Format::Npy => {
+                let array = match &self.array {
+                    Some(array) => array,
+                    None => self.array.insert(npy::Array::new(input)?),
+                };
+                let rows = npy::read(input, array, request)?;
+                self.is_at_end |= array.tables == 1;
+                return Ok(rows);
+            }
             Format::Npz => npz::read(&self.path, request),
             Format::Ply => ply::read(input, request),
             Format::Vtk => vtk::read(input, request),
@@ -90,6 +106,13 @@ impl<'watch> Frames<'watch> {
         if !self.may_be_several() {
             return Ok(!std::mem::replace(&mut self.is_at_end, true));
         }
+        if self.format == Format::Npy {
+            let array = match &self.array {
+                Some(array) => array,
+                None => self.array.insert(npy::Array::new(&mut self.input)?),
+            };
+            return Ok(array.skip(&mut self.input)?);
+        }
         let Some(header) = self.header()? else {
             return Ok(false);
         };
@@ -102,6 +125,9 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn has_next(&mut self) -> Result<bool, TableError> {
         if self.is_at_end {
             return Ok(false);
+        }
+        if let Some(array) = &self.array {
+            return Ok(array.tables > 1);
         }
         self.next = self.header()?;
         Ok(self.next.is_some())
@@ -118,11 +144,16 @@ impl<'watch> Frames<'watch> {
     /// Continues with the frame at this place, which must not lie before the next one in a compressed file.
     pub(crate) fn go_to(&mut self, place: FramePlace) -> io::Result<()> {
         self.next = None;
+        if self.format == Format::Npy && self.array.is_none() {
+            self.array = npy::Array::new(&mut self.input).ok();
+        }
         if self.format == Format::MmCif && self.previous.is_none() {
             // The loop names its columns once.
             self.previous = self.header().ok().flatten();
         }
-        self.input.skip_to(place.position, place.lines)
+        // The first table's place is that of the header before it.
+        let start = self.array.as_ref().map_or(0, npy::Array::start);
+        self.input.skip_to(place.position.max(start), place.lines)
     }
 
     /// The next frame's header.

@@ -37,19 +37,76 @@ pub(crate) enum Elements {
     Records(Vec<(String, Kind)>),
 }
 
-/// Reads a table.
-pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, TableError> {
-    let header = header_of(input)?;
-    let (rows, names, kinds) = header.columns()?;
+/// Reads the next of an array's tables; `None` behind the last one.
+pub(crate) fn read(
+    input: &mut Input<'_>,
+    array: &Array,
+    request: &Request,
+) -> Result<Option<Rows>, TableError> {
+    if input.position >= array.end() {
+        return Ok(None);
+    }
+    let (rows, names, kinds) = array.header.columns()?;
     let plan = binary::plan(names, &kinds, request).map_err(LocatedFault::of_file)?;
     let layout = Layout {
         start: input.position,
         rows,
-        is_by_column: header.is_by_column,
+        is_by_column: array.header.is_by_column,
         kinds,
         noun: "rows",
     };
-    binary::read(input, &layout, &plan)
+    binary::read(input, &layout, &plan).map(Some)
+}
+
+/// An array of one table, or of several one behind another.
+#[derive(Clone, Debug)]
+pub(crate) struct Array {
+    /// What is said of each.
+    header: Header,
+    /// The byte at which the first begins.
+    start: u64,
+    pub(crate) tables: u64,
+    /// The bytes of each.
+    size: u64,
+}
+
+impl Array {
+    /// Reads what stands before the numbers.
+    pub(crate) fn new(input: &mut Input<'_>) -> Result<Self, TableError> {
+        let mut header = header_of(input)?;
+        let mut tables = 1;
+        if let ([count, ..], 3, false) = (&header.shape[..], header.shape.len(), header.is_by_column) {
+            tables = *count;
+            header.shape.remove(0);
+        }
+        let (rows, _, kinds) = header.columns()?;
+        let row = kinds.iter().map(|kind| kind.size()).fold(0, u64::saturating_add);
+        Ok(Self {
+            header,
+            start: input.position,
+            tables,
+            size: rows.saturating_mul(row),
+        })
+    }
+
+    /// The byte at which the first table begins.
+    pub(crate) fn start(&self) -> u64 {
+        self.start
+    }
+
+    /// The byte behind the last table; one behind the start where tables have none.
+    fn end(&self) -> u64 {
+        self.start.saturating_add(self.tables.saturating_mul(self.size).max(1))
+    }
+
+    /// Passes over the next table; returns whether there was one.
+    pub(crate) fn skip(&self, input: &mut Input<'_>) -> std::io::Result<bool> {
+        if input.position >= self.end() {
+            return Ok(false);
+        }
+        input.skip_to(input.position.saturating_add(self.size.max(1)), 0)?;
+        Ok(true)
+    }
 }
 
 /// Reads what stands before the numbers.

@@ -14,6 +14,7 @@ use crate::Scene;
 use crate::values::from_srgb;
 
 mod csv;
+mod formats;
 mod npy;
 mod ply;
 mod xyz;

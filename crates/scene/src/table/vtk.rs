@@ -24,8 +24,10 @@ pub(crate) const MAGIC: &[u8] = b"# vtk DataFile";
 struct Dataset {
     is_binary: bool,
     points: u64,
-    /// The numbers that follow belong to points.
+    /// The numbers that follow belong to points, not to cells.
     is_of_points: bool,
+    /// The number of these points or cells.
+    rows: u64,
     names: Vec<String>,
     columns: Vec<Column<'static>>,
 }
@@ -57,8 +59,10 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
                 let points = data.points;
                 data.take(input, "position", (3, points), kind)?;
             }
-            [b"POINT_DATA", points] => data.is_of_points = count(points) == Some(data.points),
-            [b"CELL_DATA", ..] => data.is_of_points = false,
+            [kind @ (b"POINT_DATA" | b"CELL_DATA"), rows] => {
+                data.rows = count(rows).ok_or_else(|| refuse("the number of points or cells"))?;
+                data.is_of_points = kind == b"POINT_DATA" && data.rows == data.points;
+            }
             [b"SCALARS", name, kind, ref size @ ..] => {
                 let size = size.first().map_or(Some(1), |size| count(size));
                 let size = size.ok_or_else(|| refuse("the number of components"))?;
@@ -127,8 +131,8 @@ impl Dataset {
         size: u64,
         kind: Kind,
     ) -> Result<(), TableError> {
-        let points = self.points;
-        self.take(input, name, (size, points), kind)
+        let rows = self.rows;
+        self.take(input, name, (size, rows), kind)
     }
 
     /// Reads an array of a field.
