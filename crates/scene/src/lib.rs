@@ -25,4 +25,4 @@ pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
 pub use scene::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting};
 pub use text::harmless;
-pub use world::{Progress, ScaleKind, StepKey};
+pub use world::{ColumnContents, ColumnSummary, Progress, ScaleKind, StepKey};

@@ -1,15 +1,18 @@
 //! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
 
 mod costs;
+mod tables;
 
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
-use marbles_scene::{CloudDescription, FrameError, Scene};
+use marbles_scene::{
+    CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, FrameError, Scene, harmless,
+};
 
 use super::args::CheckArguments;
-use super::scene;
+use super::{oversights, scene};
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::shown::Shown;
@@ -51,9 +54,12 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    for warning in costs::warnings(&world, &views) {
-        console.warn(&warning);
+    let first = *frames.start();
+    let mut warnings = costs::warnings(&world, &views);
+    if let Some(view) = views.first() {
+        warnings.extend(oversights::warnings(&world, view, first));
     }
+    scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
         Some(error) => {
@@ -75,8 +81,10 @@ fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
     let text = sidecar.text().map_err(Failure::Work)?;
+    let clouds = tables::json(scene)?;
     // For programs: as it is.
-    console.print(&format!("{}\n", text.trim_end()));
+    let text = text.trim_end().strip_suffix('}').unwrap_or(&text);
+    console.print(&format!("{},\n  \"clouds\": {clouds}\n}}\n", text.trim_end()));
     Ok(status::SUCCESS)
 }
 
@@ -125,8 +133,8 @@ fn lens(view: &View) -> String {
 fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     let mut rows = vec![("spheres", spheres(world.spheres()))];
     rows.extend(bounds(world.spheres()));
-    for cloud in scene.clouds() {
-        rows.extend(self::cloud(scene, world, cloud));
+    for (index, cloud) in scene.clouds().iter().enumerate() {
+        rows.extend(self::cloud(scene, world, (index, cloud)));
     }
     let materials = scene.description().materials.len();
     rows.push(("materials", materials.to_string()));
@@ -156,18 +164,68 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
 }
 
 /// A table, and a camera that has all of it in the picture.
-fn cloud(scene: &Scene, world: &World, cloud: &CloudDescription) -> Vec<(&'static str, String)> {
+fn cloud(
+    scene: &Scene,
+    world: &World,
+    (index, cloud): (usize, &CloudDescription),
+) -> Vec<(&'static str, String)> {
     const ELEVATION: f64 = 15.0;
     let all = &world.spheres()[cloud.spheres.clone()];
     let file = cloud.file.shown();
     let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
     rows.extend(bounds(all));
+    if let Some(steps) = cloud.steps {
+        rows.push(("  steps", steps.to_string()));
+    }
+    if cloud.rows != all.len() as u64 {
+        rows.push(("  kept", format!("{} of {} rows", all.len(), cloud.rows)));
+    }
+    let columns = scene.columns(index).unwrap_or_default();
+    let name = |first: usize| if first == 0 { "  columns" } else { "" };
+    rows.extend((0..).zip(&columns).map(|(place, column)| (name(place), self::column(column, cloud))));
     if let Some((target, radius)) = scene.orbit_around(all, ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
         let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
         rows.push(("  seen by", camera));
     }
     rows
+}
+
+/// A column: its kind, its range, and what it is for.
+fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
+    let contents = match &column.contents {
+        ColumnContents::Numbers { low, high, missing } => {
+            let missing = match missing {
+                0 => String::new(),
+                missing => format!(", {missing} missing"),
+            };
+            match low <= high {
+                true => format!("{}{missing}", range([*low, *high].into_iter())),
+                false => format!("no numbers{missing}"),
+            }
+        }
+        ColumnContents::Texts { count, examples } => {
+            let examples: Vec<String> = examples.iter().map(|text| format!("{text:?}")).collect();
+            let more = if *count > examples.len() { ", …" } else { "" };
+            format!("{count} texts: {}{more}", examples.join(", "))
+        }
+        ColumnContents::Other => "neither numbers nor text".to_owned(),
+    };
+    let colors = cloud.colors.as_ref();
+    let is_color = colors.is_some_and(|colors| colors.column.as_ref() == Some(&column.name));
+    let name = harmless(&column.name);
+    let mut text = format!("{name}: {contents}");
+    if is_color && let Some(colors) = colors {
+        match &colors.meaning {
+            ColorMeaning::Scale { low, high, .. } => {
+                text.push_str(&format!("; colors from {} to {}", short(*low), short(*high)));
+            }
+            ColorMeaning::Categories(categories) => {
+                text.push_str(&format!("; {} colors", categories.len()));
+            }
+        }
+    }
+    text
 }
 
 fn spheres(spheres: &[Sphere]) -> String {

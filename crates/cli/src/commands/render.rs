@@ -7,7 +7,7 @@ use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
 use super::inputs::Inputs;
-use super::scene;
+use super::{figures, oversights, scene};
 use crate::base::failure::Failure;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
@@ -60,6 +60,10 @@ fn run_scene(
     console: &Console,
 ) -> Result<u8, Failure> {
     let request = request(arguments, scene, threads, console)?;
+    check_view(&request, arguments, threads, console)?;
+    let of_scene = |path: &PathBuf| output_of(path, scene);
+    let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
+    figures::write(&request, legend.as_ref().map(of_scene), scale_bar.as_ref().map(of_scene))?;
 
     interrupt::listen(console);
     prepare(&request.path(request.frames.first(), 0))?;
@@ -151,6 +155,25 @@ pub(super) fn request(
     };
     check_outputs(&request)?;
     Ok(request)
+}
+
+/// Warns of what is amiss in the first frame.
+fn check_view(
+    request: &Request,
+    arguments: &RenderArguments,
+    threads: &ThreadPool,
+    console: &Console,
+) -> Result<(), Failure> {
+    let frame = request.frames.first();
+    // Frames without a view, and tables that cannot be read, are told when their turn comes.
+    let Ok(view) = request.scene.view(frame) else {
+        return Ok(());
+    };
+    let Ok(world) = threads.install(|| request.scene.world_at(frame)) else {
+        return Ok(());
+    };
+    let warnings = oversights::warnings(&world, &view, frame);
+    scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
 /// The output of the scene at `path`, whose name stands in its place.

@@ -58,7 +58,7 @@ impl Request {
     }
 
     /// The view of a frame, in the size that is wanted.
-    pub(super) fn view(&self, frame: i32) -> Result<View, Failure> {
+    pub(crate) fn view(&self, frame: i32) -> Result<View, Failure> {
         let view = self.scene.view(frame);
         let view = view.map_err(|error| Failure::Work(error.to_string()))?;
         Ok(self.resized(view))

@@ -24,6 +24,7 @@ mod progress;
 mod readers;
 mod report;
 mod sequences;
+mod series;
 mod sidecar;
 mod signals;
 #[cfg(target_os = "linux")]

@@ -31,7 +31,7 @@ pub(crate) fn turntable() -> Folder {
 }
 
 /// The names in a folder, and what the files are.
-fn contents(folder: &Folder, name: &str) -> Vec<(String, Vec<u8>)> {
+pub(crate) fn contents(folder: &Folder, name: &str) -> Vec<(String, Vec<u8>)> {
     let names = folder.names(name).into_iter();
     let read = |file: String| {
         let bytes = folder.read(&format!("{name}/{file}"));
@@ -41,7 +41,7 @@ fn contents(folder: &Folder, name: &str) -> Vec<(String, Vec<u8>)> {
 }
 
 /// Files that differ, or are in one list alone.
-fn differences(one: &[(String, Vec<u8>)], other: &[(String, Vec<u8>)]) -> Vec<String> {
+pub(crate) fn differences(one: &[(String, Vec<u8>)], other: &[(String, Vec<u8>)]) -> Vec<String> {
     let missing = |a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]| -> Vec<String> {
         let new = a.iter().filter(|file| !b.contains(file));
         new.map(|(name, _)| name.clone()).collect()
@@ -50,7 +50,7 @@ fn differences(one: &[(String, Vec<u8>)], other: &[(String, Vec<u8>)]) -> Vec<St
 }
 
 /// Numbers from 0 to 1, the same in every run.
-fn random(state: &mut u64) -> f64 {
+pub(crate) fn random(state: &mut u64) -> f64 {
     // Knuth's generator, whose high bits are good.
     *state = state
         .wrapping_mul(6_364_136_223_846_793_005)
@@ -58,7 +58,7 @@ fn random(state: &mut u64) -> f64 {
     (*state >> 40) as f64 / (1_u64 << 24) as f64
 }
 
-fn start(folder: &Folder, arguments: &str) -> Child {
+pub(crate) fn start(folder: &Folder, arguments: &str) -> Child {
     let mut marbles = folder.marbles(arguments);
     let marbles = marbles.stdout(Stdio::piped()).stderr(Stdio::piped());
     marbles.spawn().unwrap()

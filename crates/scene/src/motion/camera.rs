@@ -85,6 +85,11 @@ impl CameraMotion {
         self.channels.target()
     }
 
+    /// The camera's target at a time in frames, where it has one.
+    pub(crate) fn target_at(&self, time: f64) -> Option<DVec3> {
+        self.channels.target_at(time)
+    }
+
     /// The frames of the animation, `None` for a still.
     pub(crate) fn timing(&self) -> Option<&Timing> {
         self.timing.as_ref()

@@ -68,6 +68,11 @@ impl Channels {
         self.target.at(0.0)
     }
 
+    /// The target at a time in frames, of cameras that have one.
+    pub(super) fn target_at(&self, time: f64) -> Option<DVec3> {
+        matches!(self.kind, Kind::LookAt | Kind::Orbit).then(|| self.target.at(time))
+    }
+
     /// Azimuth, elevation and roll of an orbit.
     pub(super) fn angles(&self) -> [&Curve; 3] {
         [&self.azimuth, &self.elevation, &self.roll]

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 use marbles_core::Lens;
 
+use super::oversights;
 use super::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene};
 use crate::file::{Camera, File, FrameOver, Materials};
 use crate::bounds::Bounds;
@@ -193,9 +194,10 @@ impl Draft {
                 lens: world::lens_as_written(&file.lens)?,
             },
             clouds: Vec::new(),
-            warnings: Vec::new(),
+            warnings: oversights::warnings(file),
             series: None,
             framed: Vec::new(),
+            tables: Vec::new(),
         };
         Some(Self {
             scene,
@@ -232,10 +234,12 @@ impl Draft {
             let added = scene.add_cloud(&mut cloud, &mut count, watch);
             let step = added.map_err(|error| refused(path, text, (place, error)))?;
             let material = cloud.cloud.material;
+            let cloud = Arc::new(cloud);
+            scene.tables.push(Arc::clone(&cloud));
             if cloud.steps().is_some() {
                 scene.world.has_colored_spheres |= step.albedos.is_some();
                 scene.world.use_material(material);
-                parts.push(Part::Changing(Box::new(cloud)));
+                parts.push(Part::Changing(cloud));
                 continue;
             }
             let Step {

@@ -2,6 +2,7 @@
 
 mod description;
 mod load;
+mod oversights;
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use crate::motion::{
     CameraMotion, FrameError, Framing, Lights, OpenShutter, Picture, Turning, axes_of_orbit,
 };
 use crate::report::SceneError;
-use crate::world::{Series, StepKey};
+use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
 pub use load::Setting;
 pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
 
@@ -33,6 +34,8 @@ pub struct Scene {
     series: Option<Arc<Series>>,
     /// Cameras that frame the spheres of each step alone.
     framed: Vec<(StepKey, CameraMotion, Lens)>,
+    /// The clouds in the order of the file.
+    tables: Vec<Arc<OpenCloud>>,
 }
 
 impl Scene {
@@ -177,6 +180,24 @@ impl Scene {
     /// The tables of the scene, in the order of the file.
     pub fn clouds(&self) -> &[CloudDescription] {
         &self.clouds
+    }
+
+    /// What is in the columns of a table's first step, the first dozens of them; `cloud` is its place in
+    /// [`Self::clouds`]. Reads the table once for each.
+    ///
+    /// # Errors
+    /// Fails where the table cannot be read any more.
+    pub fn columns(&self, cloud: usize) -> Result<Vec<ColumnSummary>, SceneError> {
+        let Some(table) = self.tables.get(cloud) else {
+            return Ok(Vec::new());
+        };
+        let columns = table.columns();
+        columns.map_err(|error| SceneError::unreadable(&self.clouds[cloud].file, &error.message()))
+    }
+
+    /// The point that the camera of a frame looks at, where it has one: `LookAt`, `Orbit` and `Frame`.
+    pub fn target_at(&self, frame: i32) -> Option<DVec3> {
+        self.motion_at(frame).0.target_at(f64::from(frame))
     }
 
     /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens

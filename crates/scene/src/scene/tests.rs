@@ -2,6 +2,7 @@ use std::path::Path;
 
 mod lights;
 mod opencv;
+mod series;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness};

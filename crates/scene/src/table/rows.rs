@@ -1,6 +1,7 @@
 //! Rows of a table, as spheres and their colors.
 
 use std::collections::TryReserveError;
+use std::sync::Arc;
 
 use glam::DVec3;
 use marbles_core::Sphere;
@@ -20,6 +21,8 @@ pub(crate) struct Rows {
     pub(crate) paint: Paint,
     /// The numbers that a colormap turns into colors are those of this column.
     pub(crate) value_name: Option<String>,
+    /// The names of all columns.
+    pub(crate) columns: Arc<Vec<String>>,
 }
 
 /// The numbers of a row, by [`Slot`].
@@ -42,6 +45,7 @@ impl Rows {
             read: 0,
             spheres: Vec::new(),
             paint: Paint::new(plan.coloring),
+            columns: Arc::clone(&plan.names.0),
             value_name: plan.name_of(Slot::Value).map(str::to_owned),
         }
     }

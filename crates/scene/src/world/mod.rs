@@ -9,7 +9,7 @@ mod series;
 
 pub(crate) use assemble::world;
 pub use cloud::Progress;
-pub use cloud::ScaleKind;
+pub use cloud::{ColumnContents, ColumnSummary, ScaleKind};
 pub(crate) use cloud::{Cloud, CloudError, Learned, OpenCloud, Scale, Step};
 pub use series::StepKey;
 pub(crate) use series::{Part, Series};

@@ -1,6 +1,7 @@
 //! A world that changes over time.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use marbles_core::{Albedos, MaterialId, Sphere, World};
 
@@ -27,7 +28,7 @@ pub(crate) enum Part {
         albedos: Option<Albedos>,
         material: MaterialId,
     },
-    Changing(Box<OpenCloud>),
+    Changing(Arc<OpenCloud>),
 }
 
 /// The steps of all clouds that change, in a frame; frames with the same ones show the same world.

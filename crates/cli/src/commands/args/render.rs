@@ -170,6 +170,15 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) sidecar: bool,
 
+    /// Draw what the colors of clouds stand for, a colormap's numbers or categories
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) legend: Option<PathBuf>,
+
+    /// Draw a round length and the pixels that it takes: anywhere through a parallel lens, else at the distance of
+    /// the camera's target
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) scale_bar: Option<PathBuf>,
+
     /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
     #[arg(long, value_name = "FORM")]
     pub(crate) progress: Option<ProgressForm>,

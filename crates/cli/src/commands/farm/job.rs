@@ -59,7 +59,7 @@ impl Job {
             ));
         }
         // The parts of a job have their own of these, and tell apart what a path is.
-        let own = ["frames", "output", "skip-existing"];
+        let own = ["frames", "output", "skip-existing", "legend", "scale-bar"];
         let options = arguments.render.options_without(&own);
         let output = render.output.as_deref().unwrap_or(Path::new(""));
         let mut output_option = OsString::from("--output=");

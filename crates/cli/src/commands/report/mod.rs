@@ -14,7 +14,6 @@ mod results;
 mod row;
 mod table;
 
-use std::path::Path;
 
 use marbles_core::{Channels, Renderer};
 
@@ -23,6 +22,7 @@ use self::progress::Progress;
 use self::results::{Report, title};
 use self::row::Row;
 use super::args::ReportArguments;
+use super::figures::check_name;
 use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
@@ -36,7 +36,8 @@ use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
-    arguments.plot.as_deref().map_or(Ok(()), check_plot)?;
+    let plot = arguments.plot.as_deref();
+    plot.map_or(Ok(()), |plot| check_name("--plot", plot))?;
     let scene = scene::load(&arguments.scene, &arguments.options, console, arguments.quiet)?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
@@ -88,18 +89,6 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         }
     }
     Ok(conclusion(&report))
-}
-
-/// Refuses a name of the plot's file that does not end in `.svg`.
-fn check_plot(path: &Path) -> Result<(), Failure> {
-    let ending = path.extension().and_then(|ending| ending.to_str());
-    if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
-        return Ok(());
-    }
-    Err(Failure::Usage(format!(
-        "--plot: expected a file name that ends in .svg, the one format of plots, found `{}`",
-        path.shown()
-    )))
 }
 
 /// Refuses files that would take the place of each other.

@@ -1,5 +1,7 @@
 //! The names of columns, as programs write them.
 
+use std::sync::Arc;
+
 use super::super::request::ColumnRef;
 use super::slot::Slot;
 use crate::text::{did_you_mean, show};
@@ -9,7 +11,7 @@ pub(crate) const MOST_COLUMNS: usize = 10_000;
 
 /// The names of a table's columns.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Names(pub(crate) Vec<String>);
+pub(crate) struct Names(pub(crate) Arc<Vec<String>>);
 
 impl Names {
     /// The column that the scene file means.

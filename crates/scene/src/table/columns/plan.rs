@@ -1,5 +1,7 @@
 //! The way in which the columns of a table are read.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
 use super::super::element::Radii;
@@ -119,7 +121,7 @@ impl Plan {
             is_encoded: false,
             axes: None,
             linear: (0..=255).map(|value| linear(value) as f32).collect(),
-            names: Names(names),
+            names: Names(Arc::new(names)),
         };
         let [x, y, z] = &columns.position;
         for (slot, chosen) in [(Slot::X, x), (Slot::Y, y), (Slot::Z, z)] {

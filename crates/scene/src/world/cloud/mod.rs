@@ -5,10 +5,12 @@ mod explain;
 mod open;
 mod settings;
 mod steps;
+mod summary;
 
 use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
+pub use summary::{ColumnContents, ColumnSummary};
 pub(crate) use coloring::{Learned, Scale};
 pub(crate) use open::{OpenCloud, Step};
 pub(crate) use settings::Cloud;
@@ -22,6 +24,16 @@ pub(crate) enum CloudError {
     Scene(Fault),
     /// Something is wrong in the table with this path.
     Table(PathBuf, LocatedFault),
+}
+
+impl CloudError {
+    /// The message without the place.
+    pub(crate) fn message(&self) -> String {
+        match self {
+            Self::Scene(fault) => fault.message.clone(),
+            Self::Table(_, fault) => fault.message.clone(),
+        }
+    }
 }
 
 /// The state of reading a table.

@@ -11,9 +11,12 @@ use super::coloring::{Learned, Scale};
 use super::explain::explain;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
+use super::summary::{ColumnContents, ColumnSummary};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
-use crate::table::{Frames, Rows, TableError};
+use crate::table::{
+    Coloring, ColumnRef, Frames, Missing, Paint, Request, Rows, TableError, Value, unit,
+};
 use crate::text::{Fault, quoted};
 
 /// A cloud whose steps are known and can be read.
@@ -40,6 +43,9 @@ pub(crate) struct Step {
     /// The table has frames that are not read.
     pub(crate) has_more: bool,
 }
+
+/// The most columns that are summed up: each is read on its own.
+const MOST_SUMMARIES: usize = 64;
 
 /// Progress that nobody watches.
 const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
@@ -161,6 +167,7 @@ impl OpenCloud {
             paint,
             read: rows,
             value_name,
+            ..
         } = rows;
         self.place(&mut spheres)?;
         let mut learned = self.learned.clone();
@@ -176,6 +183,51 @@ impl OpenCloud {
             learned,
             has_more,
         })
+    }
+
+    /// What is in each column of the first step.
+    pub(crate) fn columns(&self) -> Result<Vec<ColumnSummary>, CloudError> {
+        let request = |column: usize, coloring| Request {
+            radius: Some(1.0),
+            value: Some(Value::Column(ColumnRef::Number(column + 1))),
+            coloring: Some(coloring),
+            missing: Missing::Color(DVec3::ZERO),
+            keep: Vec::new(),
+            ..self.cloud.request.clone()
+        };
+        let path = self.path(0);
+        let refused = |error| self.refuse_table(&path, error);
+        let first = |request: &Request| {
+            let mut frames = Frames::open(&path, UNWATCHED)?;
+            if let Steps::Frames(places) = &self.steps {
+                frames.go_to(places[0])?;
+            }
+            frames.read(request)?.ok_or_else(gone)
+        };
+        let (rows, _) = self.rows(0, UNWATCHED)?;
+        let names = rows.columns.iter().enumerate().take(MOST_SUMMARIES);
+        let summary = |(column, name): (usize, &String)| {
+            let unit = unit(name).map(str::to_owned);
+            let name = name.clone();
+            let numbers = first(&request(column, Coloring::Value));
+            let contents = match numbers.map(|rows| rows.paint) {
+                Ok(Paint::Values(values)) => ColumnContents::of_numbers(&values),
+                Ok(_) => ColumnContents::Other,
+                Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
+                    Ok(rows) => ColumnContents::of_texts(&rows.paint),
+                    // Bytes that are neither.
+                    Err(TableError::Fault(_)) => ColumnContents::Other,
+                    Err(error) => return Err(error),
+                },
+                Err(error) => return Err(error),
+            };
+            Ok(ColumnSummary {
+                name,
+                unit,
+                contents,
+            })
+        };
+        names.map(summary).collect::<Result<_, _>>().map_err(refused)
     }
 
     /// The spheres of a step alone.

@@ -7,7 +7,7 @@ use marbles_core::Method;
 
 use super::axis::Axis;
 use super::labels::{Labels, Side};
-use super::svg::{Anchor, Place, Style, Svg};
+use crate::commands::svg::{Anchor, Place, Style, Svg};
 use crate::base::numbers::factor;
 use crate::commands::report::curve::Point;
 use crate::commands::report::results::Report;

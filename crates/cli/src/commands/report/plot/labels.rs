@@ -1,6 +1,6 @@
 //! Places for labels beside points, so that they hide neither each other nor the curves.
 
-use super::svg::{Anchor, Place};
+use crate::commands::svg::{Anchor, Place};
 
 /// The width of a small letter, about, in the fonts that readers have.
 const LETTER_WIDTH: f64 = 7.0;

@@ -3,6 +3,5 @@
 mod axis;
 mod chart;
 mod labels;
-mod svg;
 
 pub(super) use self::chart::draw;

@@ -6,30 +6,30 @@ use std::fmt::Write;
 const FONTS: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
 
 /// A place on the drawing in pixels; x goes right, y goes down from the top left corner.
-pub(super) type Place = (f64, f64);
+pub(crate) type Place = (f64, f64);
 
 /// A drawing on white, to which shapes are added in the order of painting.
-pub(super) struct Svg(String);
+pub(crate) struct Svg(String);
 
 /// The look of a text, and the part of it that is at its place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Style {
-    pub(super) anchor: Anchor,
-    pub(super) size: f64,
-    pub(super) is_bold: bool,
-    pub(super) color: &'static str,
+pub(crate) struct Style {
+    pub(crate) anchor: Anchor,
+    pub(crate) size: f64,
+    pub(crate) is_bold: bool,
+    pub(crate) color: &'static str,
 }
 
 /// The part of a text that is at its place.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
 }
 
 impl Svg {
-    pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
         let (width, height) = (number(width), number(height));
         let title = escaped(title);
         Self(format!(
@@ -41,17 +41,17 @@ impl Svg {
     }
 
     /// The text of the file.
-    pub(super) fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         self.0 + "</svg>\n"
     }
 
     /// Adds a line through these places.
-    pub(super) fn line(&mut self, places: &[Place], width: f64, color: &str) {
+    pub(crate) fn line(&mut self, places: &[Place], width: f64, color: &str) {
         self.polyline(places, width, color, "stroke-linecap=\"round\"");
     }
 
     /// Adds a dashed line through these places.
-    pub(super) fn dashes(&mut self, places: &[Place], width: f64, color: &str) {
+    pub(crate) fn dashes(&mut self, places: &[Place], width: f64, color: &str) {
         self.polyline(places, width, color, "stroke-dasharray=\"7 6\"");
     }
 
@@ -66,15 +66,23 @@ impl Svg {
         ));
     }
 
-    pub(super) fn disk(&mut self, (x, y): Place, radius: f64, color: &str) {
+    pub(crate) fn disk(&mut self, (x, y): Place, radius: f64, color: &str) {
         let [x, y, radius] = [x, y, radius].map(number);
         self.element(format_args!(
             "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{color}\"/>"
         ));
     }
 
+    /// Adds a rectangle by its top left corner and its sides.
+    pub(crate) fn rectangle(&mut self, (x, y): Place, (width, height): Place, color: &str) {
+        let [x, y, width, height] = [x, y, width, height].map(number);
+        self.element(format_args!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{color}\"/>"
+        ));
+    }
+
     /// Adds a square that stands on its side.
-    pub(super) fn square(&mut self, (x, y): Place, side: f64, color: &str) {
+    pub(crate) fn square(&mut self, (x, y): Place, side: f64, color: &str) {
         let [x, y, side] = [x - side / 2.0, y - side / 2.0, side].map(number);
         self.element(format_args!(
             "<rect x=\"{x}\" y=\"{y}\" width=\"{side}\" height=\"{side}\" fill=\"{color}\"/>"
@@ -82,12 +90,12 @@ impl Svg {
     }
 
     /// Adds a text with its base line at a place.
-    pub(super) fn text(&mut self, place: Place, style: Style, text: &str) {
+    pub(crate) fn text(&mut self, place: Place, style: Style, text: &str) {
         self.text_element(place, style, &escaped(text));
     }
 
     /// Adds a power of ten.
-    pub(super) fn power(&mut self, place: Place, style: Style, exponent: i32) {
+    pub(crate) fn power(&mut self, place: Place, style: Style, exponent: i32) {
         // Hyphens are too short for a minus.
         let exponent = exponent.to_string().replace('-', "\u{2212}");
         let (up, size) = (number(-0.4 * style.size), number(0.72 * style.size));

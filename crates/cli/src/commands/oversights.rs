@@ -1,0 +1,102 @@
+//! What makes a picture black, or all of one color, by an oversight.
+
+use marbles_core::{Sphere, View, World};
+
+use crate::base::numbers::short;
+
+/// Plain sentences about a frame: what is wrong, and what to do.
+pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
+    let spheres = world.spheres();
+    if spheres.is_empty() {
+        return vec![format!("frame {frame}: there are no spheres: the picture is the background")];
+    }
+    let mut warnings = Vec::new();
+    if !spheres.iter().any(|sphere| may_be_seen(sphere, view)) {
+        warnings.push(format!(
+            "frame {frame}: no sphere is in view: `marbles check` tells where they are, and `camera: Frame()` has \
+             all of them in the picture"
+        ));
+    }
+    if world.lights.is_empty() && world.ambient.max_element() <= 0.0 {
+        warnings.push(
+            "nothing is lit: `lights: [Directional(toward: (1, 2, -1))]` is a light, and `ambient: 0.2` is one \
+             from everywhere"
+                .to_owned(),
+        );
+    }
+    let eye = view.camera.position;
+    let is_around = |sphere: &Sphere| (sphere.center() - eye).length() < sphere.radius();
+    if !view.lens.is_parallel()
+        && let Some(index) = spheres.iter().position(is_around)
+    {
+        let radius = short(spheres[index].radius());
+        warnings.push(format!(
+            "frame {frame}: the camera is inside of sphere {}, whose radius is {radius}: its inner side hides all \
+             outside",
+            index + 1
+        ));
+    }
+    warnings
+}
+
+/// Says whether a sphere may be in the picture: none of which it is certain that it is not.
+fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
+    let camera = &view.camera;
+    let from_eye = camera.world_from_camera.transpose() * (sphere.center() - camera.position);
+    let radius = sphere.radius();
+    let (middle, width) = view.screen_window();
+    let half_width = 0.5 * width;
+    let half_height = half_width * f64::from(view.height) / f64::from(view.width);
+    let (x, y, z) = (from_eye.x, from_eye.y, from_eye.z);
+    if z + radius <= 0.0 {
+        return false;
+    }
+    // How far the center is outside of a side of the picture, across it.
+    let outside = |along: f64, middle: f64, half: f64| {
+        if view.lens.is_parallel() {
+            (along - middle).abs() - half
+        } else {
+            let of_side = |slope: f64, sign: f64| {
+                sign * (along - slope * z) / (1.0 + slope * slope).sqrt()
+            };
+            of_side(middle + half, 1.0).max(of_side(middle - half, -1.0))
+        }
+    };
+    outside(x, middle.x, half_width) < radius && outside(y, middle.y, half_height) < radius
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use marbles_scene::Scene;
+
+    use super::*;
+
+    fn of(fields: &str) -> String {
+        let text = format!("(image: (width: 40, height: 20), lens: Fov(90), {fields})");
+        let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
+        let warnings = warnings(scene.world(), &scene.view(1).unwrap(), 1);
+        warnings.iter().map(|line| &line[..24]).collect::<Vec<_>>().join("; ")
+    }
+
+    #[test]
+    fn oversights_are_told() {
+        const LIT: &str = "ambient: 1, camera: Free()";
+        let sphere = |x: f64, y: f64, z: f64| format!("{LIT}, spheres: [(center: ({x}, {y}, {z}), radius: 1)]");
+        for (fields, expected) in [
+            (sphere(0.0, 0.0, 5.0), ""),
+            // The picture ends at x = ±5 and y = ±2.5 there; the sphere reaches 1.41 and 1.12 further.
+            (sphere(6.4, 0.0, 5.0), ""),
+            (sphere(6.5, 0.0, 5.0), "frame 1: no sphere is in"),
+            (sphere(0.0, -3.6, 5.0), ""),
+            (sphere(0.0, -3.7, 5.0), "frame 1: no sphere is in"),
+            (sphere(0.0, 0.0, -5.0), "frame 1: no sphere is in"),
+            (sphere(0.0, 0.0, 0.5), "frame 1: the camera is i"),
+            (sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"), "nothing is lit: `lights:"),
+            (LIT.to_owned(), "frame 1: there are no sp"),
+        ] {
+            assert_eq!(of(&fields), expected, "{fields}");
+        }
+    }
+}

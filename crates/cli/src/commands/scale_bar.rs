@@ -1,0 +1,78 @@
+//! `--scale-bar`: a length of the scene beside the pixels that it takes, in a drawing of its own.
+
+use std::path::Path;
+
+use marbles_core::View;
+use marbles_scene::Scene;
+
+use super::legend::round_step;
+use super::svg::{Anchor, Style, Svg};
+use crate::base::failure::Failure;
+use crate::base::numbers::short;
+
+const MARGIN: f64 = 16.0;
+
+/// Draws the scale bar of a view of a frame: a round length that takes at most a quarter of the picture's width.
+///
+/// Through a parallel lens it is that of all distances; else of the plane through the camera's target.
+///
+/// # Errors
+/// Refuses a camera with perspective that has no target before it.
+pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Result<String, Failure> {
+    let (pixels, where_) = if view.lens.is_parallel() {
+        (view.pixels_per_unit(), String::new())
+    } else {
+        let target = scene.target_at(frame).ok_or_else(|| {
+            let why = "--scale-bar: with perspective the bar is at the distance of the camera's target, and this \
+                       camera has none: `LookAt`, `Orbit` and `Frame` have one, and `Parallel` lenses need none";
+            Failure::unusable(path, why)
+        })?;
+        let distance = (target - view.camera.position).dot(view.camera.forward());
+        if distance <= 0.0 {
+            let why = "--scale-bar: the camera's target is not before the camera";
+            return Err(Failure::unusable(path, why));
+        }
+        let place = format!(" at the target, {} away", short(distance));
+        (view.pixels_per_unit() / distance, place)
+    };
+    let when = match scene.frames() {
+        Some(frames) if changes(scene, &frames, pixels, view) => format!(", frame {frame}"),
+        _ => String::new(),
+    };
+    let length = round_step(0.25 * f64::from(view.width) / pixels);
+    let width = length * pixels;
+    let note = format!("{}{where_}{when}", short(length));
+    let whole = (width + 2.0 * MARGIN).max(7.0 * note.len() as f64 + 2.0 * MARGIN);
+    let mut svg = Svg::new(whole, 52.0, "Scale bar");
+    svg.rectangle((MARGIN, 14.0), (width, 4.0), "#000000");
+    let style = Style {
+        anchor: Anchor::Start,
+        size: 13.0,
+        is_bold: false,
+        color: "#000000",
+    };
+    svg.text((MARGIN, 36.0), style, &note);
+    Ok(svg.finish())
+}
+
+/// Says whether the same length takes other numbers of pixels in the first or the last frame.
+fn changes(
+    scene: &Scene,
+    frames: &std::ops::RangeInclusive<i32>,
+    pixels: f64,
+    shown: &View,
+) -> bool {
+    let of = |frame: i32| {
+        let view = scene.view(frame).ok()?;
+        let size = f64::from(shown.width) / f64::from(view.width);
+        let pixels = size * view.pixels_per_unit();
+        if view.lens.is_parallel() {
+            return Some(pixels);
+        }
+        let to_target = scene.target_at(frame)? - view.camera.position;
+        Some(pixels / to_target.dot(view.camera.forward()))
+    };
+    let ends = [*frames.start(), *frames.end()];
+    let differs = |other: f64| (other - pixels).abs() > 1e-9 * pixels;
+    ends.into_iter().filter_map(of).any(differs)
+}

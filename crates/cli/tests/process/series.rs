@@ -1,0 +1,155 @@
+//! Sequences of clouds that change over time.
+
+use std::fs;
+use std::process::Child;
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::folder::{Folder, code, text};
+use crate::sequences::{contents, differences, random, start};
+
+const STEPS: usize = 12;
+
+/// A step of forty spheres as extended XYZ.
+fn step(step: usize) -> String {
+    let mut state = 3;
+    let rows: String = (0..40)
+        .map(|_| {
+            let [x, y, z, speed] = [0; 4].map(|_| random(&mut state) - 0.5);
+            let x = 9.0 * x + speed * step as f64;
+            format!("{x:.4} {:.4} {:.4} 0.5 {speed:.3}\n", 9.0 * y, 9.0 * z)
+        })
+        .collect();
+    format!("40\nProperties=pos:R:3:radius:R:1:speed:R:1\n{rows}")
+}
+
+fn scene(cloud: &str, animation: &str) -> String {
+    format!(
+        "(image: (width: 60, height: 40), lens: Fov(40), camera: Orbit(target: (0, 0, 0), radius: 25),
+          lights: [Directional(toward: (1, 1, -1))],
+          clouds: [(file: {cloud}, value: \"speed\", range: (-0.5, 0.5))]{animation})"
+    )
+}
+
+/// A folder with `run.ron`, of all steps in one file, and `files.ron`, of a file for each.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    let animation = format!(", animation: Turntable(frames: {STEPS})");
+    let steps: Vec<String> = (0..STEPS).map(step).collect();
+    fs::write(folder.path("run.xyz"), steps.concat()).unwrap();
+    for (index, step) in steps.iter().enumerate() {
+        fs::write(folder.path(&format!("step.{index:03}.xyz")), step).unwrap();
+    }
+    let all = scene("\"run.xyz\", frames: All", &animation);
+    fs::write(folder.path("run.ron"), all).unwrap();
+    fs::write(folder.path("files.ron"), scene("\"step.###.xyz\"", &animation)).unwrap();
+    for index in 0..STEPS {
+        let still = scene(&format!("\"step.{index:03}.xyz\""), &animation);
+        fs::write(folder.path(&format!("still{index}.ron")), still).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn each_frame_is_that_of_a_scene_with_its_step_alone() {
+    let folder = folder();
+    let render = |scene: &str, more: &str| {
+        let output = folder.run(&format!("render {scene}.ron {more}"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    };
+    render("run", "-o run/##.exr");
+    render("files", "-o files/##.exr --threads 1");
+    render("run", "-o backward/##.exr --frames 12-1:-1");
+    for index in 0..STEPS {
+        let more = format!("-o stills/##.exr --frames {}", index + 1);
+        render(&format!("still{index}"), &more);
+    }
+    let expected = contents(&folder, "stills");
+    assert_eq!(expected.len(), STEPS);
+    let none: [&str; 0] = [];
+    for name in ["run", "files", "backward"] {
+        assert_eq!(differences(&expected, &contents(&folder, name)), none, "{name}");
+    }
+}
+
+#[test]
+fn series_are_resumed_and_shared_step_by_step() {
+    let folder = folder();
+    let render = |out: &str| format!("render run.ron -o {out}/##.png --samples 12");
+    assert_eq!(code(&folder.run(&render("whole"))), 0);
+    let resume = render("killed") + " --skip-existing --quiet";
+    let mut state = 5;
+    for _ in 0..12 {
+        let mut child = start(&folder, &resume);
+        sleep(Duration::from_millis(150).mul_f64(random(&mut state)));
+        child.kill().unwrap();
+        child.wait().unwrap();
+    }
+    assert_eq!(code(&folder.run(&resume)), 0);
+    let shared = render("shared") + " --skip-existing --threads 1";
+    let children: Vec<Child> = (0..4).map(|_| start(&folder, &shared)).collect();
+    for child in children {
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    }
+    let whole = contents(&folder, "whole");
+    assert_eq!(whole.len(), STEPS);
+    let none: [&str; 0] = [];
+    for name in ["killed", "shared"] {
+        assert_eq!(differences(&whole, &contents(&folder, name)), none, "{name}");
+    }
+    // A step that has changed is rendered again, and no other one.
+    let steps: Vec<String> = (0..STEPS).map(step).collect();
+    let changed = steps.concat().replacen(&steps[4], &steps[4].replace(" 0.5 ", " 0.6 "), 1);
+    fs::write(folder.path("run.xyz"), changed).unwrap();
+    let output = folder.run(&(render("whole") + " --skip-existing"));
+    let lines = text(&output.stdout);
+    let written: Vec<&str> = lines
+        .lines()
+        .filter(|line| line.starts_with("whole/") && !line.contains(": skipped"))
+        .collect();
+    assert_eq!(written.len(), 1, "{lines}");
+    assert!(written[0].starts_with("whole/05.png"), "{lines}");
+}
+
+#[test]
+fn a_step_that_is_broken_does_not_stop_the_others() {
+    let folder = folder();
+    fs::write(folder.path("step.007.xyz"), "40\nProperties=pos:R:3\nx\n").unwrap();
+    let output = folder.run("render files.ron -o out/##.png");
+    assert_eq!(code(&output), 1);
+    let errors = text(&output.stderr);
+    assert!(errors.contains("step.007.xyz:2:1: expected a column `radius`"), "{errors}");
+    assert!(errors.ends_with("11 of 12 frames written, failed: 8\n"), "{errors}");
+    assert_eq!(folder.names("out").len(), STEPS - 1);
+}
+
+#[test]
+fn settings_and_several_scenes_are_those_of_edited_files() {
+    let folder = folder();
+    let edited = scene("\"run.xyz\"", "").replace("radius: 25", "radius: 30");
+    fs::write(folder.path("edited.ron"), edited).unwrap();
+    fs::write(folder.path("plain.ron"), scene("\"run.xyz\"", "")).unwrap();
+    let run = |arguments: &str| {
+        let output = folder.run(arguments);
+        (code(&output), text(&output.stderr))
+    };
+    assert_eq!(run("render edited.ron -q -o a/edited.png").0, 0);
+    assert_eq!(run("render plain.ron -q -o b/edited.png --set camera.radius=30").0, 0);
+    assert_eq!(run("render edited.ron plain.ron -q -o c/{scene}.png").0, 0);
+    assert_eq!(folder.read("a/edited.png"), folder.read("b/edited.png"));
+    assert_eq!(folder.read("a/edited.png"), folder.read("c/edited.png"));
+    assert_eq!(folder.names("c"), ["edited.png", "plain.png"]);
+    let (status, errors) = run("check plain.ron --set camera.radius=-30");
+    assert_eq!(status, 2);
+    let expected = "plain.ron:1:90: expected a radius greater than 0, found -30";
+    assert!(errors.contains(expected), "{errors}");
+    let (status, errors) = run("check plain.ron --set lights[1].toward=1");
+    let expected = "plain.ron: --set lights[1].toward: expected [1], found those from [0] to [0]";
+    assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
+    assert_eq!(run("render edited.ron plain.ron -o a.png").0, 2);
+    // The first of twelve frames is shown.
+    let (status, errors) = run("check plain.ron");
+    assert_eq!((status, errors.contains("the first frame of several")), (0, true), "{errors}");
+    assert_eq!(run("check plain.ron --strict").0, 2);
+}

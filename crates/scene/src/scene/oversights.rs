@@ -1,0 +1,125 @@
+//! What a scene file says that may be an oversight.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+
+use crate::file::{File, Lens};
+use crate::text::{harmless, list, quoted};
+
+/// A field of view of fewer degrees looks like one in radians.
+const FEW_DEGREES: f64 = 3.2;
+
+/// Plain sentences, what is odd first, and then what to do.
+pub(super) fn warnings(file: &File) -> Vec<String> {
+    let mut warnings = Vec::new();
+    warnings.extend(lens(file));
+    for (name, material) in &file.materials.0 {
+        let name = name.value.as_ref().map(|name| quoted(&name.0)).unwrap_or_default();
+        let albedo = material.value.as_ref().and_then(|material| material.albedo.get());
+        warnings.extend(albedo.and_then(|albedo| self::albedo(&name, albedo.0)));
+    }
+    warnings.extend(unused_materials(file));
+    let background = file.background.get().map(|color| color.0);
+    if let Some(code) = background.and_then(bytes) {
+        warnings.push(format!(
+            "background: numbers above 1 look like bytes: {code} is that color, and 1 is white"
+        ));
+    }
+    warnings
+}
+
+fn lens(file: &File) -> Option<String> {
+    let Lens::Fov(angle) = file.lens.value.as_ref()? else {
+        return None;
+    };
+    let degrees = angle.get()?.0;
+    (degrees < FEW_DEGREES).then(|| {
+        let meant = (10.0 * degrees.to_degrees()).round() / 10.0;
+        format!(
+            "lens: Fov({degrees}) is in degrees, and looks like radians, of which it would be Fov({meant})"
+        )
+    })
+}
+
+fn albedo(name: &str, albedo: DVec3) -> Option<String> {
+    if let Some(code) = bytes(albedo) {
+        return Some(format!(
+            "material {name}: numbers above 1 look like bytes: {code} is that color, and 1 is white"
+        ));
+    }
+    (albedo.max_element() > 1.0).then(|| {
+        format!("material {name}: an albedo above 1 reflects more light than there is")
+    })
+}
+
+/// The color whose bytes a color looks like.
+fn bytes(color: DVec3) -> Option<String> {
+    let channels = color.to_array();
+    let is_byte = |channel: &f64| (0.0..=255.0).contains(channel) && channel.fract() == 0.0;
+    let is_like_bytes = channels.iter().all(is_byte) && color.max_element() > 2.0;
+    let [red, green, blue] = channels.map(|channel| channel as u8);
+    is_like_bytes.then(|| format!("\"#{red:02x}{green:02x}{blue:02x}\""))
+}
+
+fn unused_materials(file: &File) -> Option<String> {
+    let of_spheres = file.spheres.iter().filter_map(|sphere| sphere.value.as_ref()?.material.as_ref());
+    let of_clouds = file.clouds.iter().filter_map(|cloud| cloud.value.as_ref()?.material.as_ref());
+    let used = of_spheres.chain(of_clouds).filter_map(|name| name.value.as_ref());
+    let used: HashSet<&str> = used.map(|name| &*name.0).collect();
+    let names = file.materials.0.iter().filter_map(|(name, _)| name.value.as_ref());
+    let unused: Vec<String> = names
+        .filter(|name| !used.contains(&*name.0))
+        .map(|name| harmless(&format!("{:?}", name.0)))
+        .collect();
+    match unused.len() {
+        0 => None,
+        1 => Some(format!("material {} is of no sphere and of no cloud", unused[0])),
+        2..=6 => Some(format!("no sphere and no cloud has the material {}", list(&unused))),
+        count => Some(format!("no sphere and no cloud has {count} of the materials, {} among them", unused[0])),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::Scene;
+
+    #[test]
+    fn oversights_of_the_file_are_told() {
+        let of = |lens: &str, fields: &str| {
+            let text = format!("(image: (width: 6, height: 4), lens: {lens}, camera: Free(), {fields})");
+            let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
+            scene.warnings().join("; ")
+        };
+        let ball = "spheres: [(center: (0, 0, 5), radius: 1, material: \"m\")]";
+        for (lens, fields, expected) in [
+            ("Fov(50)", "materials: {\"m\": (albedo: (1, 0.5, 0))}", ""),
+            ("Fov(0.9)", "", "lens: Fov(0.9) is in degrees, and looks like radians, of which it would be Fov(51.6)"),
+            (
+                "Fov(50)",
+                "materials: {\"m\": (albedo: (200, 30, 0))}",
+                "material \"m\": numbers above 1 look like bytes: \"#c81e00\" is that color, and 1 is white",
+            ),
+            (
+                "Fov(50)",
+                "materials: {\"m\": (albedo: 1.5)}",
+                "material \"m\": an albedo above 1 reflects more light than there is",
+            ),
+            (
+                "Fov(50)",
+                "materials: {\"m\": (), \"n\": ()}",
+                "material \"n\" is of no sphere and of no cloud",
+            ),
+            (
+                "Fov(50)",
+                "background: (255, 255, 255)",
+                "background: numbers above 1 look like bytes: \"#ffffff\" is that color, and 1 is white",
+            ),
+        ] {
+            let materials = if fields.contains("\"m\"") { "" } else { ", materials: {\"m\": ()}" };
+            assert_eq!(of(lens, &format!("{ball}{materials}, {fields}").replace(", ,", ",")), expected);
+        }
+    }
+}
