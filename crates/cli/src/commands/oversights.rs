@@ -1,17 +1,18 @@
 //! What makes a picture black, or all of one color, by an oversight.
 
 use marbles_core::{Sphere, View, World};
+use rayon::prelude::*;
 
 use crate::base::numbers::short;
 
-/// Plain sentences about a frame: what is wrong, and what to do.
+/// Plain sentences about a frame: what is wrong, and what to do. Works on the threads of the current rayon pool.
 pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
     let spheres = world.spheres();
     if spheres.is_empty() {
         return vec![format!("frame {frame}: there are no spheres: the picture is the background")];
     }
     let mut warnings = Vec::new();
-    if !spheres.iter().any(|sphere| may_be_seen(sphere, view)) {
+    if !spheres.par_iter().any(|sphere| may_be_seen(sphere, view)) {
         warnings.push(format!(
             "frame {frame}: no sphere is in view: `marbles check` tells where they are, and `camera: Frame()` has \
              all of them in the picture"
@@ -25,9 +26,9 @@ pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
         );
     }
     let eye = view.camera.position;
-    let is_around = |sphere: &Sphere| (sphere.center() - eye).length() < sphere.radius();
+    let is_around = |sphere: &Sphere| (sphere.center() - eye).length_squared() < sphere.radius() * sphere.radius();
     if !view.lens.is_parallel()
-        && let Some(index) = spheres.iter().position(is_around)
+        && let Some(index) = spheres.par_iter().position_first(is_around)
     {
         let radius = short(spheres[index].radius());
         warnings.push(format!(

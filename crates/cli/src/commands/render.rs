@@ -172,7 +172,7 @@ fn check_view(
     let Ok(world) = threads.install(|| request.scene.world_at(frame)) else {
         return Ok(());
     };
-    let warnings = oversights::warnings(&world, &view, frame);
+    let warnings = threads.install(|| oversights::warnings(&world, &view, frame));
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
