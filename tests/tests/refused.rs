@@ -66,7 +66,7 @@ fn a_message_starts_with_the_place_and_ends_without_a_full_stop() {
         let first = &error.faults()[0];
         let start = format!(
             "{}:{}:{}: {}",
-            path.display(),
+            error.path().display(),
             first.line,
             first.column,
             first.message

@@ -84,7 +84,10 @@ fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<
     let clouds = tables::json(scene)?;
     // For programs: as it is.
     let text = text.trim_end().strip_suffix('}').unwrap_or(&text);
-    console.print(&format!("{},\n  \"clouds\": {clouds}\n}}\n", text.trim_end()));
+    console.print(&format!(
+        "{},\n  \"clouds\": {clouds}\n}}\n",
+        text.trim_end()
+    ));
     Ok(status::SUCCESS)
 }
 
@@ -182,7 +185,11 @@ fn cloud(
     }
     let columns = scene.columns(index).unwrap_or_default();
     let name = |first: usize| if first == 0 { "  columns" } else { "" };
-    rows.extend((0..).zip(&columns).map(|(place, column)| (name(place), self::column(column, cloud))));
+    rows.extend(
+        (0..)
+            .zip(&columns)
+            .map(|(place, column)| (name(place), self::column(column, cloud))),
+    );
     if let Some((target, radius)) = scene.orbit_around(all, ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
         let camera = format!("Orbit(target: {target}, radius: {radius}, elevation: {ELEVATION})");
@@ -218,7 +225,11 @@ fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
     if is_color && let Some(colors) = colors {
         match &colors.meaning {
             ColorMeaning::Scale { low, high, .. } => {
-                text.push_str(&format!("; colors from {} to {}", short(*low), short(*high)));
+                text.push_str(&format!(
+                    "; colors from {} to {}",
+                    short(*low),
+                    short(*high)
+                ));
             }
             ColorMeaning::Categories(categories) => {
                 text.push_str(&format!("; {} colors", categories.len()));

@@ -18,7 +18,8 @@ pub(super) fn write(
 ) -> Result<(), Failure> {
     let scene = &request.scene;
     for (option, path) in [("--legend", &legend), ("--scale-bar", &scale_bar)] {
-        path.as_deref().map_or(Ok(()), |path| check_name(option, path))?;
+        path.as_deref()
+            .map_or(Ok(()), |path| check_name(option, path))?;
     }
     let inputs = Inputs::of(&request.scene_path, scene);
     inputs.refuse(legend.iter().chain(&scale_bar).cloned())?;
@@ -26,10 +27,15 @@ pub(super) fn write(
     let scale_bar = scale_bar.map(|path| {
         let frame = request.frames.first();
         let view = request.view(frame)?;
-        Ok((scale_bar::draw(scene, frame, &view, &request.scene_path)?, path))
+        Ok((
+            scale_bar::draw(scene, frame, &view, &request.scene_path)?,
+            path,
+        ))
     });
-    let drawings: Vec<(String, PathBuf)> =
-        legend.into_iter().chain(scale_bar).collect::<Result<_, Failure>>()?;
+    let drawings: Vec<(String, PathBuf)> = legend
+        .into_iter()
+        .chain(scale_bar)
+        .collect::<Result<_, Failure>>()?;
     for (drawing, path) in drawings {
         prepare(&path)?;
         write_bytes(drawing.as_bytes(), &path)?;

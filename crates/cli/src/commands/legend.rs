@@ -43,7 +43,10 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
         let why = "--legend: no cloud has colors that stand for a column: `value: …` gives it some";
         return Err(Failure::unusable(path, why));
     }
-    let whole: f64 = all.iter().map(|(_, colors)| height(&colors.meaning) + GAP).sum();
+    let whole: f64 = all
+        .iter()
+        .map(|(_, colors)| height(&colors.meaning) + GAP)
+        .sum();
     let mut svg = Svg::new(WIDTH, whole - GAP + 2.0 * MARGIN, "Legend");
     let mut top = MARGIN;
     for (file, colors) in &all {
@@ -86,13 +89,7 @@ fn height(meaning: &ColorMeaning) -> f64 {
     }
 }
 
-fn draw_scale(
-    svg: &mut Svg,
-    top: f64,
-    (low, high): (f64, f64),
-    kind: ScaleKind,
-    colors: &[Color],
-) {
+fn draw_scale(svg: &mut Svg, top: f64, (low, high): (f64, f64), kind: ScaleKind, colors: &[Color]) {
     let (width, height) = SCALE;
     let step = width / colors.len().max(1) as f64;
     for (index, color) in colors.iter().enumerate() {
@@ -108,7 +105,11 @@ fn draw_scale(
             continue;
         }
         taken = at + half + DIGIT;
-        svg.line(&[(at, top + height), (at, top + height + 4.0)], 1.0, "#000000");
+        svg.line(
+            &[(at, top + height), (at, top + height + 4.0)],
+            1.0,
+            "#000000",
+        );
         let style = Style {
             anchor: Anchor::Middle,
             size: 12.0,
@@ -124,9 +125,17 @@ fn draw_categories(svg: &mut Svg, top: f64, categories: &[(String, Color)]) {
         svg.rectangle((MARGIN, line), (14.0, 14.0), &hexadecimal(*color));
         svg.text((MARGIN + 22.0, line + 12.0), PLAIN, name);
     }
-    if let Some(more) = categories.len().checked_sub(MOST_CATEGORIES).filter(|more| *more > 0) {
+    if let Some(more) = categories
+        .len()
+        .checked_sub(MOST_CATEGORIES)
+        .filter(|more| *more > 0)
+    {
         let line = top + LINE * MOST_CATEGORIES as f64;
-        svg.text((MARGIN + 22.0, line + 12.0), PLAIN, &format!("and {more} more"));
+        svg.text(
+            (MARGIN + 22.0, line + 12.0),
+            PLAIN,
+            &format!("and {more} more"),
+        );
     }
 }
 
@@ -148,14 +157,17 @@ fn marks(low: f64, high: f64, kind: ScaleKind) -> Vec<f64> {
     }
     let marks: Vec<f64> = match kind {
         ScaleKind::Log => {
-            let decades = libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
+            let decades =
+                libm::floor(libm::log10(low)) as i32..=libm::ceil(libm::log10(high)) as i32;
             let is_long = libm::log10(high / low) >= 3.0;
             let multiples: &[f64] = if is_long { &[1.0] } else { &[1.0, 2.0, 5.0] };
             let numbers = decades.flat_map(|decade| {
                 let power = libm::pow(10.0, f64::from(decade));
                 multiples.iter().map(move |multiple| multiple * power)
             });
-            numbers.filter(|number| (low..=high).contains(number)).collect()
+            numbers
+                .filter(|number| (low..=high).contains(number))
+                .collect()
         }
         ScaleKind::Linear | ScaleKind::Diverging(_) => {
             let step = round_step((high - low) / 4.0);
@@ -163,16 +175,24 @@ fn marks(low: f64, high: f64, kind: ScaleKind) -> Vec<f64> {
             let last = libm::floor(high / step) as i64;
             // Of numbers far from 0 beside their range there may be none, or very many by rounding.
             let numbers = (first..=last).take(12).map(|index| index as f64 * step);
-            numbers.filter(|number| (low..=high).contains(number)).collect()
+            numbers
+                .filter(|number| (low..=high).contains(number))
+                .collect()
         }
     };
-    if marks.len() < 2 { vec![low, high] } else { marks }
+    if marks.len() < 2 {
+        vec![low, high]
+    } else {
+        marks
+    }
 }
 
 /// The largest of 1, 2 and 5 times a power of ten that is not above a number.
 pub(super) fn round_step(number: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(number)));
-    let multiple = [5.0, 2.0].into_iter().find(|multiple| multiple * power <= number);
+    let multiple = [5.0, 2.0]
+        .into_iter()
+        .find(|multiple| multiple * power <= number);
     multiple.unwrap_or(1.0) * power
 }
 
@@ -191,7 +211,10 @@ mod tests {
         let linear = ScaleKind::Linear;
         assert_eq!(marks(0.0, 40.0, linear), [0.0, 10.0, 20.0, 30.0, 40.0]);
         assert_eq!(marks(-3.0, 5.0, linear), [-2.0, 0.0, 2.0, 4.0]);
-        assert_eq!(marks(1.0, 1000.0, ScaleKind::Log), [1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(
+            marks(1.0, 1000.0, ScaleKind::Log),
+            [1.0, 10.0, 100.0, 1000.0]
+        );
         assert_eq!(marks(3.0, 60.0, ScaleKind::Log), [5.0, 10.0, 20.0, 50.0]);
         assert_eq!(marks(7.0, 7.0, linear), [7.0]);
         assert_eq!(marks(7.1, 7.9, ScaleKind::Log), [7.1, 7.9]);

@@ -9,7 +9,9 @@ use crate::base::numbers::short;
 pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
     let spheres = world.spheres();
     if spheres.is_empty() {
-        return vec![format!("frame {frame}: there are no spheres: the picture is the background")];
+        return vec![format!(
+            "frame {frame}: there are no spheres: the picture is the background"
+        )];
     }
     let mut warnings = Vec::new();
     if !spheres.par_iter().any(|sphere| may_be_seen(sphere, view)) {
@@ -26,7 +28,9 @@ pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
         );
     }
     let eye = view.camera.position;
-    let is_around = |sphere: &Sphere| (sphere.center() - eye).length_squared() < sphere.radius() * sphere.radius();
+    let is_around = |sphere: &Sphere| {
+        (sphere.center() - eye).length_squared() < sphere.radius() * sphere.radius()
+    };
     if !view.lens.is_parallel()
         && let Some(index) = spheres.par_iter().position_first(is_around)
     {
@@ -57,9 +61,8 @@ fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
         if view.lens.is_parallel() {
             (along - middle).abs() - half
         } else {
-            let of_side = |slope: f64, sign: f64| {
-                sign * (along - slope * z) / (1.0 + slope * slope).sqrt()
-            };
+            let of_side =
+                |slope: f64, sign: f64| sign * (along - slope * z) / (1.0 + slope * slope).sqrt();
             of_side(middle + half, 1.0).max(of_side(middle - half, -1.0))
         }
     };
@@ -78,13 +81,19 @@ mod tests {
         let text = format!("(image: (width: 40, height: 20), lens: Fov(90), {fields})");
         let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
         let warnings = warnings(scene.world(), &scene.view(1).unwrap(), 1);
-        warnings.iter().map(|line| &line[..24]).collect::<Vec<_>>().join("; ")
+        warnings
+            .iter()
+            .map(|line| &line[..24])
+            .collect::<Vec<_>>()
+            .join("; ")
     }
 
     #[test]
     fn oversights_are_told() {
         const LIT: &str = "ambient: 1, camera: Free()";
-        let sphere = |x: f64, y: f64, z: f64| format!("{LIT}, spheres: [(center: ({x}, {y}, {z}), radius: 1)]");
+        let sphere = |x: f64, y: f64, z: f64| {
+            format!("{LIT}, spheres: [(center: ({x}, {y}, {z}), radius: 1)]")
+        };
         for (fields, expected) in [
             (sphere(0.0, 0.0, 5.0), ""),
             // The picture ends at x = ±5 and y = ±2.5 there; the sphere reaches 1.41 and 1.12 further.
@@ -94,7 +103,10 @@ mod tests {
             (sphere(0.0, -3.7, 5.0), "frame 1: no sphere is in"),
             (sphere(0.0, 0.0, -5.0), "frame 1: no sphere is in"),
             (sphere(0.0, 0.0, 0.5), "frame 1: the camera is i"),
-            (sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"), "nothing is lit: `lights:"),
+            (
+                sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"),
+                "nothing is lit: `lights:",
+            ),
             (LIT.to_owned(), "frame 1: there are no sp"),
         ] {
             assert_eq!(of(&fields), expected, "{fields}");

@@ -63,7 +63,11 @@ fn run_scene(
     check_view(&request, arguments, threads, console)?;
     let of_scene = |path: &PathBuf| output_of(path, scene);
     let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
-    figures::write(&request, legend.as_ref().map(of_scene), scale_bar.as_ref().map(of_scene))?;
+    figures::write(
+        &request,
+        legend.as_ref().map(of_scene),
+        scale_bar.as_ref().map(of_scene),
+    )?;
 
     interrupt::listen(console);
     prepare(&request.path(request.frames.first(), 0))?;
@@ -93,7 +97,10 @@ pub(super) fn request(
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<Request, Failure> {
-    let output = arguments.output.as_deref().map(|output| output_of(output, path));
+    let output = arguments
+        .output
+        .as_deref()
+        .map(|output| output_of(output, path));
     let pattern = output.as_deref().map(Pattern::parse).transpose();
     let pattern = pattern.map_err(Failure::Usage)?;
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);

@@ -65,7 +65,10 @@ pub(super) fn warn(
     match warnings.len() {
         0 => Ok(()),
         _ if !options.strict => Ok(()),
-        1 => Err(Failure::unusable(path, "with --strict the warning is an error")),
+        1 => Err(Failure::unusable(
+            path,
+            "with --strict the warning is an error",
+        )),
         count => {
             let why = format!("with --strict the {count} warnings are errors");
             Err(Failure::unusable(path, &why))

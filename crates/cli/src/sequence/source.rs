@@ -329,7 +329,8 @@ fn is_there(
 
 impl SharedWork for InFlight<'_> {
     fn left(&self) -> u32 {
-        self.rendering.with_dependent(|_, rendering| rendering.strips_left())
+        self.rendering
+            .with_dependent(|_, rendering| rendering.strips_left())
     }
 
     fn help(&self) -> ControlFlow<()> {

@@ -209,7 +209,10 @@ impl ReaderTask {
     /// Reads worlds as long as some are wanted.
     pub(super) fn run(self, scene: &Scene) {
         // The threads that render are busy: what is asked of their pool waits for them.
-        let own = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+        let own = ThreadPoolBuilder::new()
+            .num_threads(1)
+            .use_current_thread()
+            .build();
         for frame in self.frames {
             let place = self.places.take();
             let world = match &own {

@@ -42,7 +42,11 @@ fn folder() -> Folder {
     }
     let all = scene("\"run.xyz\", frames: All", &animation);
     fs::write(folder.path("run.ron"), all).unwrap();
-    fs::write(folder.path("files.ron"), scene("\"step.###.xyz\"", &animation)).unwrap();
+    fs::write(
+        folder.path("files.ron"),
+        scene("\"step.###.xyz\"", &animation),
+    )
+    .unwrap();
     for index in 0..STEPS {
         let still = scene(&format!("\"step.{index:03}.xyz\""), &animation);
         fs::write(folder.path(&format!("still{index}.ron")), still).unwrap();
@@ -68,7 +72,11 @@ fn each_frame_is_that_of_a_scene_with_its_step_alone() {
     assert_eq!(expected.len(), STEPS);
     let none: [&str; 0] = [];
     for name in ["run", "files", "backward"] {
-        assert_eq!(differences(&expected, &contents(&folder, name)), none, "{name}");
+        assert_eq!(
+            differences(&expected, &contents(&folder, name)),
+            none,
+            "{name}"
+        );
     }
 }
 
@@ -96,11 +104,17 @@ fn series_are_resumed_and_shared_step_by_step() {
     assert_eq!(whole.len(), STEPS);
     let none: [&str; 0] = [];
     for name in ["killed", "shared"] {
-        assert_eq!(differences(&whole, &contents(&folder, name)), none, "{name}");
+        assert_eq!(
+            differences(&whole, &contents(&folder, name)),
+            none,
+            "{name}"
+        );
     }
     // A step that has changed is rendered again, and no other one.
     let steps: Vec<String> = (0..STEPS).map(step).collect();
-    let changed = steps.concat().replacen(&steps[4], &steps[4].replace(" 0.5 ", " 0.6 "), 1);
+    let changed = steps
+        .concat()
+        .replacen(&steps[4], &steps[4].replace(" 0.5 ", " 0.6 "), 1);
     fs::write(folder.path("run.xyz"), changed).unwrap();
     let output = folder.run(&(render("whole") + " --skip-existing"));
     let lines = text(&output.stdout);
@@ -119,8 +133,14 @@ fn a_step_that_is_broken_does_not_stop_the_others() {
     let output = folder.run("render files.ron -o out/##.png");
     assert_eq!(code(&output), 1);
     let errors = text(&output.stderr);
-    assert!(errors.contains("step.007.xyz:2:1: expected a column `radius`"), "{errors}");
-    assert!(errors.ends_with("11 of 12 frames written, failed: 8\n"), "{errors}");
+    assert!(
+        errors.contains("step.007.xyz:2:1: expected a column `radius`"),
+        "{errors}"
+    );
+    assert!(
+        errors.ends_with("11 of 12 frames written, failed: 8\n"),
+        "{errors}"
+    );
     assert_eq!(folder.names("out").len(), STEPS - 1);
 }
 
@@ -135,7 +155,10 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
         (code(&output), text(&output.stderr))
     };
     assert_eq!(run("render edited.ron -q -o a/edited.png").0, 0);
-    assert_eq!(run("render plain.ron -q -o b/edited.png --set camera.radius=30").0, 0);
+    assert_eq!(
+        run("render plain.ron -q -o b/edited.png --set camera.radius=30").0,
+        0
+    );
     assert_eq!(run("render edited.ron plain.ron -q -o c/{scene}.png").0, 0);
     assert_eq!(folder.read("a/edited.png"), folder.read("b/edited.png"));
     assert_eq!(folder.read("a/edited.png"), folder.read("c/edited.png"));
@@ -150,6 +173,10 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     assert_eq!(run("render edited.ron plain.ron -o a.png").0, 2);
     // The first of twelve frames is shown.
     let (status, errors) = run("check plain.ron");
-    assert_eq!((status, errors.contains("the first frame of several")), (0, true), "{errors}");
+    assert_eq!(
+        (status, errors.contains("the first frame of several")),
+        (0, true),
+        "{errors}"
+    );
     assert_eq!(run("check plain.ron --strict").0, 2);
 }

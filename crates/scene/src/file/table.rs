@@ -4,7 +4,9 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 use crate::table::{ColumnRef, Missing, Value, ValueRange};
-use crate::text::{Names, Placed, Read, Slice, note_failure, read_simple, read_structure, read_tuple};
+use crate::text::{
+    Names, Placed, Read, Slice, note_failure, read_simple, read_structure, read_tuple,
+};
 use crate::values::{Color, Coordinate, Percent, Step};
 
 /// A condition on the rows of a table that are kept: a column, and what it has to be.

@@ -65,4 +65,3 @@ pub struct Description {
     /// The lens as the file writes it, for example `Fov(50)`.
     pub lens: String,
 }
-

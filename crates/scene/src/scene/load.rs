@@ -10,15 +10,18 @@ use std::sync::Arc;
 use marbles_core::Lens;
 
 use super::oversights;
+use super::refused::{explain, refused};
 use super::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene};
-use crate::file::{Camera, File, FrameOver, Materials};
 use crate::bounds::Bounds;
+use crate::file::{Camera, File, FrameOver, Materials};
 use crate::motion::{CameraMotion, Framed, Lights};
 use crate::report::SceneError;
+use crate::table;
 use crate::text::{Fault, Placed, Read, Slice, collect, harmless, optional, reason, set, token};
 use crate::values::MaterialName;
-use crate::table;
-use crate::world::{self, Cloud, CloudError, Learned, OpenCloud, Part, Progress, Scale, Series, Step};
+use crate::world::{
+    self, Cloud, CloudError, Learned, OpenCloud, Part, Progress, Scale, Series, Step,
+};
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
 /// for files that never end.
@@ -374,20 +377,6 @@ impl Scene {
 fn scale_lens(lens: &mut Lens, scale: f64) {
     lens.width *= scale;
     lens.shift *= scale;
-}
-
-/// The error of a cloud of a series.
-pub(super) fn explain(series: &Series, (place, error): (Range<usize>, CloudError)) -> SceneError {
-    let (path, text) = &series.source;
-    refused(path, text, (place, error))
-}
-
-/// The error of the cloud at this place of a scene file.
-fn refused(path: &Path, text: &str, (place, error): (Range<usize>, CloudError)) -> SceneError {
-    match error {
-        CloudError::Scene(fault) => SceneError::refused(path, text, vec![fault]),
-        CloudError::Table(table, fault) => SceneError::in_table(&table, fault, (path, text, &place)),
-    }
 }
 
 /// What the colors of a step mean.

@@ -3,6 +3,7 @@
 mod description;
 mod load;
 mod oversights;
+mod refused;
 
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -15,8 +16,8 @@ use crate::motion::{
 };
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
-pub use load::Setting;
 pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
+pub use load::Setting;
 
 /// A scene file that was read and found valid.
 #[derive(Clone, Debug)]
@@ -66,7 +67,9 @@ impl Scene {
         let Some(series) = &self.series else {
             return Ok(self.world.clone());
         };
-        let mut world = series.world(&series.key(frame)).map_err(|refused| load::explain(series, refused))?;
+        let mut world = series
+            .world(&series.key(frame))
+            .map_err(|refused| refused::explain(series, refused))?;
         world.lights.clone_from(&self.world.lights);
         Ok(world)
     }
@@ -74,8 +77,13 @@ impl Scene {
     /// The camera of a frame over time, and its lens.
     fn motion_at(&self, frame: i32) -> (&CameraMotion, Lens) {
         let key = self.steps_at(frame);
-        let framed = self.framed.iter().find(|framed| Some(&framed.0) == key.as_ref());
-        framed.map_or((&self.motion, self.lens), |(_, motion, lens)| (motion, *lens))
+        let framed = self
+            .framed
+            .iter()
+            .find(|framed| Some(&framed.0) == key.as_ref());
+        framed.map_or((&self.motion, self.lens), |(_, motion, lens)| {
+            (motion, *lens)
+        })
     }
 
     /// What may be an oversight, one line each.

@@ -15,8 +15,15 @@ pub(super) fn warnings(file: &File) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(lens(file));
     for (name, material) in &file.materials.0 {
-        let name = name.value.as_ref().map(|name| quoted(&name.0)).unwrap_or_default();
-        let albedo = material.value.as_ref().and_then(|material| material.albedo.get());
+        let name = name
+            .value
+            .as_ref()
+            .map(|name| quoted(&name.0))
+            .unwrap_or_default();
+        let albedo = material
+            .value
+            .as_ref()
+            .and_then(|material| material.albedo.get());
         warnings.extend(albedo.and_then(|albedo| self::albedo(&name, albedo.0)));
     }
     warnings.extend(unused_materials(file));
@@ -48,9 +55,8 @@ fn albedo(name: &str, albedo: DVec3) -> Option<String> {
             "material {name}: numbers above 1 look like bytes: {code} is that color, and 1 is white"
         ));
     }
-    (albedo.max_element() > 1.0).then(|| {
-        format!("material {name}: an albedo above 1 reflects more light than there is")
-    })
+    (albedo.max_element() > 1.0)
+        .then(|| format!("material {name}: an albedo above 1 reflects more light than there is"))
 }
 
 /// The color whose bytes a color looks like.
@@ -63,20 +69,41 @@ fn bytes(color: DVec3) -> Option<String> {
 }
 
 fn unused_materials(file: &File) -> Option<String> {
-    let of_spheres = file.spheres.iter().filter_map(|sphere| sphere.value.as_ref()?.material.as_ref());
-    let of_clouds = file.clouds.iter().filter_map(|cloud| cloud.value.as_ref()?.material.as_ref());
-    let used = of_spheres.chain(of_clouds).filter_map(|name| name.value.as_ref());
+    let of_spheres = file
+        .spheres
+        .iter()
+        .filter_map(|sphere| sphere.value.as_ref()?.material.as_ref());
+    let of_clouds = file
+        .clouds
+        .iter()
+        .filter_map(|cloud| cloud.value.as_ref()?.material.as_ref());
+    let used = of_spheres
+        .chain(of_clouds)
+        .filter_map(|name| name.value.as_ref());
     let used: HashSet<&str> = used.map(|name| &*name.0).collect();
-    let names = file.materials.0.iter().filter_map(|(name, _)| name.value.as_ref());
+    let names = file
+        .materials
+        .0
+        .iter()
+        .filter_map(|(name, _)| name.value.as_ref());
     let unused: Vec<String> = names
         .filter(|name| !used.contains(&*name.0))
         .map(|name| harmless(&format!("{:?}", name.0)))
         .collect();
     match unused.len() {
         0 => None,
-        1 => Some(format!("material {} is of no sphere and of no cloud", unused[0])),
-        2..=6 => Some(format!("no sphere and no cloud has the material {}", list(&unused))),
-        count => Some(format!("no sphere and no cloud has {count} of the materials, {} among them", unused[0])),
+        1 => Some(format!(
+            "material {} is of no sphere and of no cloud",
+            unused[0]
+        )),
+        2..=6 => Some(format!(
+            "no sphere and no cloud has the material {}",
+            list(&unused)
+        )),
+        count => Some(format!(
+            "no sphere and no cloud has {count} of the materials, {} among them",
+            unused[0]
+        )),
     }
 }
 
@@ -89,14 +116,19 @@ mod tests {
     #[test]
     fn oversights_of_the_file_are_told() {
         let of = |lens: &str, fields: &str| {
-            let text = format!("(image: (width: 6, height: 4), lens: {lens}, camera: Free(), {fields})");
+            let text =
+                format!("(image: (width: 6, height: 4), lens: {lens}, camera: Free(), {fields})");
             let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
             scene.warnings().join("; ")
         };
         let ball = "spheres: [(center: (0, 0, 5), radius: 1, material: \"m\")]";
         for (lens, fields, expected) in [
             ("Fov(50)", "materials: {\"m\": (albedo: (1, 0.5, 0))}", ""),
-            ("Fov(0.9)", "", "lens: Fov(0.9) is in degrees, and looks like radians, of which it would be Fov(51.6)"),
+            (
+                "Fov(0.9)",
+                "",
+                "lens: Fov(0.9) is in degrees, and looks like radians, of which it would be Fov(51.6)",
+            ),
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: (200, 30, 0))}",
@@ -118,8 +150,18 @@ mod tests {
                 "background: numbers above 1 look like bytes: \"#ffffff\" is that color, and 1 is white",
             ),
         ] {
-            let materials = if fields.contains("\"m\"") { "" } else { ", materials: {\"m\": ()}" };
-            assert_eq!(of(lens, &format!("{ball}{materials}, {fields}").replace(", ,", ",")), expected);
+            let materials = if fields.contains("\"m\"") {
+                ""
+            } else {
+                ", materials: {\"m\": ()}"
+            };
+            assert_eq!(
+                of(
+                    lens,
+                    &format!("{ball}{materials}, {fields}").replace(", ,", ",")
+                ),
+                expected
+            );
         }
     }
 }

@@ -44,11 +44,7 @@ pub(crate) struct Column<'a> {
 ///
 /// # Errors
 /// Returns what is missing, and what is no number where one is needed.
-pub(crate) fn plan(
-    names: Vec<String>,
-    kinds: &[Kind],
-    request: &Request,
-) -> Result<Plan, String> {
+pub(crate) fn plan(names: Vec<String>, kinds: &[Kind], request: &Request) -> Result<Plan, String> {
     let kind = |column: usize| kinds.get(column).copied().unwrap_or(Kind::Other(0));
     let nature = Nature {
         is_byte: &|column| kind(column).is_byte(),
@@ -335,7 +331,7 @@ impl Block<'_> {
                     continue;
                 }
                 let number = value.kind.decode(bytes).unwrap_or(f64::NAN);
-                if let Some(expected) = value.slot.refusal(number, plan) {
+                if let Some(expected) = value.slot.refusal(number, plan.allowed) {
                     let expected = plan.expected(value.column, expected);
                     return Err(self.fault(row, value, &expected, number.to_string()).into());
                 }

@@ -129,10 +129,7 @@ fn frames(
 }
 
 /// Sends all bytes of a decoder, until it ends or nobody wants them.
-fn hand_over(
-    decoder: &mut dyn Read,
-    sender: &SyncSender<io::Result<Vec<u8>>>,
-) -> io::Result<()> {
+fn hand_over(decoder: &mut dyn Read, sender: &SyncSender<io::Result<Vec<u8>>>) -> io::Result<()> {
     loop {
         let mut block = Vec::with_capacity(BLOCK);
         let count = decoder.take(BLOCK as u64).read_to_end(&mut block)?;

@@ -91,7 +91,10 @@ pub(crate) fn number(text: &[u8]) -> Option<u8> {
 /// The atomic number of a label that begins with a symbol: `C12`, `Fe2+`; or of a symbol or a number.
 pub(crate) fn of_label(text: &[u8]) -> Option<u8> {
     number(text).or_else(|| {
-        let count = text.iter().take_while(|byte| byte.is_ascii_alphabetic()).count();
+        let count = text
+            .iter()
+            .take_while(|byte| byte.is_ascii_alphabetic())
+            .count();
         let (symbol, rest) = text.split_at(count);
         let is_rest = |byte: &u8| byte.is_ascii_digit() || b"+-_*'".contains(byte);
         (count > 0 && rest.iter().all(is_rest)).then(|| number(symbol))?

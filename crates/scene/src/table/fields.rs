@@ -111,7 +111,9 @@ impl<'line> Fields<'line> {
 /// All fields of a line.
 pub(crate) fn all<'line>(line: &'line [u8], division: &Division) -> Vec<&'line [u8]> {
     let mut fields = Fields::new(line, division);
-    std::iter::from_fn(|| fields.next()).map(|field| &line[field]).collect()
+    std::iter::from_fn(|| fields.next())
+        .map(|field| &line[field])
+        .collect()
 }
 
 fn is_space(byte: &u8) -> bool {

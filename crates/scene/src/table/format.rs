@@ -57,7 +57,9 @@ const REMEDIES: [(&[&str], &str); 6] = [
         "save the data as CSV or as legacy VTK, in ParaView by File > Save Data",
     ),
     (
-        &["h5", "hdf5", "hdf", "parquet", "feather", "pkl", "mat", "fits"],
+        &[
+            "h5", "hdf5", "hdf", "parquet", "feather", "pkl", "mat", "fits",
+        ],
         "save the columns as NPY, NPZ or CSV",
     ),
     (&["xlsx", "xls", "ods"], "save the sheet as CSV"),
@@ -66,7 +68,9 @@ const REMEDIES: [(&[&str], &str); 6] = [
         "save the points as PLY or CSV",
     ),
     (
-        &["mol2", "sdf", "mol", "cml", "psf", "prmtop", "top", "tpr", "data", "lmp"],
+        &[
+            "mol2", "sdf", "mol", "cml", "psf", "prmtop", "top", "tpr", "data", "lmp",
+        ],
         "save the atoms as XYZ or PDB, with Open Babel, ASE or MDAnalysis",
     ),
 ];
@@ -94,13 +98,17 @@ impl Format {
         let known = ENDINGS.iter().find(|known| known.0 == ending);
         let by_name = known.map(|known| known.1);
         // What others call a dump may be a table of any kind.
-        by_name.filter(|format| *format != Self::Lammps || head.is_empty()).or_else(|| by_contents(head))
+        by_name
+            .filter(|format| *format != Self::Lammps || head.is_empty())
+            .or_else(|| by_contents(head))
     }
 
     /// What to do with a file of this name that is no table.
     pub(crate) fn remedy(path: &Path) -> Option<&'static str> {
         let ending = ending(path);
-        let of = REMEDIES.iter().find(|(endings, _)| endings.contains(&&*ending));
+        let of = REMEDIES
+            .iter()
+            .find(|(endings, _)| endings.contains(&&*ending));
         of.map(|(_, remedy)| *remedy)
     }
 }
@@ -112,7 +120,9 @@ fn ending(path: &Path) -> String {
         ending.unwrap_or_default().to_ascii_lowercase()
     };
     match of(path) {
-        ending if Compression::ENDINGS.contains(&&*ending) => of(Path::new(path.file_stem().unwrap_or_default())),
+        ending if Compression::ENDINGS.contains(&&*ending) => {
+            of(Path::new(path.file_stem().unwrap_or_default()))
+        }
         ending => ending,
     }
 }
@@ -120,9 +130,14 @@ fn ending(path: &Path) -> String {
 /// The format of a text that begins so.
 fn by_contents(head: &[u8]) -> Option<Format> {
     const RECORDS: [&[u8]; 9] = [
-        b"HEADER", b"TITLE ", b"COMPND", b"REMARK", b"CRYST1", b"MODEL ", b"ATOM  ", b"HETATM", b"EXPDTA",
+        b"HEADER", b"TITLE ", b"COMPND", b"REMARK", b"CRYST1", b"MODEL ", b"ATOM  ", b"HETATM",
+        b"EXPDTA",
     ];
-    if head.is_empty() || head.contains(&0) || str::from_utf8(&head[..head.len().min(4096)]).is_err_and(|error| error.error_len().is_some()) {
+    if head.is_empty()
+        || head.contains(&0)
+        || str::from_utf8(&head[..head.len().min(4096)])
+            .is_err_and(|error| error.error_len().is_some())
+    {
         return None;
     }
     let mut lines = head.split(|&byte| byte == b'\n').map(without_return);
@@ -146,6 +161,8 @@ fn by_contents(head: &[u8]) -> Option<Format> {
         return Some(Format::Gro);
     }
     // Something of it has to be numbers.
-    let is_table = [first, second, third].iter().any(|line| line.iter().any(u8::is_ascii_digit));
+    let is_table = [first, second, third]
+        .iter()
+        .any(|line| line.iter().any(u8::is_ascii_digit));
     is_table.then_some(Format::Text)
 }

@@ -60,12 +60,7 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn may_be_several(&self) -> bool {
         matches!(
             self.format,
-            Format::Xyz
-                | Format::Lammps
-                | Format::Gro
-                | Format::Pdb
-                | Format::MmCif
-                | Format::Npy
+            Format::Xyz | Format::Lammps | Format::Gro | Format::Pdb | Format::MmCif | Format::Npy
         )
     }
 

@@ -41,14 +41,21 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     };
     let number = input.number + 1;
     let line = input.next()?.map(<[u8]>::to_vec);
-    if !is_first && title.trim_ascii().is_empty() && line.as_ref().is_none_or(|line| line.trim_ascii().is_empty()) {
+    if !is_first
+        && title.trim_ascii().is_empty()
+        && line
+            .as_ref()
+            .is_none_or(|line| line.trim_ascii().is_empty())
+    {
         return Ok(None);
     }
     let expected = "the number of atoms";
     let line = line.ok_or_else(|| LocatedFault::at_end(number, expected))?;
-    let count = str::from_utf8(line.trim_ascii()).ok().and_then(|text| text.parse().ok());
-    let count: u64 = count
-        .ok_or_else(|| LocatedFault::expected(number, &line, 0..line.len(), expected))?;
+    let count = str::from_utf8(line.trim_ascii())
+        .ok()
+        .and_then(|text| text.parse().ok());
+    let count: u64 =
+        count.ok_or_else(|| LocatedFault::expected(number, &line, 0..line.len(), expected))?;
     let row = input.peek()?.unwrap_or_default();
     let width = width(row);
     let mut places = PLACES.to_vec();
@@ -62,7 +69,10 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         ..Form::new(Division::Fixed(places.into()))
     };
     let names = NAMES.map(String::from).into();
-    let texts = NAMES.iter().map(|name| ["residue", "name", "element"].contains(name)).collect();
+    let texts = NAMES
+        .iter()
+        .map(|name| ["residue", "name", "element"].contains(name))
+        .collect();
     Ok(Some(Header {
         count: Some((count, "atoms, as the line above says")),
         behind: 1,

@@ -50,7 +50,11 @@ impl Header {
     }
 
     /// Reads the rows behind the header.
-    pub(crate) fn read(&self, input: &mut Input<'_>, request: &Request) -> Result<Rows, TableError> {
+    pub(crate) fn read(
+        &self,
+        input: &mut Input<'_>,
+        request: &Request,
+    ) -> Result<Rows, TableError> {
         let texts = match &self.texts {
             Some(texts) => texts.clone(),
             None => self.texts_of_first_row(input)?,
@@ -65,7 +69,9 @@ impl Header {
             let (number, line, span) = &self.place;
             LocatedFault::in_line(*number, line, span.clone(), message)
         })?;
-        let is_scaled = plan.name_of(Slot::X).is_some_and(|name| name.starts_with("xs"));
+        let is_scaled = plan
+            .name_of(Slot::X)
+            .is_some_and(|name| name.starts_with("xs"));
         plan.axes = self.scaled.filter(|_| is_scaled);
         let rows = match self.count {
             Some((count, noun)) => text::read_count(input, &plan, &self.form, count, noun)?,

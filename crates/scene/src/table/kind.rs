@@ -129,7 +129,10 @@ impl Kind {
                     Order::Big => u32::from_be_bytes(*bytes),
                 };
                 let (characters, _) = bytes.as_chunks();
-                let characters = characters.iter().map(character).take_while(|&code| code != 0);
+                let characters = characters
+                    .iter()
+                    .map(character)
+                    .take_while(|&code| code != 0);
                 let text: String = characters
                     .map(|code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER))
                     .collect();
@@ -210,7 +213,10 @@ mod tests {
     #[test]
     fn texts_end_before_zeros() {
         assert_eq!(*Kind::Text(5).text(b"Ar \0\0xx"), *b"Ar");
-        let characters: Vec<u8> = "\u{e9}C\0".chars().flat_map(|c| (c as u32).to_be_bytes()).collect();
+        let characters: Vec<u8> = "\u{e9}C\0"
+            .chars()
+            .flat_map(|c| (c as u32).to_be_bytes())
+            .collect();
         let text = Kind::Characters(3, Order::Big).text(&characters);
         assert_eq!(*text, *"\u{e9}C".as_bytes());
         assert_eq!(*Kind::little(Number::U8).text(&[7]), *b"7");

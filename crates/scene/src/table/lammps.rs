@@ -38,7 +38,9 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             [b"ITEM:", b"ATOMS", ref names @ ..] => {
                 let Some(count) = count else {
                     let expected = "`ITEM: NUMBER OF ATOMS` before";
-                    return Err(LocatedFault::expected(number, &line, 0..line.len(), expected).into());
+                    return Err(
+                        LocatedFault::expected(number, &line, 0..line.len(), expected).into(),
+                    );
                 };
                 let name = |name: &&[u8]| String::from_utf8_lossy(name).into_owned();
                 let names = names.iter().map(name).collect();
@@ -64,7 +66,9 @@ fn count(input: &mut Input<'_>) -> Result<u64, TableError> {
     let Some(line) = input.next()? else {
         return Err(LocatedFault::at_end(number, expected).into());
     };
-    let count = str::from_utf8(line.trim_ascii()).ok().and_then(|text| text.parse().ok());
+    let count = str::from_utf8(line.trim_ascii())
+        .ok()
+        .and_then(|text| text.parse().ok());
     count.ok_or_else(|| LocatedFault::expected(number, line, 0..line.len(), expected).into())
 }
 

@@ -80,7 +80,10 @@ fn starts_with(line: &[u8], prefix: &str) -> bool {
 
 /// The name behind that of the category.
 fn name(line: &[u8]) -> String {
-    let word = line.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+    let word = line
+        .split(u8::is_ascii_whitespace)
+        .next()
+        .unwrap_or_default();
     String::from_utf8_lossy(&word[CATEGORY.len().min(word.len())..]).into_owned()
 }
 

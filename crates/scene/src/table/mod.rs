@@ -37,13 +37,15 @@ mod vtk;
 mod xyz;
 
 pub(crate) use colormap::{Colormap, index as color_index};
-pub(crate) use columns::{Filter, MOST_FILTERS, Test, unit};
+pub(crate) use columns::{MOST_FILTERS, Test, unit};
 pub(crate) use element::{Radii, colors as element_colors};
 pub(crate) use error::TableError;
 pub(crate) use format::ENDINGS;
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
-pub(crate) use request::{Coloring, ColumnRef, Columns, Missing, Request, Value, ValueRange};
+pub(crate) use request::{
+    Coloring, ColumnRef, Columns, Filter, Missing, Request, Value, ValueRange,
+};
 pub(crate) use rows::Rows;
 
 #[cfg(test)]

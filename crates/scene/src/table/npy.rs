@@ -75,12 +75,17 @@ impl Array {
     pub(crate) fn new(input: &mut Input<'_>) -> Result<Self, TableError> {
         let mut header = header_of(input)?;
         let mut tables = 1;
-        if let ([count, ..], 3, false) = (&header.shape[..], header.shape.len(), header.is_by_column) {
+        if let ([count, ..], 3, false) =
+            (&header.shape[..], header.shape.len(), header.is_by_column)
+        {
             tables = *count;
             header.shape.remove(0);
         }
         let (rows, _, kinds) = header.columns()?;
-        let row = kinds.iter().map(|kind| kind.size()).fold(0, u64::saturating_add);
+        let row = kinds
+            .iter()
+            .map(|kind| kind.size())
+            .fold(0, u64::saturating_add);
         Ok(Self {
             header,
             start: input.position,
@@ -96,7 +101,8 @@ impl Array {
 
     /// The byte behind the last table; one behind the start where tables have none.
     fn end(&self) -> u64 {
-        self.start.saturating_add(self.tables.saturating_mul(self.size).max(1))
+        self.start
+            .saturating_add(self.tables.saturating_mul(self.size).max(1))
     }
 
     /// Passes over the next table; returns whether there was one.

@@ -77,7 +77,10 @@ fn array(file: &mut dyn Read) -> Result<Option<(Header, Vec<u8>)>, TableError> {
         Elements::Plain(kind) => kind.size(),
         Elements::Records(fields) => fields.iter().map(|(_, kind)| kind.size()).sum(),
     };
-    let all = header.shape.iter().try_fold(size, |all, side| all.checked_mul(*side));
+    let all = header
+        .shape
+        .iter()
+        .try_fold(size, |all, side| all.checked_mul(*side));
     let all = all.ok_or(TableError::OutOfMemory(header.shape[0]))?;
     // What is read decides, not what the header claims.
     let mut bytes = Vec::new();
@@ -98,7 +101,11 @@ fn rows(arrays: &[Array]) -> Option<u64> {
         _ => false,
     };
     let positions = arrays.iter().find(is_position);
-    let triples = || arrays.iter().find(|array| matches!(shape(array)[..], [_, 3]));
+    let triples = || {
+        arrays
+            .iter()
+            .find(|array| matches!(shape(array)[..], [_, 3]))
+    };
     let any = positions.or_else(triples).or_else(|| arrays.first());
     any.map(|array| array.header.shape[0])
 }
@@ -113,7 +120,9 @@ fn add_columns<'a>(
     let header = &array.header;
     let rows = header.shape[0] as usize;
     let (own, kinds) = match (&header.elements, header.shape.get(1)) {
-        _ if is_alone && (header.shape.len() == 2 || matches!(header.elements, Elements::Records(_))) => {
+        _ if is_alone
+            && (header.shape.len() == 2 || matches!(header.elements, Elements::Records(_))) =>
+        {
             let (_, names, kinds) = header.columns()?;
             (names, kinds)
         }

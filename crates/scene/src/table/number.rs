@@ -12,14 +12,22 @@ pub(crate) fn parse(text: &[u8], has_decimal_commas: bool) -> Option<f64> {
 
 #[cold]
 fn with_comma(text: &[u8]) -> Option<f64> {
-    str::from_utf8(text).ok()?.replacen(',', ".", 1).parse().ok()
+    str::from_utf8(text)
+        .ok()?
+        .replacen(',', ".", 1)
+        .parse()
+        .ok()
 }
 
 /// A number whose exponent is marked as Fortran and Mathematica do: `1.5D-3`, `1.5*^-3`.
 #[cold]
 fn with_other_exponent(text: &str) -> Option<f64> {
-    let starts_with_digit = text.trim_start_matches(['+', '-', '.']).starts_with(|c: char| c.is_ascii_digit());
-    let (mantissa, exponent) = text.split_once("*^").or_else(|| text.split_once(['d', 'D']))?;
+    let starts_with_digit = text
+        .trim_start_matches(['+', '-', '.'])
+        .starts_with(|c: char| c.is_ascii_digit());
+    let (mantissa, exponent) = text
+        .split_once("*^")
+        .or_else(|| text.split_once(['d', 'D']))?;
     let whole = starts_with_digit && exponent.parse::<i32>().is_ok();
     whole.then(|| format!("{mantissa}e{exponent}").parse().ok())?
 }

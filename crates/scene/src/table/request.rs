@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde::Deserialize;
 
-use super::columns::Filter;
+use super::columns::Test;
 use super::element::Radii;
 
 /// The settings by which a table is read.
@@ -25,6 +25,13 @@ pub(crate) struct Request {
     pub(crate) keep: Vec<Filter>,
     /// The colors of elements are left out unless they are asked for.
     pub(crate) has_material: bool,
+}
+
+/// A condition on a column.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Filter {
+    pub(crate) column: ColumnRef,
+    pub(crate) test: Test,
 }
 
 /// The columns that the scene file names; those that it does not are found by their names.

@@ -108,7 +108,9 @@ fn pieces(block: &[u8]) -> impl Iterator<Item = &[u8]> {
         if rest.is_empty() {
             return None;
         }
-        let ahead = rest.get(PIECE..).and_then(|ahead| memchr::memchr(b'\n', ahead));
+        let ahead = rest
+            .get(PIECE..)
+            .and_then(|ahead| memchr::memchr(b'\n', ahead));
         let length = ahead.map_or(rest.len(), |ahead| PIECE + ahead + 1);
         let (piece, after) = rest.split_at(length);
         rest = after;
@@ -214,11 +216,11 @@ fn read_line(
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);
                     let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
-                    if value.is_none() && is_value && plan.may_miss && is_missing(text) {
+                    if value.is_none() && is_value && plan.allowed.may_miss && is_missing(text) {
                         value = Some(f64::NAN);
                     }
                     let refusal = match value {
-                        Some(value) => slot.refusal(value, plan),
+                        Some(value) => slot.refusal(value, plan.allowed),
                         None => Some("a number"),
                     };
                     if let Some(expected) = refusal {

@@ -49,9 +49,14 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             [] => {}
             [b"ASCII"] => data.is_binary = false,
             [b"BINARY"] => data.is_binary = true,
-            [b"DATASET", b"POLYDATA" | b"UNSTRUCTURED_GRID" | b"STRUCTURED_GRID"] => {}
+            [
+                b"DATASET",
+                b"POLYDATA" | b"UNSTRUCTURED_GRID" | b"STRUCTURED_GRID",
+            ] => {}
             [b"DATASET", ..] => {
-                return Err(refuse("a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID"));
+                return Err(refuse(
+                    "a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID",
+                ));
             }
             [b"POINTS", points, kind] => {
                 data.points = count(points).ok_or_else(|| refuse("the number of points"))?;
@@ -87,7 +92,10 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
                 size,
             ] => {
                 let size = count(size).ok_or_else(|| refuse("the number of indices"))?;
-                match input.peek()?.is_some_and(|line| line.starts_with(b"OFFSETS")) {
+                match input
+                    .peek()?
+                    .is_some_and(|line| line.starts_with(b"OFFSETS"))
+                {
                     // The arrays of version 5, offsets and connectivity.
                     true => {
                         let cells = count(cells).ok_or_else(|| refuse("the number of cells"))?;
@@ -103,10 +111,17 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             }
             [b"LOOKUP_TABLE", _, size] => {
                 let size = count(size).ok_or_else(|| refuse("the number of colors"))?;
-                data.skip(input, size.saturating_mul(4), Kind::Number(Number::U8, Order::Big))?;
+                data.skip(
+                    input,
+                    size.saturating_mul(4),
+                    Kind::Number(Number::U8, Order::Big),
+                )?;
             }
             [b"METADATA"] => {
-                while input.next()?.is_some_and(|line| !line.trim_ascii().is_empty()) {}
+                while input
+                    .next()?
+                    .is_some_and(|line| !line.trim_ascii().is_empty())
+                {}
             }
             [b"DIMENSIONS", ..] => {}
             // Spheres need no more than what was read.
@@ -138,12 +153,21 @@ impl Dataset {
     /// Reads an array of a field.
     fn field(&mut self, input: &mut Input<'_>) -> Result<(), TableError> {
         let mut line = input.next()?.map(<[u8]>::to_vec);
-        while line.as_ref().is_some_and(|line| line.trim_ascii().is_empty()) {
+        while line
+            .as_ref()
+            .is_some_and(|line| line.trim_ascii().is_empty())
+        {
             line = input.next()?.map(<[u8]>::to_vec);
         }
         // What is told of the array before it.
-        if line.as_ref().is_some_and(|line| line.starts_with(b"METADATA")) {
-            while input.next()?.is_some_and(|line| !line.trim_ascii().is_empty()) {}
+        if line
+            .as_ref()
+            .is_some_and(|line| line.starts_with(b"METADATA"))
+        {
+            while input
+                .next()?
+                .is_some_and(|line| !line.trim_ascii().is_empty())
+            {}
             line = input.next()?.map(<[u8]>::to_vec);
         }
         let number = input.number;
@@ -152,7 +176,9 @@ impl Dataset {
         let words = fields::all(&line, &Division::Words);
         let count = |word: &[u8]| str::from_utf8(word).ok()?.parse::<u64>().ok();
         let array = match words[..] {
-            [name, size, rows, kind] => Some((text(name), count(size), count(rows), self::kind(kind))),
+            [name, size, rows, kind] => {
+                Some((text(name), count(size), count(rows), self::kind(kind)))
+            }
             _ => None,
         };
         match array {
@@ -243,8 +269,8 @@ impl Dataset {
         let words = fields::all(&line, &Division::Words);
         let kind = words.last().and_then(|word| self::kind(word));
         let expected = "an array and its type";
-        let kind = kind
-            .ok_or_else(|| LocatedFault::expected(number, &line, 0..line.len(), expected))?;
+        let kind =
+            kind.ok_or_else(|| LocatedFault::expected(number, &line, 0..line.len(), expected))?;
         self.skip(input, count, kind)?;
         if self.is_binary {
             input.next()?;
@@ -258,7 +284,10 @@ fn column(bytes: &[u8], kind: Kind, component: u64, step: u64) -> Vec<u8> {
     let size = kind.size() as usize;
     let offset = component as usize * size;
     let values = bytes.chunks_exact((step as usize).max(1));
-    values.flat_map(|all| &all[offset..offset + size]).copied().collect()
+    values
+        .flat_map(|all| &all[offset..offset + size])
+        .copied()
+        .collect()
 }
 
 fn text(word: &[u8]) -> String {

@@ -15,7 +15,11 @@ use crate::text::{LocatedFault, show};
 /// The header of the next frame; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
     let is_first = input.number == 0;
-    while !is_first && input.peek()?.is_some_and(|line| line.trim_ascii().is_empty()) {
+    while !is_first
+        && input
+            .peek()?
+            .is_some_and(|line| line.trim_ascii().is_empty())
+    {
         input.next()?;
     }
     let first = input.number + 1;

@@ -67,7 +67,12 @@ pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
 
 /// The steps of a path: names with points between them, and numbers from 0 in brackets.
 fn parts(path: &str) -> Result<Vec<Part<'_>>, String> {
-    let wrong = || format!("expected a path such as `lights[0].toward`, found {}", show(path));
+    let wrong = || {
+        format!(
+            "expected a path such as `lights[0].toward`, found {}",
+            show(path)
+        )
+    };
     let mut parts = Vec::new();
     let mut rest = path;
     while !rest.is_empty() {
@@ -172,7 +177,11 @@ fn missing(inside: &Inside<'_>, part: &Part<'_>) -> String {
             format!("expected {}, found none{list}", shown(part))
         }
         Part::Index(_) if keys.is_empty() && count > 0 => {
-            format!("expected {}, found those from [0] to [{}]", shown(part), count - 1)
+            format!(
+                "expected {}, found those from [0] to [{}]",
+                shown(part),
+                count - 1
+            )
         }
         _ => format!("expected {}, found none", shown(part)),
     }
@@ -204,30 +213,72 @@ mod tests {
             ("camera.radius", "3", "radius: 9", "radius: 3"),
             ("lights[0].toward", "(1, 0, 0)", "(1, 1, -1)", "(1, 0, 0)"),
             ("lights[1].position[2]", "7", "(0, 1, 2)", "(0, 1, 7)"),
-            ("materials.candy.exponent", "1", "exponent: 2", "exponent: 1"),
-            ("materials.\"b.c\".exponent", "1", "\"b.c\": ()", "\"b.c\": (exponent: 1)"),
-            ("camera.azimuth", "30", "radius: 9)", "radius: 9, azimuth: 30)"),
-            ("materials.new", "()", "\"b.c\": ()", "\"b.c\": (), \"new\": ()"),
+            (
+                "materials.candy.exponent",
+                "1",
+                "exponent: 2",
+                "exponent: 1",
+            ),
+            (
+                "materials.\"b.c\".exponent",
+                "1",
+                "\"b.c\": ()",
+                "\"b.c\": (exponent: 1)",
+            ),
+            (
+                "camera.azimuth",
+                "30",
+                "radius: 9)",
+                "radius: 9, azimuth: 30)",
+            ),
+            (
+                "materials.new",
+                "()",
+                "\"b.c\": ()",
+                "\"b.c\": (), \"new\": ()",
+            ),
             ("lights[0].intensity", "2", "-1))", "-1), intensity: 2)"),
         ] {
-            assert_eq!(set(TEXT, path, value).unwrap(), TEXT.replacen(from, to, 1), "{path}");
+            assert_eq!(
+                set(TEXT, path, value).unwrap(),
+                TEXT.replacen(from, to, 1),
+                "{path}"
+            );
         }
         let added = set(TEXT, "ambient", "0.5").unwrap();
         assert_eq!(added, TEXT.replace("},\n)", "},ambient: 0.5\n)"));
-        assert_eq!(set("(a: 1 // one\n)", "b", "2").unwrap(), "(a: 1 // one\n, b: 2)");
+        assert_eq!(
+            set("(a: 1 // one\n)", "b", "2").unwrap(),
+            "(a: 1 // one\n, b: 2)"
+        );
     }
 
     #[test]
     fn paths_that_lead_nowhere_are_refused() {
         for (path, expected) in [
-            ("lights[2].toward", "expected [2], found those from [0] to [1]"),
-            ("light[0].toward", "expected `light`, found none, did you mean `lights`?"),
-            ("materials.gold.exponent", "expected `gold`, found none among `candy`, `b.c`"),
+            (
+                "lights[2].toward",
+                "expected [2], found those from [0] to [1]",
+            ),
+            (
+                "light[0].toward",
+                "expected `light`, found none, did you mean `lights`?",
+            ),
+            (
+                "materials.gold.exponent",
+                "expected `gold`, found none among `candy`, `b.c`",
+            ),
             ("lens.x.y", "expected `x`, found none"),
             ("camera.radius.x", "expected something with `x`, found 9"),
             ("", "expected a path such as `lights[0].toward`, found ``"),
-            ("a..b", "expected a path such as `lights[0].toward`, found `a..b`"),
-            ("a[x]", "expected a path such as `lights[0].toward`, found `a[x]`"),
+            (
+                "a..b",
+                "expected a path such as `lights[0].toward`, found `a..b`",
+            ),
+            (
+                "a[x]",
+                "expected a path such as `lights[0].toward`, found `a[x]`",
+            ),
         ] {
             assert_eq!(set(TEXT, path, "1").unwrap_err(), expected, "{path}");
         }

@@ -9,8 +9,8 @@ mod series;
 
 pub(crate) use assemble::world;
 pub use cloud::Progress;
-pub use cloud::{ColumnContents, ColumnSummary, ScaleKind};
 pub(crate) use cloud::{Cloud, CloudError, Learned, OpenCloud, Scale, Step};
+pub use cloud::{ColumnContents, ColumnSummary, ScaleKind};
+pub(crate) use lens::{lens, lens_as_written};
 pub use series::StepKey;
 pub(crate) use series::{Part, Series};
-pub(crate) use lens::{lens, lens_as_written};

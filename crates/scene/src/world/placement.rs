@@ -22,7 +22,10 @@ impl Placement {
     /// Puts spheres to their place; returns whether they are still finite and have radii.
     pub(super) fn place(&self, spheres: &mut [Sphere]) -> bool {
         let middle = match self.is_centered {
-            true => self.middle.or_else(|| Bounds::of(spheres).middle()).unwrap_or(DVec3::ZERO),
+            true => self
+                .middle
+                .or_else(|| Bounds::of(spheres).middle())
+                .unwrap_or(DVec3::ZERO),
             false => DVec3::ZERO,
         };
         let is_as_it_is = middle == DVec3::ZERO

@@ -38,7 +38,8 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     }
     let pool = threads::start(arguments.threads)?;
     let silent = arguments.quiet || arguments.progress.is_some();
-    let scene = pool.install(|| scene::load(&arguments.scene, &arguments.options, console, silent))?;
+    let scene =
+        pool.install(|| scene::load(&arguments.scene, &arguments.options, console, silent))?;
     if scene.world().lights.is_empty() {
         return Err(Failure::unusable(
             &arguments.scene,

@@ -40,7 +40,9 @@ impl Job {
     ) -> Result<Self, Failure> {
         let render = &arguments.render.parsed;
         let [scene] = &render.scenes[..] else {
-            return Err(Failure::Usage("expected one scene, found several".to_owned()));
+            return Err(Failure::Usage(
+                "expected one scene, found several".to_owned(),
+            ));
         };
         let request = request(render, scene, &threads::start(None)?, console)?;
         if request.is_animation() {

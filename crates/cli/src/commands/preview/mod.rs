@@ -26,14 +26,22 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     if arguments.watch {
         return threads.install(|| watch::run(arguments, &screen, console));
     }
-    let scene = threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
+    let scene =
+        threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = screen.area(PROMPT_LINES).fit(view);
     interrupt::listen(console);
     let progress = Progress::new(console, None, false, 1);
     progress.begin(0, Size::of(&view).pixels());
     let world = threads.install(|| scene::world(&scene, arguments.frame))?;
-    let render = || render((&scene, &world), &view, arguments.tolerance, Some(&progress));
+    let render = || {
+        render(
+            (&scene, &world),
+            &view,
+            arguments.tolerance,
+            Some(&progress),
+        )
+    };
     let picture = threads.install(render);
     progress.finish();
     let Ok(picture) = picture else {

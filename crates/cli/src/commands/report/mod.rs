@@ -14,7 +14,6 @@ mod results;
 mod row;
 mod table;
 
-
 use marbles_core::{Channels, Renderer};
 
 use self::measure::Plan;
@@ -38,7 +37,12 @@ use crate::terminal::interrupt;
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     let plot = arguments.plot.as_deref();
     plot.map_or(Ok(()), |plot| check_name("--plot", plot))?;
-    let scene = scene::load(&arguments.scene, &arguments.options, console, arguments.quiet)?;
+    let scene = scene::load(
+        &arguments.scene,
+        &arguments.options,
+        console,
+        arguments.quiet,
+    )?;
     let view = scene::view(&scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
     // What cannot be written is refused before the long work.

@@ -27,7 +27,14 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8, Failure> {
     let pool = threads::start(arguments.threads)?;
-    let scene = pool.install(|| scene::load(&arguments.scene, &arguments.options, console, arguments.quiet))?;
+    let scene = pool.install(|| {
+        scene::load(
+            &arguments.scene,
+            &arguments.options,
+            console,
+            arguments.quiet,
+        )
+    })?;
     let path = arguments.output.clone();
     let path = path.unwrap_or_else(|| named_after(&arguments.scene));
     Inputs::of(&arguments.scene, &scene).refuse([path.clone()])?;
@@ -111,7 +118,9 @@ impl Table<'_> {
             self.scene.steps_at(one.0) == self.scene.steps_at(other.0)
         };
         for views in views.chunk_by(same_step) {
-            let world = self.pool.install(|| scene::world_of(self.scene, views[0].0));
+            let world = self
+                .pool
+                .install(|| scene::world_of(self.scene, views[0].0));
             let world = world.map_err(Fault::Failed)?;
             let renderer = self.pool.install(|| Renderer::new(&world));
             count.get_or_insert(world.spheres().len());

@@ -33,7 +33,8 @@ impl Folder {
     }
 
     fn scene(&self, clouds: &str) -> Scene {
-        self.load(clouds, "Free()", "").unwrap_or_else(|message| panic!("{message}"))
+        self.load(clouds, "Free()", "")
+            .unwrap_or_else(|message| panic!("{message}"))
     }
 }
 
@@ -55,12 +56,18 @@ fn steps(folder: &Folder) {
 /// The places of the spheres along x in a frame.
 fn places(scene: &Scene, frame: i32) -> Vec<f64> {
     let world = scene.world_at(frame).unwrap();
-    world.spheres().iter().map(|sphere| sphere.center().x).collect()
+    world
+        .spheres()
+        .iter()
+        .map(|sphere| sphere.center().x)
+        .collect()
 }
 
 fn colors(scene: &Scene, frame: i32) -> Vec<Color> {
     let world = scene.world_at(frame).unwrap();
-    (0..world.spheres().len()).map(|index| world.albedo(index)).collect()
+    (0..world.spheres().len())
+        .map(|index| world.albedo(index))
+        .collect()
 }
 
 #[test]
@@ -85,10 +92,16 @@ fn frames_show_the_steps_of_numbered_files() {
     assert!(places(&hidden, 3).is_empty());
     let message = folder.load("(file: \"run.####.csv\", steps: (30, 40))", "Free()", "");
     let message = message.unwrap_err();
-    let expected = "expected steps \"run.####.csv\" with a number from 30 to 40, found those from 0 to 20";
+    let expected =
+        "expected steps \"run.####.csv\" with a number from 30 to 40, found those from 0 to 20";
     assert!(message.contains(expected), "{message}");
-    let message = folder.load("(file: \"other.####.csv\")", "Free()", "").unwrap_err();
-    assert!(message.contains("expected steps \"other.####.csv\", found none"), "{message}");
+    let message = folder
+        .load("(file: \"other.####.csv\")", "Free()", "")
+        .unwrap_err();
+    assert!(
+        message.contains("expected steps \"other.####.csv\", found none"),
+        "{message}"
+    );
 }
 
 /// Clouds keep their order, and those that do not change are there in each frame.
@@ -123,9 +136,13 @@ fn nothing_jumps_from_step_to_step() {
     assert_eq!(colors(&scene, 1)[0], colors(&scene, 3)[0]);
     assert_eq!(colors(&scene, 1)[0], from_srgb(0x202020));
     assert_eq!(colors(&scene, 3)[1], Color::ONE);
-    let Some(description) = &scene.clouds()[0].colors else { panic!("colors") };
+    let Some(description) = &scene.clouds()[0].colors else {
+        panic!("colors")
+    };
     assert_eq!(description.column.as_deref(), Some("value"));
-    let ColorMeaning::Scale { low, high, .. } = description.meaning else { panic!("a scale") };
+    let ColorMeaning::Scale { low, high, .. } = description.meaning else {
+        panic!("a scale")
+    };
     assert_eq!((low, high), (0.0, 40.0));
     let position = |scene: &Scene, frame| scene.view(frame).unwrap().camera.position;
     assert_eq!(position(&scene, 1), position(&scene, 3));
@@ -155,7 +172,9 @@ fn frames_of_one_file_are_found_in_any_order() {
         assert_eq!(places(&scene, frame), [f64::from(frame + 1)]);
     }
     folder.write("cut.xyz", "1\n\nC 1 0 0\n2\n\nC 1 0 0\n");
-    let message = folder.load("(file: \"cut.xyz\", frames: All)", "Free()", "").unwrap_err();
+    let message = folder
+        .load("(file: \"cut.xyz\", frames: All)", "Free()", "")
+        .unwrap_err();
     let expected = "cut.xyz:7:1: expected 2 atoms, as the first line of the frame says, and after 1 of them another, found the end of the file";
     assert!(message.starts_with(expected), "{message}");
 }
@@ -171,9 +190,15 @@ fn scales_of_colors_are_linear_logarithmic_or_diverging() {
     let grey = |code: u32| from_srgb(0x01_01_01 * code);
     assert_eq!(of(""), [0, 23, 255].map(grey));
     assert_eq!(of(", color_scale: Log"), [0, 128, 255].map(grey));
-    assert_eq!(of(", color_scale: Log, reversed: true"), [255, 127, 0].map(grey));
+    assert_eq!(
+        of(", color_scale: Log, reversed: true"),
+        [255, 127, 0].map(grey)
+    );
     // From -80 to 100, as far below 10 as above.
-    assert_eq!(of(", color_scale: Diverging(10)"), [115, 128, 255].map(grey));
+    assert_eq!(
+        of(", color_scale: Diverging(10)"),
+        [115, 128, 255].map(grey)
+    );
     assert_eq!(of(", range: (0, 20)"), [12, 128, 255].map(grey));
     assert_eq!(of(", range: Percentile(0, 50)"), [0, 255, 255].map(grey));
     let refused = |fields: &str| {
@@ -183,10 +208,20 @@ fn scales_of_colors_are_linear_logarithmic_or_diverging() {
         message.lines().next().unwrap().to_owned()
     };
     let message = refused(", color_scale: Log, missing: Hide");
-    assert!(message.ends_with("expected numbers greater than 0 for `color_scale: Log`, found -1"), "{message}");
-    assert!(refused("").ends_with("b.csv:3:9: expected a number for `v`, found the end of the line"));
+    assert!(
+        message.ends_with("expected numbers greater than 0 for `color_scale: Log`, found -1"),
+        "{message}"
+    );
+    assert!(
+        refused("").ends_with("b.csv:3:9: expected a number for `v`, found the end of the line")
+    );
     let missing = |missing: &str| {
-        colors(&folder.scene(&format!("(file: \"b.csv\", value: \"v\", missing: {missing})")), 1)
+        colors(
+            &folder.scene(&format!(
+                "(file: \"b.csv\", value: \"v\", missing: {missing})"
+            )),
+            1,
+        )
     };
     assert_eq!(missing("Hide").len(), 1);
     let grey = missing("\"#808080\"")[1];
@@ -196,12 +231,19 @@ fn scales_of_colors_are_linear_logarithmic_or_diverging() {
 #[test]
 fn categories_have_colors_of_their_own() {
     let folder = Folder::new("categories");
-    folder.write("a.csv", "x,y,z,r,kind,number\n0,0,0,1,b,10\n1,0,0,1,a,9\n2,0,0,1,b,10\n");
+    folder.write(
+        "a.csv",
+        "x,y,z,r,kind,number\n0,0,0,1,b,10\n1,0,0,1,a,9\n2,0,0,1,b,10\n",
+    );
     let scene = folder.scene("(file: \"a.csv\", value: \"kind\")");
     let found = colors(&scene, 1);
     assert!(found[0] == found[2] && found[0] != found[1]);
-    let Some(description) = &scene.clouds()[0].colors else { panic!("colors") };
-    let ColorMeaning::Categories(categories) = &description.meaning else { panic!("categories") };
+    let Some(description) = &scene.clouds()[0].colors else {
+        panic!("colors")
+    };
+    let ColorMeaning::Categories(categories) = &description.meaning else {
+        panic!("categories")
+    };
     let names: Vec<&str> = categories.iter().map(|category| &*category.0).collect();
     assert_eq!(names, ["a", "b"]);
     assert_eq!([categories[1].1, categories[0].1], found[..2]);
@@ -209,8 +251,12 @@ fn categories_have_colors_of_their_own() {
     assert_eq!(colors(&own, 1)[0], DVec3::X);
     // Numbers in their order, not that of their digits.
     let numbers = folder.scene("(file: \"a.csv\", value: \"number\", color: Category)");
-    let Some(description) = &numbers.clouds()[0].colors else { panic!("colors") };
-    let ColorMeaning::Categories(categories) = &description.meaning else { panic!("categories") };
+    let Some(description) = &numbers.clouds()[0].colors else {
+        panic!("colors")
+    };
+    let ColorMeaning::Categories(categories) = &description.meaning else {
+        panic!("categories")
+    };
     let names: Vec<&str> = categories.iter().map(|category| &*category.0).collect();
     assert_eq!(names, ["9", "10"]);
 }
@@ -218,11 +264,20 @@ fn categories_have_colors_of_their_own() {
 #[test]
 fn rows_are_kept_that_meet_all_conditions() {
     let folder = Folder::new("keep");
-    let rows: Vec<String> = (0..100).map(|id| format!("{id},0,0,1,{}\n", id % 3)).collect();
+    let rows: Vec<String> = (0..100)
+        .map(|id| format!("{id},0,0,1,{}\n", id % 3))
+        .collect();
     folder.write("a.csv", &format!("x,y,z,r,type\n{}", rows.concat()));
-    let scene = folder.scene("(file: \"a.csv\", keep: [(\"type\", Is(2)), (\"x\", Between(10, 20)), (1, Every(2))])");
+    let scene = folder.scene(
+        "(file: \"a.csv\", keep: [(\"type\", Is(2)), (\"x\", Between(10, 20)), (1, Every(2))])",
+    );
     assert_eq!(places(&scene, 1), [14.0, 20.0]);
     assert_eq!(scene.clouds()[0].rows, 100);
-    let message = folder.load("(file: \"a.csv\", keep: [(\"typ\", Is(2))])", "Free()", "").unwrap_err();
-    assert!(message.starts_with("a.csv:1:1: expected a column `typ`, found"), "{message}");
+    let message = folder
+        .load("(file: \"a.csv\", keep: [(\"typ\", Is(2))])", "Free()", "")
+        .unwrap_err();
+    assert!(
+        message.starts_with("a.csv:1:1: expected a column `typ`, found"),
+        "{message}"
+    );
 }

@@ -2,13 +2,6 @@
 
 use crate::text::show;
 
-/// A condition on a column.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Filter {
-    pub(crate) column: super::super::request::ColumnRef,
-    pub(crate) test: Test,
-}
-
 /// A condition on a value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Test {

@@ -5,7 +5,7 @@ mod names;
 mod plan;
 mod slot;
 
-pub(crate) use filter::{Filter, Test};
+pub(crate) use filter::Test;
 pub(crate) use names::{MOST_COLUMNS, components, unit};
 pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};

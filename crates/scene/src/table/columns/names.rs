@@ -70,7 +70,14 @@ impl Names {
     fn find_position(&self, axis: usize) -> Option<usize> {
         let letter = ["x", "y", "z"][axis];
         let mut names = [
-            "points", "position", "positions", "pos", "coordinates", "coords", "center", "centroid",
+            "points",
+            "position",
+            "positions",
+            "pos",
+            "coordinates",
+            "coords",
+            "center",
+            "centroid",
         ]
         .into_iter()
         .flat_map(|stem| {
@@ -102,7 +109,9 @@ impl Names {
             &["b_factor", "bfactor", "B_iso_or_equiv"],
         ];
         let is_name = |other: &&str| other.eq_ignore_ascii_case(name);
-        let group = SYNONYMS.iter().find(|group| group.iter().any(|other| is_name(&other)))?;
+        let group = SYNONYMS
+            .iter()
+            .find(|group| group.iter().any(|other| is_name(other)))?;
         group.iter().find_map(|other| self.find(other))
     }
 
@@ -177,7 +186,9 @@ pub(crate) fn unit(name: &str) -> Option<&str> {
 /// The name without its unit.
 fn bare(name: &str) -> &str {
     match unit(name) {
-        Some(_) => name.rfind(['(', '[']).map_or(name, |at| name[..at].trim_end()),
+        Some(_) => name
+            .rfind(['(', '['])
+            .map_or(name, |at| name[..at].trim_end()),
         None => name,
     }
 }

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::super::element::Radii;
-use super::super::request::{ColumnRef, Coloring, Missing, Request, Value};
+use super::super::request::{Coloring, ColumnRef, Missing, Request, Value};
 use super::filter::Test;
 use super::names::{Names, marked};
-use super::slot::Slot;
+use super::slot::{Allowed, Slot};
 use crate::values::linear;
 
 /// The source of radii.
@@ -85,12 +85,10 @@ pub(crate) struct Plan {
     pub(crate) value: ValueSource,
     /// The conditions on rows that are kept.
     pub(crate) filters: Vec<Test>,
-    /// Values may be missing: they are NaN.
-    pub(crate) may_miss: bool,
+    /// What the numbers may be.
+    pub(crate) allowed: Allowed,
     /// Rows whose value is missing are left out.
     pub(crate) hides_missing: bool,
-    /// Colors are sRGB values from 0 to 255.
-    pub(crate) is_encoded: bool,
     /// The axes and the origin of the positions, where they are not those of the table's lengths.
     pub(crate) axes: Option<(DMat3, DVec3)>,
     /// The linear values of sRGB ones.
@@ -115,10 +113,16 @@ impl Plan {
             radius: RadiusSource::Column(1.0),
             coloring: Coloring::Material,
             value: ValueSource::Column,
-            filters: request.keep.iter().map(|filter| filter.test.clone()).collect(),
-            may_miss: request.missing != Missing::Refuse,
+            filters: request
+                .keep
+                .iter()
+                .map(|filter| filter.test.clone())
+                .collect(),
+            allowed: Allowed {
+                may_miss: request.missing != Missing::Refuse,
+                is_encoded: false,
+            },
             hides_missing: request.missing == Missing::Hide,
-            is_encoded: false,
             axes: None,
             linear: (0..=255).map(|value| linear(value) as f32).collect(),
             names: Names(Arc::new(names)),
@@ -128,7 +132,9 @@ impl Plan {
             plan.take(slot, chosen.as_ref())?;
         }
         let colors = [Slot::Red, Slot::Green, Slot::Blue];
-        let has_colors = colors.into_iter().all(|slot| plan.names.find_slot(slot).is_some());
+        let has_colors = colors
+            .into_iter()
+            .all(|slot| plan.names.find_slot(slot).is_some());
         let element = columns.element.as_ref();
         let has_element = element.is_some() || plan.names.find_slot(Slot::Element).is_some();
         plan.coloring = match request.coloring {
@@ -149,7 +155,7 @@ impl Plan {
                 }
                 let is_red = |uses: &Uses| uses.slots().contains(&Slot::Red);
                 let red = plan.uses.iter().position(is_red);
-                plan.is_encoded = red.is_some_and(nature.is_byte);
+                plan.allowed.is_encoded = red.is_some_and(nature.is_byte);
             }
         }
         for (index, filter) in (0..).zip(&request.keep) {
@@ -203,7 +209,7 @@ impl Plan {
     /// The linear value of a color channel that is allowed.
     #[inline(always)]
     pub(crate) fn channel(&self, value: f64) -> f32 {
-        if self.is_encoded {
+        if self.allowed.is_encoded {
             self.linear[usize::from(value as u8)]
         } else {
             value as f32
@@ -220,7 +226,10 @@ impl Plan {
 
     /// The name of the column that is used for this.
     pub(crate) fn name_of(&self, slot: Slot) -> Option<&str> {
-        let column = self.uses.iter().position(|uses| uses.slots().contains(&slot));
+        let column = self
+            .uses
+            .iter()
+            .position(|uses| uses.slots().contains(&slot));
         Some(&self.names.0[column?])
     }
 
@@ -236,7 +245,11 @@ impl Plan {
 
     fn take_element(&mut self, chosen: Option<&ColumnRef>) -> Result<(), String> {
         let is_taken = self.name_of(Slot::Element).is_some();
-        if is_taken { Ok(()) } else { self.take(Slot::Element, chosen) }
+        if is_taken {
+            Ok(())
+        } else {
+            self.take(Slot::Element, chosen)
+        }
     }
 
     /// Uses columns for the numbers of a colormap, or for categories.

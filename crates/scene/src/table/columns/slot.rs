@@ -1,7 +1,5 @@
 //! The purposes that columns have.
 
-use super::plan::Plan;
-
 /// The purpose of a column.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Slot {
@@ -18,6 +16,15 @@ pub(crate) enum Slot {
     Vector(u8),
     /// Some condition is on it.
     Filter(u8),
+}
+
+/// What numbers may be.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Allowed {
+    /// Values may be missing: they are NaN.
+    pub(crate) may_miss: bool,
+    /// Colors are sRGB values from 0 to 255.
+    pub(crate) is_encoded: bool,
 }
 
 /// The most conditions on rows.
@@ -63,9 +70,9 @@ impl Slot {
 
     /// The expected thing instead of this number; `None` where it is allowed.
     #[inline(always)]
-    pub(crate) fn refusal(self, number: f64, plan: &Plan) -> Option<&'static str> {
+    pub(crate) fn refusal(self, number: f64, allowed: Allowed) -> Option<&'static str> {
         match self {
-            Self::Value | Self::Vector(_) if plan.may_miss && number.is_nan() => None,
+            Self::Value | Self::Vector(_) if allowed.may_miss && number.is_nan() => None,
             Self::Filter(_) => None,
             _ if !number.is_finite() => Some("a finite number"),
             Self::Element => {
@@ -74,7 +81,7 @@ impl Slot {
             }
             Self::Radius if number <= 0.0 => Some("a radius greater than 0"),
             Self::Red | Self::Green | Self::Blue => {
-                if plan.is_encoded {
+                if allowed.is_encoded {
                     let is_byte = (0.0..=255.0).contains(&number) && number.fract() == 0.0;
                     (!is_byte).then_some("a whole number from 0 to 255")
                 } else {

@@ -31,11 +31,26 @@ fn dumps_of_lammps_are_read() {
     let kept = spheres(&scene("a.txt", LAMMPS, "keep: [(\"type\", Is(2))]"));
     assert_eq!(kept, [[11.0, 5.0, 4.0, 0.25]]);
     for (text, expected) in [
-        (LAMMPS.replace("\n2\n", "\n3\n"), "a.dump:12:1: expected 3 atoms, as `ITEM: NUMBER OF ATOMS` says, and after 2 of them another, found the end of the file"),
-        (LAMMPS.replace("0 4 1", "0 4"), "a.dump:8:1: expected 3 numbers of the box, found 0 4"),
-        (LAMMPS.replace("ITEM: NUMBER OF ATOMS\n2\n", ""), "a.dump:7:1: expected `ITEM: NUMBER OF ATOMS` before, found `ITEM: ATOMS id type xs ys zs radius`"),
-        (LAMMPS.replace("1 1 0 0 0 0.5", "1 1 0 x 0 0.5"), "a.dump:10:7: expected a number for `ys`, found `x`"),
-        (LAMMPS.replace(" radius", " q"), "a.dump:9:1: expected a column `radius`, or else `radius: …` in the scene, found `id`, `type`, `xs`, `ys`, `zs`, `q`"),
+        (
+            LAMMPS.replace("\n2\n", "\n3\n"),
+            "a.dump:12:1: expected 3 atoms, as `ITEM: NUMBER OF ATOMS` says, and after 2 of them another, found the end of the file",
+        ),
+        (
+            LAMMPS.replace("0 4 1", "0 4"),
+            "a.dump:8:1: expected 3 numbers of the box, found 0 4",
+        ),
+        (
+            LAMMPS.replace("ITEM: NUMBER OF ATOMS\n2\n", ""),
+            "a.dump:7:1: expected `ITEM: NUMBER OF ATOMS` before, found `ITEM: ATOMS id type xs ys zs radius`",
+        ),
+        (
+            LAMMPS.replace("1 1 0 0 0 0.5", "1 1 0 x 0 0.5"),
+            "a.dump:10:7: expected a number for `ys`, found `x`",
+        ),
+        (
+            LAMMPS.replace(" radius", " q"),
+            "a.dump:9:1: expected a column `radius`, or else `radius: …` in the scene, found `id`, `type`, `xs`, `ys`, `zs`, `q`",
+        ),
     ] {
         assert_eq!(refusal("a.dump", text, ""), expected);
     }
@@ -59,7 +74,10 @@ fn gro_is_in_nanometers_and_names_tell_elements() {
         [-1.0, 0.0, 0.0, 0.175],
     ];
     for (found, expected) in spheres(&scene).iter().zip(expected) {
-        assert!((0..4).all(|index| (found[index] - expected[index]).abs() < 1e-12), "{found:?}");
+        assert!(
+            (0..4).all(|index| (found[index] - expected[index]).abs() < 1e-12),
+            "{found:?}"
+        );
     }
     let wide = "t\n1\n    1SOL     OW    1   0.10001   0.20002   0.30003\n 1 1 1\n";
     let found = spheres(&self::scene("a.gro", wide, "radius: 1"));
@@ -93,7 +111,11 @@ fn pdb_is_read_model_by_model() {
     );
     let kept = spheres(&scene("a.pdb", PDB, "keep: [(\"chain\", Is(\"B\"))]"));
     assert_eq!(kept.len(), 1);
-    let kept = spheres(&scene("a.ent", PDB, "keep: [(\"b_factor\", Between(15, 25))]"));
+    let kept = spheres(&scene(
+        "a.ent",
+        PDB,
+        "keep: [(\"b_factor\", Between(15, 25))]",
+    ));
     assert_eq!(kept.len(), 1);
     let folder = Folder::new();
     fs::write(folder.0.join("a.pdb"), PDB).unwrap();
@@ -101,7 +123,10 @@ fn pdb_is_read_model_by_model() {
         clouds: [(file: \"a.pdb\", frames: All)])";
     let series = Scene::parse(text, &folder.0.join("scene.ron")).unwrap();
     let count = |frame| series.world_at(frame).unwrap().spheres().len();
-    assert_eq!((series.frames(), count(1), count(2), count(3)), (Some(1..=2), 3, 1, 1));
+    assert_eq!(
+        (series.frames(), count(1), count(2), count(3)),
+        (Some(1..=2), 3, 1, 1)
+    );
 }
 
 #[test]
@@ -128,12 +153,27 @@ fn mmcif_is_read_model_by_model() {
 fn tables_of_text_have_many_forms() {
     let expected = TWO;
     for (name, text) in [
-        ("a.txt", "# made by hand\n# x y z r\n1 -2.5 3e-3 0.5\n4 5 6 7\n"),
-        ("a.dat", "% x  y  z  r\n  1\t-2.5 3e-3 0.5\n% between\n\n4 5 6 7"),
+        (
+            "a.txt",
+            "# made by hand\n# x y z r\n1 -2.5 3e-3 0.5\n4 5 6 7\n",
+        ),
+        (
+            "a.dat",
+            "% x  y  z  r\n  1\t-2.5 3e-3 0.5\n% between\n\n4 5 6 7",
+        ),
         ("a", "x y z radius\n1 -2.5 0.003 0.5\n4 5 6 7\n"),
-        ("a.csv", "\"Points:0\",\"Points:1\",\"Points:2\",\"Diameter\"\n1,-2.5,0.003,1\n4,5,6,14\n"),
-        ("a.csv", "id;X (mm);Y (mm);Z (mm);Radius [mm]\n1;1;-2,5;0,003;0,5\n2;4;5;6;7\n"),
-        ("a.tsv", "Position.X\tPosition.Y\tPosition.Z\tRadius\n1\t-2.5\t0.003\t0.5\n4\t5\t6\t7\n"),
+        (
+            "a.csv",
+            "\"Points:0\",\"Points:1\",\"Points:2\",\"Diameter\"\n1,-2.5,0.003,1\n4,5,6,14\n",
+        ),
+        (
+            "a.csv",
+            "id;X (mm);Y (mm);Z (mm);Radius [mm]\n1;1;-2,5;0,003;0,5\n2;4;5;6;7\n",
+        ),
+        (
+            "a.tsv",
+            "Position.X\tPosition.Y\tPosition.Z\tRadius\n1\t-2.5\t0.003\t0.5\n4\t5\t6\t7\n",
+        ),
         ("a.txt", "x,y,z,radius\n1.0D0,-2.5,3d-3,0.5\n4,5,6,7\n"),
     ] {
         assert_eq!(spheres(&scene(name, text, "")), expected, "{text}");
@@ -141,7 +181,10 @@ fn tables_of_text_have_many_forms() {
     let plain = "9 1 -2.5 0.003 0.5\n9 4 5 6 7\n";
     let columns = "columns: (x: 2, y: 3, z: 4, radius: 5)";
     assert_eq!(spheres(&scene("a.txt", plain, columns)), expected);
-    assert_eq!(spheres(&scene("a.csv", plain.replace(' ', ","), columns)), expected);
+    assert_eq!(
+        spheres(&scene("a.csv", plain.replace(' ', ","), columns)),
+        expected
+    );
     let doubled = [[1.0, -2.5, 3e-3, 1.0], [4.0, 5.0, 6.0, 14.0]];
     let scaled = "columns: (x: 2, y: 3, z: 4, radius: 5, radius_scale: 2)";
     assert_eq!(spheres(&scene("a.txt", plain, scaled)), doubled);
@@ -172,7 +215,10 @@ fn compressed_tables_are_those_that_were_compressed() {
     // Two members, one behind the other, are one file.
     let twice = [&gzip[..], &gzip[..]].concat();
     let message = refusal("a.csv.gz", &twice, "");
-    assert_eq!(message, "a.csv.gz:4:1: expected a number for `x`, found `x`");
+    assert_eq!(
+        message,
+        "a.csv.gz:4:1: expected a number for `x`, found `x`"
+    );
     let message = refusal("a.csv.gz", &gzip[..gzip.len() / 2], "");
     assert!(message.contains("cannot be read"), "{message}");
     let message = refusal("a.csv.zst", &zstd[..zstd.len() / 2], "");
@@ -180,7 +226,10 @@ fn compressed_tables_are_those_that_were_compressed() {
     // By columns, which a compressed file does not have side by side.
     let header = "{'descr': '>f4', 'fortran_order': True, 'shape': (2, 4)}";
     let numbers = [1.0_f32, 4.0, -2.5, 5.0, 0.25, 6.0, 0.5, 7.0];
-    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_be_bytes()).collect();
+    let bytes: Vec<u8> = numbers
+        .iter()
+        .flat_map(|number| number.to_be_bytes())
+        .collect();
     let array = npy(header, &bytes);
     let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
     gzip.write_all(&array).unwrap();
@@ -192,16 +241,33 @@ fn compressed_tables_are_those_that_were_compressed() {
 
 #[test]
 fn arrays_of_all_types_and_orders_are_read() {
-    let header = |kind: &str| format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': (1, 4)}}");
+    let header =
+        |kind: &str| format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': (1, 4)}}");
     let numbers = [1_i16, -2, 3, 4];
     let expected = [[1.0, -2.0, 3.0, 4.0]];
-    let big: Vec<u8> = numbers.iter().flat_map(|number| number.to_be_bytes()).collect();
-    let little: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
-    let long: Vec<u8> = numbers.iter().flat_map(|&number| i64::from(number).to_le_bytes()).collect();
+    let big: Vec<u8> = numbers
+        .iter()
+        .flat_map(|number| number.to_be_bytes())
+        .collect();
+    let little: Vec<u8> = numbers
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect();
+    let long: Vec<u8> = numbers
+        .iter()
+        .flat_map(|&number| i64::from(number).to_le_bytes())
+        .collect();
     let half = [0x3c00_u16, 0xc000, 0x4200, 0x4400];
-    let half: Vec<u8> = half.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let half: Vec<u8> = half
+        .iter()
+        .flat_map(|number| number.to_le_bytes())
+        .collect();
     for (kind, bytes) in [(">i2", big), ("<i2", little), ("<i8", long), ("<f2", half)] {
-        assert_eq!(spheres(&scene("a.npy", npy(&header(kind), &bytes), "")), expected, "{kind}");
+        assert_eq!(
+            spheres(&scene("a.npy", npy(&header(kind), &bytes), "")),
+            expected,
+            "{kind}"
+        );
     }
     // Three dimensions are frames.
     let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1, 4)}";
@@ -233,22 +299,37 @@ fn npz(arrays: &[(&str, Vec<u8>)]) -> Vec<u8> {
 
 #[test]
 fn archives_of_named_arrays_are_tables() {
-    let header = |shape: &str| format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}");
-    let positions = npy(&header("(2, 3)"), &doubles(&[1.0, -2.5, 3e-3, 4.0, 5.0, 6.0]));
+    let header =
+        |shape: &str| format!("{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}}}");
+    let positions = npy(
+        &header("(2, 3)"),
+        &doubles(&[1.0, -2.5, 3e-3, 4.0, 5.0, 6.0]),
+    );
     let radii = npy(&header("(2,)"), &doubles(&[0.5, 7.0]));
     let other = npy(&header("(5,)"), &doubles(&[0.0; 5]));
-    let names = npy("{'descr': '<U2', 'fortran_order': False, 'shape': (2,)}", &{
-        let characters = ['A', 'r', 'B', '\0'];
-        characters.map(|c| (c as u32).to_le_bytes()).concat()
-    });
-    let archive = npz(&[("time", other), ("positions", positions), ("radius", radii), ("kind", names)]);
+    let names = npy(
+        "{'descr': '<U2', 'fortran_order': False, 'shape': (2,)}",
+        &{
+            let characters = ['A', 'r', 'B', '\0'];
+            characters.map(|c| (c as u32).to_le_bytes()).concat()
+        },
+    );
+    let archive = npz(&[
+        ("time", other),
+        ("positions", positions),
+        ("radius", radii),
+        ("kind", names),
+    ]);
     assert_eq!(spheres(&scene("a.npz", &archive, "")), TWO);
     let kept = scene("a.npz", &archive, "keep: [(\"kind\", Is(\"B\"))]");
     assert_eq!(spheres(&kept), TWO[1..]);
     let alone = npz(&[("arr_0", npy(&header("(2, 4)"), &doubles(&TWO.concat())))]);
     assert_eq!(spheres(&scene("a.npz", alone, "")), TWO);
     let message = refusal("a.npz", npz(&[]), "");
-    assert_eq!(message, "a.npz: expected arrays of as many rows as there are spheres, found none");
+    assert_eq!(
+        message,
+        "a.npz: expected arrays of as many rows as there are spheres, found none"
+    );
 }
 
 #[test]
@@ -257,10 +338,16 @@ fn legacy_vtk_is_read_as_text_and_as_bytes() {
         VERTICES 2 4\n1 0\n1 1\nCELL_DATA 2\nSCALARS c int\nLOOKUP_TABLE default\n8 9\nPOINT_DATA 2\n\
         FIELD FieldData 2\nradius 1 2 double\n0.5 7\nv 3 2 float\n0 3 4 0 0 0\n";
     assert_eq!(spheres(&scene("a.vtk", text, "")), TWO);
-    let colored = scene("a.vtk", text, "value: Length(\"v_1\", \"v_2\", \"v_3\"), colormap: Grey");
+    let colored = scene(
+        "a.vtk",
+        text,
+        "value: Length(\"v_1\", \"v_2\", \"v_3\"), colormap: Grey",
+    );
     assert_eq!(albedos(&colored), [Color::ONE, Color::ZERO]);
-    let mut binary = b"# vtk DataFile Version 3.0\npoints\nBINARY\nDATASET POLYDATA\nPOINTS 2 double\n".to_vec();
-    let big = |numbers: &[f64]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_be_bytes()).collect() };
+    let mut binary =
+        b"# vtk DataFile Version 3.0\npoints\nBINARY\nDATASET POLYDATA\nPOINTS 2 double\n".to_vec();
+    let big =
+        |numbers: &[f64]| -> Vec<u8> { numbers.iter().flat_map(|x| x.to_be_bytes()).collect() };
     binary.extend(big(&[1.0, -2.5, 3e-3, 4.0, 5.0, 6.0]));
     binary.extend(b"\nPOINT_DATA 2\nSCALARS radius double 1\nLOOKUP_TABLE default\n");
     binary.extend(big(&[0.5, 7.0]));
@@ -270,8 +357,15 @@ fn legacy_vtk_is_read_as_text_and_as_bytes() {
         refusal("a.vtk", text.replace("POLYDATA", "STRUCTURED_POINTS"), ""),
         "a.vtk:4:1: expected a dataset of points: POLYDATA, UNSTRUCTURED_GRID or STRUCTURED_GRID, found `DATASET STRUCTURED_POINTS`"
     );
-    let message = refusal("a.vtk", text.replace("POINTS 2 float", "POINTS 99999999999 float"), "");
-    assert!(message.starts_with("a.vtk:9:1: expected 299999999997 numbers"), "{message}");
+    let message = refusal(
+        "a.vtk",
+        text.replace("POINTS 2 float", "POINTS 99999999999 float"),
+        "",
+    );
+    assert!(
+        message.starts_with("a.vtk:9:1: expected 299999999997 numbers"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -302,7 +396,9 @@ fn any_byte_of_other_formats_may_be_another_one() {
         let folder = Folder::new();
         let path = folder.0.join(name);
         let text = |frames: &str| {
-            format!("(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), clouds: [(file: \"{name}\"{frames})])")
+            format!(
+                "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), clouds: [(file: \"{name}\"{frames})])"
+            )
         };
         for at in 0..good.len() {
             for other in [None, Some(b'\n'), Some(b'9'), Some(b'-'), Some(0xff)] {

@@ -67,7 +67,8 @@ impl Scale {
             && low <= 0.0
             && let Some(place) = cloud.range.as_ref().map(|range| range.place.clone())
         {
-            let message = format!("expected numbers greater than 0 for `color_scale: Log`, found {low}");
+            let message =
+                format!("expected numbers greater than 0 for `color_scale: Log`, found {low}");
             return refuse(place, message);
         }
         let usual = match kind {
@@ -78,7 +79,8 @@ impl Scale {
             let mut colors = HashMap::new();
             for (name, color) in &palette.0 {
                 if colors.insert(name.clone(), color.get()?.0).is_some() {
-                    let message = format!("expected every category once, found {name:?} a second time");
+                    let message =
+                        format!("expected every category once, found {name:?} a second time");
                     return refuse(color.place.clone(), message);
                 }
             }
@@ -138,7 +140,9 @@ impl Scale {
                 let last = sorted.len().checked_sub(1)?;
                 let mut at = |percent: f64| {
                     let place = libm::round(percent / 100.0 * last as f64) as usize;
-                    *sorted.select_nth_unstable_by(place.min(last), f64::total_cmp).1
+                    *sorted
+                        .select_nth_unstable_by(place.min(last), f64::total_cmp)
+                        .1
                 };
                 (at(low), at(high))
             }
@@ -212,7 +216,9 @@ impl Scale {
                 true => missing,
                 false => colors[usize::from(index(value))],
             };
-            let each = values.par_iter().map(|value| color(value).as_vec3().to_array());
+            let each = values
+                .par_iter()
+                .map(|value| color(value).as_vec3().to_array());
             return Ok(Albedos::Each(each.collect()));
         }
         Ok(Albedos::Palette {
@@ -235,7 +241,11 @@ impl Scale {
         let number = |name: &String| name.parse::<f64>().ok().filter(|number| number.is_finite());
         let mut names: Vec<String> = learned.categories.iter().cloned().collect();
         if names.iter().all(|name| number(name).is_some()) {
-            names.sort_by(|a, b| number(a).unwrap_or(0.0).total_cmp(&number(b).unwrap_or(0.0)));
+            names.sort_by(|a, b| {
+                number(a)
+                    .unwrap_or(0.0)
+                    .total_cmp(&number(b).unwrap_or(0.0))
+            });
         }
         let color = |(index, name): (usize, String)| {
             let own = self.palette.get(&name).copied();

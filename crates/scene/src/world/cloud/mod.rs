@@ -10,10 +10,10 @@ mod summary;
 use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
-pub use summary::{ColumnContents, ColumnSummary};
 pub(crate) use coloring::{Learned, Scale};
 pub(crate) use open::{OpenCloud, Step};
 pub(crate) use settings::Cloud;
+pub use summary::{ColumnContents, ColumnSummary};
 
 use crate::text::{Fault, LocatedFault};
 

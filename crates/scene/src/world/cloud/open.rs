@@ -78,7 +78,10 @@ impl OpenCloud {
     }
 
     /// The steps of the cloud's timeline.
-    fn choose(&self, numbers: impl DoubleEndedIterator<Item = i64> + Clone) -> Result<Vec<usize>, CloudError> {
+    fn choose(
+        &self,
+        numbers: impl DoubleEndedIterator<Item = i64> + Clone,
+    ) -> Result<Vec<usize>, CloudError> {
         let chosen = self.cloud.timeline.choose(numbers.clone());
         if !chosen.is_empty() {
             return Ok(chosen);
@@ -227,7 +230,10 @@ impl OpenCloud {
                 contents,
             })
         };
-        names.map(summary).collect::<Result<_, _>>().map_err(refused)
+        names
+            .map(summary)
+            .collect::<Result<_, _>>()
+            .map_err(refused)
     }
 
     /// The spheres of a step alone.
@@ -264,7 +270,11 @@ impl OpenCloud {
     }
 
     /// The rows of a step, and whether frames follow that are not read.
-    fn rows(&self, step: usize, watch: &(dyn Fn(u64, u64) + Sync)) -> Result<(Rows, bool), CloudError> {
+    fn rows(
+        &self,
+        step: usize,
+        watch: &(dyn Fn(u64, u64) + Sync),
+    ) -> Result<(Rows, bool), CloudError> {
         let path = self.path(step);
         let rows = match &self.steps {
             Steps::Frames(places) => {
@@ -339,7 +349,9 @@ fn gone() -> TableError {
 impl fmt::Debug for OpenCloud {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut shown = formatter.debug_struct("OpenCloud");
-        shown.field("cloud", &self.cloud).field("steps", &self.steps);
+        shown
+            .field("cloud", &self.cloud)
+            .field("steps", &self.steps);
         shown.finish_non_exhaustive()
     }
 }

@@ -64,7 +64,8 @@ impl Cloud {
                 return refuse(place.clone(), message);
             }
         }
-        let column = |column: &Option<Placed<_>>| optional(column, |column| Some(Clone::clone(column)));
+        let column =
+            |column: &Option<Placed<_>>| optional(column, |column| Some(Clone::clone(column)));
         Some(Self {
             name: cloud.file.value.as_ref()?.0.clone(),
             place: cloud.file.place.clone(),
@@ -80,7 +81,11 @@ impl Cloud {
                 radius: optional(&cloud.radius, |radius| Some(radius.0))?,
                 radii: cloud.radii.get()?,
                 columns: crate::table::Columns {
-                    position: [column(&columns.x)?, column(&columns.y)?, column(&columns.z)?],
+                    position: [
+                        column(&columns.x)?,
+                        column(&columns.y)?,
+                        column(&columns.z)?,
+                    ],
                     radius: column(&columns.radius)?,
                     element: column(&columns.element)?,
                     radius_scale: optional(&columns.radius_scale, |scale| Some(scale.0))?,
@@ -124,7 +129,9 @@ fn filter(keep: &Placed<Keep>) -> Option<Filter> {
         file::Test::Between(low, high) => {
             let (low, high) = (low.get()?.0, high.get()?.0);
             if low > high {
-                let message = "expected a low number that is not above the high one, found others";
+                let found = format!("`Between({low}, {high})`");
+                let message =
+                    format!("expected a low number that is not above the high one, found {found}");
                 return refuse(place, message);
             }
             Test::Between(low, high)

@@ -37,10 +37,17 @@ impl Timeline {
     pub(super) fn choose(&self, numbers: impl Iterator<Item = i64>) -> Vec<usize> {
         let is_in_range = |number: i64| {
             let range = self.range.as_ref();
-            range.is_none_or(|range| (i64::from(*range.start())..=i64::from(*range.end())).contains(&number))
+            range.is_none_or(|range| {
+                (i64::from(*range.start())..=i64::from(*range.end())).contains(&number)
+            })
         };
-        let chosen = numbers.enumerate().filter(|(_, number)| is_in_range(*number));
-        chosen.step_by(self.every as usize).map(|(place, _)| place).collect()
+        let chosen = numbers
+            .enumerate()
+            .filter(|(_, number)| is_in_range(*number));
+        chosen
+            .step_by(self.every as usize)
+            .map(|(place, _)| place)
+            .collect()
     }
 
     /// The number of frames in which `count` steps are shown once.
@@ -111,7 +118,10 @@ fn mark(name: &str) -> Option<(&str, usize, &str)> {
         return Some((before, width, after));
     }
     let start = name.find('#')?;
-    let width = name[start..].bytes().take_while(|&byte| byte == b'#').count();
+    let width = name[start..]
+        .bytes()
+        .take_while(|&byte| byte == b'#')
+        .count();
     Some((&name[..start], width, &name[start + width..]))
 }
 
@@ -142,12 +152,25 @@ mod tests {
 
     #[test]
     fn frames_show_steps_at_their_speed() {
-        let all = |timeline: &Timeline| -> Vec<_> { (0..7).map(|frame| timeline.at(frame, 3)).collect() };
+        let all =
+            |timeline: &Timeline| -> Vec<_> { (0..7).map(|frame| timeline.at(frame, 3)).collect() };
         let [zero, one, two] = [0, 1, 2].map(Some);
-        assert_eq!(all(&timeline(1.0, End::Hold)), [zero, one, two, two, two, two, two]);
-        assert_eq!(all(&timeline(1.0, End::Loop)), [zero, one, two, zero, one, two, zero]);
-        assert_eq!(all(&timeline(1.0, End::Hide)), [zero, one, two, None, None, None, None]);
-        assert_eq!(all(&timeline(0.5, End::Hide)), [zero, zero, one, one, two, two, None]);
+        assert_eq!(
+            all(&timeline(1.0, End::Hold)),
+            [zero, one, two, two, two, two, two]
+        );
+        assert_eq!(
+            all(&timeline(1.0, End::Loop)),
+            [zero, one, two, zero, one, two, zero]
+        );
+        assert_eq!(
+            all(&timeline(1.0, End::Hide)),
+            [zero, one, two, None, None, None, None]
+        );
+        assert_eq!(
+            all(&timeline(0.5, End::Hide)),
+            [zero, zero, one, one, two, two, None]
+        );
         let tenth = timeline(0.1, End::Hold);
         assert!((0..30).all(|frame| tenth.at(frame, 3) == Some(frame as usize / 10)));
         assert_eq!(tenth.frames(3), 30);

@@ -7,11 +7,11 @@ use marbles_core::Method;
 
 use super::axis::Axis;
 use super::labels::{Labels, Side};
-use crate::commands::svg::{Anchor, Place, Style, Svg};
 use crate::base::numbers::factor;
 use crate::commands::report::curve::Point;
 use crate::commands::report::results::Report;
 use crate::commands::report::row::{Row, supersampling};
+use crate::commands::svg::{Anchor, Place, Style, Svg};
 
 const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 500.0;
