@@ -111,7 +111,7 @@ impl Names {
         let is_name = |other: &&str| other.eq_ignore_ascii_case(name);
         let group = SYNONYMS
             .iter()
-            .find(|group| group.iter().any(|other| is_name(other)))?;
+            .find(|group| group.iter().any(is_name))?;
         group.iter().find_map(|other| self.find(other))
     }
 
