@@ -22,6 +22,7 @@ mod png_codes;
 mod preview;
 mod progress;
 mod readers;
+mod real_files;
 mod report;
 mod sequences;
 mod series;

@@ -120,7 +120,9 @@ pub(crate) fn of_atom(name: &[u8], residue: &[u8]) -> Option<u8> {
     if name == residue && name.len() <= 2 || LONG.contains(&start) {
         return number(start);
     }
-    number(name.get(..1)?)
+    // Beads of coarse models begin with other letters, too.
+    let first = name.first().filter(|letter| b"HCNOSPFI".contains(letter))?;
+    number(&[*first])
 }
 
 /// The symbol that a misspelled one probably stands for.

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::compression::Compression;
 use super::fields::{self, Division};
 use super::input::without_return;
+use super::number::parse;
 use super::{npy, npz, vtk};
 
 /// The format of a table.
@@ -96,7 +97,11 @@ impl Format {
         }
         let ending = ending(path);
         let known = ENDINGS.iter().find(|known| known.0 == ending);
-        let by_name = known.map(|known| known.1);
+        let by_name = known.map(|known| match known.1 {
+            // Clouds of points call tables without a count so.
+            Format::Xyz if begins_with_numbers(head) => Format::Text,
+            format => format,
+        });
         // What others call a dump may be a table of any kind.
         by_name
             .filter(|format| *format != Self::Lammps || head.is_empty())
@@ -125,6 +130,13 @@ fn ending(path: &Path) -> String {
         }
         ending => ending,
     }
+}
+
+/// Says whether the first line has several numbers and nothing else.
+fn begins_with_numbers(head: &[u8]) -> bool {
+    let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
+    let fields = fields::all(without_return(line), &Division::Words);
+    fields.len() >= 3 && fields.iter().all(|field| parse(field, false).is_some())
 }
 
 /// The format of a text that begins so.

@@ -82,7 +82,8 @@ fn element(line: &[u8], field: Range<usize>) -> Option<u8> {
     let residue = line.get(17..20).unwrap_or_default();
     // Symbols of one letter begin at the second place.
     match name[0].is_ascii_alphabetic() && name[3] == b' ' {
-        true => element::number(name[..2].trim_ascii()),
+        true if name[1].is_ascii_alphabetic() => element::number(&name[..2]),
+        true => None,
         false => None,
     }
     .or_else(|| element::of_atom(name, residue))

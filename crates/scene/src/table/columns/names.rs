@@ -109,9 +109,7 @@ impl Names {
             &["b_factor", "bfactor", "B_iso_or_equiv"],
         ];
         let is_name = |other: &&str| other.eq_ignore_ascii_case(name);
-        let group = SYNONYMS
-            .iter()
-            .find(|group| group.iter().any(is_name))?;
+        let group = SYNONYMS.iter().find(|group| group.iter().any(is_name))?;
         group.iter().find_map(|other| self.find(other))
     }
 

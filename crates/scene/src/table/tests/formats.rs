@@ -178,6 +178,8 @@ fn tables_of_text_have_many_forms() {
     ] {
         assert_eq!(spheres(&scene(name, text, "")), expected, "{text}");
     }
+    let points = spheres(&scene("a.xyz", "1 2 3\n4 5 6\n", "radius: 1"));
+    assert_eq!(points, [[1.0, 2.0, 3.0, 1.0], [4.0, 5.0, 6.0, 1.0]]);
     let plain = "9 1 -2.5 0.003 0.5\n9 4 5 6 7\n";
     let columns = "columns: (x: 2, y: 3, z: 4, radius: 5)";
     assert_eq!(spheres(&scene("a.txt", plain, columns)), expected);
