@@ -1,5 +1,6 @@
 //! A scene: a world, a camera over time, and the image.
 
+mod clouds;
 mod description;
 mod load;
 mod oversights;
