@@ -17,9 +17,7 @@ pub(super) struct Inputs {
 impl Inputs {
     /// Those of the scene that was read from `path`.
     pub(super) fn of(path: &Path, scene: &Scene) -> Self {
-        let folder = path.parent().unwrap_or(Path::new(""));
-        let tables = scene.clouds().iter().map(|cloud| folder.join(&cloud.file));
-        let files = tables.chain([path.to_owned()]);
+        let files = scene.table_files().into_iter().chain([path.to_owned()]);
         Self {
             // What is gone since it was read can be replaced.
             places: files

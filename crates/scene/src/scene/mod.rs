@@ -7,6 +7,7 @@ mod oversights;
 mod refused;
 
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -189,6 +190,11 @@ impl Scene {
     /// The tables of the scene, in the order of the file.
     pub fn clouds(&self) -> &[CloudDescription] {
         &self.clouds
+    }
+
+    /// The files of all tables, those of each step among them.
+    pub fn table_files(&self) -> Vec<PathBuf> {
+        self.tables.iter().flat_map(|table| table.files()).collect()
     }
 
     /// What is in the columns of a table's first step, the first dozens of them; `cloud` is its place in

@@ -10,7 +10,7 @@ use std::thread;
 use std::time::{Duration, SystemTime};
 
 use marbles_core::Cancelled;
-use marbles_scene::{Scene, SceneError};
+use marbles_scene::SceneError;
 
 use super::picture::{Picture, render};
 use super::screen::{Area, Screen};
@@ -67,7 +67,7 @@ fn look(
     let started = SystemTime::now();
     let scene = scene::load(&arguments.scene, &arguments.options, console, true);
     match &scene {
-        Ok(scene) => files.name(tables(scene, &arguments.scene), started),
+        Ok(scene) => files.name(scene.table_files(), started),
         Err(Failure::Scene(error)) => files.add(SceneError::path(error).to_owned(), started),
         Err(_) => {}
     }
@@ -75,13 +75,6 @@ fn look(
     let view = area.fit(scene::view(&scene, arguments.frame)?);
     let world = scene::world(&scene, arguments.frame)?;
     Ok(render((&scene, &world), &view, arguments.tolerance, None))
-}
-
-/// The tables that a scene names.
-fn tables(scene: &Scene, path: &Path) -> Vec<PathBuf> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let clouds = scene.clouds().iter();
-    clouds.map(|cloud| folder.join(&cloud.file)).collect()
 }
 
 /// Waits until the files have changed and the change is complete, the screen is another, or the user

@@ -108,6 +108,14 @@ impl OpenCloud {
         }
     }
 
+    /// The files of all steps.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        match &self.steps {
+            Steps::Files(files) => files.clone(),
+            Steps::One | Steps::Frames(_) => vec![self.path(0)],
+        }
+    }
+
     /// The way from numbers to colors.
     pub(crate) fn scale(&self) -> &Scale {
         &self.cloud.scale
