@@ -117,6 +117,8 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
     image: (width: 9, height: 9),
     lens: Fov(50),
     camera: LookAt(position: (0, 0, -2), target: (0, 0, 0)),
+    ambient: 1,
+    spheres: [(center: (0, 0, 5), radius: 1)],
     animation: Keyframes(frames: (1, 3), keys: [
         (frame: 1, position: (0, 0, -2), ease: Linear),
         (frame: 3, position: (0, 0, 2)),
@@ -203,6 +205,9 @@ fn tables_are_found_beside_the_scene_and_told() {
     let told = "cloud       tables/salt.csv: 2, radius 0.5
   from      (-0.5, -2.5, -3.5)
   to        (2.5, 2.5, 3.5)
+  columns   x: -1 to 1; colors from -1 to 1
+            y: -2 to 2
+            z: -3 to 3
   seen by   Orbit(target: (1, 0, 0), radius: 12.53";
     assert!(lines.contains(told), "{lines}");
     assert!(lines.contains("camera      Frame: x 1, y 4."), "{lines}");

@@ -31,6 +31,7 @@ fn a_terminal_shows_what_takes_long() {
     image: (width: 60, height: 60),
     lens: Fov(40),
     camera: Frame(),
+    ambient: 1,
     clouds: [(file: \"table_with_a_long_name.csv\", radius: 0.5)],
 )
 ";

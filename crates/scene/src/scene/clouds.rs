@@ -1,0 +1,147 @@
+//! The clouds of a scene: what they add to it, and the camera that frames them.
+
+use std::path::PathBuf;
+
+use marbles_core::Lens;
+
+use super::refused::explain;
+use super::{CloudDescription, ColorDescription, ColorMeaning, Scene};
+use crate::bounds::Bounds;
+use crate::file::FrameOver;
+use crate::motion::Framed;
+use crate::report::SceneError;
+use crate::table;
+use crate::text::harmless;
+use crate::world::{CloudError, Learned, OpenCloud, Progress, Scale, Step};
+
+impl Scene {
+    /// Reads the first step of a cloud, behind so many spheres, and describes it.
+    pub(super) fn add_cloud(
+        &mut self,
+        cloud: &mut OpenCloud,
+        count: &mut usize,
+        watch: &(dyn Fn(Progress<'_>) + Sync),
+    ) -> Result<Step, CloudError> {
+        if cloud.has_to_learn() {
+            cloud.learn()?;
+        }
+        let step = cloud.read(0, watch)?;
+        let file = PathBuf::from(&cloud.cloud.name);
+        if step.has_more {
+            self.warnings.push(format!(
+                "{}: the first frame of several is shown (`frames: All` shows them one after another)",
+                harmless(&cloud.cloud.name)
+            ));
+        }
+        let end = *count + step.spheres.len();
+        self.clouds.push(CloudDescription {
+            file,
+            spheres: *count..end,
+            rows: step.rows,
+            steps: cloud.steps(),
+            colors: colors(cloud.scale(), &step),
+        });
+        *count = end;
+        Ok(step)
+    }
+
+    /// Places the camera where it has spheres in its picture; `None` where there are none.
+    pub(super) fn place_camera(
+        &mut self,
+        fill: f64,
+        over: FrameOver,
+    ) -> Result<Option<()>, SceneError> {
+        let picture = self.picture(fill);
+        let Some(series) = self.series.clone() else {
+            let spheres = self.world.spheres();
+            let framed = Framed {
+                bounds: Bounds::of(spheres),
+                largest: &mut |find| find(spheres),
+            };
+            let scale = self.motion.frame(framed, &picture);
+            return Ok(scale.map(|scale| scale_lens(&mut self.lens, scale)));
+        };
+        let refused = |error| explain(&series, error);
+        if over == FrameOver::Series {
+            let mut failed = None;
+            let framed = Framed {
+                bounds: series.bounds().map_err(refused)?,
+                largest: &mut |find| {
+                    let mut largest: Option<f64> = None;
+                    let all = series.for_each(&mut |spheres| {
+                        let found = find(spheres);
+                        largest = match (largest, found) {
+                            (Some(one), Some(other)) => Some(one.max(other)),
+                            (one, other) => one.or(other),
+                        };
+                    });
+                    failed = all.err();
+                    largest
+                },
+            };
+            let scale = self.motion.frame(framed, &picture);
+            if let Some(failed) = failed {
+                return Err(explain(&series, failed));
+            }
+            return Ok(scale.map(|scale| scale_lens(&mut self.lens, scale)));
+        }
+        let mut is_framed = None;
+        for frame in self.frames().unwrap_or(1..=1) {
+            let key = series.key(frame);
+            if self.framed.iter().any(|framed| framed.0 == key) {
+                continue;
+            }
+            let world = series.world(&key).map_err(refused)?;
+            let framed = Framed {
+                bounds: Bounds::of(world.spheres()),
+                largest: &mut |find| find(world.spheres()),
+            };
+            let (mut motion, mut lens) = (self.motion.clone(), self.lens);
+            // Where nothing is shown, the camera stays where it was.
+            match motion.frame(framed, &picture) {
+                Some(scale) => {
+                    is_framed = Some(());
+                    scale_lens(&mut lens, scale);
+                }
+                None => {
+                    if let Some((_, last, last_lens)) = self.framed.last() {
+                        (motion, lens) = (last.clone(), *last_lens);
+                    }
+                }
+            }
+            self.framed.push((key, motion, lens));
+        }
+        Ok(is_framed)
+    }
+}
+
+fn scale_lens(lens: &mut Lens, scale: f64) {
+    lens.width *= scale;
+    lens.shift *= scale;
+}
+
+/// What the colors of a step mean.
+fn colors(scale: &Scale, step: &Step) -> Option<ColorDescription> {
+    let Learned {
+        low, categories, ..
+    } = &step.learned;
+    let meaning = if !categories.is_empty() {
+        ColorMeaning::Categories(scale.categories(&step.learned))
+    } else if low.is_finite() {
+        let (low, high) = scale.range(&step.learned);
+        ColorMeaning::Scale {
+            low,
+            high,
+            kind: scale.kind,
+            colors: scale.colors(),
+        }
+    } else {
+        return None;
+    };
+    let unit = step.value_name.as_deref().and_then(table::unit);
+    Some(ColorDescription {
+        column: step.value_name.clone(),
+        unit: unit.map(str::to_owned),
+        meaning,
+    })
+}
