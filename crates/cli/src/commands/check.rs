@@ -54,11 +54,8 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    let first = *frames.start();
     let mut warnings = costs::warnings(&world, &views);
-    if let Some(view) = views.first() {
-        warnings.extend(oversights::warnings(&world, view, first));
-    }
+    warnings.extend(oversights::warnings(&world, &views, *frames.start()));
     scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
@@ -81,13 +78,16 @@ fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
     let text = sidecar.text().map_err(Failure::Work)?;
-    let clouds = tables::json(scene)?;
     // For programs: as it is.
-    let text = text.trim_end().strip_suffix('}').unwrap_or(&text);
-    console.print(&format!(
-        "{},\n  \"clouds\": {clouds}\n}}\n",
-        text.trim_end()
-    ));
+    let text = text.trim_end();
+    let (text, clouds) = match (text.strip_suffix('}'), scene.clouds()) {
+        (Some(inside), [_, ..]) => {
+            let clouds = tables::json(scene)?;
+            (inside.trim_end(), format!(",\n  \"clouds\": {clouds}\n}}"))
+        }
+        _ => (text, String::new()),
+    };
+    console.print(&format!("{text}{clouds}\n"));
     Ok(status::SUCCESS)
 }
 

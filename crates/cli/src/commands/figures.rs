@@ -19,7 +19,7 @@ pub(super) fn write(
     let scene = &request.scene;
     for (option, path) in [("--legend", &legend), ("--scale-bar", &scale_bar)] {
         path.as_deref()
-            .map_or(Ok(()), |path| check_name(option, path))?;
+            .map_or(Ok(()), |path| check_name(option, "drawings", path))?;
     }
     let inputs = Inputs::of(&request.scene_path, scene);
     inputs.refuse(legend.iter().chain(&scale_bar).cloned())?;
@@ -44,13 +44,13 @@ pub(super) fn write(
 }
 
 /// Refuses the name of a drawing that does not end in `.svg`.
-pub(super) fn check_name(option: &str, path: &Path) -> Result<(), Failure> {
+pub(super) fn check_name(option: &str, noun: &str, path: &Path) -> Result<(), Failure> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("svg")) {
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "{option}: expected a file name that ends in .svg, the one format of drawings, found `{}`",
+        "{option}: expected a file name that ends in .svg, the one format of {noun}, found `{}`",
         path.shown()
     )))
 }

@@ -5,20 +5,28 @@ use rayon::prelude::*;
 
 use crate::base::numbers::short;
 
-/// Plain sentences about a frame: what is wrong, and what to do. Works on the threads of the current rayon pool.
-pub(super) fn warnings(world: &World, view: &View, frame: i32) -> Vec<String> {
+/// The most views that are looked at, spread evenly over those of an animation.
+const VIEWS: usize = 9;
+
+/// Plain sentences about views of some frames, `frame` the first: what is wrong, and what to do. Works on the threads
+/// of the current rayon pool.
+pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String> {
     let spheres = world.spheres();
+    let Some(view) = views.first() else {
+        return Vec::new();
+    };
+    let mut looked_at = views.iter().step_by(views.len().div_ceil(VIEWS));
     if spheres.is_empty() {
-        return vec![format!(
-            "frame {frame}: there are no spheres: the picture is the background"
-        )];
+        return vec!["there are no spheres: the picture is the background".to_owned()];
     }
     let mut warnings = Vec::new();
-    if !spheres.par_iter().any(|sphere| may_be_seen(sphere, view)) {
-        warnings.push(format!(
-            "frame {frame}: no sphere is in view: `marbles check` tells where they are, and `camera: Frame()` has \
-             all of them in the picture"
-        ));
+    let is_empty = |view: &View| !spheres.par_iter().any(|sphere| may_be_seen(sphere, view));
+    if looked_at.all(is_empty) {
+        warnings.push(
+            "no sphere is in view: `marbles check` tells where they are, and `camera: Frame()` has all of them in \
+             the picture"
+                .to_owned(),
+        );
     }
     if world.lights.is_empty() && world.ambient.max_element() <= 0.0 {
         warnings.push(
@@ -80,7 +88,7 @@ mod tests {
     fn of(fields: &str) -> String {
         let text = format!("(image: (width: 40, height: 20), lens: Fov(90), {fields})");
         let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
-        let warnings = warnings(scene.world(), &scene.view(1).unwrap(), 1);
+        let warnings = warnings(scene.world(), &[scene.view(1).unwrap()], 1);
         warnings
             .iter()
             .map(|line| &line[..24])
@@ -98,16 +106,16 @@ mod tests {
             (sphere(0.0, 0.0, 5.0), ""),
             // The picture ends at x = ±5 and y = ±2.5 there; the sphere reaches 1.41 and 1.12 further.
             (sphere(6.4, 0.0, 5.0), ""),
-            (sphere(6.5, 0.0, 5.0), "frame 1: no sphere is in"),
+            (sphere(6.5, 0.0, 5.0), "no sphere is in view: `m"),
             (sphere(0.0, -3.6, 5.0), ""),
-            (sphere(0.0, -3.7, 5.0), "frame 1: no sphere is in"),
-            (sphere(0.0, 0.0, -5.0), "frame 1: no sphere is in"),
+            (sphere(0.0, -3.7, 5.0), "no sphere is in view: `m"),
+            (sphere(0.0, 0.0, -5.0), "no sphere is in view: `m"),
             (sphere(0.0, 0.0, 0.5), "frame 1: the camera is i"),
             (
                 sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"),
                 "nothing is lit: `lights:",
             ),
-            (LIT.to_owned(), "frame 1: there are no sp"),
+            (LIT.to_owned(), "there are no spheres: th"),
         ] {
             assert_eq!(of(&fields), expected, "{fields}");
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use marbles_core::{Method, Settings};
+use marbles_core::{Method, Settings, View};
 use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
@@ -171,15 +171,19 @@ fn check_view(
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<(), Failure> {
+    /// Frames that are looked at; more would take long.
+    const FRAMES: usize = 1000;
+    let scene = &request.scene;
     let frame = request.frames.first();
-    // Frames without a view, and tables that cannot be read, are told when their turn comes.
-    let Ok(view) = request.scene.view(frame) else {
+    // Tables that cannot be read are told when their turn comes.
+    let Ok(world) = threads.install(|| scene.world_at(frame)) else {
         return Ok(());
     };
-    let Ok(world) = threads.install(|| request.scene.world_at(frame)) else {
-        return Ok(());
-    };
-    let warnings = threads.install(|| oversights::warnings(&world, &view, frame));
+    // Of clouds that change, the world of the first frame is that of no other one.
+    let most = if scene.has_steps() { 1 } else { FRAMES };
+    let frames = request.frames.iter().take(most);
+    let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
+    let warnings = threads.install(|| oversights::warnings(&world, &views, frame));
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 

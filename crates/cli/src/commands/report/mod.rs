@@ -36,7 +36,7 @@ use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     let plot = arguments.plot.as_deref();
-    plot.map_or(Ok(()), |plot| check_name("--plot", plot))?;
+    plot.map_or(Ok(()), |plot| check_name("--plot", "plots", plot))?;
     let scene = scene::load(
         &arguments.scene,
         &arguments.options,
