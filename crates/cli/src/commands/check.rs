@@ -30,10 +30,10 @@ const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, &arguments.options, console, false)?;
-    let world = scene::world(&scene, None)?;
     if arguments.json {
         return json(&scene, arguments, console);
     }
+    let world = scene::world(&scene, None)?;
     let frames = frames_of(&scene);
     let (views, errors) = views(&scene, &frames);
 

@@ -6,7 +6,7 @@ use super::inputs::Inputs;
 use super::{legend, scale_bar};
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
-use crate::files::destination::prepare;
+use crate::files::destination::{is_same, prepare};
 use crate::files::save::write_bytes;
 use crate::sequence::request::Request;
 
@@ -20,6 +20,12 @@ pub(super) fn write(
     for (option, path) in [("--legend", &legend), ("--scale-bar", &scale_bar)] {
         path.as_deref()
             .map_or(Ok(()), |path| check_name(option, "drawings", path))?;
+    }
+    if let (Some(legend), Some(scale_bar)) = (&legend, &scale_bar)
+        && is_same(legend, scale_bar)
+    {
+        let why = "--legend and --scale-bar name the same file";
+        return Err(Failure::unusable(legend, why));
     }
     let inputs = Inputs::of(&request.scene_path, scene);
     inputs.refuse(legend.iter().chain(&scale_bar).cloned())?;

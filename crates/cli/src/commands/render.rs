@@ -9,6 +9,7 @@ use super::args::{PerLight, RenderArguments};
 use super::inputs::Inputs;
 use super::{figures, oversights, scene};
 use crate::base::failure::Failure;
+use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
@@ -38,15 +39,38 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         let why = format!("several scenes need a place for their names: {SCENE}");
         return Err(Failure::unusable(output, &why));
     }
+    refuse_same_names(&arguments.scenes)?;
+    let is_alone = arguments.scenes.len() == 1;
     let mut code = status::SUCCESS;
     for scene in &arguments.scenes {
-        let ended = run_scene(arguments, scene, &threads, console)?;
+        let ended = match run_scene(arguments, scene, &threads, console) {
+            // One that cannot be rendered does not stop the others.
+            Err(failure) if !is_alone && !arguments.fail_fast => {
+                console.failure(&failure);
+                failure.exit_code()
+            }
+            ended => ended?,
+        };
         code = code.max(ended);
         if ended == status::INTERRUPTED {
             break;
         }
     }
     Ok(code)
+}
+
+/// Refuses scenes whose files would have the same names.
+fn refuse_same_names(scenes: &[PathBuf]) -> Result<(), Failure> {
+    let mut names: Vec<_> = scenes.iter().map(|scene| scene.file_stem()).collect();
+    names.sort_unstable();
+    match names.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(same) => {
+            let name = Path::new(same[0].unwrap_or_default()).shown();
+            let message = format!("two scenes are called `{name}`, and would share their files");
+            Err(Failure::Usage(message))
+        }
+    }
 }
 
 /// The place for the name of the scene in names of files.

@@ -19,7 +19,7 @@ const MARGIN: f64 = 16.0;
 /// # Errors
 /// Refuses a camera with perspective that has no target before it.
 pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Result<String, Failure> {
-    let (pixels, where_) = if view.lens.is_parallel() {
+    let (pixels, place) = if view.lens.is_parallel() {
         (view.pixels_per_unit(), String::new())
     } else {
         let target = scene.target_at(frame).ok_or_else(|| {
@@ -41,7 +41,7 @@ pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Resul
     };
     let length = round_step(0.25 * f64::from(view.width) / pixels);
     let width = length * pixels;
-    let note = format!("{}{where_}{when}", short(length));
+    let note = format!("{}{place}{when}", short(length));
     let whole = (width + 2.0 * MARGIN).max(7.0 * note.len() as f64 + 2.0 * MARGIN);
     let mut svg = Svg::new(whole, 52.0, "Scale bar");
     svg.rectangle((MARGIN, 14.0), (width, 4.0), "#000000");

@@ -171,6 +171,15 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     let expected = "plain.ron: --set lights[1].toward: expected [1], found those from [0] to [0]";
     assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
     assert_eq!(run("render edited.ron plain.ron -o a.png").0, 2);
+    let (status, errors) = run("render a/x.ron b/x.ron");
+    let expected = "two scenes are called `x`, and would share their files";
+    assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
+    // One that is missing does not stop the others, unless that is wanted.
+    let missing = "render missing.ron edited.ron -q -o d/{scene}.png";
+    assert_eq!(run(&format!("{missing} --fail-fast")).0, 2);
+    assert!(folder.names("d").is_empty());
+    assert_eq!(run(missing).0, 2);
+    assert_eq!(folder.names("d"), ["edited.png"]);
     // The first of twelve frames is shown.
     let (status, errors) = run("check plain.ron");
     assert_eq!(

@@ -75,7 +75,7 @@ impl Scene {
                             (one, other) => one.or(other),
                         };
                     });
-                    failed = all.err();
+                    failed = failed.take().or(all.err());
                     largest
                 },
             };
@@ -86,7 +86,11 @@ impl Scene {
             return Ok(scale.map(|scale| scale_lens(&mut self.lens, scale)));
         }
         let mut is_framed = None;
-        for frame in self.frames().unwrap_or(1..=1) {
+        // Frames behind the animation show steps, too, that it may not reach.
+        let (first, last) = self.frames().unwrap_or(1..=1).into_inner();
+        let longest = series.changing().filter_map(|cloud| cloud.frames()).max();
+        let last = last.max(first.saturating_add(longest.unwrap_or(1) - 1));
+        for frame in first..=last {
             let key = series.key(frame);
             if self.framed.iter().any(|framed| framed.0 == key) {
                 continue;

@@ -233,23 +233,24 @@ impl Draft {
             let material = cloud.cloud.material;
             let cloud = Arc::new(cloud);
             scene.tables.push(Arc::clone(&cloud));
-            if cloud.steps().is_some() {
-                scene.world.has_colored_spheres |= step.albedos.is_some();
-                scene.world.use_material(material);
-                parts.push(Part::Changing(cloud));
-                continue;
-            }
             let Step {
                 spheres, albedos, ..
             } = step;
-            match parts.is_empty() {
-                true => scene.world.add_spheres(spheres, material, albedos),
-                false => parts.push(Part::Still {
+            if cloud.steps().is_none() && parts.is_empty() {
+                scene.world.add_spheres(spheres, material, albedos);
+                continue;
+            }
+            // What pictures have to have room for, though these spheres are not in this world.
+            scene.world.has_colored_spheres |= albedos.is_some();
+            scene.world.use_material(material);
+            parts.push(match cloud.steps() {
+                Some(_) => Part::Changing(cloud),
+                None => Part::Still {
                     spheres,
                     albedos,
                     material,
-                }),
-            }
+                },
+            });
         }
         if !parts.is_empty() {
             let source = (path.to_owned(), text.to_owned());

@@ -208,10 +208,15 @@ fn read_line(
                 }
                 Slot::Value if plan.coloring == Coloring::Category => category = field.clone(),
                 Slot::Filter(filter) => {
-                    numbers[slot.index()] = match plan.filters[usize::from(*filter)].text() {
-                        Some(wanted) => f64::from(u8::from(text == wanted.as_bytes())),
-                        None => parse(text, form.has_decimal_commas).unwrap_or(f64::NAN),
+                    let number = match plan.filters[usize::from(*filter)].text() {
+                        Some(wanted) => Some(f64::from(u8::from(text == wanted.as_bytes()))),
+                        None => parse(text, form.has_decimal_commas)
+                            .or_else(|| is_missing(text).then_some(f64::NAN)),
                     };
+                    let Some(number) = number else {
+                        return refused(field, &plan.expected(column, "a number"));
+                    };
+                    numbers[slot.index()] = number;
                 }
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);

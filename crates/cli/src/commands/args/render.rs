@@ -57,10 +57,9 @@ pub(crate) struct RenderArguments {
     #[command(flatten)]
     pub(crate) options: SceneOptions,
 
-    /// File names, with ####, %04d or {frame:04} in place of the frame number, and {scene} in place of the scene's
-    /// name; the ending .png,
-    /// .exr or .npy chooses the format, and .apng has all frames in one file, an animated PNG that
-    /// plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// File names, with ####, %04d or {frame:04} in place of the frame number, and {scene} in place of
+    /// the scene's name; the ending .png, .exr or .npy chooses the format, and .apng has all frames in
+    /// one file, an animated PNG that plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
@@ -77,7 +76,7 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) skip_existing: bool,
 
-    /// End at the first frame that cannot be rendered or written, instead of going on to the next
+    /// End at the first frame, or scene, that cannot be rendered or written, instead of going on to the next
     #[arg(long)]
     pub(crate) fail_fast: bool,
 

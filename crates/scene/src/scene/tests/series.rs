@@ -115,6 +115,16 @@ fn clouds_that_change_stand_beside_those_that_do_not() {
     assert_eq!(places(&scene, 2), [-1.0, 0.0, 2.0, -1.0]);
     assert_eq!(scene.clouds()[1].steps, Some(3));
     assert_eq!(scene.clouds()[2].spheres, 3..4);
+    // What stands behind a cloud that changes may be all that has a color, or bumps.
+    folder.write("red.csv", "x,y,z,r,red,green,blue\n0,0,0,1,1,0,0\n");
+    let colored = folder.scene("(file: \"run.####.csv\"), (file: \"red.csv\")");
+    assert!(!colored.world().is_grey() && !colored.world_at(1).unwrap().is_grey());
+    let rough = folder.load(
+        "(file: \"run.####.csv\"), (file: \"still.csv\", material: \"m\")",
+        "Free()",
+        ", materials: {\"m\": (rough: (grain: Surface(1)))}",
+    );
+    assert!(rough.unwrap().world().has_bumps());
     let keyed = folder.load(
         "(file: \"run.####.csv\")",
         "Free()",
@@ -156,6 +166,12 @@ fn nothing_jumps_from_step_to_step() {
     let alone = folder.load("(file: \"one.csv\")", "Frame()", "").unwrap();
     assert!((position(&alone, 1) - position(&step, 2)).length() < 1e-12);
     assert_ne!(position(&step, 1), position(&step, 2));
+    // A step that no frame of the animation shows is framed as well.
+    let short = ", animation: Keyframes(frames: (1, 1))";
+    let short = folder
+        .load(cloud, "Frame(frame_over: Step)", short)
+        .unwrap();
+    assert_eq!(position(&short, 3), position(&step, 3));
     // The middle of all steps.
     let centered = folder.scene("(file: \"run.####.csv\", center: true)");
     assert_eq!(places(&centered, 1), [-2.0, -2.0]);
@@ -278,6 +294,16 @@ fn rows_are_kept_that_meet_all_conditions() {
         .unwrap_err();
     assert!(
         message.starts_with("a.csv:1:1: expected a column `typ`, found"),
+        "{message}"
+    );
+    // A row without a number is not kept, and one with a text is a fault.
+    folder.write("b.csv", "x,y,z,r,v\n0,0,0,1,7\n1,0,0,1,\n");
+    let keep = "(file: \"b.csv\", keep: [(\"v\", Between(0, 9))])";
+    assert_eq!(places(&folder.scene(keep), 1), [0.0]);
+    folder.write("b.csv", "x,y,z,r,v\n0,0,0,1,7\n1,0,0,1,seven\n");
+    let message = folder.load(keep, "Free()", "").unwrap_err();
+    assert!(
+        message.starts_with("b.csv:3:9: expected a number for `v`, found `seven`"),
         "{message}"
     );
 }

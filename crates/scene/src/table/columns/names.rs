@@ -98,18 +98,16 @@ impl Names {
 
     /// The column that other formats call otherwise: `residue` for `label_comp_id`, and the like.
     fn find_synonym(&self, name: &str) -> Option<usize> {
-        const SYNONYMS: [&[&str]; 8] = [
-            &["x", "Cartn_x", "xu", "xs", "xsu"],
-            &["y", "Cartn_y", "yu", "ys", "ysu"],
-            &["z", "Cartn_z", "zu", "zs", "zsu"],
-            &["element", "species", "symbol", "type_symbol"],
+        const SYNONYMS: [&[&str]; 4] = [
             &["residue", "resname", "label_comp_id", "auth_comp_id"],
             &["chain", "label_asym_id", "auth_asym_id"],
             &["name", "atom", "label_atom_id", "auth_atom_id"],
             &["b_factor", "bfactor", "B_iso_or_equiv"],
         ];
         let is_name = |other: &&str| other.eq_ignore_ascii_case(name);
-        let group = SYNONYMS.iter().find(|group| group.iter().any(is_name))?;
+        let slots = [Slot::X, Slot::Y, Slot::Z, Slot::Element].map(Slot::names);
+        let mut groups = slots.into_iter().chain(SYNONYMS);
+        let group = groups.find(|group| group.iter().any(is_name))?;
         group.iter().find_map(|other| self.find(other))
     }
 

@@ -41,16 +41,6 @@ pub(crate) struct Nature<'a> {
     pub(crate) angstrom: f64,
 }
 
-impl Default for Nature<'_> {
-    fn default() -> Self {
-        Self {
-            is_byte: &|_| false,
-            is_text: &|_| false,
-            angstrom: 1.0,
-        }
-    }
-}
-
 /// The purposes of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Uses {

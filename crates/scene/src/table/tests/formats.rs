@@ -221,6 +221,12 @@ fn compressed_tables_are_those_that_were_compressed() {
         message,
         "a.csv.gz:4:1: expected a number for `x`, found `x`"
     );
+    let twice = [&zstd[..], &zstd[..]].concat();
+    let message = refusal("a.csv.zst", &twice, "");
+    assert_eq!(
+        message,
+        "a.csv.zst:4:1: expected a number for `x`, found `x`"
+    );
     let message = refusal("a.csv.gz", &gzip[..gzip.len() / 2], "");
     assert!(message.contains("cannot be read"), "{message}");
     let message = refusal("a.csv.zst", &zstd[..zstd.len() / 2], "");
