@@ -1,5 +1,6 @@
 //! The clouds of a scene: what they add to it, and the camera that frames them.
 
+use std::collections::HashSet;
 use std::path::PathBuf;
 
 use marbles_core::Lens;
@@ -11,8 +12,11 @@ use crate::file::FrameOver;
 use crate::motion::Framed;
 use crate::report::SceneError;
 use crate::table;
-use crate::text::harmless;
+use crate::text::{Fault, harmless};
 use crate::world::{CloudError, Learned, OpenCloud, Progress, Scale, Step};
+
+/// The most frames whose steps are framed one by one.
+const MOST_FRAMES: i64 = 100_000;
 
 impl Scene {
     /// Reads the first step of a cloud, behind so many spheres, and describes it.
@@ -90,9 +94,23 @@ impl Scene {
         let (first, last) = self.frames().unwrap_or(1..=1).into_inner();
         let longest = series.changing().filter_map(|cloud| cloud.frames()).max();
         let last = last.max(first.saturating_add(longest.unwrap_or(1) - 1));
+        let count = i64::from(last) - i64::from(first) + 1;
+        if count > MOST_FRAMES {
+            let message = format!(
+                "expected at most {MOST_FRAMES} frames for `frame_over: Step`, found {count}"
+            );
+            let place = series
+                .changing()
+                .next()
+                .map(|cloud| cloud.cloud.place.clone());
+            let place = place.unwrap_or_default();
+            let fault = Fault::new(place.clone(), message);
+            return Err(refused((place, CloudError::Scene(fault))));
+        }
+        let mut known = HashSet::new();
         for frame in first..=last {
             let key = series.key(frame);
-            if self.framed.iter().any(|framed| framed.0 == key) {
+            if !known.insert(key.clone()) {
                 continue;
             }
             let world = series.world(&key).map_err(refused)?;

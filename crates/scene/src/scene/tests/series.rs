@@ -172,6 +172,12 @@ fn nothing_jumps_from_step_to_step() {
         .load(cloud, "Frame(frame_over: Step)", short)
         .unwrap();
     assert_eq!(position(&short, 3), position(&step, 3));
+    let slow = "(file: \"run.####.csv\", speed: 1e-9)";
+    let message = folder
+        .load(slow, "Frame(frame_over: Step)", "")
+        .unwrap_err();
+    let expected = "expected at most 100000 frames for `frame_over: Step`, found 2147483647";
+    assert!(message.contains(expected), "{message}");
     // The middle of all steps.
     let centered = folder.scene("(file: \"run.####.csv\", center: true)");
     assert_eq!(places(&centered, 1), [-2.0, -2.0]);
