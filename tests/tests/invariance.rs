@@ -41,6 +41,7 @@ fn world(change: Change, rough: bool) -> World {
                 shininess: 21.5,
             }),
             roughness: roughness.filter(|_| rough),
+            stroke: None,
         })
     });
     let balls = [

@@ -25,6 +25,7 @@ mod repeatability;
 mod shading;
 mod shutter;
 mod sidecar;
+mod strokes;
 mod studio;
 mod tolerance;
 mod truth;

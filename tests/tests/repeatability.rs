@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use marbles_core::{
-    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Roughness, Sphere, World,
+    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Roughness, Sphere, Stroke,
+    StrokeWidth, World,
 };
 
 use crate::studio::{exact_picture, looking_forward, picture};
@@ -22,6 +23,10 @@ fn everything() -> World {
                 amplitude: 0.5,
                 grain,
                 seed: 7,
+            }),
+            stroke: (index == 1).then_some(Stroke {
+                width: StrokeWidth::Pixels(3.0),
+                color: Color::Y,
             }),
         });
         let side = 2.0 * index as f64 - 1.0;

@@ -53,6 +53,7 @@ fn every_term_of_the_formula_counts() {
                 shininess,
             }),
             roughness: None,
+            stroke: None,
         };
         let mut world = World::new();
         let id = world.add_material(material);

@@ -37,6 +37,7 @@ pub use model::outline::{Ellipse, Outline};
 pub use model::ray::Ray;
 pub use model::rotation::{RotationError, nearest_rotation};
 pub use model::sphere::{Sphere, SphereError};
+pub use model::stroke::{Stroke, StrokeWidth};
 pub use model::view::View;
 pub use model::world::{LightPart, MaterialId, World};
 pub use numeric::angle::Angle;

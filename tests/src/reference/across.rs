@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::light::Signature;
 use super::line::{Line, Piece};
-use super::patch::Patch;
+use super::patch::{Candidate, Patch};
 use super::quadrature::{Integral, changes, integrate};
 use super::seeds::{Seeds, touching_lines};
 
@@ -122,8 +122,9 @@ impl<'patch> Across<'patch> {
         let within = |t: &f64| *t > low && *t < high;
         let mut places: Vec<f64> = self.border_events().into_iter().filter(within).collect();
         let (along, across) = self.way.axes(self.patch);
-        for candidate in &self.patch.candidates {
-            let lines = touching_lines(&candidate.ball, self.patch.origin, along, across);
+        let candidates = self.patch.candidates.iter();
+        for ball in candidates.flat_map(Candidate::outlines) {
+            let lines = touching_lines(ball, self.patch.origin, along, across);
             places.extend(lines.filter(within));
         }
         places.extend(seeds.points.iter().map(|point| self.way.parts(*point).1));

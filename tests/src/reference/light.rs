@@ -12,6 +12,8 @@ pub(crate) struct Signature {
     pub(crate) seen: usize,
     /// Whether that is its inner side.
     is_inner: bool,
+    /// Whether that is its stroke.
+    is_stroke: bool,
     /// The lights that reach the point, and those whose highlight does.
     lit: u64,
     shines: u64,
@@ -88,6 +90,12 @@ impl Patch<'_> {
         if candidate.ball.begins_inside(direction) {
             signature.is_inner = true;
             return (signature, (albedo * world.ambient).extend(1.0));
+        }
+        if let (Some(stroke), Some(inside)) = (&material.stroke, &candidate.inside)
+            && inside.chord_sq(direction) < 0.0
+        {
+            signature.is_stroke = true;
+            return (signature, stroke.color.extend(1.0));
         }
         let spot = self.spot(candidate, direction, t);
         signature.cell = spot.cell;

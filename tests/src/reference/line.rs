@@ -122,6 +122,9 @@ impl Line<'_> {
             let mut seeds = Vec::new();
             if let Some(index) = front {
                 let candidate = &self.patch.candidates[index];
+                if let Some(inside) = &candidate.inside {
+                    self.outline_seeds(inside, &mut seeds);
+                }
                 if !candidate.ball.has_eye_inside() {
                     self.seeds_on(candidate, start, end, &mut seeds);
                 }

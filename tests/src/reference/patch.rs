@@ -1,7 +1,7 @@
 //! A rectangle of the retina, and the spheres that matter to it.
 
 use glam::{DVec2, DVec3};
-use marbles_core::{View, World};
+use marbles_core::{StrokeWidth, View, World};
 
 use super::ball::Ball;
 use super::lamp::Lamp;
@@ -46,6 +46,44 @@ impl<'world> Stage<'world> {
     }
 }
 
+impl Stage<'_> {
+    /// A sphere without its stroke.
+    fn inside_stroke(&self, sphere: usize) -> Option<Ball> {
+        let stroke = self.world.material(sphere).stroke?;
+        let ball = &self.balls[sphere];
+        if ball.has_eye_inside() || ball.cut_radius().is_some() {
+            return None;
+        }
+        let pixel = self.view.lens.width / (f64::from(self.view.width) * self.view.zoom);
+        let width = match (stroke.width, self.forward) {
+            (StrokeWidth::Units(width), _) => width,
+            (StrokeWidth::Pixels(width), Some(_)) => width * pixel,
+            (StrokeWidth::Pixels(width), None) => {
+                // At these angles from the center both edges are seen.
+                let (distance, ahead) = (ball.center.length(), self.view.camera.forward());
+                let outer = (ball.radius / distance).asin();
+                let cosine = ball.center.dot(ahead).max(0.0) / distance;
+                let across = width * pixel / self.view.lens.distance * cosine;
+                let inner = (outer.tan() - across).atan();
+                ball.radius - distance * inner.sin()
+            }
+        };
+        self.smaller(sphere, width)
+    }
+
+    /// A ball whose radius is smaller by this.
+    fn smaller(&self, sphere: usize, width: f64) -> Option<Ball> {
+        let sphere = &self.world.spheres()[sphere];
+        let radius = (sphere.radius() - width).max(0.0);
+        Some(Ball::new(
+            sphere.center(),
+            radius,
+            self.view.camera.position,
+            self.forward,
+        ))
+    }
+}
+
 /// A part of a pixel: the directions `origin + s · right + t · up` for s, t in the given ranges,
 /// which lie in [−½, ½]. Parallel rays are told by where they begin instead, relative to the viewpoint.
 pub(crate) struct Patch<'stage> {
@@ -67,7 +105,16 @@ pub(crate) struct Patch<'stage> {
 pub(crate) struct Candidate {
     pub(crate) sphere: usize,
     pub(crate) ball: Ball,
+    /// The smaller ball that rays pass which see the sphere's stroke.
+    pub(crate) inside: Option<Ball>,
     pub(crate) casters: Vec<Vec<usize>>,
+}
+
+impl Candidate {
+    /// The balls whose outlines are edges.
+    pub(crate) fn outlines(&self) -> impl Iterator<Item = &Ball> {
+        [&self.ball].into_iter().chain(&self.inside)
+    }
 }
 
 impl<'stage> Patch<'stage> {
@@ -147,6 +194,7 @@ impl<'stage> Patch<'stage> {
                 patch.candidates.push(Candidate {
                     sphere,
                     ball: *ball,
+                    inside: stage.inside_stroke(sphere),
                     casters,
                 });
             }

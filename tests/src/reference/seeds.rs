@@ -31,10 +31,12 @@ impl Seeds {
         for (index, candidate) in candidates.iter().enumerate() {
             directions.push(candidate.ball.center);
             for other in &candidates[..index] {
-                directions.extend(match candidate.ball.forward {
-                    None => outline_crossings(&candidate.ball, &other.ball),
-                    Some(forward) => disc_crossings(&candidate.ball, &other.ball, forward),
-                });
+                for one in candidate.outlines() {
+                    directions.extend(other.outlines().flat_map(|other| match one.forward {
+                        None => outline_crossings(one, other),
+                        Some(forward) => disc_crossings(one, other, forward),
+                    }));
+                }
             }
             if !candidate.ball.has_eye_inside() {
                 directions.extend(shadow_points(patch, candidate));

@@ -7,7 +7,7 @@ use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
     Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Pose,
-    Roughness, Settings, Sphere, View, World,
+    Roughness, Settings, Sphere, Stroke, StrokeWidth, View, World,
 };
 use rayon::prelude::*;
 
@@ -16,7 +16,7 @@ use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
 
 /// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
 /// the same scene do.
-const PURPOSE: &str = "marbles 2026-11-23 (3) digest of a picture";
+const PURPOSE: &str = "marbles 2026-11-24 digest of a picture";
 
 /// Spheres that are hashed at a time; the digest depends on it.
 const SPHERES: usize = 1 << 14;
@@ -178,6 +178,7 @@ impl Feed {
             exponent,
             highlight,
             roughness,
+            stroke,
         } = *material;
         self.vector(albedo);
         self.number(exponent);
@@ -202,6 +203,15 @@ impl Feed {
             };
             feed.maybe(size, Self::number);
             feed.0.update(&seed.to_le_bytes());
+        });
+        self.maybe(stroke, |feed, Stroke { width, color }| {
+            let (kind, width) = match width {
+                StrokeWidth::Pixels(width) => (0, width),
+                StrokeWidth::Units(width) => (1, width),
+            };
+            feed.integer(kind);
+            feed.number(width);
+            feed.vector(color);
         });
     }
 

@@ -78,7 +78,8 @@ impl<'scene> Exact<'scene> {
         let contrast = 1.0
             + world.ambient.max_element()
             + world.background.max_element()
-            + lights.sum::<f64>();
+            + lights.sum::<f64>()
+            + brightest_stroke(world);
         let channels = Channels::of(world, alpha);
         let context = |group| {
             let scene = InCamera::new(world, &index.visibility, view, channels, group);
@@ -248,6 +249,10 @@ impl<'scene> Exact<'scene> {
             let dark = albedo * world.ambient;
             least = least.min(dark);
             most = most.max(dark + albedo * lights + lights * strength);
+            if let Some(stroke) = world.material(sphere).stroke {
+                least = least.min(stroke.color);
+                most = most.max(stroke.color);
+            }
         }
         [least, most]
     }
@@ -315,6 +320,12 @@ fn integrate_each(
         write(index, exact.sum(tile, candidates, lit));
     }
     work
+}
+
+/// The brightest channel of all strokes.
+fn brightest_stroke(world: &World) -> f64 {
+    let strokes = world.stroke_colors().map(Color::max_element);
+    strokes.fold(0.0, f64::max)
 }
 
 /// Adds the light of another group.

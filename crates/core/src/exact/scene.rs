@@ -13,6 +13,7 @@ use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;
 use crate::model::sphere::Sphere;
+use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::rounding::WIDER;
@@ -49,6 +50,10 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) ambient: Color,
     /// Whether the light of spheres is their normals: see [`Self::of_normals`].
     pub(crate) is_of_normals: bool,
+    /// The view of strokes, where any are seen.
+    strokes: Option<StrokeView>,
+    /// Whether strokes are black, as in all groups but the first.
+    are_strokes_black: bool,
 }
 
 /// The number of spheres up to which all are brought into the camera's frame once for a view: they take
@@ -184,6 +189,8 @@ impl<'scene> InCamera<'scene> {
                 Color::ZERO
             },
             is_of_normals: false,
+            strokes: world.has_strokes().then(|| view.of_strokes()),
+            are_strokes_black: group > 0,
         }
     }
 
@@ -207,6 +214,7 @@ impl<'scene> InCamera<'scene> {
             lights: lights.collect(),
             ambient: Color::ZERO,
             is_of_normals: true,
+            strokes: None,
             ..self.clone()
         }
     }
@@ -219,7 +227,7 @@ impl<'scene> InCamera<'scene> {
         }
     }
 
-    /// The same without lights.
+    /// The same without lights and strokes.
     pub(crate) fn without_lights(
         world: &'scene World,
         visibility: &Visibility<'scene>,
@@ -228,7 +236,44 @@ impl<'scene> InCamera<'scene> {
     ) -> Self {
         // A group after the last one.
         let group = visibility.lights().len() / MOST_LIGHTS + 1;
-        Self::new(world, visibility, view, channels, group)
+        Self {
+            strokes: None,
+            ..Self::new(world, visibility, view, channels, group)
+        }
+    }
+
+    /// Whether some spheres may have strokes.
+    pub(crate) fn has_strokes(&self) -> bool {
+        self.strokes.is_some()
+    }
+
+    /// What is seen of a sphere inside of its stroke: a ball with the same center; none for a sphere without a stroke.
+    pub(crate) fn inside_stroke(&self, sphere: usize, ball: &Ball) -> Option<Ball> {
+        let view = self.strokes?;
+        let stroke = self.world.material(sphere).stroke?;
+        // The ball may be one that a cell sees of a sphere that the plane of parallel rays cuts.
+        if ball.outside <= 0.0 || self.ball(sphere).outside <= 0.0 {
+            return None;
+        }
+        let radius = stroke.width.inner_radius(view, ball.center, ball.radius);
+        let outside = match ball.projection {
+            Projection::Central => ball.outside + (ball.radius - radius) * (ball.radius + radius),
+            Projection::Parallel => ball.outside,
+        };
+        Some(Ball {
+            radius,
+            outside,
+            ..*ball
+        })
+    }
+
+    /// The light of a sphere's stroke.
+    pub(crate) fn stroke_color(&self, sphere: usize) -> Color {
+        let stroke = self.world.material(sphere).stroke;
+        match stroke {
+            Some(stroke) if !self.are_strokes_black => stroke.color,
+            _ => Color::ZERO,
+        }
     }
 
     /// A sphere in the camera's frame.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::color::Color;
+use super::stroke::Stroke;
 
 /// The answer of a surface to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +16,8 @@ pub struct Material {
     pub highlight: Option<Highlight>,
     /// The bumps, if any.
     pub roughness: Option<Roughness>,
+    /// A line of one color along the outline, if any.
+    pub stroke: Option<Stroke>,
 }
 
 impl Material {
@@ -24,6 +27,7 @@ impl Material {
         exponent: 1.0,
         highlight: None,
         roughness: None,
+        stroke: None,
     };
 }
 

@@ -12,5 +12,6 @@ pub(crate) mod ray;
 pub(crate) mod rotation;
 pub(crate) mod roughness;
 pub(crate) mod sphere;
+pub(crate) mod stroke;
 pub(crate) mod view;
 pub(crate) mod world;

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::camera::{Camera, Lens, Projection};
 use super::ray::Ray;
+use super::stroke::StrokeView;
 
 /// One picture to take: camera, lens, and the pixels of the retina.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +52,14 @@ impl View {
             self.lens.shift / magnification,
             self.lens.width / magnification,
         )
+    }
+
+    /// What the strokes of spheres depend on.
+    pub(crate) fn of_strokes(&self) -> StrokeView {
+        StrokeView {
+            pixel: 1.0 / self.pixels_per_unit(),
+            projection: self.lens.projection(),
+        }
     }
 
     /// The ray through a point of the retina: from the viewpoint, or of a parallel lens from the point of

@@ -88,7 +88,8 @@ impl World {
         lights.chain([LightPart::Ambient])
     }
 
-    /// The same spheres under a part of the light, with all else off. Without ambient light the background is black.
+    /// The same spheres under a part of the light, with all else off. Without ambient light the background is black, and
+    /// so are strokes.
     ///
     /// # Panics
     /// When there is no light with that index.
@@ -98,8 +99,17 @@ impl World {
             LightPart::Ambient => (Vec::new(), [self.ambient, self.background]),
             LightPart::Light(index) => (vec![self.lights[index]], [Color::ZERO; 2]),
         };
+        let mut materials = Arc::clone(&self.materials);
+        if part != LightPart::Ambient && self.has_strokes() {
+            for material in Arc::make_mut(&mut materials) {
+                if let Some(stroke) = &mut material.stroke {
+                    stroke.color = Color::ZERO;
+                }
+            }
+        }
         Self {
             lights,
+            materials,
             ambient,
             background,
             has_colored_lights: self.has_colored_lights && part != LightPart::Ambient,
@@ -237,10 +247,25 @@ impl World {
 
     /// True where some sphere has bumps.
     pub fn has_bumps(&self) -> bool {
+        self.used_materials()
+            .any(|material| material.roughness.is_some())
+    }
+
+    /// True where some sphere has a line along its outline.
+    pub fn has_strokes(&self) -> bool {
+        self.used_materials().any(|one| one.stroke.is_some())
+    }
+
+    /// The light that strokes send, of each material that has one.
+    pub(crate) fn stroke_colors(&self) -> impl Iterator<Item = Color> {
+        let strokes = self.used_materials().filter_map(|one| one.stroke);
+        strokes.map(|stroke| stroke.color)
+    }
+
+    /// The materials that some sphere has.
+    fn used_materials(&self) -> impl Iterator<Item = &Material> {
         let materials = self.materials.iter().zip(&self.surfaces.is_used);
-        materials
-            .into_iter()
-            .any(|(material, used)| *used && material.roughness.is_some())
+        materials.filter_map(|(material, used)| used.then_some(material))
     }
 
     /// The materials in the order in which they were added.
@@ -269,6 +294,10 @@ impl World {
             dark = dark.min(albedo * self.ambient);
             bright = bright.max(albedo * (self.ambient + lights) + lights * strength);
         }
+        for stroke in self.stroke_colors() {
+            dark = dark.min(stroke);
+            bright = bright.max(stroke);
+        }
         [dark, bright]
     }
 
@@ -290,18 +319,12 @@ impl World {
 
     /// True where the spheres' light has no color, whatever the background has.
     pub fn has_grey_spheres(&self) -> bool {
-        let used = self
-            .materials
-            .iter()
-            .zip(&self.surfaces.is_used)
-            .filter(|(_, used)| **used);
         is_grey(self.ambient)
             && !self.has_colored_lights
             && !self.has_colored_spheres
             && self.lights.iter().all(|light| is_grey(light.intensity()))
-            && used
-                .into_iter()
-                .all(|(material, _)| is_grey(material.albedo))
+            && self.used_materials().all(|one| is_grey(one.albedo))
+            && self.stroke_colors().all(is_grey)
             && self.painted.iter().all(|some| some.is_grey)
     }
 }

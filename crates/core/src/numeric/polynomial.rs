@@ -28,6 +28,11 @@ impl Quadratic {
         0.5 * (self.x.abs() + self.y.abs()) + 0.25 * (self.xx.abs() + self.xy.abs() + self.yy.abs())
     }
 
+    /// The value at a place.
+    pub(crate) fn at(&self, x: f64, y: f64) -> f64 {
+        (x * self.xx + y * self.xy + self.x) * x + (y * self.yy + self.y) * y + self.one
+    }
+
     /// Whether the polynomial may have a zero in the square −½ ≤ x, y ≤ ½.
     pub(crate) fn may_vanish(&self) -> bool {
         // The tiny part is for the rounding of the coefficients. NaN may be anything.

@@ -2,17 +2,19 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::groups::{Group, Groups};
 use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::Sight;
 use crate::light::reflection::{NearLight, Reflectance, ViewedPoints};
+use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light::{Light as WorldLight, PointLight};
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
+use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
@@ -41,6 +43,8 @@ pub(super) struct Shading<'scene> {
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
+    /// The view, and the axis of view, where spheres have strokes.
+    strokes: Option<(StrokeView, DMat3)>,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,
 }
@@ -67,6 +71,9 @@ impl<'scene> Shading<'scene> {
             is_smooth: materials
                 .iter()
                 .all(|material| material.roughness.is_none()),
+            strokes: world
+                .has_strokes()
+                .then(|| (view.of_strokes(), view.camera.world_from_camera.transpose())),
             reflectances: materials.iter().map(Reflectance::new).collect(),
         }
     }
@@ -133,6 +140,9 @@ impl<'scene> Shading<'scene> {
         }
         for channel in 0..CHANNELS {
             diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
+        }
+        if self.strokes.is_some() {
+            diffuse = self.add_strokes(simd, sight, groups, diffuse);
         }
         diffuse
     }
@@ -216,6 +226,52 @@ impl<'scene> Shading<'scene> {
             );
         }
         albedo
+    }
+
+    /// Puts the strokes of spheres in the place of light.
+    ///
+    /// A ray in the direction d passes the smaller sphere of radius s where it meets the larger one, of radius r, with
+    /// (n · d)² < d² (r − s) (r + s) / r².
+    #[cold]
+    #[inline(never)]
+    fn add_strokes<S: Simd, const CHANNELS: usize>(
+        &self,
+        simd: S,
+        sight: &Sight<S>,
+        groups: &Groups<'_>,
+        mut light: Light<S, CHANNELS>,
+    ) -> Light<S, CHANNELS> {
+        let Some((view, camera_from_world)) = self.strokes else {
+            return light;
+        };
+        for Group { ball, lanes } in groups.as_slice() {
+            let (index, lanes) = (ball.index(), lanes & !sight.inner);
+            let (Some(stroke), 1..) = (self.world.material(index).stroke, lanes) else {
+                continue;
+            };
+            let sphere = &self.world.spheres()[index];
+            let (center, radius) = (sphere.center() - self.viewpoint, sphere.radius());
+            let center = camera_from_world * center;
+            // The plane in which parallel rays begin cuts it.
+            if view.projection == Projection::Parallel && center.z < radius {
+                continue;
+            }
+            let inner = stroke.width.inner_radius(view, center, radius);
+            let limit = (radius - inner) * (radius + inner) / (radius * radius);
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let along = sight.normal.dot(&sight.direction);
+                    let is_stroke = (along * along).simd_lt(sight.length_sq * limit);
+                    let mask = is_stroke & mask64x8::from_bitmask(simd, lanes);
+                    for (channel, light) in light.iter_mut().enumerate() {
+                        let color = f64x8::splat(simd, stroke.color[channel]);
+                        *light = mask.select(color, *light);
+                    }
+                },
+            );
+        }
+        light
     }
 
     /// The shading normals.

@@ -25,7 +25,9 @@ impl Contrast {
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);
             world.albedo(sphere).max_element() * white + strength * lights
         });
+        let strokes = world.stroke_colors().map(|color| color.max_element());
         let least = world.background.max_element().max(1.0);
+        let least = strokes.fold(least, f64::max);
         Self {
             ordinary: white.max(least),
             most: of_spheres.reduce(|| 0.0, f64::max).max(least),

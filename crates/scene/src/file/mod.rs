@@ -6,6 +6,7 @@
 mod camera;
 mod cloud;
 mod names;
+mod outline;
 mod table;
 
 use serde::de::{MapAccess, Visitor};
@@ -13,6 +14,7 @@ use serde::{Deserialize, Deserializer};
 
 pub(crate) use self::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 pub(crate) use self::cloud::{Cloud, ColorScale, Columns, End, TakenFrames};
+pub(crate) use self::outline::{Outline, Width};
 pub(crate) use self::table::{Keep, Palette, Test, Wanted};
 use crate::text::{Placed, present};
 use crate::values::{
@@ -162,6 +164,8 @@ pub(crate) struct Material {
     pub(crate) highlight: Option<Placed<Highlight>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) rough: Option<Placed<Rough>>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) outline: Option<Placed<Outline>>,
 }
 
 /// A highlight; strength 0.5 and shininess 40 by default.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 use super::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 use super::{
     Attached, Cloud, ColorScale, Columns, End, Falloff, File, Grain, Highlight, Image, Keep, Lens,
-    Light, Material, Palette, Rough, Sphere, TakenFrames, Test,
+    Light, Material, Outline, Palette, Rough, Sphere, TakenFrames, Test,
 };
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
@@ -39,6 +39,7 @@ structures! {
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
     Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
     Grain: "grain", "a grain: `Surface(…)` or `Pixel`";
+    Outline: "outline", "an outline `(width: …, color: …)`";
     Sphere: "sphere", "a sphere `(center: …, radius: …)`";
     Cloud: "cloud", "a cloud `(file: …)`";
     Radii: "kind of radii", "a kind of radii: `VanDerWaals` or `Covalent`";

@@ -5,7 +5,7 @@ mod opencv;
 mod series;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness};
+use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness, Stroke, StrokeWidth};
 
 use super::*;
 
@@ -109,7 +109,8 @@ fn every_field_of_a_surface_is_read() {
         r##"background: (0.1, 0.2, 0.3), ambient: "#ffffff", shadows: false,
            lights: [Directional(toward: (1, 0, 0), intensity: (1, 2, 3))],
            materials: {"candy": (albedo: 0.25, exponent: 2, highlight: (strength: 0.6, shininess: 8),
-                       rough: (amplitude: 0.1, grain: Surface(12), seed: 18446744073709551615))},
+                       rough: (amplitude: 0.1, grain: Surface(12), seed: 18446744073709551615),
+                       outline: (width: Units(0.25), color: (1, 0, 0)))},
            spheres: [(center: (0, 0, 0), radius: 1, material: "candy")]"##,
     );
     let world = scene.world();
@@ -129,8 +130,30 @@ fn every_field_of_a_surface_is_read() {
             grain: Grain::Surface(12.0),
             seed: u64::MAX,
         }),
+        stroke: Some(Stroke {
+            width: StrokeWidth::Units(0.25),
+            color: DVec3::X,
+        }),
     };
     assert_eq!(*world.material(0), expected);
+}
+
+#[test]
+fn outlines_are_black_and_in_pixels_by_default() {
+    let stroke = |outline: &str| {
+        let material = format!(
+            r#"materials: {{"a": (outline: ({outline}))}}, spheres: [(center: (0, 0, 3), radius: 1, material: "a")]"#
+        );
+        scene(&material).world().material(0).stroke
+    };
+    for (outline, width, color) in [
+        ("", 1.5, DVec3::ZERO),
+        ("width: 2", 2.0, DVec3::ZERO),
+        ("color: 0.5", 1.5, DVec3::splat(0.5)),
+    ] {
+        let width = StrokeWidth::Pixels(width);
+        assert_eq!(stroke(outline), Some(Stroke { width, color }));
+    }
 }
 
 #[test]

@@ -72,6 +72,10 @@ quantities! {
     Amplitude(f64): "an amplitude of at least 0 and less than 1", |x| (0.0..1.0).contains(&x), default 0.5;
     /// The cell size of a rough surface.
     GrainSize(f64): "a grain size greater than 0", |x| x > 0.0;
+    /// The width of an outline in pixels.
+    OutlineWidth(f64): "a width in pixels greater than 0, or `Units(…)`", |x| x > 0.0, default 1.5;
+    /// The same in scene units.
+    OutlineUnits(f64): "a width greater than 0", |x| x > 0.0;
     /// Frames per second.
     FramesPerSecond(f64): "a number of frames per second greater than 0", |x| x > 0.0, default 24.0;
     /// The time for which the shutter is open, in frames.

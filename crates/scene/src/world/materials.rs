@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use marbles_core::{Grain, Highlight, Material, MaterialId, Roughness, World};
+use marbles_core::{Grain, Highlight, Material, MaterialId, Roughness, Stroke, StrokeWidth, World};
 
 use crate::file;
 use crate::text::{Placed, did_you_mean, list, optional, quoted, refuse};
@@ -98,6 +98,7 @@ fn material(material: &Placed<file::Material>) -> Option<Material> {
         exponent: material.exponent.get()?.0,
         highlight: optional(&material.highlight, highlight)?,
         roughness: optional(&material.rough, roughness)?,
+        stroke: optional(&material.outline, stroke)?,
     })
 }
 
@@ -105,6 +106,16 @@ fn highlight(highlight: &file::Highlight) -> Option<Highlight> {
     Some(Highlight {
         strength: highlight.strength.get()?.0,
         shininess: highlight.shininess.get()?.0,
+    })
+}
+
+fn stroke(outline: &file::Outline) -> Option<Stroke> {
+    Some(Stroke {
+        width: match *outline.width.value.as_ref()? {
+            file::Width::Pixels(width) => StrokeWidth::Pixels(width),
+            file::Width::Units(width) => StrokeWidth::Units(width),
+        },
+        color: outline.color.get()?.0,
     })
 }
 

@@ -8,6 +8,7 @@ use super::scenes::{
     highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
     terminator_at_rim, touching, triple_points, wide_lenses,
 };
+use super::strokes::outlined;
 use crate::numbers::Numbers;
 
 /// A family, and the way to make one of its scenes.
@@ -18,7 +19,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 29] = [
+pub(super) const FAMILIES: [Family; 30] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -163,5 +164,10 @@ pub(super) const FAMILIES: [Family; 29] = [
         name: "bumps of pixels",
         draft: |numbers| rough(numbers, "Pixel"),
         rarity: 20,
+    },
+    Family {
+        name: "outlines",
+        draft: outlined,
+        rarity: 1,
     },
 ];

@@ -15,6 +15,7 @@ mod reduce;
 mod report;
 mod sampled;
 mod scenes;
+mod strokes;
 mod subject;
 
 use std::fmt::{self, Write};

@@ -6,6 +6,7 @@ use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
 use super::patch::Patch;
 use super::reach::Reach;
+use super::strokes::Face;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::seam::seam;
 use crate::edges::shadow::Caster;
@@ -25,6 +26,8 @@ pub(crate) enum Kind {
     Seam(usize, usize),
     /// The great circle of an active sphere that faces a light edge-on.
     Terminator(usize, usize),
+    /// The inner edge of an active sphere's stroke.
+    Stroke(usize),
 }
 
 /// The spheres, curves and occluders that matter in a cell.
@@ -35,6 +38,8 @@ pub(crate) struct Contents {
     /// For every active sphere and every light.
     pub(crate) reach: Vec<Reach>,
     pub(crate) occluders: Vec<Caster>,
+    /// What is seen of each active sphere inside of its stroke; empty where none is seen.
+    pub(super) faces: Vec<Face>,
     /// The pixel that the cell belongs to.
     pub(crate) pixel: PixelKey,
     /// How far, in sides of the cell, rounding may move an edge; and the area of spheres that are too small to
@@ -191,6 +196,7 @@ impl Contents {
             }
         }
         self.rounding += unresolved;
+        self.add_strokes(scene, cell);
     }
 
     /// The same for the scene whose light is its normals: nothing shades them.
@@ -206,6 +212,7 @@ impl Contents {
         let conics = self.conics.iter().filter(|(kind, _)| !is_of_light(kind));
         into.conics.extend(conics);
         into.occluders.clear();
+        into.faces.clear();
         into.reach.clear();
         let lights = 3 * self.active.len();
         into.reach.extend((0..lights).map(|_| Reach::Past(0..0)));
@@ -218,6 +225,7 @@ impl Contents {
         let is_outline = |(kind, _): &(Kind, Quadratic)| matches!(kind, Kind::Silhouette(_));
         matches!(&self.active[..], [active] if active.ball.outside > 0.0 && !active.is_dark)
             && !self.is_mixed
+            && !self.has_strokes()
             && self.occluders.is_empty()
             && self.conics.iter().all(is_outline)
     }
@@ -262,7 +270,7 @@ impl Contents {
 /// near the eye's plane.
 ///
 /// Along an axis the silhouette is 2 r √(c_x² + c_z² − r²) / (c_z² − r²) wide; through parallel rays 2 r.
-fn silhouette_width(ball: &Ball) -> f64 {
+pub(super) fn silhouette_width(ball: &Ball) -> f64 {
     if ball.is_parallel() {
         return 2.0 * ball.radius;
     }

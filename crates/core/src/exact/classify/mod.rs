@@ -17,6 +17,7 @@ pub(crate) mod row;
 pub(crate) mod seen;
 mod shade_mask;
 mod sharpness;
+pub(crate) mod strokes;
 #[cfg(test)]
 mod tests;
 mod ways;

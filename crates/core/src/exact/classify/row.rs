@@ -21,6 +21,8 @@ pub(crate) struct Coverage {
     pub(crate) touched: u64,
     /// Pixels that the sphere fills, but for what is in front of it.
     pub(crate) covered: u64,
+    /// Pixels that would see nothing of its stroke, if it has one.
+    pub(crate) within: u64,
     /// The distances at which it begins and, in pixels that it fills, ends; in multiples of the rays.
     pub(crate) nearest: [f64; 8],
     pub(crate) farthest: [f64; 8],
@@ -60,6 +62,7 @@ pub(crate) fn classify_row<S: Simd>(
             ball: *ball,
             touched,
             covered: extent.covered.to_bitmask() & all,
+            within: within_stroke(simd, context, (&ray, size), sphere, ball),
             nearest: extent.nearest.into(),
             farthest: extent.farthest.into(),
         });
@@ -74,6 +77,24 @@ pub(crate) fn classify_row<S: Simd>(
         }
     }
     coverages.retain(|coverage| coverage.touched != 0);
+}
+
+/// The pixels, bit by bit, that lie inside of the stroke of a sphere; all, where it has none.
+#[inline(always)]
+fn within_stroke<S: Simd>(
+    simd: S,
+    context: &Context<'_>,
+    (ray, size): (&Vectors<S>, f64),
+    sphere: usize,
+    ball: &Ball,
+) -> u64 {
+    if !context.scene.has_strokes() {
+        return !0;
+    }
+    match context.scene.inside_stroke(sphere, ball) {
+        None => !0,
+        Some(inside) => extent(simd, ray, size, &inside).covered.to_bitmask(),
+    }
 }
 
 /// More than rounding makes wrong in a discriminant near its roots, as a move of the ray.
@@ -218,7 +239,7 @@ pub(crate) fn sight(
     let Some(one) = touching.next() else {
         return Sight::Nothing;
     };
-    if touching.next().is_none() && is_here(one.covered) {
+    if touching.next().is_none() && is_here(one.covered & one.within) {
         return Sight::Filled(one.sphere);
     }
     spheres.clear();
@@ -226,7 +247,7 @@ pub(crate) fn sight(
     let covers = |sphere| {
         coverages
             .iter()
-            .any(|one| one.sphere == sphere && is_here(one.covered))
+            .any(|one| one.sphere == sphere && is_here(one.covered & one.within))
     };
     match spheres[..] {
         [(sphere, _)] if covers(sphere) => Sight::Filled(sphere),

@@ -119,8 +119,9 @@ impl Workspace {
         let is_fine = self
             .contents
             .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
-        // Boxes know no point lights.
-        let may_be_boxes = !is_fine && !self.contents.is_mixed && !scene.has_near_lights;
+        // Boxes know no strokes and no point lights.
+        let is_plain = !self.contents.is_mixed && !self.contents.has_strokes();
+        let may_be_boxes = !is_fine && is_plain && !scene.has_near_lights;
         if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
             return Ok(part);
         }

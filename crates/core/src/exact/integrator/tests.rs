@@ -9,6 +9,7 @@ use crate::model::color::Color;
 use crate::model::light::Light;
 use crate::model::material::{Grain, Highlight, Material, Roughness};
 use crate::model::sphere::Sphere;
+use crate::model::stroke::{Stroke, StrokeWidth};
 use crate::numeric::angle::Angle;
 use crate::numeric::lanes::tests::levels;
 use crate::picture::pixel::Status;
@@ -32,6 +33,10 @@ fn world(lights: usize) -> World {
                 amplitude: 0.2,
                 grain: Grain::Surface(0.5),
                 seed: 3,
+            }),
+            stroke: (number == 1).then_some(Stroke {
+                width: StrokeWidth::Pixels(2.5),
+                color: Color::X,
             }),
         })
     });

@@ -122,7 +122,8 @@ pub(crate) fn of_filled_cell<S: Simd>(
     let finish = &Finish::new(scene, active.sphere, contents.pixel);
     let ball = &active.ball;
     let is_smooth = !finish.is_rough() && finish.has_whole_exponent();
-    if !contents.conics.is_empty() || ball.outside <= 0.0 || !(is_smooth || finish.is_bumpy()) {
+    let has_edges = !contents.conics.is_empty() || contents.has_strokes();
+    if has_edges || ball.outside <= 0.0 || !(is_smooth || finish.is_bumpy()) {
         return None;
     }
     if active.discriminant.one <= 0.0 {

@@ -7,6 +7,7 @@ use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::contents::Contents;
+use crate::exact::classify::strokes::Face;
 
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
@@ -154,7 +155,7 @@ impl Boundary {
             self.add_crossings(curve.edge, whole);
             if self.breaks.is_empty() {
                 let hidden = front.hidden(curve, places);
-                self.see(whole, Lanes::WHOLE, places, &front, hidden);
+                self.see(setting, whole, Lanes::WHOLE, places, &front, hidden);
                 return;
             }
             self.order_breaks(0.0, 1.0);
@@ -277,7 +278,14 @@ impl Boundary {
                     end: self.breaks[first + step + 1],
                     ..*whole
                 };
-                self.see(&part, Lanes::of_step(step), &places, &front, hidden);
+                self.see(
+                    setting,
+                    &part,
+                    Lanes::of_step(step),
+                    &places,
+                    &front,
+                    hidden,
+                );
             }
         }
     }
@@ -287,6 +295,7 @@ impl Boundary {
     #[inline(always)]
     fn see<S: Simd>(
         &mut self,
+        setting: &Setting<'_, '_>,
         part: &Stretch<'_>,
         lanes: Lanes,
         places: &Trace<S>,
@@ -304,14 +313,16 @@ impl Boundary {
             Edge::Left | Edge::Right => (first, NONE),
             Edge::Limb => (curve.own[0], first),
             Edge::Seam => (curve.own[0], curve.own[1]),
-            Edge::Terminator(_) | Edge::Shadow(..) => (curve.own[0], curve.own[0]),
+            Edge::Terminator(_) | Edge::Shadow(..) | Edge::Stroke => (curve.own[0], curve.own[0]),
         };
+        let strokes = strokes(setting, curve, [inner, outer], (places, lanes.middle));
         let arc = Arc {
             start: part.start,
             end: part.end,
             y: [places.y[lanes.start], places.y[lanes.end]],
             inner,
             outer,
+            strokes,
             lit: [0; 2],
         };
         if !curve.is_side() {
@@ -338,7 +349,7 @@ fn own_hidden<S: Simd>(
         #[inline(always)]
         || {
             let mut hidden = 0;
-            if curve.is_side() || curve.edge == Edge::Limb {
+            if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Stroke) {
                 return hidden;
             }
             for own in curve.own {
@@ -346,6 +357,10 @@ fn own_hidden<S: Simd>(
                     let facing = value(simd, setting, Function::Facing(own), places);
                     hidden |= facing.simd_le(0.0).to_bitmask();
                 }
+            }
+            if curve.is_within_stroke() {
+                let within = value(simd, setting, Function::Stroke(curve.own[0]), places);
+                hidden |= within.simd_lt(0.0).to_bitmask();
             }
             if let Edge::Shadow(light, caster) = curve.edge {
                 let above = value(simd, setting, Function::Above(light, caster), places);
@@ -358,6 +373,39 @@ fn own_hidden<S: Simd>(
     )
 }
 
+/// Whether strokes are what is seen of the spheres on either side of a curve, in one of some places.
+#[inline(always)]
+fn strokes<S: Simd>(
+    setting: &Setting<'_, '_>,
+    curve: &Curve,
+    spheres: [usize; 2],
+    (places, lane): (&Trace<S>, usize),
+) -> [bool; 2] {
+    let contents = setting.contents;
+    if !contents.has_strokes() {
+        return [false; 2];
+    }
+    match curve.edge {
+        Edge::Stroke => return [false, true],
+        Edge::Terminator(_) | Edge::Shadow(..) => return [false; 2],
+        Edge::Left | Edge::Right | Edge::Limb | Edge::Seam => {}
+    }
+    let mut strokes = [false; 2];
+    for (side, sphere) in spheres.into_iter().enumerate() {
+        if sphere == NONE {
+            continue;
+        }
+        let face = contents.face(sphere);
+        let is_own_limb = side == 0 && curve.edge == Edge::Limb;
+        strokes[side] = match is_own_limb {
+            // Inside of an outline there is nothing but the stroke, however narrow it is.
+            true => !matches!(face, Face::All),
+            false => face.is_stroke_at(places.x[lane], places.y[lane]),
+        };
+    }
+    strokes
+}
+
 /// Adds an arc, to the last one where that goes on.
 pub(super) fn add(arcs: &mut Vec<Arc>, arc: Arc) {
     match arcs.last_mut() {
@@ -365,6 +413,7 @@ pub(super) fn add(arcs: &mut Vec<Arc>, arc: Arc) {
             if last.end == arc.start
                 && last.inner == arc.inner
                 && last.outer == arc.outer
+                && last.strokes == arc.strokes
                 && last.lit == arc.lit =>
         {
             last.end = arc.end;

@@ -8,6 +8,7 @@ use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial
 use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::Kind;
 use crate::exact::classify::reach::Reach;
+use crate::exact::classify::strokes::Face;
 
 /// Intervals that begin or end at some of the places.
 fn beside(lanes: u64) -> u64 {
@@ -115,9 +116,35 @@ impl Boundary {
                     let values = value(simd, setting, function, places);
                     stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
                 }
+                if contents.has_strokes() {
+                    self.find_strokes(simd, setting, stretch, places, open);
+                }
                 front
             },
         )
+    }
+
+    /// Finds where, in some intervals, strokes begin or end of spheres beside a stretch.
+    #[inline(never)]
+    fn find_strokes<S: Simd>(
+        &mut self,
+        simd: S,
+        setting: &Setting<'_, '_>,
+        stretch: &Stretch<'_>,
+        places: &Trace<S>,
+        open: u64,
+    ) {
+        let curve = stretch.curve;
+        for position in 0..setting.contents.active.len() {
+            // Outlines have no stroke but their own beside them, and what is light has ends of its own.
+            let is_own = curve.own.contains(&position) && curve.edge != Edge::Seam;
+            if is_own || !matches!(setting.contents.face(position), Face::Inside(..)) {
+                continue;
+            }
+            let function = Function::Stroke(position);
+            let values = value(simd, setting, function, places);
+            stretch.roots(simd, setting, function, values, open, &mut self.breaks);
+        }
     }
 
     /// Finds where a stretch comes out of the sphere that hides both ends of some intervals: beside its outline, or
@@ -167,16 +194,20 @@ impl Boundary {
         places: &Trace<S>,
     ) -> bool {
         let curve = stretch.curve;
-        if curve.is_side() || curve.edge == Edge::Limb {
+        if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Stroke) {
             return true;
         }
-        let mut functions = [(Function::Across(0, 0.0), 0.0); 7];
+        let mut functions = [(Function::Across(0, 0.0), 0.0); 8];
         let mut count = 0;
         for own in curve.own {
             if own != NONE {
                 functions[count] = (Function::Facing(own), 1.0);
                 count += 1;
             }
+        }
+        if curve.is_within_stroke() && setting.contents.has_strokes() {
+            functions[count] = (Function::Stroke(curve.own[0]), 1.0);
+            count += 1;
         }
         if let Edge::Shadow(light, caster) = curve.edge {
             functions[count] = (Function::Above(light, caster), -1.0);
@@ -186,7 +217,7 @@ impl Boundary {
             functions[count + 4] = (Function::Across(1, 0.5), -1.0);
             count += 5;
         }
-        let mut outside = [0; 7];
+        let mut outside = [0; 8];
         for (index, (function, sign)) in functions.iter().enumerate().take(count) {
             let values = value(simd, setting, *function, places);
             outside[index] = (values * *sign).simd_lt(0.0).to_bitmask();

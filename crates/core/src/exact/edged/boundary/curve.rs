@@ -39,6 +39,22 @@ impl Circle {
         Self::across(ball.center * share, axis, ball.radius * share.sqrt())
     }
 
+    /// Where rays meet a ball that touch a smaller one with the same center: at K / (√K' + √(r² − s²)) of unit rays,
+    /// with the radii r and s, and K' of the smaller one.
+    pub(super) fn stroke(ball: &Ball, inside: &Ball) -> Self {
+        let (radius, smaller) = (ball.radius, inside.radius);
+        let half_chord = ((radius - smaller) * (radius + smaller)).sqrt();
+        if ball.is_parallel() {
+            return Self::across(ball.center - DVec3::Z * half_chord, DVec3::Z, smaller);
+        }
+        let distance = ball.center.length();
+        let axis = ball.center * (1.0 / distance);
+        let tangent = inside.outside.sqrt();
+        let way = ball.outside / (tangent + half_chord);
+        let along = way * tangent / distance;
+        Self::across(axis * along, axis, way * smaller / distance)
+    }
+
     /// Where two balls meet.
     pub(super) fn seam(one: &Ball, other: &Ball) -> Option<Self> {
         let between = other.center - one.center;

@@ -9,6 +9,7 @@ use super::primitive::ray;
 use super::setting::{Curve, Setting};
 use crate::edges::cell::Ball;
 use crate::edges::terminator::Plane;
+use crate::exact::classify::strokes::Face;
 use crate::exact::points::Points;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;
@@ -34,6 +35,8 @@ pub(super) enum Function {
     Outline(usize),
     /// The polynomial of an edge.
     Conic(usize),
+    /// The outline inside of which an active sphere's stroke is not seen.
+    Stroke(usize),
     /// On which side of an active sphere on which they lie points lie.
     Facing(usize),
     /// How far above the middle of a caster, toward a light, points lie.
@@ -73,6 +76,11 @@ pub(super) fn value<S: Simd>(
                     polynomial(&contents.active[sphere].discriminant, places.x, places.y)
                 }
                 Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
+                Function::Stroke(sphere) => match contents.face(sphere) {
+                    Face::Inside(_, conic) => polynomial(conic, places.x, places.y),
+                    Face::All => f64x8::splat(simd, 1.0),
+                    Face::Nothing => f64x8::splat(simd, -1.0),
+                },
                 Function::Facing(sphere) => {
                     let ball = &contents.active[sphere].ball;
                     if ball.is_parallel() {

@@ -17,6 +17,7 @@ use crate::exact::classify::coincidence::is_outline;
 use crate::exact::classify::contents::{Contents, Kind};
 use crate::exact::classify::patch::Patch;
 use crate::exact::classify::reach::Reach;
+use crate::exact::classify::strokes::Face;
 use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -109,6 +110,13 @@ impl Boundary {
                     let Some(circle) = circle else { continue };
                     (circle, Edge::Seam, [one, other])
                 }
+                Kind::Stroke(one) => {
+                    let Face::Inside(inside, _) = contents.face(one) else {
+                        continue;
+                    };
+                    let circle = Circle::stroke(&actives[one].ball, inside);
+                    (circle, Edge::Stroke, [one, NONE])
+                }
                 Kind::Terminator(one, light) => {
                     let ball = &actives[one].ball;
                     let Some(plane) = actives[one].terminators.plane(scene, ball, light) else {
@@ -170,7 +178,7 @@ impl Boundary {
             self.add(simd, &setting, &curve, &mut sum);
         }
         let mut defect = 0.0;
-        for (_, _, left) in &self.regions {
+        for (_, left) in &self.regions {
             defect += left.abs();
         }
         let mut value = Color::ZERO;

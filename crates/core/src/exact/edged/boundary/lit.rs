@@ -26,7 +26,9 @@ impl Boundary {
         let curve = whole.curve;
         for index in 0..self.arcs.len() {
             let arc = self.arcs[index];
-            if is_dark(setting, arc.inner) && is_dark(setting, arc.outer) {
+            let is_dark = [(arc.inner, 0), (arc.outer, 1)]
+                .map(|(sphere, side)| arc.strokes[side] || is_dark(setting, sphere));
+            if is_dark == [true; 2] {
                 if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
                     add(&mut self.lit_arcs, arc);
                 }
@@ -46,12 +48,14 @@ impl Boundary {
             };
             self.breaks.clear();
             let mut lit = [0; 2];
-            lit[0] = self.find_light_breaks(simd, setting, &stretch, arc.inner, places);
-            lit[1] = if arc.outer == arc.inner {
-                lit[0]
-            } else {
-                self.find_light_breaks(simd, setting, &stretch, arc.outer, places)
-            };
+            if !is_dark[0] {
+                lit[0] = self.find_light_breaks(simd, setting, &stretch, arc.inner, places);
+            }
+            if arc.has_one_surface() {
+                lit[1] = lit[0];
+            } else if !is_dark[1] {
+                lit[1] = self.find_light_breaks(simd, setting, &stretch, arc.outer, places);
+            }
             self.add_crossings(curve.edge, &stretch);
             if self.breaks.is_empty() {
                 self.add_lit(curve, Arc { lit, ..arc });
@@ -75,19 +79,22 @@ impl Boundary {
         let steps = self.breaks.len() - 1;
         for first in (0..steps).step_by(Lanes::STEPS) {
             let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
-            let inner = self.lit(simd, setting, arc.inner, curve, &places);
-            let outer = if arc.outer == arc.inner {
-                inner
-            } else {
-                self.lit(simd, setting, arc.outer, curve, &places)
-            };
+            let mut lit = [[0; 8]; 2];
+            if !arc.strokes[0] {
+                lit[0] = self.lit(simd, setting, arc.inner, curve, &places);
+            }
+            if arc.has_one_surface() {
+                lit[1] = lit[0];
+            } else if !arc.strokes[1] {
+                lit[1] = self.lit(simd, setting, arc.outer, curve, &places);
+            }
             for step in 0..(steps - first).min(Lanes::STEPS) {
                 let lanes = Lanes::of_step(step);
                 let part = Arc {
                     start: self.breaks[first + step],
                     end: self.breaks[first + step + 1],
                     y: [places.y[lanes.start], places.y[lanes.end]],
-                    lit: [inner[lanes.middle], outer[lanes.middle]],
+                    lit: [lit[0][lanes.middle], lit[1][lanes.middle]],
                     ..*arc
                 };
                 self.add_lit(curve, part);

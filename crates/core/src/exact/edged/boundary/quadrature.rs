@@ -7,11 +7,12 @@ use glam::DVec3;
 use super::curve::{Shape, Trace, trace, warped};
 use super::hard_arcs::{roots_at_ends, spans_bumps};
 use super::primitive::{Lines, Sender, greatest};
-use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Setting, Sum};
+use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Region, Setting, Sum};
 use crate::exact::classify::contents::Contents;
 use crate::exact::edged::rule::{MIDDLE, RULE, doubt, error_estimate};
 use crate::exact::scene::InCamera;
 use crate::model::camera::Projection;
+use crate::model::color::Color;
 
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
@@ -219,14 +220,13 @@ impl Boundary {
                 continue;
             }
             let active = &setting.contents.active[sphere];
-            let albedo = scene.world.albedo(active.sphere);
-            let ambient = albedo * scene.ambient * factor;
+            let unlit = unlit(scene, active.sphere, arc.strokes[side]) * factor;
             for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
-                *light += places.x * ambient[channel];
+                *light += places.x * unlit[channel];
             }
             // What both sides have need not be computed.
             let mut lights = arc.lit[side];
-            if arc.inner == arc.outer {
+            if arc.has_one_surface() {
                 lights &= !arc.lit[1 - side];
             }
             if lights == 0 {
@@ -264,21 +264,27 @@ impl Boundary {
 
     /// Notes how far an arc rises for what lies on either side.
     fn note_sides(&mut self, curve: &Curve, arc: &Arc, rise: f64) {
-        self.note(arc.inner, arc.lit[0], rise);
+        self.note((arc.inner, arc.strokes[0], arc.lit[0]), rise);
         if !matches!(curve.edge, Edge::Left | Edge::Right) {
-            self.note(arc.outer, arc.lit[1], -rise);
+            self.note((arc.outer, arc.strokes[1], arc.lit[1]), -rise);
         }
     }
 
-    fn note(&mut self, sphere: usize, lit: u64, rise: f64) {
-        let known = self
-            .regions
-            .iter_mut()
-            .find(|region| region.0 == sphere && region.1 == lit);
+    fn note(&mut self, region: Region, rise: f64) {
+        let known = self.regions.iter_mut().find(|known| known.0 == region);
         match known {
-            Some(region) => region.2 += rise,
-            None => self.regions.push((sphere, lit, rise)),
+            Some(known) => known.1 += rise,
+            None => self.regions.push((region, rise)),
         }
+    }
+}
+
+/// The light of a sphere, or of its stroke, that no light has a part in.
+fn unlit(scene: &InCamera<'_>, sphere: usize, is_stroke: bool) -> Color {
+    if is_stroke {
+        scene.stroke_color(sphere)
+    } else {
+        scene.world.albedo(sphere) * scene.ambient
     }
 }
 
@@ -292,6 +298,7 @@ fn sends_light(setting: &Setting<'_, '_>, curve: &Curve, arc: &Arc) -> bool {
         .enumerate()
         .any(|(index, &(sphere, lit))| match sphere {
             NONE => index == 0 || !is_side,
+            _ if arc.strokes[index] => true,
             _ => lit != 0 || scene.ambient.max_element() > 0.0,
         })
 }
@@ -319,7 +326,7 @@ fn sign<S: Simd>(
     let inward = match (curve.edge, &curve.shape) {
         (Edge::Left, _) => return -1.0,
         (Edge::Right, _) => return 1.0,
-        (Edge::Limb, _) => {
+        (Edge::Limb | Edge::Stroke, _) => {
             let ball = &contents.active[curve.own[0]].ball;
             if ball.is_parallel() {
                 ball.center - point

@@ -32,6 +32,11 @@ impl Curve {
     pub(super) fn is_side(&self) -> bool {
         matches!(self.edge, Edge::Left | Edge::Right)
     }
+
+    /// Returns whether the curve is one of light on a sphere, which is not seen on its stroke.
+    pub(super) fn is_within_stroke(&self) -> bool {
+        matches!(self.edge, Edge::Terminator(_) | Edge::Shadow(..))
+    }
 }
 
 /// What lies on both sides of a curve.
@@ -44,6 +49,8 @@ pub(super) enum Edge {
     Limb,
     /// Two spheres.
     Seam,
+    /// A sphere inside of its stroke, and the stroke.
+    Stroke,
     /// What a light reaches and what it does not.
     Terminator(usize),
     /// The light, and which of the casters.
@@ -66,9 +73,21 @@ pub(super) struct Arc {
     pub(super) y: [f64; 2],
     pub(super) inner: usize,
     pub(super) outer: usize,
+    /// Whether what is seen of these are their strokes.
+    pub(super) strokes: [bool; 2],
     /// Lights that reach there.
     pub(super) lit: [u64; 2],
 }
+
+impl Arc {
+    /// Returns whether the same surface is seen on both sides.
+    pub(super) fn has_one_surface(&self) -> bool {
+        self.inner == self.outer && self.strokes[0] == self.strokes[1]
+    }
+}
+
+/// What is seen on one side of an arc: a sphere or [`NONE`], whether it is the stroke, and the lights that reach there.
+pub(super) type Region = (usize, bool, u64);
 
 /// Memory to work in.
 #[derive(Clone, Debug, Default)]
@@ -78,7 +97,7 @@ pub(crate) struct Boundary {
     pub(super) arcs: Vec<Arc>,
     pub(super) lit_arcs: Vec<Arc>,
     /// What is seen, and how far its edges are from closing.
-    pub(super) regions: Vec<(usize, u64, f64)>,
+    pub(super) regions: Vec<(Region, f64)>,
     /// Where curves cross the left side of the cell, and the right one.
     pub(super) crossings: [Vec<f64>; 2],
     pub(super) noise: Noise,

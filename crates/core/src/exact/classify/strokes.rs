@@ -1,0 +1,86 @@
+//! Strokes: what a cell sees of spheres inside of them, and beside that.
+
+use super::contents::{Contents, Kind, NARROWEST, silhouette_width};
+use crate::edges::cell::{Ball, Cell};
+use crate::edges::silhouette::silhouette;
+use crate::exact::scene::InCamera;
+use crate::numeric::polynomial::Quadratic;
+use crate::numeric::rounding::GEOMETRY_SLACK;
+
+/// Which part of an active sphere is seen in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Face {
+    /// All of it: no stroke.
+    All,
+    /// Where this is not negative, inside of a stroke: the outline of a smaller sphere, which is the ball.
+    Inside(Ball, Quadratic),
+    /// The stroke alone.
+    Nothing,
+}
+
+impl Face {
+    /// Returns whether a place of the cell shows the stroke.
+    #[inline]
+    pub(crate) fn is_stroke_at(&self, x: f64, y: f64) -> bool {
+        match self {
+            Self::All => false,
+            Self::Inside(_, conic) => conic.at(x, y) < 0.0,
+            Self::Nothing => true,
+        }
+    }
+}
+
+impl Contents {
+    /// Finds the strokes of the active spheres, and their edges.
+    pub(super) fn add_strokes(&mut self, scene: &InCamera<'_>, cell: &Cell) {
+        self.faces.clear();
+        if !scene.has_strokes() {
+            return;
+        }
+        let mut has_strokes = false;
+        for position in 0..self.active.len() {
+            let active = &self.active[position];
+            let face = face(scene, cell, (active.sphere, &active.ball));
+            has_strokes |= !matches!(face, Face::All);
+            if let Face::Inside(_, conic) = &face {
+                self.conics.push((Kind::Stroke(position), *conic));
+            }
+            self.faces.push(face);
+        }
+        if !has_strokes {
+            self.faces.clear();
+        }
+    }
+
+    /// Whether some of what is seen are strokes.
+    pub(crate) fn has_strokes(&self) -> bool {
+        !self.faces.is_empty()
+    }
+
+    /// What is seen of an active sphere inside of its stroke.
+    #[inline]
+    pub(crate) fn face(&self, position: usize) -> &Face {
+        self.faces.get(position).unwrap_or(&Face::All)
+    }
+}
+
+/// What a cell sees of a sphere inside of its stroke.
+fn face(scene: &InCamera<'_>, cell: &Cell, (sphere, ball): (usize, &Ball)) -> Face {
+    let Some(inside) = scene.inside_stroke(sphere, ball) else {
+        return Face::All;
+    };
+    let size = cell.size[0].min(cell.size[1]);
+    if silhouette_width(&inside) < NARROWEST * size {
+        return Face::Nothing;
+    }
+    let conic = silhouette(cell, &inside);
+    let spread = conic.spread();
+    let slack = GEOMETRY_SLACK * (spread + conic.one.abs());
+    if conic.one + spread + slack < 0.0 {
+        Face::Nothing
+    } else if conic.one - spread - slack > 0.0 {
+        Face::All
+    } else {
+        Face::Inside(inside, conic)
+    }
+}
