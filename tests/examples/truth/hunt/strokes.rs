@@ -1,17 +1,17 @@
 //! Scenes of other families whose spheres have outlines.
 
 use super::draft::Draft;
-use super::parallel::parallel_lenses;
+use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::near_lights;
 use super::scenes::{
     DISTANCE, crowds, exponents, far_away, floors, grazing_shadows, highlights, ordinary, seams,
-    slivers, surface_bumps, touching, wide_lenses,
+    shutters, slivers, surface_bumps, touching, wide_lenses,
 };
 use crate::numbers::Numbers;
 
 /// Spheres with a line along their outlines: in units of the scene, as pictures of more pixels are to show the same.
 pub(super) fn outlined(numbers: &mut Numbers) -> Draft {
-    let mut draft = match numbers.below(13) {
+    let mut draft = match numbers.below(15) {
         0 => ordinary(numbers),
         1 => touching(numbers),
         2 => grazing_shadows(numbers),
@@ -24,6 +24,8 @@ pub(super) fn outlined(numbers: &mut Numbers) -> Draft {
         9 => far_away(numbers),
         10 => near_lights(numbers),
         11 => parallel_lenses(numbers),
+        12 => planes_that_cut(numbers),
+        13 => shutters(numbers),
         _ => match numbers.below(2) {
             0 => crowds(numbers),
             _ => surface_bumps(numbers, [0.0, 1.5]),
