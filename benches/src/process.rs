@@ -3,8 +3,11 @@
 //! The process is the benchmark itself, started again: `cargo bench` does not build `marbles`.
 
 use std::env;
+use std::fs;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
+use std::time::Instant;
 
 /// The first argument of a process that runs a command.
 const COMMAND: &str = "marbles";
@@ -32,4 +35,61 @@ pub fn marbles(folder: &Path, words: &[&str]) -> String {
     let output = output.unwrap_or_else(|error| panic!("{words:?}: {error}"));
     assert!(output.status.success(), "{words:?}: {}", output.status);
     String::from_utf8(output.stdout).expect("marbles prints text")
+}
+
+/// The memory of a process, in bytes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Held {
+    /// At the time.
+    pub now: u64,
+    /// The most so far.
+    pub most: u64,
+}
+
+/// Runs a command that renders some frames; returns the seconds that each took, the first from the start of the process,
+/// and the memory that it held while it rendered the second.
+///
+/// # Panics
+/// When it cannot be run, or fails, or the system does not tell what processes hold.
+pub fn watched(folder: &Path, words: &[&str], frames: usize) -> (Vec<f64>, Held) {
+    let program = env::current_exe().expect("the benchmark has a path");
+    let mut command = Command::new(program);
+    command.arg(COMMAND).args(words).current_dir(folder);
+    let child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::inherit())
+        .spawn();
+    let mut child = child.unwrap_or_else(|error| panic!("{words:?}: {error}"));
+    let lines = BufReader::new(child.stdout.take().expect("stdout is piped")).lines();
+    let (mut times, mut held) = (Vec::new(), Held::default());
+    let mut start = Instant::now();
+    for line in lines {
+        line.expect("marbles prints text");
+        if times.len() < frames {
+            times.push(start.elapsed().as_secs_f64());
+            start = Instant::now();
+        }
+        if times.len() == 1 {
+            held = held_by(child.id());
+        }
+    }
+    let status = child.wait().expect("the process ends");
+    assert!(status.success() && times.len() == frames, "{words:?}");
+    (times, held)
+}
+
+/// The memory that a process holds.
+fn held_by(process: u32) -> Held {
+    let status = fs::read_to_string(format!("/proc/{process}/status"));
+    let status = status.expect("Linux tells what a process holds");
+    let of = |name: &str| -> u64 {
+        let line = status.lines().find_map(|line| line.strip_prefix(name));
+        let number = line.and_then(|line| line.split_whitespace().next());
+        let kilobytes: Option<u64> = number.and_then(|number| number.parse().ok());
+        kilobytes.expect("a number of kilobytes") * 1024
+    };
+    Held {
+        now: of("VmRSS:"),
+        most: of("VmHWM:"),
+    }
 }

@@ -6,6 +6,7 @@ pub(crate) mod color;
 pub(crate) mod exposure;
 pub(crate) mod light;
 pub(crate) mod material;
+mod material_ids;
 pub(crate) mod opencv;
 pub(crate) mod outline;
 pub(crate) mod ray;

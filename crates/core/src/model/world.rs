@@ -8,6 +8,7 @@ use super::albedos::Albedos;
 use super::color::Color;
 use super::light::Light;
 use super::material::Material;
+use super::material_ids::MaterialIds;
 use super::sphere::Sphere;
 use crate::model::color::is_grey;
 
@@ -39,7 +40,7 @@ pub struct World {
 #[derive(Clone, Debug, Default)]
 struct Surfaces {
     spheres: Vec<Sphere>,
-    material_ids: Vec<MaterialId>,
+    material_ids: MaterialIds,
     /// The materials that some sphere has.
     is_used: Vec<bool>,
 }
@@ -172,7 +173,7 @@ impl World {
         let surfaces = self.surfaces_mut();
         surfaces.note_use(material);
         surfaces.spheres.push(sphere);
-        surfaces.material_ids.push(material);
+        surfaces.material_ids.add(1, material.0);
     }
 
     /// Adds many spheres of one material behind those that are there, at the price of a copy at
@@ -208,8 +209,7 @@ impl World {
         } else {
             surfaces.spheres.append(&mut spheres);
         }
-        surfaces.material_ids.reserve_exact(count);
-        surfaces.material_ids.resize(first + count, material);
+        surfaces.material_ids.add(count, material.0);
     }
 
     /// The spheres in the order in which they were added.
@@ -220,7 +220,7 @@ impl World {
     /// The material of the sphere with this index.
     #[inline]
     pub fn material(&self, sphere: usize) -> &Material {
-        &self.materials[self.surfaces.material_ids[sphere].0 as usize]
+        &self.materials[self.surfaces.material_ids.get(sphere) as usize]
     }
 
     /// The albedo of the sphere with this index: its own, or its material's.
@@ -275,7 +275,7 @@ impl World {
 
     /// The place of a sphere's material among the materials.
     pub fn material_index(&self, sphere: usize) -> u32 {
-        self.surfaces.material_ids[sphere].0
+        self.surfaces.material_ids.get(sphere)
     }
 
     /// Bounds of the light, in each channel, of whatever may be seen before this background: in the dark, and where all

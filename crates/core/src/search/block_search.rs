@@ -200,7 +200,7 @@ impl<'a> BlockSearch<'a> {
         /// A sphere that is smaller by no more than this, relatively, is taken for itself. Not tuned:
         /// smaller spheres hide less, and it takes long to get at the sphere itself.
         const SMALLER: f64 = 1.0 / 256.0;
-        let spheres = self.hierarchy.group(group);
+        let spheres = &self.hierarchy.group(group, self.spheres);
         let bounds = self.projection.spheres(spheres, grid);
         let indices = self.hierarchy.indices(group);
         for place in set_bits(bounds.may) {
@@ -208,7 +208,7 @@ impl<'a> BlockSearch<'a> {
             if !is_sphere(index) || mask.is_covered(bounds.range(place)) {
                 continue;
             }
-            let (radius, excess) = (f64::from(spheres.radius[place]), spheres.excess(place));
+            let (radius, excess) = (spheres.radius[place], spheres.excess(place));
             let found = if excess < SMALLER * radius {
                 Found {
                     index,

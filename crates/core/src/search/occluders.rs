@@ -10,7 +10,8 @@ use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
 use glam::{DVec2, DVec3};
 
 use super::disc_grid::{HighDisc, Square};
-use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::boxes::{Boxes, doubles};
+use super::hierarchy::groups::Group;
 use super::hierarchy::order::WIDTH;
 use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::sphere::Sphere;
@@ -120,7 +121,8 @@ impl<'world> Occluders<'world> {
         self.hierarchy.any(
             |boxes| self.reaching_boxes(simd, boxes, shaft),
             |number| {
-                let reaching = self.reaching_spheres(simd, self.hierarchy.group(number), shaft);
+                let reaching =
+                    self.reaching_spheres(simd, &self.hierarchy.group(number, self.spheres), shaft);
                 let indices = self.hierarchy.indices(number);
                 for place in set_bits(reaching) {
                     let index = indices[place];
@@ -147,10 +149,10 @@ impl<'world> Occluders<'world> {
     fn along_light<S: Simd>(&self, simd: S, group: &Group) -> ([f64x8<S>; 3], f64x8<S>) {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
-        let radius = doubles(simd, &group.radius);
+        let radius = f64x8::simd_from(simd, group.radius);
         let mut size = radius;
         for axis in 0..3 {
-            let center = doubles(simd, &group.center[axis]);
+            let center = f64x8::simd_from(simd, group.center[axis]);
             x += center * self.right[axis];
             y += center * self.up[axis];
             z += center * self.toward[axis];
@@ -201,7 +203,7 @@ impl<'world> Occluders<'world> {
                 tested
             },
             |number| {
-                let group = self.hierarchy.group(number);
+                let group = &self.hierarchy.group(number, self.spheres);
                 let ([x, y, z], radius) = self.along_light(simd, group);
                 let top = z + radius;
                 let is_outside =

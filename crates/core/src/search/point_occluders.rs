@@ -9,7 +9,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 use glam::DVec3;
 
-use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::boxes::{Boxes, doubles};
+use super::hierarchy::groups::Group;
 use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
@@ -118,7 +119,8 @@ impl<'world> PointOccluders<'world> {
         self.hierarchy.any(
             |boxes| reaching_boxes(simd, boxes, beam),
             |number| {
-                let reaching = reaching_spheres(simd, self.hierarchy.group(number), beam);
+                let reaching =
+                    reaching_spheres(simd, &self.hierarchy.group(number, self.spheres), beam);
                 let indices = self.hierarchy.indices(number);
                 for place in set_bits(reaching) {
                     let index = indices[place] as usize;
@@ -202,8 +204,8 @@ fn reaching_boxes<S: Simd>(simd: S, boxes: &Boxes, beam: &Beam) -> BoxTest {
 #[inline(always)]
 fn reaching_spheres<S: Simd>(simd: S, group: &Group, beam: &Beam) -> u8 {
     let [x, y, z] = &group.center;
-    let center = [doubles(simd, x), doubles(simd, y), doubles(simd, z)];
-    reached_lanes(simd, beam, center, doubles(simd, &group.radius)).0
+    let center = [x, y, z].map(|axis| f64x8::simd_from(simd, *axis));
+    reached_lanes(simd, beam, center, f64x8::simd_from(simd, group.radius)).0
 }
 
 /// What [`Beam::is_reached_by`] says of eight balls, as bits, and where along the beam they begin.

@@ -6,7 +6,8 @@ use glam::{DMat3, DVec3};
 
 use super::frustum::CLEAR;
 use super::grid::{CellRange, Ends, Grid, Spans};
-use super::hierarchy::boxes::{Boxes, Group, doubles};
+use super::hierarchy::boxes::{Boxes, doubles};
+use super::hierarchy::groups::Group;
 use super::hierarchy::order::WIDTH;
 use crate::model::view::View;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
@@ -135,11 +136,11 @@ impl Projection {
     fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> ScreenBounds {
         let [x, y, z] = &group.center;
         let offset = Vectors {
-            x: (doubles(simd, x) - self.position.x) * self.scale,
-            y: (doubles(simd, y) - self.position.y) * self.scale,
-            z: (doubles(simd, z) - self.position.z) * self.scale,
+            x: (f64x8::simd_from(simd, *x) - self.position.x) * self.scale,
+            y: (f64x8::simd_from(simd, *y) - self.position.y) * self.scale,
+            z: (f64x8::simd_from(simd, *z) - self.position.z) * self.scale,
         };
-        let radius = doubles(simd, &group.radius) * self.scale;
+        let radius = f64x8::simd_from(simd, group.radius) * self.scale;
         let size = offset.x.abs() + offset.y.abs() + offset.z.abs() + radius;
         let radius = radius + (size * (128.0 * UNIT_ROUNDOFF) + f64::MIN_POSITIVE);
         let center = self.turn(&offset, false);

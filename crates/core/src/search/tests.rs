@@ -4,6 +4,7 @@ mod tiles;
 
 use std::cmp::Ordering;
 use std::num::NonZeroU32;
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
@@ -158,16 +159,27 @@ fn tiles_of(view: &View) -> impl Iterator<Item = Tile> {
 
 /// Asks for every pixel of some views, and from every point that they see for every light.
 fn agrees_with_asking_all(world: &World, random: &mut Random) {
+    let near = Visibility::new(world);
+    let mut very_many = near.clone();
+    let hierarchy = near.hierarchy.as_ref();
+    very_many.hierarchy = hierarchy.map(|near| Arc::new(near.without_near()));
+    let very_many = very_many.with_lights(world, world.lights.as_slice().into());
+    for visibility in [near, very_many] {
+        agrees_with_asking(world, &visibility, random);
+    }
+}
+
+/// The same with one way to find them.
+fn agrees_with_asking(world: &World, visibility: &Visibility<'_>, random: &mut Random) {
     let spheres = world.spheres();
-    let visibility = Visibility::new(world);
-    for _ in 0..6 {
+    for _ in 0..3 {
         let view = view(random);
-        let few = ViewIndex::new(&visibility, &view, RayPoints::All);
+        let few = ViewIndex::new(visibility, &view, RayPoints::All);
         // Whatever their number, but for sizes whose squares are no numbers.
         let crowd = visibility.hierarchy.as_deref();
         let crowd = crowd.filter(|_| visibility.is_moderate());
         midpoints_agree(&few, &view, crowd);
-        let crowd = ViewIndex::with_hierarchy(&visibility, &view, RayPoints::All, crowd);
+        let crowd = ViewIndex::with_hierarchy(visibility, &view, RayPoints::All, crowd);
         for tile in tiles_of(&view) {
             for cell in cells_and_edges(tile) {
                 let ray = view.ray(view.cell_center(cell.0, cell.1, FINE));

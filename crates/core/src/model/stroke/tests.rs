@@ -15,7 +15,7 @@ fn inner(width: StrokeWidth, projection: Projection, center: DVec3, radius: f64)
 
 #[test]
 fn a_width_in_pixels_is_seen_on_the_axis_of_view() {
-    for (distance, radius) in [(10.0, 1.0), (3.0, 2.0), (1e4, 80.0)] {
+    for (distance, radius) in [(10.0, 1.0), (3.0, 2.0), (1e4, 800.0)] {
         let center = DVec3::Z * distance;
         let smaller = inner(
             StrokeWidth::Pixels(1.5),

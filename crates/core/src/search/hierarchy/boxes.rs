@@ -7,8 +7,8 @@ use super::order::{Entry, WIDTH};
 
 /// Twice the bound of what rounding moved the center of an entry by, relatively; it is below the
 /// least number that is not 0, too.
-const ROUNDING: f64 = f32::EPSILON as f64;
-const LEAST: f64 = f32::MIN_POSITIVE as f64;
+pub(super) const ROUNDING: f64 = f32::EPSILON as f64;
+pub(super) const LEAST: f64 = f32::MIN_POSITIVE as f64;
 
 /// Eight boxes along the axes of the world, or fewer: those that are missing hold nothing.
 ///
@@ -66,48 +66,6 @@ impl Boxes {
     }
 }
 
-/// Eight spheres in single precision, as much larger as their centers are moved: they contain the
-/// true ones, if single precision holds their places, and are contained in them when they are smaller
-/// by [`Group::excess`]. Where there is none is one of radius 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[repr(align(64))]
-pub(crate) struct Group {
-    /// By axis, then by sphere.
-    pub(crate) center: [[f32; WIDTH]; 3],
-    pub(crate) radius: [f32; WIDTH],
-}
-
-impl Group {
-    /// More than what the radius has to be smaller by for a sphere inside of the true one: twice what
-    /// the center may be moved by, and what it costs to round the radius up twice.
-    #[inline(always)]
-    pub(crate) fn excess(&self, place: usize) -> f64 {
-        let mut moved = 0.0;
-        for axis in 0..3 {
-            moved += f64::from(self.center[axis][place]).abs() * ROUNDING + LEAST;
-        }
-        2.0 * moved + 4.0 * ROUNDING * f64::from(self.radius[place])
-    }
-
-    /// Of no more than eight entries.
-    pub(super) fn new(entries: &[Entry]) -> Self {
-        let mut group = Self {
-            center: [[0.0; WIDTH]; 3],
-            radius: [0.0; WIDTH],
-        };
-        for (place, entry) in entries.iter().enumerate() {
-            let mut radius = f64::from(entry.radius);
-            for axis in 0..3 {
-                let center = entry.center[axis];
-                group.center[axis][place] = center;
-                radius += f64::from(center).abs() * ROUNDING + LEAST;
-            }
-            group.radius[place] = rounded_up(radius);
-        }
-        group
-    }
-}
-
 /// Eight numbers as doubles.
 #[inline(always)]
 pub(crate) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
@@ -124,6 +82,6 @@ fn rounded_down(number: f64) -> f32 {
     }
 }
 
-fn rounded_up(number: f64) -> f32 {
+pub(super) fn rounded_up(number: f64) -> f32 {
     -rounded_down(-number)
 }

@@ -4,12 +4,14 @@
 //! decide nothing.
 
 pub(crate) mod boxes;
+pub(crate) mod groups;
 pub(crate) mod order;
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 use rayon::slice::ParallelSlice;
 
-use self::boxes::{Boxes, Group};
+use self::boxes::Boxes;
+use self::groups::{Group, NearGroup};
 use self::order::{NO_SPHERE, WIDTH};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
@@ -17,13 +19,14 @@ use crate::numeric::bits::set_bits;
 /// Spheres in groups of eight, these in groups of eight, and so on: where children are found is
 /// their number alone.
 ///
-/// It takes 4 bytes a sphere for the order, 16 for what is nearly the sphere and 3.5 for the boxes.
+/// It takes 4 bytes a sphere for the order and 3.5 for the boxes; and 16 for what is nearly the sphere, unless spheres are very
+/// many. Without that, searches read the spheres themselves, which lie far apart: a picture of ten million takes twice as long.
 #[derive(Clone, Debug)]
 pub(crate) struct Hierarchy {
     /// The indices of the spheres, group by group.
     order: Vec<u32>,
-    /// The spheres of the groups, nearly.
-    groups: Vec<Group>,
+    /// The spheres of the groups, nearly; none in a world of very many.
+    groups: Vec<NearGroup>,
     /// The boxes of the groups of spheres, then those of groups of groups; the last level has one
     /// element, unless there is no sphere.
     levels: Vec<Vec<Boxes>>,
@@ -39,6 +42,8 @@ pub(crate) struct Node {
 impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
+        /// Spheres that are kept nearly as well. Not tuned.
+        const MOST_NEAR: usize = 1 << 24;
         /// Enough for a thread to begin with: some 10 µs. Not tuned.
         const NODES_A_TASK: usize = 256;
         let entries = order::order(spheres);
@@ -71,11 +76,24 @@ impl Hierarchy {
                 .collect();
             levels.push(above);
         }
-        let groups = entries.par_chunks(WIDTH).with_min_len(NODES_A_TASK * WIDTH);
+        let mut groups = Vec::new();
+        if spheres.len() <= MOST_NEAR {
+            let entries = entries.par_chunks(WIDTH).with_min_len(NODES_A_TASK * WIDTH);
+            entries.map(NearGroup::new).collect_into_vec(&mut groups);
+        }
         Self {
-            groups: groups.map(Group::new).collect(),
+            groups,
             order: entries.par_iter().map(|entry| entry.index).collect(),
             levels,
+        }
+    }
+
+    /// The same as of very many spheres.
+    #[cfg(test)]
+    pub(crate) fn without_near(&self) -> Self {
+        Self {
+            groups: Vec::new(),
+            ..self.clone()
         }
     }
 
@@ -94,9 +112,13 @@ impl Hierarchy {
         &self.levels[node.level as usize][node.index as usize]
     }
 
-    /// The spheres of a child of a node of the lowest level, nearly.
-    pub(crate) fn group(&self, index: u32) -> &Group {
-        &self.groups[index as usize]
+    /// The spheres of a child of a node of the lowest level, at least nearly, out of those that the hierarchy is of.
+    #[inline(always)]
+    pub(crate) fn group(&self, index: u32, spheres: &[Sphere]) -> Group {
+        match self.groups.get(index as usize) {
+            Some(near) => near.group(),
+            None => Group::new(self.indices(index), spheres),
+        }
     }
 
     /// The indices of its spheres; [`is_sphere`] tells the places that hold one.

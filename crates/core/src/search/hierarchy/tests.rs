@@ -92,15 +92,15 @@ fn groups_are_around_their_spheres_and_barely() {
             .collect();
         let hierarchy = Hierarchy::new(&spheres);
         for number in 0..hierarchy.groups.len() as u32 {
-            let group = hierarchy.group(number);
+            let group = hierarchy.group(number, &spheres);
             for (place, &index) in hierarchy.indices(number).iter().enumerate() {
                 if !is_sphere(index) {
                     continue;
                 }
                 let sphere = &spheres[index as usize];
-                let center = DVec3::from_array(group.center.map(|axis| f64::from(axis[place])));
+                let center = DVec3::from_array(group.center.map(|axis| axis[place]));
                 let moved = (center - sphere.center()).length();
-                let (radius, excess) = (f64::from(group.radius[place]), group.excess(place));
+                let (radius, excess) = (group.radius[place], group.excess(place));
                 assert!(moved + sphere.radius() <= radius);
                 assert!(moved + radius - excess <= sphere.radius());
                 let size = center.abs().element_sum() + radius;
