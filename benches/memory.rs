@@ -15,8 +15,8 @@ use marbles_benches::{Folder, is_to_write, seconds};
 /// How many spheres, their largest radius, and what the table calls them.
 const COUNTS: [(u64, f32, &str); 3] = [
     (1_000, 2.0, "10³"),
-    (10_000_000, 0.1, "10⁷"),
-    (100_000_000, 0.05, "10⁸"),
+    (10_000_000, 0.5, "10⁷"),
+    (100_000_000, 0.25, "10⁸"),
 ];
 const FRAMES: usize = 3;
 
