@@ -1,6 +1,8 @@
 //! Memory that is asked for before it is needed: where there is none, allocating ends the process
 //! without a word.
 
+use marbles_core::{Renderer, World};
+
 use super::failure::Failure;
 
 /// An empty vector with room for `count` values.
@@ -13,6 +15,12 @@ pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, String> {
             count as f64 * size_of::<T>() as f64 / 1e6
         )),
     }
+}
+
+/// Refuses a world that cannot be prepared for want of memory.
+pub(crate) fn require_for(world: &World) -> Result<(), Failure> {
+    let work = format!("preparing {} spheres needs", world.spheres().len());
+    require(Renderer::memory_to_prepare(world), &work)
 }
 
 /// Returns whether so many bytes can be had in one piece.

@@ -8,6 +8,7 @@ use marbles_scene::{Progress, Scene};
 
 use super::args::SceneOptions;
 use crate::base::failure::Failure;
+use crate::base::memory;
 use crate::base::numbers;
 use crate::base::shown::Shown;
 use crate::sequence::frames::frames_of;
@@ -103,10 +104,12 @@ pub(super) fn world(scene: &Scene, frame: Option<i32>) -> Result<World, Failure>
     world_of(scene, frame.unwrap_or(*frames_of(scene).start()))
 }
 
-/// The world of a frame.
+/// The world of a frame, if there is memory to prepare it.
 pub(super) fn world_of(scene: &Scene, frame: i32) -> Result<World, Failure> {
     let world = scene.world_at(frame);
-    world.map_err(|error| Failure::Scene(Box::new(error)))
+    let world = world.map_err(|error| Failure::Scene(Box::new(error)))?;
+    memory::require_for(&world)?;
+    Ok(world)
 }
 
 /// The progress of reading a table, in a line.

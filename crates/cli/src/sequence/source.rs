@@ -207,12 +207,15 @@ impl<'a> Source<'a> {
         }
         let contents = (facts.digest, encoder.form.region);
         let is_there = || is_there(&files, sidecar.as_deref(), contents);
+        let may_be_there = request.skip_existing && !request.is_animation();
+        if may_be_there && is_there() {
+            return Ok(Decision::Skip);
+        }
+        step.require_memory()?;
         let file = if request.is_animation() {
             None
         } else if !request.skip_existing {
             Some(save::begin(path)?)
-        } else if is_there() {
-            return Ok(Decision::Skip);
         } else {
             let file = match save::claim(path)? {
                 None if !has_waited => return Ok(Decision::Wait),

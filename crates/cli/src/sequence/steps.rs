@@ -15,6 +15,7 @@ use self_cell::self_cell;
 use super::digest::{Digests, hashes_of_spheres};
 use super::request::Request;
 use crate::base::failure::Failure;
+use crate::base::memory;
 
 /// The most steps that are in memory.
 const MOST: usize = 2;
@@ -64,6 +65,15 @@ impl Step {
     /// The number of its spheres.
     pub(super) fn spheres(&self) -> usize {
         self.world.borrow_owner().spheres().len()
+    }
+
+    /// Refuses a step that cannot be prepared for want of memory.
+    pub(super) fn require_memory(&self) -> Result<(), Failure> {
+        self.world
+            .with_dependent(|world, renderers| match renderers.get() {
+                Some(_) => Ok(()),
+                None => memory::require_for(world),
+            })
     }
 
     /// Hands over the renderers, which are made when they are wanted first; `begin` is called before.

@@ -30,6 +30,12 @@ pub struct Renderer<'world> {
 }
 
 impl<'world> Renderer<'world> {
+    /// About the most bytes that [`Renderer::new`] takes of a world, beside the world: where there is no memory for them, it
+    /// ends the process.
+    pub fn memory_to_prepare(world: &World) -> u64 {
+        Visibility::most_bytes(world)
+    }
+
     /// Prepares a world.
     pub fn new(world: &'world World) -> Self {
         Self {

@@ -80,12 +80,26 @@ impl Extent {
     }
 }
 
+/// Returns whether searches in a world need a hierarchy.
+fn has_hierarchy(world: &World) -> bool {
+    let casts_shadows = world.shadows && !world.lights.is_empty();
+    casts_shadows || world.spheres().len() >= CROWD
+}
+
 impl<'world> Visibility<'world> {
+    /// About the most bytes that the search in a world takes while it is prepared.
+    pub(crate) fn most_bytes(world: &World) -> u64 {
+        if has_hierarchy(world) {
+            Hierarchy::most_bytes(world.spheres())
+        } else {
+            0
+        }
+    }
+
     /// Prepares the search in a world.
     pub(crate) fn new(world: &'world World) -> Self {
         let spheres = world.spheres();
-        let casts_shadows = world.shadows && !world.lights.is_empty();
-        let is_asked = casts_shadows || spheres.len() >= CROWD;
+        let is_asked = has_hierarchy(world);
         let extent = Extent::new(spheres);
         let unlit = Self {
             spheres,

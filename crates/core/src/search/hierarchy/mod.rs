@@ -32,6 +32,9 @@ pub(crate) struct Hierarchy {
     levels: Vec<Vec<Boxes>>,
 }
 
+/// Spheres that are kept nearly as well. Not tuned.
+const MOST_NEAR: usize = 1 << 24;
+
 /// A node: eight boxes of a level.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Node {
@@ -42,8 +45,6 @@ pub(crate) struct Node {
 impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
-        /// Spheres that are kept nearly as well. Not tuned.
-        const MOST_NEAR: usize = 1 << 24;
         /// Enough for a thread to begin with: some 10 µs. Not tuned.
         const NODES_A_TASK: usize = 256;
         let entries = order::order(spheres);
@@ -95,6 +96,13 @@ impl Hierarchy {
             groups: Vec::new(),
             ..self.clone()
         }
+    }
+
+    /// About the most bytes that the hierarchy of some spheres takes while it is made.
+    pub(crate) fn most_bytes(spheres: &[Sphere]) -> u64 {
+        let count = spheres.len() as u64;
+        let near = if spheres.len() <= MOST_NEAR { 16 } else { 0 };
+        order::most_bytes(spheres) + count * (8 + near)
     }
 
     /// The node above all others, unless there is no sphere.

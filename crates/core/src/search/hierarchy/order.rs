@@ -79,6 +79,20 @@ impl Entry {
     }
 }
 
+/// The most bytes that the order of some spheres takes while it is made.
+pub(super) fn most_bytes(spheres: &[Sphere]) -> u64 {
+    let class = |sphere: &Sphere| 1_u128 << (Entry::new(0, sphere).class() - LOWEST_CLASS);
+    let classes = spheres.par_iter().with_min_len(FEWEST_TO_SHARE).map(class);
+    let classes = classes.reduce(|| 0, |one, other| one | other).count_ones();
+    // Spheres of several classes are copied class by class.
+    let copies = if classes > 1 { 2 } else { 1 };
+    let places = spheres.len() + WIDTH * classes as usize;
+    copies * places as u64 * size_of::<Entry>() as u64
+}
+
+/// The class of the least numbers of single precision.
+const LOWEST_CLASS: i32 = (f32::MIN_EXP - f32::MANTISSA_DIGITS as i32).div_euclid(OCTAVES);
+
 /// The classes of sizes, the largest class first: its groups are those of powers of eight.
 fn classes(entries: &[Entry]) -> Vec<(i32, usize)> {
     let mut classes: Vec<(i32, usize)> = Vec::new();
