@@ -26,6 +26,7 @@ impl Sphere {
     ///
     /// # Errors
     /// Refuses what is not finite, and radii that are not greater than 0.
+    #[inline]
     pub fn new(center: DVec3, radius: f64) -> Result<Self, SphereError> {
         if !center.is_finite() {
             return Err(SphereError::Center(center));
@@ -37,11 +38,13 @@ impl Sphere {
     }
 
     /// The center, in the world frame.
+    #[inline]
     pub fn center(&self) -> DVec3 {
         self.center
     }
 
     /// The radius, greater than 0.
+    #[inline]
     pub fn radius(&self) -> f64 {
         self.radius
     }

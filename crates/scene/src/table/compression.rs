@@ -1,7 +1,7 @@
 //! Files compressed by gzip or Zstandard, decompressed by a thread of their own.
 
 use std::fs::File;
-use std::io::{self, BufReader, Read, Seek, SeekFrom};
+use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -131,7 +131,9 @@ fn frames(
 /// Sends all bytes of a decoder, until it ends or nobody wants them.
 fn hand_over(decoder: &mut dyn Read, sender: &SyncSender<io::Result<Vec<u8>>>) -> io::Result<()> {
     loop {
-        let mut block = Vec::with_capacity(BLOCK);
+        let mut block = Vec::new();
+        let room = block.try_reserve_exact(BLOCK);
+        room.map_err(|_| io::Error::from(ErrorKind::OutOfMemory))?;
         let count = decoder.take(BLOCK as u64).read_to_end(&mut block)?;
         if count == 0 || sender.send(Ok(block)).is_err() {
             return Ok(());
