@@ -13,6 +13,7 @@ mod geometry;
 mod hits;
 mod invariance;
 mod layers;
+mod mutations;
 mod parallel;
 mod photometric;
 mod point_lights;

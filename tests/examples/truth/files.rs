@@ -9,7 +9,7 @@ use glam::DVec3;
 use marbles_core::{Light, View, World};
 use rayon::prelude::*;
 
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 use marbles_tests::promise::pixels::{self, ExactPixel};
 use marbles_tests::reference::Reference;
 

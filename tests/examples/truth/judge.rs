@@ -11,7 +11,7 @@ use marbles_core::{Image, Method, Renderer, Settings, Status, View};
 use marbles_scene::Scene;
 use rayon::prelude::*;
 
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 use marbles_tests::promise::measure::single_pixel;
 use marbles_tests::reference::{Reference, Truth};
 

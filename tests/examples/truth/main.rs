@@ -5,7 +5,6 @@
 mod files;
 mod hunt;
 mod judge;
-mod numbers;
 mod table;
 
 use std::io::{self, Write};

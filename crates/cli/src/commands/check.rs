@@ -319,7 +319,7 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
         ("camera", format!("{kind}: x {x}, y {y}, z {z}")),
         (
             "  pan",
-            format!("{}°", range(aims().map(|(pan, _)| pan.degrees()))),
+            format!("{}°", range(unwound(aims().map(|(pan, _)| pan.degrees())))),
         ),
         (
             "  tilt",
@@ -330,6 +330,18 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
         rows.push(("  zoom", range(views.iter().map(|view| view.zoom))));
     }
     rows
+}
+
+/// Angles in degrees without jumps: each is less than half a turn from the one before.
+fn unwound(angles: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
+    const TURN: f64 = 360.0;
+    let mut before = None;
+    angles.map(move |angle| {
+        let turns = before.map_or(0.0, |before: f64| ((before - angle) / TURN).round());
+        let angle = angle + turns * TURN;
+        before = Some(angle);
+        angle
+    })
 }
 
 /// The least and the largest of some numbers, as one number where they look the same.

@@ -104,12 +104,12 @@ fn run_scene(
     // A frame has one picture, or one for each light.
     let is_single = request.parts.len() == 1;
     let noun = if is_single { "frame" } else { "picture" };
-    if outcome.pictures > 1
-        && (request.pattern.is_numbered() || !is_single)
-        && !quiet
-        && let Some(total) = messages::total(&outcome, noun)
-    {
-        console.result(&total);
+    if outcome.pictures > 1 && (request.pattern.is_numbered() || !is_single) && !quiet {
+        let were_there = outcome.skipped == outcome.pictures;
+        let counts = || were_there.then(|| messages::counts(&outcome, noun));
+        if let Some(total) = messages::total(&outcome, noun).or_else(counts) {
+            console.result(&total);
+        }
     }
     Ok(conclusion(&outcome, noun, console))
 }
@@ -132,6 +132,11 @@ pub(super) fn request(
 
     let silent = arguments.quiet || arguments.progress.is_some();
     let scene = threads.install(|| scene::load(path, &arguments.options, console, silent))?;
+    if scene.frames().is_none()
+        && let Err(error) = scene.view(FRAME_OF_A_STILL)
+    {
+        return Err(Failure::unusable(path, &error.to_string()));
+    }
     let frames = arguments.frames.clone();
     let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
     let pattern = pattern.unwrap_or_else(|| {

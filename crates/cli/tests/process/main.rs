@@ -185,6 +185,33 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
 }
 
 #[test]
+fn stills_without_a_view_are_refused_by_all_commands() {
+    let folder = Folder::new();
+    let scene = "(image: (width: 9, height: 9), lens: Fov(50), camera: Frame(), ambient: 1,
+        spheres: [(center: (0, 0, 0), radius: 1e308)])";
+    fs::write(folder.path("far.ron"), scene).unwrap();
+    for command in ["check", "render", "preview"] {
+        let output = folder.run(&format!("{command} far.ron"));
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), 2, "{command}: {errors}");
+        assert!(errors.starts_with("marbles: far.ron: "), "{errors}");
+    }
+}
+
+#[test]
+fn pans_that_go_around_are_told_as_they_go() {
+    let folder = Folder::new();
+    let scene = "(image: (width: 9, height: 9), lens: Fov(50), camera: Free(), ambient: 1,
+        spheres: [(center: (0, 0, 9), radius: 1)],
+        animation: Keyframes(frames: (1, 61), keys: [
+            (frame: 1, pan: -30, ease: Linear), (frame: 61, pan: 690)]))";
+    fs::write(folder.path("around.ron"), scene).unwrap();
+    let output = folder.run("check around.ron");
+    let lines = text(&output.stdout);
+    assert!(lines.contains("pan         -30 to 690°\n"), "{lines}");
+}
+
+#[test]
 fn tables_are_found_beside_the_scene_and_told() {
     const CLOUD: &str = "(
     image: (width: 60, height: 60),

@@ -107,6 +107,9 @@ fn only_complete_frames_of_the_same_picture_are_skipped() {
             let output = folder.run(&format!("{render} --skip-existing {arguments}"));
             assert_eq!(code(&output), 0, "{}", text(&output.stderr));
             let lines = text(&output.stdout);
+            let none = !lines.contains(" pixels, ");
+            let sum = "0 of 6 frames written, 6 skipped\n";
+            assert_eq!(lines.ends_with(sum), none, "{lines}");
             let skipped = lines.lines().filter(|line| line.contains(": skipped"));
             let names = skipped.map(|line| line[ending.len() + 1..].split_once('.').unwrap().0);
             names.collect::<Vec<_>>().concat()
@@ -123,6 +126,18 @@ fn only_complete_frames_of_the_same_picture_are_skipped() {
         fs::write(path(6), "").unwrap();
         assert_eq!(skipped(""), "15");
         assert!(contents(&folder, ending) == whole);
+
+        if ending == "exr" {
+            // One block fewer than there are: the file seems to end with an earlier one.
+            let mut altered = fs::read(path(1)).unwrap();
+            let name = b"chunkCount\0int\0";
+            let place = altered.windows(name.len()).position(|at| at == name);
+            let place = place.unwrap() + name.len() + 4;
+            altered[place] -= 1;
+            fs::write(path(1), altered).unwrap();
+            assert_eq!(skipped(""), "23456");
+            assert!(contents(&folder, ending) == whole);
+        }
 
         for other in ["--tolerance 1e-2", "--alpha", "--samples 2"] {
             assert_eq!(skipped(other), "", "{other}");

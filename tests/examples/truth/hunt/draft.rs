@@ -4,7 +4,7 @@ use std::path::Path;
 
 use marbles_scene::Scene;
 
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// A scene file in parts.
 #[derive(Clone, Debug)]

@@ -9,7 +9,7 @@ use super::scenes::{
     terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use super::strokes::outlined;
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// A family, and the way to make one of its scenes.
 pub(super) struct Family {

@@ -29,7 +29,7 @@ use self::families::{FAMILIES, Family};
 use self::options::Options;
 use self::report::Report;
 use self::subject::Subject;
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// A pixel that fell short.
 #[derive(Clone, Copy, Debug)]

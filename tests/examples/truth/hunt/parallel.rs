@@ -7,7 +7,7 @@ use super::scenes::{
     many_lights, ordinary, place, seams, shutters, slivers, terminator_at_rim, touching,
     triple_points,
 };
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// Scenes of other families through a parallel lens, each sphere where it is seen at a depth of 100.
 pub(super) fn parallel_lenses(numbers: &mut Numbers) -> Draft {

@@ -7,7 +7,7 @@ use super::draft::SIDE;
 use super::sampled::Sampled;
 use super::subject::{Subject, render};
 use super::{Broken, Found, random};
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// The division of pixels that finds suspects, and its tolerance.
 const FINER: u32 = 3;

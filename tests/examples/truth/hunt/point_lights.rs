@@ -2,7 +2,7 @@
 
 use super::draft::Draft;
 use super::scenes::{DISTANCE, add_balls, place};
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// A surface with or without a highlight.
 fn surface(numbers: &mut Numbers) -> String {

@@ -1,7 +1,7 @@
 //! A scene of each family, by random numbers.
 
 use super::draft::{Draft, OPEN, SIDE};
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// The distance of the lens, in pixels, that a family takes if the lens is not what is hard.
 pub(super) const DISTANCE: f64 = 50.0;

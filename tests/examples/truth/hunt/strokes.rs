@@ -7,7 +7,7 @@ use super::scenes::{
     DISTANCE, crowds, exponents, far_away, floors, grazing_shadows, highlights, ordinary, seams,
     shutters, slivers, surface_bumps, touching, wide_lenses,
 };
-use crate::numbers::Numbers;
+use marbles_tests::numbers::Numbers;
 
 /// Spheres with a line along their outlines: in units of the scene, as pictures of more pixels are to show the same.
 pub(super) fn outlined(numbers: &mut Numbers) -> Draft {

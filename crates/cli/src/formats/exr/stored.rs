@@ -18,7 +18,8 @@ pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> 
     let end = file.seek(SeekFrom::End(0)).ok()?;
     file.rewind().ok()?;
     let mut file = BufReader::new(file);
-    let meta = MetaData::read_from_buffered(&mut file, false).ok()?;
+    // Pedantic: a number of blocks that does not fit the size tells of a file that was altered.
+    let meta = MetaData::read_from_buffered(&mut file, true).ok()?;
     let [header] = &meta.headers[..] else {
         return None;
     };

@@ -1,0 +1,50 @@
+//! Files that are whole before they are altered.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file.
+pub(super) struct Seed {
+    pub(super) name: String,
+    pub(super) bytes: Vec<u8>,
+}
+
+/// The repository.
+pub(super) fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// The scenes of users, and those that are refused.
+pub(super) fn scenes() -> Vec<Seed> {
+    // Of the latter there are ten times as many.
+    let whole = ["scenes", "scenes/original"].into_iter().cycle().take(20);
+    let folders = whole.chain(["tests/broken"]);
+    let all = folders.flat_map(|folder| files(folder, "ron"));
+    // Longer ones would take most of the time.
+    all.filter(|seed| seed.bytes.len() < 8_000).collect()
+}
+
+/// Small tables of all formats.
+pub(super) fn tables() -> Vec<Seed> {
+    files("tests/seeds", "").collect()
+}
+
+/// The files of a folder of the repository, in order, with an ending; any for none.
+fn files(folder: &str, ending: &str) -> impl Iterator<Item = Seed> {
+    let entries = fs::read_dir(repository().join(folder)).expect("the folder is there");
+    let paths = entries.map(|entry| entry.expect("entries can be read").path());
+    let is_wanted =
+        |path: &PathBuf| ending.is_empty() || path.extension().is_some_and(|it| it == ending);
+    let mut paths: Vec<PathBuf> = paths
+        .filter(|path| path.is_file() && is_wanted(path))
+        .collect();
+    paths.sort();
+    paths.into_iter().map(|path| Seed {
+        name: path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        bytes: fs::read(&path).expect("the file can be read"),
+    })
+}

@@ -1,0 +1,106 @@
+//! What reads altered files.
+
+use std::fs;
+use std::ops::ControlFlow;
+
+use marbles_core::{Method, Renderer, Settings, View};
+use marbles_scene::Scene;
+
+use super::{Input, Target, seeds};
+use crate::numbers::Numbers;
+
+/// All kinds of input.
+pub const TARGETS: [Target; 2] = [
+    Target {
+        name: "scenes",
+        seeds: seeds::scenes,
+        read: read_scene,
+    },
+    Target {
+        name: "tables",
+        seeds: seeds::tables,
+        read: read_table,
+    },
+];
+
+/// Reads a scene, and renders a few pixels of a small one.
+fn read_scene(input: &Input<'_>) -> bool {
+    let text = String::from_utf8_lossy(input.bytes);
+    let path = seeds::repository().join("scenes").join(input.name);
+    match Scene::parse(&text, &path) {
+        Ok(scene) => {
+            render(&scene);
+            true
+        }
+        Err(error) => {
+            let _ = error.to_string();
+            false
+        }
+    }
+}
+
+/// Spheres of scenes that are rendered.
+const FEW: usize = 200;
+
+/// Renders a few pixels of the first and of the last frame.
+fn render(scene: &Scene) {
+    let frames = scene.frames().unwrap_or(1..=1);
+    for frame in [*frames.start(), *frames.end()] {
+        let (Ok(view), Ok(world)) = (scene.view(frame), scene.world_at(frame)) else {
+            continue;
+        };
+        if world.spheres().len() > FEW {
+            continue;
+        }
+        let view = View {
+            width: 6,
+            height: 4,
+            ..view
+        };
+        for method in [Method::Tolerance(1e-2), Method::Tolerance(1e-5)] {
+            let settings = Settings {
+                method,
+                alpha: false,
+            };
+            let exposure = scene.exposure(&view);
+            let image =
+                Renderer::new(&world).render(exposure, &settings, &|_| ControlFlow::Continue(()));
+            // Nobody breaks off.
+            assert!(image.is_ok());
+        }
+    }
+}
+
+/// Reads a table by a scene that asks for one thing or another of it.
+fn read_table(input: &Input<'_>) -> bool {
+    let path = input.folder.join(input.name);
+    fs::write(&path, input.bytes).expect("a table can be written");
+    let mut numbers = Numbers(input.numbers);
+    let radius = numbers.either(&["", "", ", radius: 0.5"]);
+    let more = numbers.either(&[
+        "",
+        "",
+        ", frames: All",
+        ", value: \"temp\"",
+        ", value: \"kind\", palette: {}",
+        ", keep: [(\"id\", Every(2))]",
+        ", columns: (x: 1, y: 2, z: 3)",
+        ", color: Element, radii: VanDerWaals",
+    ]);
+    let text = format!(
+        "(image: (width: 4, height: 4), lens: Fov(40), camera: Frame(), ambient: 1, \
+         clouds: [(file: {:?}{radius}{more})])",
+        input.name
+    );
+    match Scene::parse(&text, &input.folder.join("scene.ron")) {
+        Ok(scene) => {
+            let _ = scene.columns(0);
+            render(&scene);
+            true
+        }
+        Err(error) => {
+            let _ = error.to_string();
+            false
+        }
+    }
+}
