@@ -81,7 +81,11 @@ impl Entry {
 
 /// The most bytes that the order of some spheres takes while it is made.
 pub(super) fn most_bytes(spheres: &[Sphere]) -> u64 {
-    let class = |sphere: &Sphere| 1_u128 << (Entry::new(0, sphere).class() - LOWEST_CLASS);
+    let class = |sphere: &Sphere| {
+        // What is beyond single precision is one class more.
+        let class = Entry::new(0, sphere).class() - LOWEST_CLASS;
+        1_u128 << class.clamp(0, 127)
+    };
     let classes = spheres.par_iter().with_min_len(FEWEST_TO_SHARE).map(class);
     let classes = classes.reduce(|| 0, |one, other| one | other).count_ones();
     // Spheres of several classes are copied class by class.
