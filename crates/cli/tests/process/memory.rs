@@ -66,6 +66,52 @@ fn too_little_memory_is_an_error() {
     assert!(codes.contains(&Some(0)) && codes.contains(&Some(1)));
 }
 
+#[test]
+fn tables_larger_than_the_memory_are_errors() {
+    const ROWS: u32 = 1_500_000;
+    let folder = Folder::new();
+    let mut table = b"\x93NUMPY\x01\x00\x76\x00".to_vec();
+    let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({ROWS}, 4), }}");
+    table.extend(format!("{header:<117}\n").bytes());
+    for row in 0..ROWS {
+        let place = |step: u32| (row * step % 1009) as f32;
+        for number in [place(7), place(131), place(517), 0.5] {
+            table.extend(number.to_le_bytes());
+        }
+    }
+    fs::write(folder.path("table.npy"), table).unwrap();
+    let scene = "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(),
+        lights: [Directional(toward: (1, 2, -1))], clouds: [(file: \"table.npy\")])";
+    fs::write(folder.path("table.ron"), scene).unwrap();
+    let mut codes = Vec::new();
+    // From what the program itself takes to more than enough.
+    for step in 0..12 {
+        let kilobytes = 100_000 + 25_000 * step * step / 2;
+        let arguments = "render table.ron -o out/table.npy --samples 1 --threads 2";
+        let output = in_memory(&folder, kilobytes, arguments).output().unwrap();
+        let errors = text(&output.stderr);
+        let code = output.status.code();
+        assert!(
+            matches!(code, Some(0..=2)),
+            "{kilobytes} kB: {code:?}, {errors}"
+        );
+        assert_eq!(
+            errors.contains("memory"),
+            code != Some(0),
+            "{kilobytes} kB: {errors}"
+        );
+        if folder.path("out").exists() {
+            let names: &[&str] = if code == Some(0) { &["table.npy"] } else { &[] };
+            assert_eq!(folder.names("out"), names, "{kilobytes} kB");
+            fs::remove_dir_all(folder.path("out")).unwrap();
+        }
+        codes.push(code);
+    }
+    for expected in 0..=1 {
+        assert!(codes.contains(&Some(expected)), "{codes:?}");
+    }
+}
+
 /// A grey picture of one line that repeats.
 fn write_grey(folder: &Folder, name: &str, side: u32, profile: Option<Vec<u8>>) {
     let mut info = png::Info::with_size(side, side);
