@@ -9,7 +9,6 @@ use super::rays::Place;
 use super::shadow::Shadows;
 use super::trace::Sight;
 use crate::light::reflection::{NearLight, Reflectance, ViewedPoints};
-use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::light::{Light as WorldLight, PointLight};
 use crate::model::roughness::noise::NoiseCells;
@@ -37,14 +36,14 @@ pub(super) type Light<S, const CHANNELS: usize> = [f64x8<S>; CHANNELS];
 pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     lights: Vec<WorldLight>,
-    viewpoint: DVec3,
+    pub(super) viewpoint: DVec3,
     /// Of the balls' unit of length, in those of the world.
     length: f64,
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
     /// The view, and the axis of view, where spheres have strokes.
-    strokes: Option<(StrokeView, DMat3)>,
+    pub(super) strokes: Option<(StrokeView, DMat3)>,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,
 }
@@ -226,52 +225,6 @@ impl<'scene> Shading<'scene> {
             );
         }
         albedo
-    }
-
-    /// Puts the strokes of spheres in the place of light.
-    ///
-    /// A ray in the direction d passes the smaller sphere of radius s where it meets the larger one, of radius r, with
-    /// (n · d)² < d² (r − s) (r + s) / r².
-    #[cold]
-    #[inline(never)]
-    fn add_strokes<S: Simd, const CHANNELS: usize>(
-        &self,
-        simd: S,
-        sight: &Sight<S>,
-        groups: &Groups<'_>,
-        mut light: Light<S, CHANNELS>,
-    ) -> Light<S, CHANNELS> {
-        let Some((view, camera_from_world)) = self.strokes else {
-            return light;
-        };
-        for Group { ball, lanes } in groups.as_slice() {
-            let (index, lanes) = (ball.index(), lanes & !sight.inner);
-            let (Some(stroke), 1..) = (self.world.material(index).stroke, lanes) else {
-                continue;
-            };
-            let sphere = &self.world.spheres()[index];
-            let (center, radius) = (sphere.center() - self.viewpoint, sphere.radius());
-            let center = camera_from_world * center;
-            // The plane in which parallel rays begin cuts it.
-            if view.projection == Projection::Parallel && center.z < radius {
-                continue;
-            }
-            let inner = stroke.width.inner_radius(view, center, radius);
-            let limit = (radius - inner) * (radius + inner) / (radius * radius);
-            simd.vectorize(
-                #[inline(always)]
-                || {
-                    let along = sight.normal.dot(&sight.direction);
-                    let is_stroke = (along * along).simd_lt(sight.length_sq * limit);
-                    let mask = is_stroke & mask64x8::from_bitmask(simd, lanes);
-                    for (channel, light) in light.iter_mut().enumerate() {
-                        let color = f64x8::splat(simd, stroke.color[channel]);
-                        *light = mask.select(color, *light);
-                    }
-                },
-            );
-        }
-        light
     }
 
     /// The shading normals.

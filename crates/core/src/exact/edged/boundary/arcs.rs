@@ -6,8 +6,8 @@ use fearless_simd::prelude::*;
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
+use super::strokes::strokes;
 use crate::exact::classify::contents::Contents;
-use crate::exact::classify::strokes::Face;
 
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
@@ -371,39 +371,6 @@ fn own_hidden<S: Simd>(
             hidden
         },
     )
-}
-
-/// Whether strokes are what is seen of the spheres on either side of a curve, in one of some places.
-#[inline(always)]
-fn strokes<S: Simd>(
-    setting: &Setting<'_, '_>,
-    curve: &Curve,
-    spheres: [usize; 2],
-    (places, lane): (&Trace<S>, usize),
-) -> [bool; 2] {
-    let contents = setting.contents;
-    if !contents.has_strokes() {
-        return [false; 2];
-    }
-    match curve.edge {
-        Edge::Stroke => return [false, true],
-        Edge::Terminator(_) | Edge::Shadow(..) => return [false; 2],
-        Edge::Left | Edge::Right | Edge::Limb | Edge::Seam => {}
-    }
-    let mut strokes = [false; 2];
-    for (side, sphere) in spheres.into_iter().enumerate() {
-        if sphere == NONE {
-            continue;
-        }
-        let face = contents.face(sphere);
-        let is_own_limb = side == 0 && curve.edge == Edge::Limb;
-        strokes[side] = match is_own_limb {
-            // Inside of an outline there is nothing but the stroke, however narrow it is.
-            true => !matches!(face, Face::All),
-            false => face.is_stroke_at(places.x[lane], places.y[lane]),
-        };
-    }
-    strokes
 }
 
 /// Adds an arc, to the last one where that goes on.

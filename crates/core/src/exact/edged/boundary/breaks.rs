@@ -8,7 +8,6 @@ use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial
 use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::Kind;
 use crate::exact::classify::reach::Reach;
-use crate::exact::classify::strokes::Face;
 
 /// Intervals that begin or end at some of the places.
 fn beside(lanes: u64) -> u64 {
@@ -122,29 +121,6 @@ impl Boundary {
                 front
             },
         )
-    }
-
-    /// Finds where, in some intervals, strokes begin or end of spheres beside a stretch.
-    #[inline(never)]
-    fn find_strokes<S: Simd>(
-        &mut self,
-        simd: S,
-        setting: &Setting<'_, '_>,
-        stretch: &Stretch<'_>,
-        places: &Trace<S>,
-        open: u64,
-    ) {
-        let curve = stretch.curve;
-        for position in 0..setting.contents.active.len() {
-            // Outlines have no stroke but their own beside them, and what is light has ends of its own.
-            let is_own = curve.own.contains(&position) && curve.edge != Edge::Seam;
-            if is_own || !matches!(setting.contents.face(position), Face::Inside(..)) {
-                continue;
-            }
-            let function = Function::Stroke(position);
-            let values = value(simd, setting, function, places);
-            stretch.roots(simd, setting, function, values, open, &mut self.breaks);
-        }
     }
 
     /// Finds where a stretch comes out of the sphere that hides both ends of some intervals: beside its outline, or

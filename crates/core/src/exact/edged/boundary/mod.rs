@@ -23,6 +23,7 @@ mod power_rules;
 mod primitive;
 mod quadrature;
 mod setting;
+mod strokes;
 mod turns;
 
 pub(crate) use self::setting::{Boundary, Goal};
