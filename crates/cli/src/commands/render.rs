@@ -111,7 +111,14 @@ fn run_scene(
             console.result(&total);
         }
     }
-    Ok(conclusion(&outcome, noun, console))
+    let code = conclusion(&outcome, noun, console);
+    if code == status::SUCCESS && arguments.options.strict && outcome.clipped > 0 {
+        let why = "with --strict clipped pixels are an error";
+        console.warn(why);
+        console.reason(why);
+        return Ok(status::FAILURE);
+    }
+    Ok(code)
 }
 
 /// Reads the scene and checks what can be before anything is rendered.

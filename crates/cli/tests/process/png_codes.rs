@@ -67,6 +67,21 @@ fn clipped_pixels_are_counted_for_every_png() {
 }
 
 #[test]
+fn clipped_pixels_are_an_error_where_warnings_are() {
+    let folder = bright();
+    for (options, expected) in [("", 1), ("--exposure -1", 0)] {
+        let output = folder.run(&format!("render bright.ron --size 40x30 -o a.png --strict {options}"));
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), expected, "{errors}");
+        assert_eq!(
+            errors.contains("clipped pixels are an error"),
+            expected == 1
+        );
+        assert!(folder.path("a.png").exists());
+    }
+}
+
+#[test]
 fn an_exposure_multiplies_light() {
     let folder = bright();
     let half = BALL.replace("(-1, 1, -1))]", "(-1, 1, -1), intensity: 0.5)]");
