@@ -79,7 +79,7 @@ fn a_frame_is_there_when_its_sidecar_is() {
         let arguments = "render ball.ron -o #.png --frames 1-5 --size 9x9 --skip-existing";
         let output = folder.run(&format!("{arguments} {more}"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
-        text(&output.stdout).matches("skipped").count()
+        text(&output.stdout).matches(": skipped").count()
     };
     assert_eq!(run(""), 0);
     assert_eq!(run(""), 5);
