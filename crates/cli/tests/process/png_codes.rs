@@ -70,7 +70,9 @@ fn clipped_pixels_are_counted_for_every_png() {
 fn clipped_pixels_are_an_error_where_warnings_are() {
     let folder = bright();
     for (options, expected) in [("", 1), ("--exposure -1", 0)] {
-        let output = folder.run(&format!("render bright.ron --size 40x30 -o a.png --strict {options}"));
+        let output = folder.run(&format!(
+            "render bright.ron --size 40x30 -o a.png --strict {options}"
+        ));
         let errors = text(&output.stderr);
         assert_eq!(code(&output), expected, "{errors}");
         assert_eq!(
