@@ -2,11 +2,11 @@
 
 use super::active::{Active, Terminators};
 use super::coincidence::{ALIKE, has_same_outline, is_outline};
+use super::face::Face;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
 use super::patch::Patch;
 use super::reach::Reach;
-use super::strokes::Face;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::seam::seam;
 use crate::edges::shadow::Caster;

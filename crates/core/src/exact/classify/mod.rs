@@ -5,6 +5,7 @@ pub(crate) mod coincidence;
 pub(crate) mod contents;
 mod cut;
 pub(crate) mod discriminant;
+pub(crate) mod face;
 mod hardness;
 mod hidden;
 pub(crate) mod magnitude;
@@ -17,7 +18,7 @@ pub(crate) mod row;
 pub(crate) mod seen;
 mod shade_mask;
 mod sharpness;
-pub(crate) mod strokes;
+mod strokes;
 #[cfg(test)]
 mod tests;
 mod ways;

@@ -1,34 +1,11 @@
 //! Strokes: what a cell sees of spheres inside of them, and beside that.
 
 use super::contents::{Contents, Kind, NARROWEST, silhouette_width};
+use super::face::Face;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::InCamera;
-use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
-
-/// Which part of an active sphere is seen in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Face {
-    /// All of it: no stroke.
-    All,
-    /// Where this is not negative, inside of a stroke: the outline of a smaller sphere, which is the ball.
-    Inside(Ball, Quadratic),
-    /// The stroke alone.
-    Nothing,
-}
-
-impl Face {
-    /// Returns whether a place of the cell shows the stroke.
-    #[inline]
-    pub(crate) fn is_stroke_at(&self, x: f64, y: f64) -> bool {
-        match self {
-            Self::All => false,
-            Self::Inside(_, conic) => conic.at(x, y) < 0.0,
-            Self::Nothing => true,
-        }
-    }
-}
 
 impl Contents {
     /// Finds the strokes of the active spheres, and their edges.

@@ -9,7 +9,7 @@ use super::primitive::ray;
 use super::setting::{Curve, Setting};
 use crate::edges::cell::Ball;
 use crate::edges::terminator::Plane;
-use crate::exact::classify::strokes::Face;
+use crate::exact::classify::face::Face;
 use crate::exact::points::Points;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;

@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use super::curve::Trace;
 use super::events::{Function, Stretch, value};
 use super::setting::{Boundary, Curve, Edge, NONE, Setting};
-use crate::exact::classify::strokes::Face;
+use crate::exact::classify::face::Face;
 
 impl Boundary {
     /// Finds where, in some intervals, strokes begin or end of spheres beside a stretch.

@@ -1,0 +1,27 @@
+//! The part of a sphere that lies inside of its stroke.
+
+use crate::edges::cell::Ball;
+use crate::numeric::polynomial::Quadratic;
+
+/// Which part of an active sphere is seen in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Face {
+    /// All of it: no stroke.
+    All,
+    /// Where this is not negative, inside of a stroke: the outline of a smaller sphere, which is the ball.
+    Inside(Ball, Quadratic),
+    /// The stroke alone.
+    Nothing,
+}
+
+impl Face {
+    /// Returns whether a place of the cell shows the stroke.
+    #[inline]
+    pub(crate) fn is_stroke_at(&self, x: f64, y: f64) -> bool {
+        match self {
+            Self::All => false,
+            Self::Inside(_, conic) => conic.at(x, y) < 0.0,
+            Self::Nothing => true,
+        }
+    }
+}
