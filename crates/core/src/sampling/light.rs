@@ -42,7 +42,7 @@ pub(super) struct Shading<'scene> {
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
-    /// The view, and the axis of view, where spheres have strokes.
+    /// The view, and the camera's directions, where spheres have strokes.
     pub(super) strokes: Option<(StrokeView, DMat3)>,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,

@@ -212,8 +212,10 @@ impl<'world> Occluders<'world> {
                 let indices = self.hierarchy.indices(number);
                 for place in set_bits(inside) {
                     if is_sphere(indices[place]) {
-                        // What is no number leaves nothing for certain.
-                        let more = group.excess(place) + radius[place] * SLACK;
+                        // What is no number leaves nothing for certain. Radii were made larger by more than
+                        // rounding moves centers, and tops.
+                        let larger = radius[place] - group.radius[place];
+                        let more = group.excess(place) + 4.0 * larger + radius[place] * SLACK;
                         if more > excess || more.is_nan() {
                             excess = more;
                         }

@@ -358,7 +358,7 @@ fn own_hidden<S: Simd>(
                     hidden |= facing.simd_le(0.0).to_bitmask();
                 }
             }
-            if curve.is_within_stroke() {
+            if curve.is_within_stroke() && setting.contents.has_strokes() {
                 let within = value(simd, setting, Function::Stroke(curve.own[0]), places);
                 hidden |= within.simd_lt(0.0).to_bitmask();
             }
