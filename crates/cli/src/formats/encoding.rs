@@ -27,6 +27,16 @@ impl Format {
             .find_map(|(known, format)| ending.eq_ignore_ascii_case(known).then_some(format))
     }
 
+    /// Its name.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Png => "PNG",
+            Self::Apng => "APNG",
+            Self::Exr => "EXR",
+            Self::Npy => "NPY",
+        }
+    }
+
     /// The format that the ending of a file's name asks for.
     pub(crate) fn of_file(path: &Path) -> Option<Self> {
         Self::of(path.file_name()?.to_str()?)

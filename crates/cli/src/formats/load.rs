@@ -2,14 +2,16 @@
 //! name.
 
 use std::fs::File;
-use std::io::{self, ErrorKind, Read, Seek};
+use std::io::{ErrorKind, Read, Seek};
 use std::path::Path;
 
 use blake3::Hash;
 
-use super::picture::Picture;
+use super::encoding::Format;
+use super::picture::{Picture, unusable};
+use super::source::Source;
 use super::{exr, npy, png};
-use crate::base::failure::{Failure, lower, reason};
+use crate::base::failure::{Failure, reason};
 use crate::base::region::Region;
 
 /// The first bytes of every PNG.
@@ -20,7 +22,7 @@ const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 /// The first bytes of every NPY.
 const NPY_MAGIC: &[u8] = b"\x93NUM";
 
-/// Reads the picture at `path`.
+/// Begins to read the picture at `path`.
 ///
 /// All that can be wrong is like an invalid scene: the command cannot begin.
 pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
@@ -28,46 +30,45 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     if path.is_dir() {
         return Err(refused("expected a picture, found a folder"));
     }
-    let bytes = bytes(path).map_err(|error| match error.kind() {
+    let is_picture = |start: &[u8]| format_of(start).is_some();
+    let source = Source::of(path, PNG_MAGIC.len(), is_picture);
+    let (source, start) = source.map_err(|error| match error.kind() {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
         ErrorKind::OutOfMemory => refused("there is no memory to read this file"),
         _ => refused(&reason(&error)),
     })?;
-    decode(&bytes).map_err(|reason| refused(&reason))
+    begin(&source, &start).map_err(|reason| refused(&reason))
 }
 
-/// The bytes of a file; only the first where it is no picture, which may have no end.
-fn bytes(path: &Path) -> io::Result<Vec<u8>> {
-    let mut file = File::open(path)?;
-    let mut bytes = Vec::new();
-    let start = PNG_MAGIC.len() as u64;
-    Read::by_ref(&mut file)
-        .take(start)
-        .read_to_end(&mut bytes)?;
-    let is_picture = [PNG_MAGIC, EXR_MAGIC, NPY_MAGIC];
-    if is_picture.iter().any(|magic| bytes.starts_with(magic)) {
-        file.read_to_end(&mut bytes)?;
-    }
-    Ok(bytes)
+/// Begins to read the picture in a file with this start, or says what is wrong with it.
+fn begin(source: &Source, start: &[u8]) -> Result<Picture, String> {
+    let Some(format) = format_of(start) else {
+        const EXPECTED: &str = "expected a PNG, EXR or NPY picture, found";
+        if start.is_empty() {
+            return Err(format!("{EXPECTED} an empty file"));
+        }
+        let start = start[..start.len().min(EXR_MAGIC.len())].escape_ascii();
+        return Err(format!("{EXPECTED} a file that begins with `{start}`"));
+    };
+    let picture = match format {
+        Format::Png | Format::Apng => png::read::begin(source),
+        Format::Exr => exr::read::begin(source),
+        Format::Npy => npy::read::begin(source),
+    };
+    picture.map_err(|reason| unusable(format, &reason))
 }
 
-/// The picture in the bytes of a file, or what is wrong with them.
-pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
-    if bytes.starts_with(PNG_MAGIC) {
-        png::read::decode(bytes).map_err(|reason| format!("not a usable PNG: {}", lower(&reason)))
-    } else if bytes.starts_with(EXR_MAGIC) {
-        exr::read::decode(bytes).map_err(|reason| format!("not a usable EXR: {}", lower(&reason)))
-    } else if bytes.starts_with(NPY_MAGIC) {
-        npy::read::decode(bytes).map_err(|reason| format!("not a usable NPY: {}", lower(&reason)))
-    } else if bytes.is_empty() {
-        Err("expected a PNG, EXR or NPY picture, found an empty file".to_owned())
-    } else {
-        let start = bytes[..bytes.len().min(EXR_MAGIC.len())].escape_ascii();
-        Err(format!(
-            "expected a PNG, EXR or NPY picture, found a file that begins with `{start}`"
-        ))
-    }
+/// The format of a picture by the start of its file.
+fn format_of(start: &[u8]) -> Option<Format> {
+    let formats = [
+        (PNG_MAGIC, Format::Png),
+        (EXR_MAGIC, Format::Exr),
+        (NPY_MAGIC, Format::Npy),
+    ];
+    let mut formats = formats.into_iter();
+    let format = formats.find(|(magic, _)| start.starts_with(magic));
+    format.map(|(_, format)| format)
 }
 
 /// The digest that the file at `path` tells and the part of the picture that it holds, read without
@@ -92,6 +93,13 @@ fn contents_of(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
     } else {
         png::stored::contents(file)
     }
+}
+
+/// Begins to read the picture in these bytes.
+#[cfg(test)]
+pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    let start = &bytes[..bytes.len().min(PNG_MAGIC.len())];
+    begin(&Source::Memory(bytes.into()), start)
 }
 
 #[cfg(test)]

@@ -15,6 +15,7 @@ pub(crate) mod picture;
 pub(crate) mod png;
 pub(crate) mod rows;
 pub(crate) mod sidecar;
+mod source;
 pub(crate) mod srgb;
 #[cfg(test)]
 pub(crate) mod tests;

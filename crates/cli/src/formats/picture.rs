@@ -1,82 +1,120 @@
-//! A picture from a file, as linear light.
+//! A picture from a file, as linear light, row by row.
 //!
 //! Samples stay as the file has them, and become light where a pixel is asked for: a table turns codes
 //! into light, and it is known what a number of the file may have been before it was rounded.
 
-use std::fmt::Debug;
-
-use crate::base::memory;
+use crate::base::failure::lower;
 use crate::base::size::{LONGEST_SIDE, Size};
+use crate::formats::encoding::Format;
 
-/// A picture that was read: linear light, premultiplied by its alpha.
-#[derive(Debug)]
+/// A picture that is being read: linear light, premultiplied by its alpha.
+///
+/// No more of it is in memory than the rows that its file holds together.
 pub(crate) struct Picture {
     pub(crate) size: Size,
     /// True where there is one channel of light instead of three.
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
+    pub(crate) format: Format,
     /// The kind of the file, for people: `PNG, 8 bit sRGB, grey`.
     pub(crate) description: String,
     /// A warning about how the file was understood.
     pub(crate) warning: Option<&'static str>,
-    pub(crate) samples: Box<dyn Samples>,
+    pub(crate) row: Box<dyn Samples>,
 }
 
-/// The samples of a picture.
+/// The samples of one row of a picture, before the first of them where none was read.
 ///
-/// Row 0 is the top row, column 0 the left one. All values come as red, green, blue and alpha;
-/// grey stands in all three colors, and alpha is 1 where the file has none.
-pub(crate) trait Samples: Debug {
+/// Column 0 is the left one. All values come as red, green, blue and alpha; grey stands in all three
+/// colors, and alpha is 1 where the file has none.
+pub(crate) trait Samples {
+    /// Goes on to the next row, the first of which is the top one. There must be one.
+    ///
+    /// # Errors
+    /// What is wrong with the file.
+    fn advance(&mut self) -> Result<(), String>;
+
     /// The light of a pixel, and its alpha.
-    fn rgba(&self, col: u32, row: u32) -> [f64; 4];
+    fn rgba(&self, col: u32) -> [f64; 4];
 
     /// The distances from these to the numbers that the file may have rounded: half a step of the
     /// format there.
-    fn rounding(&self, col: u32, row: u32) -> [f64; 4];
+    fn rounding(&self, col: u32) -> [f64; 4];
 
     /// Returns for each value whether it is the largest that the file can hold, so that a larger one
     /// may be meant.
-    fn is_full(&self, col: u32, row: u32) -> [bool; 4];
+    fn is_full(&self, col: u32) -> [bool; 4];
 }
 
-/// Refuses pictures for which there is certainly no memory, where allocating it would end the
-/// process.
-pub(super) fn check_memory(
-    width: usize,
-    height: usize,
-    bytes_per_pixel: usize,
-) -> Result<Size, String> {
+impl Picture {
+    /// Goes on to the next row; see [`Samples::advance`].
+    pub(crate) fn advance(&mut self) -> Result<(), String> {
+        let row = self.row.advance();
+        row.map_err(|reason| unusable(self.format, &reason))
+    }
+}
+
+/// The words about a file that cannot be used, for this reason.
+pub(super) fn unusable(format: Format, reason: &str) -> String {
+    format!("not a usable {}: {}", format.name(), lower(reason))
+}
+
+/// The size of a picture, where it is one that pictures may have.
+pub(super) fn size_of(width: usize, height: usize) -> Result<Size, String> {
     let side = |length: usize| {
         let length = u32::try_from(length).ok();
         length.filter(|length| (1..=LONGEST_SIDE).contains(length))
     };
-    let (Some(width), Some(height)) = (side(width), side(height)) else {
-        return Err(format!(
+    match (side(width), side(height)) {
+        (Some(width), Some(height)) => Ok(Size { width, height }),
+        _ => Err(format!(
             "{width} x {height} pixels, expected each side from 1 to {LONGEST_SIDE}"
-        ));
-    };
-    let size = Size { width, height };
-    let bytes = size.pixels().checked_mul(bytes_per_pixel as u64);
-    if bytes.is_some_and(memory::is_available) {
-        Ok(size)
-    } else {
-        Err(format!(
-            "{width} x {height} pixels need more memory than there is"
-        ))
+        )),
     }
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    #[test]
-    fn refuses_sizes_without_memory() {
-        const LONGEST: usize = LONGEST_SIDE as usize;
-        assert!(check_memory(LONGEST, 1, 1).is_ok());
-        for (width, height) in [(0, 1), (1, 0), (LONGEST + 1, 1), (usize::MAX, usize::MAX)] {
-            assert!(check_memory(width, height, 1).is_err());
+    /// All of a picture, for tests that ask for pixels in any order.
+    pub(crate) struct Whole {
+        pub(crate) rgba: Vec<Vec<[f64; 4]>>,
+        pub(crate) rounding: Vec<Vec<[f64; 4]>>,
+        pub(crate) is_full: Vec<Vec<[bool; 4]>>,
+    }
+
+    impl Picture {
+        /// Reads all rows.
+        pub(crate) fn whole(mut self) -> Result<Whole, String> {
+            let mut whole = Whole {
+                rgba: Vec::new(),
+                rounding: Vec::new(),
+                is_full: Vec::new(),
+            };
+            for _ in 0..self.size.height {
+                self.advance()?;
+                let cols = 0..self.size.width;
+                let row = &self.row;
+                whole
+                    .rgba
+                    .push(cols.clone().map(|col| row.rgba(col)).collect());
+                let rounding = cols.clone().map(|col| row.rounding(col));
+                whole.rounding.push(rounding.collect());
+                whole
+                    .is_full
+                    .push(cols.map(|col| row.is_full(col)).collect());
+            }
+            Ok(whole)
         }
-        assert!(check_memory(LONGEST, LONGEST, usize::MAX).is_err());
+    }
+
+    #[test]
+    fn sides_have_limits() {
+        const LONGEST: usize = LONGEST_SIDE as usize;
+        assert!(size_of(LONGEST, 1).is_ok());
+        for (width, height) in [(0, 1), (1, 0), (LONGEST + 1, 1), (usize::MAX, usize::MAX)] {
+            assert!(size_of(width, height).is_err());
+        }
     }
 }

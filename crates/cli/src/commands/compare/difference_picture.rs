@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use super::pair::Pair;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
+use crate::base::size::Size;
+use crate::files::save::Fault;
 use crate::formats::encoding::Format;
 use crate::formats::exr::write::write_floats;
 use crate::formats::png::write::write_grey;
@@ -64,22 +65,27 @@ impl DifferencePicture {
         )
     }
 
-    pub(super) fn write(&self, pair: &Pair, tolerance: Option<f64>) -> Result<(), Failure> {
-        let size = pair.size();
+    /// Writes the picture of channels with these names; `row` adds the differences of the next row, pixel by pixel.
+    pub(super) fn write(
+        &self,
+        size: Size,
+        names: &[&str],
+        tolerance: Option<f64>,
+        mut row: impl FnMut(&mut Vec<f64>) -> Result<(), Fault>,
+    ) -> Result<(), Failure> {
         if self.holds_floats {
-            let channel = |&channel: &usize| {
-                let differences = size.places();
-                let differences =
-                    differences.map(|(col, row)| pair.differences(col, row)[channel] as f32);
-                (pair.name(channel), differences.collect())
-            };
-            let channels = pair.channels().iter().map(channel).collect();
-            return write_floats(size, channels, &self.path);
+            return write_floats(size, names, &self.path, row);
         }
         let middle = middle(tolerance);
-        let code = |(col, row)| code(pair.largest(&pair.differences(col, row)), middle);
-        let codes: Vec<u8> = size.places().map(code).collect();
-        write_grey(size, &codes, &self.path)
+        let mut differences = Vec::new();
+        write_grey(size, &self.path, |codes| {
+            differences.clear();
+            row(&mut differences)?;
+            let pixels = differences.chunks_exact(names.len());
+            let largest = pixels.map(|pixel| pixel.iter().copied().fold(0.0, f64::max));
+            codes.extend(largest.map(|size| code(size, middle)));
+            Ok(())
+        })
     }
 }
 

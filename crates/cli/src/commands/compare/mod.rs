@@ -15,12 +15,13 @@ use std::path::Path;
 use self::difference_picture::DifferencePicture;
 use self::pair::Pair;
 use self::report::Report;
-use self::statistics::Statistics;
+use self::statistics::Counter;
 use super::args::CompareArguments;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::destination::{is_same, prepare};
+use crate::files::save::Fault;
 use crate::formats::load;
 use crate::formats::picture::Picture;
 use crate::terminal::console::Console;
@@ -41,9 +42,10 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
         return Err(Failure::unusable(diff, why));
     }
     let difference_picture = diff.as_deref().map(DifferencePicture::at).transpose()?;
-    let pair = Pair {
+    let mut pair = Pair {
         a: load(a, console)?,
         b: load(b, console)?,
+        paths: [a.clone(), b.clone()],
     };
     let [size_a, size_b] = [&pair.a, &pair.b].map(|picture| picture.size);
     if size_a != size_b {
@@ -57,14 +59,29 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
             size_b.height
         )));
     }
+    let mut counter = Counter::new(&pair, *tolerance, arguments.worst);
     if let Some(picture) = &difference_picture {
         prepare(picture.path())?;
+        let channels = pair.channels();
+        let names = channels.iter().map(|&channel| pair.name(channel));
+        let names: Vec<&str> = names.collect();
+        let size = pair.size();
+        picture.write(size, &names, *tolerance, |values| {
+            pair.advance().map_err(Fault::Failed)?;
+            counter.add_row(&pair);
+            for col in 0..size.width {
+                let differences = pair.differences(col);
+                values.extend(channels.iter().map(|&channel| differences[channel]));
+            }
+            Ok(())
+        })?;
+    } else {
+        for _ in 0..pair.size().height {
+            pair.advance()?;
+            counter.add_row(&pair);
+        }
     }
-
-    let statistics = Statistics::of(&pair, *tolerance, arguments.worst);
-    if let Some(picture) = &difference_picture {
-        picture.write(&pair, *tolerance)?;
-    }
+    let statistics = counter.finish();
     if !arguments.quiet {
         let report = Report {
             arguments,

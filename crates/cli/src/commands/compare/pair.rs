@@ -1,12 +1,17 @@
 //! Two pictures that are compared.
 
+use std::path::PathBuf;
+
+use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::formats::picture::Picture;
 
-/// Two pictures of the same size.
+/// Two pictures of the same size, of which the same row is at hand.
 pub(super) struct Pair {
     pub(super) a: Picture,
     pub(super) b: Picture,
+    /// Where they are.
+    pub(super) paths: [PathBuf; 2],
 }
 
 /// The names of the four values of a pixel.
@@ -34,9 +39,19 @@ impl Pair {
         }
     }
 
+    /// Goes on to the next row of both, of which there must be one.
+    pub(super) fn advance(&mut self) -> Result<(), Failure> {
+        let [a, b] = &self.paths;
+        for (picture, path) in [(&mut self.a, a), (&mut self.b, b)] {
+            let row = picture.advance();
+            row.map_err(|reason| Failure::unusable(path, &reason))?;
+        }
+        Ok(())
+    }
+
     /// The absolute differences of all four values, infinite where one is no finite number.
-    pub(super) fn differences(&self, col: u32, row: u32) -> [f64; 4] {
-        let (a, b) = (self.a.samples.rgba(col, row), self.b.samples.rgba(col, row));
+    pub(super) fn differences(&self, col: u32) -> [f64; 4] {
+        let (a, b) = (self.a.row.rgba(col), self.b.row.rgba(col));
         [0, 1, 2, 3].map(|channel| {
             let difference = (a[channel] - b[channel]).abs();
             if difference.is_finite() {
@@ -55,22 +70,16 @@ impl Pair {
     }
 
     /// The largest differences that the rounding of both files accounts for.
-    pub(super) fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
-        let (a, b) = (
-            self.a.samples.rounding(col, row),
-            self.b.samples.rounding(col, row),
-        );
+    pub(super) fn rounding(&self, col: u32) -> [f64; 4] {
+        let (a, b) = (self.a.row.rounding(col), self.b.row.rounding(col));
         [0, 1, 2, 3].map(|channel| a[channel] + b[channel])
     }
 
     /// Returns for each value whether one of the files holds the largest number it can, and the other
     /// a larger one.
-    pub(super) fn is_clipped(&self, col: u32, row: u32) -> [bool; 4] {
-        let (a, b) = (self.a.samples.rgba(col, row), self.b.samples.rgba(col, row));
-        let (full_a, full_b) = (
-            self.a.samples.is_full(col, row),
-            self.b.samples.is_full(col, row),
-        );
+    pub(super) fn is_clipped(&self, col: u32) -> [bool; 4] {
+        let (a, b) = (self.a.row.rgba(col), self.b.row.rgba(col));
+        let (full_a, full_b) = (self.a.row.is_full(col), self.b.row.is_full(col));
         [0, 1, 2, 3].map(|channel| {
             let (a, b) = (a[channel], b[channel]);
             full_a[channel] && a < b || full_b[channel] && b < a

@@ -46,7 +46,7 @@ impl Report<'_> {
             rows.push(("over", format!("{over}, tolerance {tolerance:e}")));
         }
         if let Some(worst) = worst {
-            rows.push(("rounding", self.rounding(worst)));
+            rows.push(("rounding", Self::rounding(worst)));
             let beyond = self.count(statistics.beyond_rounding);
             rows.push(("beyond", format!("{beyond}, differ by more than rounding")));
         }
@@ -86,9 +86,8 @@ impl Report<'_> {
     }
 
     /// The difference that rounding accounts for where the difference is largest.
-    fn rounding(&self, worst: &Difference) -> String {
-        let of = |picture: &Picture| picture.samples.rounding(worst.col, worst.row)[worst.channel];
-        let (a, b) = (of(&self.pair.a), of(&self.pair.b));
+    fn rounding(worst: &Difference) -> String {
+        let [a, b] = worst.rounding;
         format!(
             "{} at the largest: {} of A, {} of B",
             difference(a + b),
@@ -118,18 +117,18 @@ impl Report<'_> {
             row,
             channel,
             size,
+            values: [a, b],
+            rounding,
         } in worst
         {
-            let value = |picture: &Picture| short(picture.samples.rgba(col, row)[channel]);
-            let rounding = self.pair.rounding(col, row)[channel];
             let cells = [
                 &*col.to_string(),
                 &row.to_string(),
                 self.pair.name(channel),
-                &value(&self.pair.a),
-                &value(&self.pair.b),
+                &short(a),
+                &short(b),
                 &difference(size),
-                &difference(rounding),
+                &difference(rounding.iter().sum()),
             ];
             lines.push(("", line(cells)));
         }

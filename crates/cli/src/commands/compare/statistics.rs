@@ -3,7 +3,7 @@
 //! The difference of a pixel is the largest one of its channels.
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::BTreeMap;
 
 use super::pair::Pair;
 
@@ -36,61 +36,98 @@ pub(super) struct Difference {
     pub(super) row: u32,
     pub(super) channel: usize,
     pub(super) size: f64,
+    /// The numbers of both pictures.
+    pub(super) values: [f64; 2],
+    /// The differences that the rounding of each accounts for.
+    pub(super) rounding: [f64; 2],
 }
 
-impl Statistics {
-    /// Looks at all pixels, and keeps at least one and at most `worst` of the worst.
-    pub(super) fn of(pair: &Pair, tolerance: Option<f64>, worst: usize) -> Self {
-        let channels = pair.channels();
-        let mut statistics = Self {
-            pixels: pair.size().pixels(),
-            rms: 0.0,
-            percentile: 0.0,
-            over_tolerance: 0,
-            beyond_rounding: 0,
-            clipped: 0,
-            not_finite: 0,
-            first_not_finite: None,
-            worst: Vec::new(),
-        };
-        let mut squares = 0.0;
-        let mut above = Largest::new(above_percentile(statistics.pixels));
-        let mut found = Largest::new(worst.max(1));
-        for ((col, row), index) in pair.size().places().zip(0..) {
-            let differences = pair.differences(col, row);
+/// The statistics of two pictures, of which the rows above were looked at.
+#[derive(Debug)]
+pub(super) struct Counter {
+    statistics: Statistics,
+    tolerance: Option<f64>,
+    channels: &'static [usize],
+    /// The sum of the squares of all differences.
+    squares: f64,
+    above_percentile: Largest<()>,
+    worst: Largest<Difference>,
+    width: u32,
+    row: u32,
+}
+
+impl Counter {
+    /// Keeps at least one and at most `worst` of the worst pixels.
+    pub(super) fn new(pair: &Pair, tolerance: Option<f64>, worst: usize) -> Self {
+        let pixels = pair.size().pixels();
+        Self {
+            statistics: Statistics {
+                pixels,
+                rms: 0.0,
+                percentile: 0.0,
+                over_tolerance: 0,
+                beyond_rounding: 0,
+                clipped: 0,
+                not_finite: 0,
+                first_not_finite: None,
+                worst: Vec::new(),
+            },
+            tolerance,
+            channels: pair.channels(),
+            squares: 0.0,
+            above_percentile: Largest::new(above_percentile(pixels)),
+            worst: Largest::new(worst.max(1)),
+            width: pair.size().width,
+            row: 0,
+        }
+    }
+
+    /// Looks at the row that is at hand.
+    pub(super) fn add_row(&mut self, pair: &Pair) {
+        let first = u64::from(self.row) * u64::from(self.width);
+        for (col, index) in (0..self.width).zip(first..) {
+            let differences = pair.differences(col);
             let largest = pair.largest(&differences);
-            above.add(largest, index);
-            found.add(largest, index);
-            if largest == 0.0 {
-                continue;
-            }
-            let square = |&channel: &usize| differences[channel] * differences[channel];
-            squares += channels.iter().map(square).sum::<f64>();
-            statistics.over_tolerance += u64::from(tolerance.is_some_and(|most| largest > most));
-            let rounding = pair.rounding(col, row);
-            let beyond = |channel: usize| exceeds(differences[channel], rounding[channel]);
-            if channels.iter().any(|&channel| beyond(channel)) {
-                statistics.beyond_rounding += 1;
-                let clipped = pair.is_clipped(col, row);
-                let clipped = |&channel: &usize| clipped[channel] && beyond(channel);
-                statistics.clipped += u64::from(channels.iter().any(clipped));
-            }
-            if largest.is_infinite() {
-                statistics.not_finite += 1;
-                statistics.first_not_finite.get_or_insert((col, row));
+            self.above_percentile.add(largest, index, || ());
+            if largest > 0.0 {
+                let worst = || worst_channel(pair, &differences, col, self.row);
+                self.worst.add(largest, index, worst);
+                self.add(pair, col, &differences, largest);
             }
         }
-        let count = statistics.pixels as f64 * channels.len() as f64;
-        statistics.rms = (squares / count).sqrt();
-        statistics.percentile = above.least();
-        let indices = found.indices().into_iter();
-        let width = u64::from(pair.size().width);
-        let worst = indices.map(|index| {
-            let (col, row) = ((index % width) as u32, (index / width) as u32);
-            worst_channel(pair, col, row)
-        });
-        statistics.worst = worst.collect();
-        statistics
+        self.row += 1;
+    }
+
+    /// Counts a pixel that differs.
+    fn add(&mut self, pair: &Pair, col: u32, differences: &[f64; 4], largest: f64) {
+        let (statistics, channels) = (&mut self.statistics, self.channels);
+        let square = |&channel: &usize| differences[channel] * differences[channel];
+        self.squares += channels.iter().map(square).sum::<f64>();
+        let is_over = self.tolerance.is_some_and(|most| largest > most);
+        statistics.over_tolerance += u64::from(is_over);
+        let rounding = pair.rounding(col);
+        let beyond = |channel: usize| exceeds(differences[channel], rounding[channel]);
+        if channels.iter().any(|&channel| beyond(channel)) {
+            statistics.beyond_rounding += 1;
+            let clipped = pair.is_clipped(col);
+            let clipped = |&channel: &usize| clipped[channel] && beyond(channel);
+            statistics.clipped += u64::from(channels.iter().any(clipped));
+        }
+        if largest.is_infinite() {
+            statistics.not_finite += 1;
+            statistics.first_not_finite.get_or_insert((col, self.row));
+        }
+    }
+
+    /// The statistics, after the last row.
+    pub(super) fn finish(self) -> Statistics {
+        let count = self.statistics.pixels as f64 * self.channels.len() as f64;
+        Statistics {
+            rms: (self.squares / count).sqrt(),
+            percentile: self.above_percentile.least(),
+            worst: self.worst.into_values(),
+            ..self.statistics
+        }
     }
 }
 
@@ -109,64 +146,69 @@ fn above_percentile(pixels: u64) -> usize {
     (pixels / ABOVE + 1) as usize
 }
 
-/// The largest of some differences, of which all others are forgotten.
+/// The largest of some differences, and something about each of them; all others are forgotten.
 #[derive(Debug)]
-struct Largest {
+struct Largest<T> {
     most: usize,
-    /// The bits of those, which have their order, and the indices, the first of equal ones the largest; the least is at
-    /// hand.
-    kept: BinaryHeap<Reverse<(u64, Reverse<u64>)>>,
+    /// By the bits of the differences, which have their order, and the indices, the first of equal ones the largest.
+    kept: BTreeMap<(u64, Reverse<u64>), T>,
+    /// The first of them where there are as many as may be kept.
+    least: Option<(u64, Reverse<u64>)>,
 }
 
-impl Largest {
+impl<T> Largest<T> {
     /// Keeps at most so many, at least one.
     fn new(most: usize) -> Self {
         Self {
             most,
-            kept: BinaryHeap::new(),
+            kept: BTreeMap::new(),
+            least: None,
         }
     }
 
     /// Takes the difference with this index, at least 0.
-    fn add(&mut self, difference: f64, index: u64) {
+    fn add(&mut self, difference: f64, index: u64, about: impl FnOnce() -> T) {
         let new = (difference.to_bits(), Reverse(index));
-        if self.kept.len() < self.most {
-            self.kept.push(Reverse(new));
-        } else if let Some(mut least) = self.kept.peek_mut()
-            && new > least.0
-        {
-            *least = Reverse(new);
+        if self.least.is_some_and(|least| new < least) {
+            return;
+        }
+        self.kept.insert(new, about());
+        if self.kept.len() > self.most {
+            self.kept.pop_first();
+        }
+        if self.kept.len() == self.most {
+            self.least = self.kept.keys().next().copied();
         }
     }
 
     /// The least of those that are kept; 0 where there is none.
     fn least(&self) -> f64 {
-        let least = self.kept.peek();
-        least.map_or(0.0, |Reverse((bits, _))| f64::from_bits(*bits))
+        let least = self.kept.keys().next();
+        least.map_or(0.0, |(bits, _)| f64::from_bits(*bits))
     }
 
-    /// The indices of those that are kept and above 0, the largest first, equal ones in their order.
-    fn indices(self) -> Vec<u64> {
-        let sorted = self.kept.into_sorted_vec().into_iter();
-        let above = sorted.filter(|Reverse((bits, _))| f64::from_bits(*bits) > 0.0);
-        above.map(|Reverse((_, Reverse(index)))| index).collect()
+    /// What is known about those that are kept, the largest first, equal ones in their order.
+    fn into_values(self) -> Vec<T> {
+        self.kept.into_values().rev().collect()
     }
 }
 
 /// The first of the channels in which a pixel differs most.
-fn worst_channel(pair: &Pair, col: u32, row: u32) -> Difference {
-    let differences = pair.differences(col, row);
+fn worst_channel(pair: &Pair, differences: &[f64; 4], col: u32, row: u32) -> Difference {
     let mut worst = pair.channels()[0];
     for &channel in pair.channels() {
         if differences[channel] > differences[worst] {
             worst = channel;
         }
     }
+    let both = [&pair.a.row, &pair.b.row];
     Difference {
         col,
         row,
         channel: worst,
         size: differences[worst],
+        values: both.map(|row| row.rgba(col)[worst]),
+        rounding: both.map(|row| row.rounding(col)[worst]),
     }
 }
 

@@ -71,9 +71,12 @@ impl Centers {
 
     /// Writes 255 where a sphere is seen.
     pub(super) fn write_mask(&self, path: &Path) -> Result<(), Failure> {
-        let codes = self.mask.iter().map(|&seen| if seen { 255 } else { 0 });
-        let codes: Vec<u8> = codes.collect();
-        write_grey(self.size, &codes, path)
+        let mut rows = self.mask.chunks(self.size.width as usize);
+        write_grey(self.size, path, |codes| {
+            let row = rows.next().unwrap_or_default().iter();
+            codes.extend(row.map(|&seen| if seen { 255 } else { 0 }));
+            Ok(())
+        })
     }
 
     /// Writes a picture of the normals for people, and for programs that look at its size: components from −1 to 1 become

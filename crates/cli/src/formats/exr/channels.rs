@@ -2,10 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use exr::prelude::{AnyChannels, FlatSamples, Layer};
-
-/// A part of a file, with all its channels.
-pub(super) type Part = Layer<AnyChannels<FlatSamples>>;
+use exr::meta::header::Header;
 
 /// The place where the light of a picture is found.
 pub(crate) struct Chosen {
@@ -18,12 +15,12 @@ pub(crate) struct Chosen {
 
 /// The first part with channels `R`, `G`, `B` or `Y`; failing that, the first with a layer that
 /// has such, in the order of the layers' names.
-pub(crate) fn choose(parts: &[Part]) -> Result<Chosen, String> {
+pub(crate) fn choose(parts: &[Header]) -> Result<Chosen, String> {
     const COLORS: [&[&str]; 2] = [&["R", "G", "B"], &["Y"]];
     let names: Vec<BTreeSet<String>> = parts
         .iter()
         .map(|part| {
-            let channels = part.channel_data.list.iter();
+            let channels = part.channels.list.iter();
             channels.map(|channel| channel.name.to_string()).collect()
         })
         .collect();

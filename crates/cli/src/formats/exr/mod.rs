@@ -1,8 +1,10 @@
 //! OpenEXR.
 
 mod attributes;
+mod block_reader;
 pub(crate) mod blocks;
 mod channels;
+mod data_window;
 pub(super) mod header;
 pub(crate) mod read;
 pub(crate) mod rows;

@@ -26,27 +26,31 @@ const CHANNEL_BYTES: u64 = 1 << 9;
 /// Bytes that are written at a time.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// Writes an EXR of channels with these names in single precision, whole or not at all.
+/// Writes an EXR of channels with these names in single precision, whole or not at all; `row` adds the
+/// numbers of the next row, pixel by pixel.
 pub(crate) fn write_floats(
     size: Size,
-    mut channels: Vec<(&str, Vec<f32>)>,
+    names: &[&str],
     path: &Path,
+    mut row: impl FnMut(&mut Vec<f64>) -> Result<(), Fault>,
 ) -> Result<(), Failure> {
-    channels.sort_unstable_by_key(|(name, _)| *name);
-    let names = channels.iter().map(|(name, _)| (*name, SampleType::F32));
+    let mut channels: Vec<(usize, &str)> = names.iter().copied().enumerate().collect();
+    channels.sort_unstable_by_key(|(_, name)| *name);
+    let kinds = channels.iter().map(|(_, name)| (*name, SampleType::F32));
     let attributes = LayerAttributes {
         software_name: Some(Text::from(SOFTWARE)),
         ..LayerAttributes::default()
     };
-    let header = header_of(size, names.collect()).with_attributes(attributes);
-    let width = size.width as usize;
+    let header = header_of(size, kinds.collect()).with_attributes(attributes);
     Ok(save(path, |mut file| {
         write_rows(file.file(), header, |rows| {
-            let mut samples = Vec::new();
-            for row in rows {
-                for (_, values) in &channels {
-                    let row = &values[row as usize * width..][..width];
-                    samples.extend(row.iter().flat_map(|value| value.to_ne_bytes()));
+            let (mut numbers, mut samples) = (Vec::new(), Vec::new());
+            for _ in rows {
+                numbers.clear();
+                row(&mut numbers)?;
+                for &(channel, _) in &channels {
+                    let numbers = numbers.iter().skip(channel).step_by(names.len());
+                    samples.extend(numbers.flat_map(|&number| (number as f32).to_ne_bytes()));
                 }
             }
             Ok(samples)

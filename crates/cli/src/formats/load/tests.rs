@@ -11,7 +11,7 @@ use crate::tests::temporary;
 
 #[test]
 fn refuses_what_is_no_picture() {
-    let refusal = |bytes: &[u8]| decode(bytes).unwrap_err();
+    let refusal = |bytes: &[u8]| decode(bytes).err().unwrap();
     assert_eq!(
         refusal(b""),
         "expected a PNG, EXR or NPY picture, found an empty file"
@@ -42,7 +42,11 @@ fn whole_pictures_tell_their_digest() {
     }
     let path = temporary("undigested.png");
     let (width, height) = (2, 1);
-    write_grey(Size { width, height }, &[0, 1], &path).unwrap();
+    write_grey(Size { width, height }, &path, |codes| {
+        codes.extend([0, 1]);
+        Ok(())
+    })
+    .unwrap();
     assert_eq!(contents(&path), None);
     std::fs::remove_file(&path).unwrap();
     assert_eq!(contents(&path), None);

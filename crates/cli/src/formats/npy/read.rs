@@ -1,22 +1,26 @@
 //! NPY of a picture, as it is: linear light, premultiplied.
 
-use std::io::{Cursor, Read};
+use std::io::{Read, Seek, SeekFrom};
 
 use super::array::{Array, Number};
 use super::header;
-use crate::formats::picture::{Picture, Samples, check_memory};
+use crate::formats::encoding::Format;
+use crate::formats::picture::{Picture, Samples, size_of};
+use crate::formats::source::{Input, Source};
 
 /// The numbers of a file.
-#[derive(Debug)]
 struct Numbers {
     array: Array,
-    bytes: Vec<u8>,
+    file: Box<dyn Input>,
+    /// The bytes of the row that was read last.
+    row: Vec<u8>,
 }
 
-/// The picture in the bytes of a file.
-pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
-    let mut file = Cursor::new(bytes);
-    let array = header::read(&mut file)?.array;
+/// The picture in a file.
+pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
+    let mut file = source.open().map_err(|error| error.to_string())?;
+    let header = header::read(&mut file)?;
+    let array = header.array;
     let names = match array.channels {
         None | Some(1) => "Y",
         Some(2) => "YA",
@@ -24,12 +28,12 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         Some(4) => "RGBA",
         Some(other) => return Err(format!("expected 1 to 4 channels, found {other}")),
     };
-    let (width, height) = (array.size.width as usize, array.size.height as usize);
-    let size = check_memory(width, height, array.pixel_bytes())?;
-    let mut numbers = Vec::new();
-    file.read_to_end(&mut numbers)
+    let size = size_of(array.size.width as usize, array.size.height as usize)?;
+    let end = file.seek(SeekFrom::End(0));
+    let end = end.map_err(|error| error.to_string())?;
+    file.seek(SeekFrom::Start(header.start))
         .map_err(|error| error.to_string())?;
-    if array.bytes() != Some(numbers.len() as u64) {
+    if array.bytes() != end.checked_sub(header.start) {
         return Err("its numbers are more or fewer than its header says".to_owned());
     }
     let kind = match array.number {
@@ -41,18 +45,25 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         size,
         grey: names.starts_with('Y'),
         alpha: names.ends_with('A'),
+        format: Format::Npy,
         description: format!("NPY, {kind}, {names}"),
         warning: None,
-        samples: Box::new(Numbers {
+        row: Box::new(Numbers {
             array,
-            bytes: numbers,
+            file,
+            row: vec![0; array.row_bytes()],
         }),
     })
 }
 
 impl Samples for Numbers {
-    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
-        let of = |channel| self.number(col, row, channel);
+    fn advance(&mut self) -> Result<(), String> {
+        let read = self.file.read_exact(&mut self.row);
+        read.map_err(|error| error.to_string())
+    }
+
+    fn rgba(&self, col: u32) -> [f64; 4] {
+        let of = |channel| self.number(col, channel);
         match self.array.numbers() {
             1 => [of(0), of(0), of(0), 1.0],
             2 => [of(0), of(0), of(0), of(1)],
@@ -61,31 +72,30 @@ impl Samples for Numbers {
         }
     }
 
-    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+    fn rounding(&self, col: u32) -> [f64; 4] {
         // Doubles hold what was computed.
         match self.array.number {
             Number::F64 => [0.0; 4],
-            Number::F32 => self.rgba(col, row).map(half_step),
+            Number::F32 => self.rgba(col).map(half_step),
             Number::U32 => [0.5; 4],
         }
     }
 
-    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+    fn is_full(&self, col: u32) -> [bool; 4] {
         let largest = match self.array.number {
             Number::F64 => f64::MAX,
             Number::F32 => f32::MAX.into(),
             Number::U32 => u32::MAX.into(),
         };
-        self.rgba(col, row).map(|value| value == largest)
+        self.rgba(col).map(|value| value == largest)
     }
 }
 
 impl Numbers {
-    fn number(&self, col: u32, row: u32, channel: usize) -> f64 {
-        let pixel = row as usize * self.array.size.width as usize + col as usize;
-        let index = pixel * self.array.numbers() + channel;
-        let (pairs, _) = self.bytes.as_chunks::<8>();
-        let (words, _) = self.bytes.as_chunks::<4>();
+    fn number(&self, col: u32, channel: usize) -> f64 {
+        let index = col as usize * self.array.numbers() + channel;
+        let (pairs, _) = self.row.as_chunks::<8>();
+        let (words, _) = self.row.as_chunks::<4>();
         match self.array.number {
             Number::F64 => f64::from_le_bytes(pairs[index]),
             Number::F32 => f32::from_le_bytes(words[index]).into(),

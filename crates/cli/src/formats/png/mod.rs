@@ -3,6 +3,7 @@
 pub(crate) mod animation;
 mod curve;
 mod decoder;
+mod lines;
 pub(crate) mod read;
 pub(crate) mod rows;
 pub(crate) mod shape;

@@ -1,20 +1,17 @@
 //! PNG of any kind, as linear light.
 
-use std::io::Cursor;
-
-use png::{BitDepth, ColorType, Transformations};
+use png::{BitDepth, ColorType};
 
 use super::curve::Curve;
-use super::decoder::decoder;
-use crate::base::memory;
-use crate::formats::picture::{Picture, Samples, check_memory};
+use super::lines::{Lines, has_alpha, open};
+use crate::formats::encoding::Format;
+use crate::formats::picture::{Picture, Samples, size_of};
+use crate::formats::source::Source;
 
 /// The codes of a file, and their light.
-#[derive(Debug)]
 struct Codes {
-    width: usize,
-    /// Row by row, of 8 bit or of 16 with the big end first.
-    codes: Vec<u8>,
+    /// Of 8 bit, or of 16 with the big end first.
+    lines: Lines,
     color_type: ColorType,
     deep: bool,
     /// Half the way between codes that the file can hold; more than ½ where it has less than 8 bit.
@@ -25,17 +22,13 @@ struct Codes {
     light_above: Vec<f64>,
 }
 
-/// The picture in the bytes of a PNG file.
-pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
-    let mut decoder = decoder(Cursor::new(bytes));
-    decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+/// The picture in a PNG file.
+pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
+    let reader = open(source)?;
     let (color_type, depth) = reader.output_color_type();
     let deep = depth == BitDepth::Sixteen;
-    let depth_bytes = if deep { 2 } else { 1 };
     let info = reader.info();
-    let (width, height) = (info.width as usize, info.height as usize);
-    let picture_size = check_memory(width, height, color_type.samples() * depth_bytes)?;
+    let size = size_of(info.width as usize, info.height as usize)?;
     let (curve, warning) = Curve::of(info)?;
     // The entries of a palette have 8 bit, however short their numbers are.
     let bits = match info.color_type {
@@ -43,15 +36,8 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         _ => info.bit_depth as u8,
     };
 
-    let size = reader.output_buffer_size().ok_or("too large")?;
-    let mut codes = memory::reserve(size)?;
-    codes.resize(size, 0);
-    reader
-        .next_frame(&mut codes)
-        .map_err(|error| error.to_string())?;
-
     let grey = color_type.samples() < 3;
-    let alpha = matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba);
+    let alpha = has_alpha(color_type);
     let description = format!("PNG, {bits} bit {}, {}", curve.name(), names(grey, alpha));
     let most = most(deep);
     let half_step = 0.5 * most / f64::from((1_u32 << bits) - 1);
@@ -60,14 +46,14 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
         codes.map(move |code| curve.light((f64::from(code) + offset) / most))
     };
     Ok(Picture {
-        size: picture_size,
+        size,
         grey,
         alpha,
+        format: Format::Png,
         description,
         warning,
-        samples: Box::new(Codes {
-            width,
-            codes,
+        row: Box::new(Codes {
+            lines: Lines::begin(reader, source)?,
             color_type,
             deep,
             half_step,
@@ -78,18 +64,22 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Picture, String> {
 }
 
 impl Samples for Codes {
-    fn rgba(&self, col: u32, row: u32) -> [f64; 4] {
-        let [red, green, blue, alpha] = self.codes(col, row);
+    fn advance(&mut self) -> Result<(), String> {
+        self.lines.advance()
+    }
+
+    fn rgba(&self, col: u32) -> [f64; 4] {
+        let [red, green, blue, alpha] = self.codes(col);
         let alpha = alpha as f64 / most(self.deep);
         let [red, green, blue] = [red, green, blue].map(|code| self.light[code] * alpha);
         [red, green, blue, alpha]
     }
 
     /// Color and alpha are rounded on their own, and the farthest is where both were rounded down.
-    fn rounding(&self, col: u32, row: u32) -> [f64; 4] {
+    fn rounding(&self, col: u32) -> [f64; 4] {
         let most = most(self.deep);
-        let [red, green, blue, alpha] = self.codes(col, row);
-        let alpha_step = if self.has_alpha() {
+        let [red, green, blue, alpha] = self.codes(col);
+        let alpha_step = if has_alpha(self.color_type) {
             self.half_step / most
         } else {
             0.0
@@ -101,29 +91,26 @@ impl Samples for Codes {
         [red, green, blue, alpha_step]
     }
 
-    fn is_full(&self, col: u32, row: u32) -> [bool; 4] {
+    fn is_full(&self, col: u32) -> [bool; 4] {
         let full = most(self.deep) as usize;
-        self.codes(col, row).map(|code| code == full)
+        self.codes(col).map(|code| code == full)
     }
 }
 
 impl Codes {
-    fn has_alpha(&self) -> bool {
-        matches!(self.color_type, ColorType::GrayscaleAlpha | ColorType::Rgba)
-    }
-
     /// The codes of a pixel: grey in all three colors, alpha full where there is none.
-    fn codes(&self, col: u32, row: u32) -> [usize; 4] {
+    fn codes(&self, col: u32) -> [usize; 4] {
         let full = most(self.deep) as usize;
         let count = self.color_type.samples();
-        let start = (row as usize * self.width + col as usize) * count;
+        let start = col as usize * count;
+        let codes = self.lines.row();
         let code = |channel: usize| {
             let index = start + channel;
             if self.deep {
-                let (high, low) = (self.codes[2 * index], self.codes[2 * index + 1]);
+                let (high, low) = (codes[2 * index], codes[2 * index + 1]);
                 usize::from(u16::from_be_bytes([high, low]))
             } else {
-                usize::from(self.codes[index])
+                usize::from(codes[index])
             }
         };
         match count {

@@ -41,10 +41,22 @@ pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
     texts
 }
 
-/// Writes a grey PNG of 8 bit codes, row by row, whole or not at all.
-pub(crate) fn write_grey(size: Size, codes: &[u8], path: &Path) -> Result<(), Failure> {
+/// Writes a grey PNG of 8 bit codes, whole or not at all; `row` adds those of the next row.
+pub(crate) fn write_grey(
+    size: Size,
+    path: &Path,
+    mut row: impl FnMut(&mut Vec<u8>) -> Result<(), Fault>,
+) -> Result<(), Failure> {
     let shape = Shape::of_codes(size, ColorType::Grayscale, BitDepth::Eight);
-    let codes = |stream: &mut dyn Write| Ok(stream.write_all(codes)?);
+    let codes = |stream: &mut dyn Write| {
+        let mut codes = Vec::new();
+        for _ in 0..size.height {
+            codes.clear();
+            row(&mut codes)?;
+            stream.write_all(&codes)?;
+        }
+        Ok(())
+    };
     Ok(save(path, |file| write(file, shape, &[], codes))?)
 }
 

@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use png::{BitDepth, ColorType, Encoder, SrgbRenderingIntent};
 
 use super::*;
@@ -12,10 +14,14 @@ fn line(values: &[f32]) -> Picture {
     let width = values.len() as u32;
     let path = temporary(&format!("{values:p}.exr"));
     let size = Size { width, height: 1 };
-    write_floats(size, vec![("Y", values.to_vec())], &path).unwrap();
-    let picture = load::picture(&path).unwrap();
+    write_floats(size, &["Y"], &path, |row| {
+        row.extend(values.iter().map(|&value| f64::from(value)));
+        Ok(())
+    })
+    .unwrap();
+    let bytes = std::fs::read(&path).unwrap();
     std::fs::remove_file(path).unwrap();
-    picture
+    load::decode(&bytes).unwrap()
 }
 
 fn png(color_type: ColorType, samples: &[u8]) -> Picture {
@@ -32,7 +38,12 @@ fn png(color_type: ColorType, samples: &[u8]) -> Picture {
 }
 
 fn statistics(a: Picture, b: Picture, tolerance: f64) -> Statistics {
-    Statistics::of(&Pair { a, b }, Some(tolerance), 2)
+    let paths = ["a", "b"].map(PathBuf::from);
+    let mut pair = Pair { a, b, paths };
+    let mut counter = Counter::new(&pair, Some(tolerance), 2);
+    pair.advance().unwrap();
+    counter.add_row(&pair);
+    counter.finish()
 }
 
 #[test]
@@ -46,13 +57,16 @@ fn known_differences_are_told() {
     assert_eq!(statistics.over_tolerance, 1);
     assert_eq!((statistics.beyond_rounding, statistics.clipped), (3, 0));
     assert_eq!(statistics.not_finite, 0);
-    let worst = |col, size| Difference {
+    let worst = |col, size, values| Difference {
         col,
         row: 0,
         channel: 0,
         size,
+        values,
+        rounding: values.map(|value| value * libm::ldexp(1.0, -24)),
     };
-    assert_eq!(statistics.worst, [worst(3, 2.0), worst(2, 0.5)]);
+    let expected = [worst(3, 2.0, [2.0, 4.0]), worst(2, 0.5, [0.5, 1.0])];
+    assert_eq!(statistics.worst, expected);
 }
 
 #[test]
@@ -64,10 +78,10 @@ fn equal_pictures_do_not_differ() {
 }
 
 /// The largest of some differences, given one by one.
-fn largest(differences: &[f64], most: usize) -> Largest {
+fn largest(differences: &[f64], most: usize) -> Largest<u64> {
     let mut largest = Largest::new(most);
     for (&difference, index) in differences.iter().zip(0..) {
-        largest.add(difference, index);
+        largest.add(difference, index, || index);
     }
     largest
 }
@@ -92,10 +106,10 @@ fn the_percentile_is_by_nearest_rank() {
 #[test]
 fn the_worst_come_in_the_order_of_size_and_place() {
     let differences = [1.0, 0.0, 3.0, f64::INFINITY, 3.0, 0.5];
-    let indices = |most| largest(&differences, most).indices();
+    let indices = |most| largest(&differences, most).into_values();
     assert_eq!(indices(3), [3, 2, 4]);
     assert_eq!(indices(2), [3, 2]);
-    assert_eq!(indices(9), [3, 2, 4, 0, 5]);
+    assert_eq!(indices(9), [3, 2, 4, 0, 5, 1]);
 }
 
 #[test]

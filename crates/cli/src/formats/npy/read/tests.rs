@@ -1,5 +1,14 @@
 use super::*;
 use crate::base::size::Size;
+use crate::formats::picture::tests::Whole;
+
+fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    begin(&Source::Memory(bytes.into()))
+}
+
+fn whole(bytes: &[u8]) -> Whole {
+    decode(bytes).unwrap().whole().unwrap()
+}
 
 fn file(array: &Array, numbers: &[u8]) -> Vec<u8> {
     [&header::bytes(array, None), numbers].concat()
@@ -37,9 +46,10 @@ fn channels_are_read_by_their_number() {
         let file = file(&array(channels, Number::F64), &doubles(&numbers[..count]));
         let picture = decode(&file).unwrap();
         assert_eq!(picture.description, description);
-        assert_eq!(picture.samples.rgba(1, 0), second);
-        assert_eq!(picture.samples.rounding(1, 0), [0.0; 4]);
-        assert_eq!(picture.samples.is_full(1, 0), [false; 4]);
+        let whole = picture.whole().unwrap();
+        assert_eq!(whole.rgba[0][1], second);
+        assert_eq!(whole.rounding[0][1], [0.0; 4]);
+        assert_eq!(whole.is_full[0][1], [false; 4]);
     }
 }
 
@@ -49,18 +59,18 @@ fn floats_and_whole_numbers_are_read() {
         .iter()
         .flat_map(|n| n.to_le_bytes())
         .collect();
-    let picture = decode(&file(&array(None, Number::F32), &floats)).unwrap();
-    assert_eq!(picture.samples.rgba(0, 0)[0], 0.25);
+    let picture = whole(&file(&array(None, Number::F32), &floats));
+    assert_eq!(picture.rgba[0][0][0], 0.25);
     // A float has 24 bits.
-    assert_eq!(picture.samples.rounding(0, 0)[0], 0.25 * 2_f64.powi(-24));
-    assert!(picture.samples.is_full(1, 0)[0]);
+    assert_eq!(picture.rounding[0][0][0], 0.25 * 2_f64.powi(-24));
+    assert!(picture.is_full[0][1][0]);
     let whole: Vec<u8> = [7_u32, u32::MAX]
         .iter()
         .flat_map(|n| n.to_le_bytes())
         .collect();
-    let picture = decode(&file(&array(None, Number::U32), &whole)).unwrap();
-    assert_eq!(picture.samples.rgba(0, 0)[0], 7.0);
-    assert_eq!(picture.samples.rgba(1, 0)[0], 4_294_967_295.0);
+    let picture = self::whole(&file(&array(None, Number::U32), &whole));
+    assert_eq!(picture.rgba[0][0][0], 7.0);
+    assert_eq!(picture.rgba[0][1][0], 4_294_967_295.0);
 }
 
 #[test]
@@ -74,7 +84,7 @@ fn what_is_no_picture_is_refused() {
         (&file(&array(Some(5), Number::F64), &[0; 80]), "found 5"),
         (&file(&array(Some(0), Number::F64), &[]), "found 0"),
     ] {
-        let refused = decode(bytes).unwrap_err();
+        let refused = decode(bytes).err().unwrap();
         assert!(refused.contains(reason), "{refused}");
     }
     let empty = Array {

@@ -1,12 +1,28 @@
 use png::Encoder;
 
 use super::*;
+use crate::base::size::Size;
 use crate::formats::encoding::PngOptions;
+use crate::formats::picture::tests::Whole;
 use crate::formats::srgb;
 use crate::formats::tests::{Scene, png_bytes, render, size};
 
-fn decoded(color_type: ColorType, depth: BitDepth, width: u32, samples: &[u8]) -> Picture {
-    decode(&encoded(color_type, depth, width, samples, |_| {})).unwrap()
+fn decode(bytes: &[u8]) -> Result<Picture, String> {
+    begin(&Source::Memory(bytes.into()))
+}
+
+fn whole(bytes: &[u8]) -> Result<Whole, String> {
+    decode(bytes)?.whole()
+}
+
+/// The description of a PNG of one line, and all of it.
+fn decoded(color_type: ColorType, depth: BitDepth, width: u32, samples: &[u8]) -> (String, Whole) {
+    described(&encoded(color_type, depth, width, samples, |_| {}))
+}
+
+fn described(bytes: &[u8]) -> (String, Whole) {
+    let picture = decode(bytes).unwrap();
+    (picture.description.clone(), picture.whole().unwrap())
 }
 
 /// A PNG of one line.
@@ -35,41 +51,39 @@ fn close(one: [f64; 4], other: [f64; 4]) -> bool {
 #[test]
 fn codes_become_light() {
     let light = |code: f64| srgb::decode(code / 255.0);
-    let picture = decoded(ColorType::Rgb, BitDepth::Eight, 2, &[0, 10, 255, 1, 2, 3]);
-    assert_eq!(picture.description, "PNG, 8 bit sRGB, RGB");
-    assert_eq!(picture.samples.rgba(0, 0), [0.0, light(10.0), 1.0, 1.0]);
+    let (description, picture) =
+        decoded(ColorType::Rgb, BitDepth::Eight, 2, &[0, 10, 255, 1, 2, 3]);
+    assert_eq!(description, "PNG, 8 bit sRGB, RGB");
+    assert_eq!(picture.rgba[0][0], [0.0, light(10.0), 1.0, 1.0]);
     assert_eq!(
-        picture.samples.rgba(1, 0),
+        picture.rgba[0][1],
         [light(1.0), light(2.0), light(3.0), 1.0]
     );
 
-    let picture = decoded(ColorType::Grayscale, BitDepth::Sixteen, 1, &[0x12, 0x34]);
-    assert_eq!(picture.description, "PNG, 16 bit sRGB, grey");
+    let (description, picture) = decoded(ColorType::Grayscale, BitDepth::Sixteen, 1, &[0x12, 0x34]);
+    assert_eq!(description, "PNG, 16 bit sRGB, grey");
     let grey = srgb::decode(f64::from(0x1234) / 65535.0);
-    assert_eq!(picture.samples.rgba(0, 0), [grey, grey, grey, 1.0]);
+    assert_eq!(picture.rgba[0][0], [grey, grey, grey, 1.0]);
 }
 
 #[test]
 fn light_is_premultiplied_by_alpha() {
-    let picture = decoded(ColorType::Rgba, BitDepth::Eight, 1, &[255, 0, 188, 51]);
+    let (_, picture) = decoded(ColorType::Rgba, BitDepth::Eight, 1, &[255, 0, 188, 51]);
     let blue = 0.2 * srgb::decode(188.0 / 255.0);
-    assert!(close(picture.samples.rgba(0, 0), [0.2, 0.0, blue, 0.2]));
-    let picture = decoded(ColorType::GrayscaleAlpha, BitDepth::Eight, 1, &[255, 0]);
-    assert_eq!(picture.samples.rgba(0, 0), [0.0; 4]);
+    assert!(close(picture.rgba[0][0], [0.2, 0.0, blue, 0.2]));
+    let (_, picture) = decoded(ColorType::GrayscaleAlpha, BitDepth::Eight, 1, &[255, 0]);
+    assert_eq!(picture.rgba[0][0], [0.0; 4]);
 }
 
 #[test]
 fn short_codes_and_palettes_are_expanded() {
-    let picture = decoded(ColorType::Grayscale, BitDepth::Two, 4, &[0b0001_1011]);
-    assert_eq!(picture.description, "PNG, 2 bit sRGB, grey");
-    let greys = [0, 1, 2, 3].map(|col| picture.samples.rgba(col, 0)[0]);
+    let (description, picture) = decoded(ColorType::Grayscale, BitDepth::Two, 4, &[0b0001_1011]);
+    assert_eq!(description, "PNG, 2 bit sRGB, grey");
+    let greys = [0, 1, 2, 3].map(|col: usize| picture.rgba[0][col][0]);
     let expected = [0.0, 85.0, 170.0, 255.0].map(|code| srgb::decode(code / 255.0));
     assert_eq!(greys, expected);
     // Half the way from 0 to 1 of 3.
-    assert_eq!(
-        picture.samples.rounding(0, 0)[0],
-        srgb::decode(42.5 / 255.0)
-    );
+    assert_eq!(picture.rounding[0][0][0], srgb::decode(42.5 / 255.0));
 
     let indexed = encoded(
         ColorType::Indexed,
@@ -81,10 +95,10 @@ fn short_codes_and_palettes_are_expanded() {
             png.set_trns(vec![0, 255]);
         },
     );
-    let picture = decode(&indexed).unwrap();
-    assert_eq!(picture.description, "PNG, 8 bit sRGB, RGBA");
-    assert_eq!(picture.samples.rgba(0, 0), [0.0; 4]);
-    assert_eq!(picture.samples.rgba(1, 0), [1.0, 0.0, 0.0, 1.0]);
+    let (description, picture) = described(&indexed);
+    assert_eq!(description, "PNG, 8 bit sRGB, RGBA");
+    assert_eq!(picture.rgba[0][0], [0.0; 4]);
+    assert_eq!(picture.rgba[0][1], [1.0, 0.0, 0.0, 1.0]);
 }
 
 #[test]
@@ -93,7 +107,7 @@ fn the_curve_is_what_the_file_says() {
         let gamma = png::ScaledFloat::from_scaled(gamma);
         let tagged = |png: &mut Encoder<&mut Vec<u8>>| png.set_source_gamma(gamma);
         let bytes = encoded(ColorType::Grayscale, BitDepth::Eight, 1, &[51], tagged);
-        decode(&bytes).unwrap().samples.rgba(0, 0)[0]
+        whole(&bytes).unwrap().rgba[0][0][0]
     };
     assert!((of(100_000) - 0.2).abs() < 1e-15);
     assert!((of(50_000) - 0.04).abs() < 1e-15);
@@ -101,10 +115,76 @@ fn the_curve_is_what_the_file_says() {
     assert_eq!(of(0), srgb::decode(0.2));
 }
 
+/// An interlaced PNG whose zlib stream, without compression, holds these bytes.
+fn stored(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
+    // Of 8 bit and grey.
+    let mut info = png::Info::with_size(width, height);
+    info.interlaced = true;
+    let mut file = Vec::new();
+    let encoder = Encoder::with_info(&mut file, info).unwrap();
+    let mut writer = encoder.write_header().unwrap();
+    let length = bytes.len() as u16;
+    let mut stream = vec![0x78, 0x01, 1];
+    stream.extend(length.to_le_bytes());
+    stream.extend((!length).to_le_bytes());
+    stream.extend(bytes);
+    let (mut a, mut b) = (1_u32, 0_u32);
+    for &byte in bytes {
+        a = (a + u32::from(byte)) % 65521;
+        b = (b + a) % 65521;
+    }
+    stream.extend(((b << 16) | a).to_be_bytes());
+    writer.write_chunk(png::chunk::IDAT, &stream).unwrap();
+    writer.finish().unwrap();
+    file
+}
+
+#[test]
+fn interlaced_pictures_are_the_same() {
+    /// Source: PNG, third edition, 8.2 "Interlace methods": the pass of each pixel of a block.
+    const PASSES: [[u8; 8]; 8] = [
+        [1, 6, 4, 6, 2, 6, 4, 6],
+        [7, 7, 7, 7, 7, 7, 7, 7],
+        [5, 6, 5, 6, 5, 6, 5, 6],
+        [7, 7, 7, 7, 7, 7, 7, 7],
+        [3, 6, 4, 6, 3, 6, 4, 6],
+        [7, 7, 7, 7, 7, 7, 7, 7],
+        [5, 6, 5, 6, 5, 6, 5, 6],
+        [7, 7, 7, 7, 7, 7, 7, 7],
+    ];
+    for (width, height) in [(1, 1), (2, 3), (5, 1), (8, 8), (13, 21), (40, 30)] {
+        let code = |col: u32, row: u32| (7 * col + 31 * row) as u8;
+        let mut bytes = Vec::new();
+        for pass in 1..=7 {
+            for row in 0..height {
+                let in_pass = |col: &u32| PASSES[row as usize % 8][*col as usize % 8] == pass;
+                let codes: Vec<u8> = (0..width)
+                    .filter(in_pass)
+                    .map(|col| code(col, row))
+                    .collect();
+                if !codes.is_empty() {
+                    bytes.push(0);
+                    bytes.extend(codes);
+                }
+            }
+        }
+        let file = stored(width, height, &bytes);
+        let picture = whole(&file).unwrap();
+        for (col, row) in (Size { width, height }).places() {
+            let expected = srgb::decode(f64::from(code(col, row)) / 255.0);
+            let found = picture.rgba[row as usize][col as usize][0];
+            assert_eq!(found, expected, "{width} x {height}, {col}, {row}");
+        }
+        for length in 0..file.len() - 16 {
+            assert!(whole(&file[..length]).is_err(), "{length}");
+        }
+    }
+}
+
 #[test]
 fn rounding_is_half_a_step() {
-    let picture = decoded(ColorType::Rgba, BitDepth::Eight, 1, &[188, 0, 255, 255]);
-    let [red, green, _, alpha] = picture.samples.rounding(0, 0);
+    let (_, picture) = decoded(ColorType::Rgba, BitDepth::Eight, 1, &[188, 0, 255, 255]);
+    let [red, green, _, alpha] = picture.rounding[0][0];
     let light = |code: f64| srgb::decode(code / 255.0);
     assert!((red - (light(188.5) - light(188.0))).abs() < 1e-15);
     assert_eq!((green, alpha), (light(0.5), 0.5 / 255.0));
@@ -117,7 +197,7 @@ fn truncated_files_are_refused() {
     // The pixels are whole before the empty chunk at the end, of 12 bytes, and the checksum of
     // their own.
     for length in 0..bytes.len() - 16 {
-        assert!(decode(&bytes[..length]).is_err(), "{length}");
+        assert!(whole(&bytes[..length]).is_err(), "{length}");
     }
 }
 
@@ -150,11 +230,13 @@ fn what_render_writes_comes_back() {
                 (false, _) => "PNG, 8 bit sRGB, ",
             };
             assert!(picture.description.starts_with(kind));
+            let picture = picture.whole().unwrap();
             for (col, row) in size(&image).places() {
+                let place = (row as usize, col as usize);
                 let [red, green, blue, coverage] = image.rgba(col, row);
                 let expected = [gain * red, gain * green, gain * blue, coverage];
-                let found = picture.samples.rgba(col, row);
-                let rounding = picture.samples.rounding(col, row);
+                let found = picture.rgba[place.0][place.1];
+                let rounding = picture.rounding[place.0][place.1];
                 for channel in 0..4 {
                     let full = found[3];
                     if found[channel] == full && expected[channel] > full {

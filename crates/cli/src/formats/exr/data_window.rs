@@ -1,0 +1,188 @@
+//! The samples of a part of a file, by their places: scan lines in any order, and tiles.
+
+use exr::meta::MetaData;
+use exr::meta::attribute::SampleType;
+use exr::meta::header::Header;
+use exr::prelude::{Vec2, f16};
+
+use super::block_reader::BlockReader;
+use crate::formats::source::Input;
+
+/// The most bytes of the blocks beside each other that a file may have: a hundred times what is usual.
+const MOST_BYTES: usize = 1 << 28;
+
+/// The samples of the largest resolution of a part, being read row by row.
+pub(super) struct DataWindow {
+    reader: BlockReader,
+    /// The top left corner, from that of the display window.
+    origin: (i64, i64),
+    size: (usize, usize),
+    /// Columns and rows of a block; the last ones may be smaller.
+    block: (usize, usize),
+    /// Bytes of a pixel, in all channels.
+    pixel_bytes: usize,
+    /// The samples of the blocks beside each other that hold the present row, and the number of their row of blocks.
+    blocks: Vec<Vec<u8>>,
+    row_of_blocks: Option<usize>,
+    /// The number of the present row in the display window; -1 before the first.
+    row: i64,
+}
+
+/// A channel of a part.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Channel {
+    pub(super) kind: SampleType,
+    /// Bytes of a pixel in the channels before it.
+    before: usize,
+}
+
+/// The place of a pixel of the present row in its block.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    block: usize,
+    /// Columns of the block.
+    columns: usize,
+    col: usize,
+}
+
+impl Channel {
+    /// The channel with this name.
+    pub(super) fn of(header: &Header, name: &str) -> Option<Self> {
+        let mut before = 0;
+        for channel in &header.channels.list {
+            if channel.name == *name {
+                let kind = channel.sample_type;
+                return Some(Self { kind, before });
+            }
+            before += channel.sample_type.bytes_per_sample();
+        }
+        None
+    }
+}
+
+impl DataWindow {
+    /// The samples of this part of the file that was read as far as `meta`.
+    pub(super) fn of_part(
+        file: Box<dyn Input>,
+        meta: MetaData,
+        part: usize,
+    ) -> Result<Self, String> {
+        let reader = BlockReader::of_part(file, meta, part).map_err(|error| error.to_string())?;
+        let header = reader.header();
+        if header.deep {
+            return Err("its pixels are deep, expected flat ones".to_owned());
+        }
+        let block = header.max_block_pixel_size();
+        let (width, height) = (header.layer_size.width(), header.layer_size.height());
+        let pixel_bytes = header.channels.bytes_per_pixel;
+        let bytes = width
+            .checked_mul(block.height().min(height))
+            .and_then(|pixels| pixels.checked_mul(pixel_bytes));
+        if bytes.is_none_or(|bytes| bytes > MOST_BYTES) {
+            return Err(format!(
+                "its blocks have more than {} MB side by side",
+                MOST_BYTES / 1_000_000
+            ));
+        }
+        let display = header.shared_attributes.display_window.position;
+        let position = header.own_attributes.layer_position;
+        let offset = |data: i32, display: i32| i64::from(data) - i64::from(display);
+        Ok(Self {
+            origin: (
+                offset(position.x(), display.x()),
+                offset(position.y(), display.y()),
+            ),
+            size: (width, height),
+            block: (block.width(), block.height()),
+            pixel_bytes,
+            blocks: Vec::new(),
+            row_of_blocks: None,
+            row: -1,
+            reader,
+        })
+    }
+
+    /// The top left corner, from that of the display window.
+    pub(super) fn origin(&self) -> (i64, i64) {
+        self.origin
+    }
+
+    /// Columns and rows.
+    pub(super) fn size(&self) -> (usize, usize) {
+        self.size
+    }
+
+    /// Goes on to the next row of the display window.
+    pub(super) fn advance(&mut self) -> Result<(), String> {
+        self.row += 1;
+        let Some(row) = self.row_of_window() else {
+            return Ok(());
+        };
+        let row_of_blocks = row / self.block.1;
+        if self.row_of_blocks != Some(row_of_blocks) {
+            self.blocks.clear();
+            for column in 0..self.size.0.div_ceil(self.block.0) {
+                let samples = self.read_block(column, row_of_blocks)?;
+                self.blocks.push(samples);
+            }
+            self.row_of_blocks = Some(row_of_blocks);
+        }
+        Ok(())
+    }
+
+    /// The number of the present row in the data window; `None` outside of it.
+    fn row_of_window(&self) -> Option<usize> {
+        let row = usize::try_from(self.row - self.origin.1).ok()?;
+        (row < self.size.1).then_some(row)
+    }
+
+    /// The place of the pixel in this column of the display window; `None` outside the data window.
+    pub(super) fn place(&self, col: u32) -> Option<Place> {
+        self.row_of_window()?;
+        let col = usize::try_from(i64::from(col) - self.origin.0).ok()?;
+        let block = col / self.block.0;
+        let first = block * self.block.0;
+        (col < self.size.0).then(|| Place {
+            block,
+            columns: self.block.0.min(self.size.0 - first),
+            col: col - first,
+        })
+    }
+
+    /// The number of a channel there.
+    pub(super) fn value(&self, place: Place, channel: &Channel) -> f64 {
+        let Place {
+            block,
+            columns,
+            col,
+        } = place;
+        let row = self.row_of_window().unwrap_or(0) % self.block.1;
+        let line = row * columns * self.pixel_bytes + channel.before * columns;
+        let start = line + col * channel.kind.bytes_per_sample();
+        let samples = &self.blocks[block][start..];
+        match (channel.kind, samples) {
+            (SampleType::F16, &[a, b, ..]) => f16::from_ne_bytes([a, b]).to_f64(),
+            (SampleType::F32, &[a, b, c, d, ..]) => f32::from_ne_bytes([a, b, c, d]).into(),
+            (SampleType::U32, &[a, b, c, d, ..]) => u32::from_ne_bytes([a, b, c, d]).into(),
+            _ => 0.0,
+        }
+    }
+
+    /// The samples of a block.
+    fn read_block(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
+        let columns = self.size.0.div_ceil(self.block.0);
+        // The largest resolution comes first.
+        let index = row * columns + column;
+        let block = self.reader.read(index)?;
+        let first = (column * self.block.0, row * self.block.1);
+        let width = self.block.0.min(self.size.0 - first.0);
+        let height = self.block.1.min(self.size.1 - first.1);
+        if block.index.level != Vec2(0, 0)
+            || block.index.pixel_position != Vec2(first.0, first.1)
+            || block.data.len() != width * height * self.pixel_bytes
+        {
+            return Err("a block is not the one that the file says it is".to_owned());
+        }
+        Ok(block.data)
+    }
+}
