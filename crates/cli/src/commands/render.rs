@@ -145,6 +145,9 @@ pub(super) fn request(
         return Err(Failure::unusable(path, &error.to_string()));
     }
     let frames = arguments.frames.clone();
+    if let Some(frames) = &frames {
+        scene::require_frames(&scene, frames.iter(), "--frames")?;
+    }
     let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
     let pattern = pattern.unwrap_or_else(|| {
         let numbered = arguments.frames.is_some() || scene.frames().is_some();

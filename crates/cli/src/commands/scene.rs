@@ -85,8 +85,19 @@ pub(super) fn view(scene: &Scene, frame: Option<i32>) -> Result<View, Failure> {
 
 /// The view of a frame that an option asks for, which has to be one of the scene's.
 pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, Failure> {
+    require_frames(scene, [frame].into_iter(), option)?;
+    let view = scene.view(frame);
+    view.map_err(|error| Failure::Usage(error.to_string()))
+}
+
+/// Refuses frames that an option asks for and the scene does not have.
+pub(super) fn require_frames(
+    scene: &Scene,
+    mut asked: impl Iterator<Item = i32>,
+    option: &str,
+) -> Result<(), Failure> {
     let frames = frames_of(scene);
-    if !frames.contains(&frame) {
+    if let Some(frame) = asked.find(|frame| !frames.contains(frame)) {
         let expected = match frames.into_inner() {
             (first, last) if first == last => format!("{first}, the only frame of the scene"),
             (first, last) => format!("a frame of the scene, from {first} to {last}"),
@@ -95,8 +106,7 @@ pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, F
             "{option}: expected {expected}, found {frame}"
         )));
     }
-    let view = scene.view(frame);
-    view.map_err(|error| Failure::Usage(error.to_string()))
+    Ok(())
 }
 
 /// The world of the frame that `--frame` names; of the first where it names none.

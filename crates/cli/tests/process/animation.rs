@@ -180,7 +180,7 @@ fn without_all_frames_there_is_no_loop() {
 fn an_interrupted_loop_leaves_nothing() {
     let folder = Folder::new();
     let mut child = folder
-        .marbles("render ball.ron -o out/a.apng --frames 1-600 --size 150x150 --samples 30")
+        .marbles("render roll.ron -o out/a.apng --frames 1-600 --size 150x150 --samples 30")
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
@@ -196,7 +196,7 @@ fn an_interrupted_loop_leaves_nothing() {
 #[test]
 fn a_loop_that_a_disk_has_no_room_for_leaves_nothing() {
     let folder = Folder::new();
-    let arguments = "render ball.ron -o out/a.apng --frames 1-60 --size 99x99";
+    let arguments = "render roll.ron -o out/a.apng --frames 1-60 --size 99x99";
     let Some(output) = run_on_file_system(&folder, "size=32k", arguments) else {
         return;
     };

@@ -61,7 +61,7 @@ fn every_task_of_an_array_renders_its_frames() {
     let folder = Folder::new();
     program(&folder, "marbles", ECHO);
     let scene = format!("{ODD}.ron");
-    fs::write(folder.path(&scene), BALL).unwrap();
+    fs::copy(folder.path("roll.ron"), folder.path(&scene)).unwrap();
     let pattern = format!("{ODD}/it's ####.png");
     let options =
         "slurm --frames 5-1:-1,10-20x2 --chunk 4 --job job.sh --tolerance 1e-4 -q --size 9x9";
@@ -158,7 +158,7 @@ fn tasks_are_queued_again_at_the_time_limit() {
     program(&folder, "scontrol", "#!/bin/sh\necho \"$@\"\n");
     let output = farm(
         &folder,
-        "slurm ball.ron -o #.png --frames 1-6 --chunk 3 --job job.sh",
+        "slurm roll.ron -o #.png --frames 1-6 --chunk 3 --job job.sh",
         &[],
     );
     assert_eq!(code(&output), 0);
@@ -227,7 +227,7 @@ fn ended_by(signal: &str, child: Child, folder: &Folder) -> Output {
 fn a_template_hands_words_over_as_they_are() {
     let folder = Folder::new();
     let scene = format!("{ODD}.ron");
-    fs::write(folder.path(&scene), BALL).unwrap();
+    fs::copy(folder.path("roll.ron"), folder.path(&scene)).unwrap();
     let pattern = format!("{ODD}/it's {{frame:04}}.exr");
     let options = "openjd --frames 20-10:-2,5-1:-1 --chunk 4 --float --samples 3";
     let output = farm(&folder, options, &["-o", &pattern, "--", &scene]);
@@ -300,7 +300,7 @@ fn what_cannot_be_rendered_is_no_job() {
             ("ball.ron", "--output"),
             ("no.ron -o #.png", "no.ron"),
             ("bad.ron -o #.png", "bad.ron:6:"),
-            ("ball.ron -o a.png --frames 1-9", "a place for their number"),
+            ("roll.ron -o a.png --frames 1-9", "a place for their number"),
             ("ball.ron -o #.png --float", "--float is for EXR files"),
             ("ball.ron -o #.png --tolerance 0", "tolerance"),
             ("ball.ron -o #.png --chunk 0", "--chunk"),
@@ -327,9 +327,9 @@ fn what_cannot_be_rendered_is_no_job() {
 #[test]
 fn long_arrays_are_warned_about() {
     let folder = Folder::new();
-    let output = farm(&folder, "slurm ball.ron -o #.png --frames 1-20020", &[]);
+    let output = farm(&folder, "slurm roll.ron -o #.png --frames 1-20020", &[]);
     assert_eq!((code(&output), lines(&output.stderr)), (0, vec![]));
-    let output = farm(&folder, "slurm ball.ron -o #.png --frames 1-20021", &[]);
+    let output = farm(&folder, "slurm roll.ron -o #.png --frames 1-20021", &[]);
     assert_eq!(code(&output), 0);
     assert!(text(&output.stderr).contains("MaxArraySize"));
 }

@@ -17,7 +17,10 @@ pub(crate) const BALL: &str = "(
 )
 ";
 
-/// An empty folder but for `ball.ron`, removed when the test ends.
+/// The animation of `roll.ron`, in which nothing moves.
+const ROLL: &str = "animation: Keyframes(frames: (-9, 20100), keys: [(frame: 1)])";
+
+/// An empty folder but for `ball.ron` and `roll.ron`, the same as a sequence; removed when the test ends.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
@@ -27,8 +30,15 @@ impl Folder {
         let name = format!("process-{}-{count}", std::process::id());
         let folder = Self(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name));
         fs::create_dir_all(&folder.0).unwrap();
-        fs::write(folder.path("ball.ron"), BALL).unwrap();
+        folder.write_scene(BALL);
         folder
+    }
+
+    /// Writes the scene of a still as `ball.ron`, and as a sequence of the same pictures, `roll.ron`.
+    pub(crate) fn write_scene(&self, still: &str) {
+        fs::write(self.path("ball.ron"), still).unwrap();
+        let roll = still.replacen("lights:", &format!("{ROLL},\n    lights:"), 1);
+        fs::write(self.path("roll.ron"), roll).unwrap();
     }
 
     pub(crate) fn path(&self, name: &str) -> PathBuf {
@@ -48,13 +58,14 @@ impl Folder {
         self.marbles(arguments).output().unwrap()
     }
 
-    /// The names in the folder `name`, sorted.
+    /// The names in the folder `name` but for `roll.ron`, sorted.
     pub(crate) fn names(&self, name: &str) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.path(name)) else {
             return Vec::new();
         };
         let name = |entry: fs::DirEntry| entry.file_name().into_string().unwrap();
         let mut names: Vec<String> = entries.map(|entry| name(entry.unwrap())).collect();
+        names.retain(|name| name != "roll.ron");
         names.sort();
         names
     }

@@ -49,7 +49,7 @@ fn without_descriptors_nothing_is_left_behind() {
     let mut failed = 0;
     for limit in 4..=20 {
         let folder = Folder::new();
-        let arguments = "render ball.ron -o out/#.png --frames 1-5 --size 9x9 --samples 1 -q";
+        let arguments = "render roll.ron -o out/#.png --frames 1-5 --size 9x9 --samples 1 -q";
         let output = run(&folder, &format!("ulimit -n {limit}"), arguments);
         let errors = text(&output.stderr);
         let expected = i32::from(!errors.is_empty());
@@ -85,7 +85,7 @@ fn a_file_that_may_not_grow_is_an_error() {
 #[test]
 fn signals_that_are_ignored_at_the_start_stay_ignored() {
     let folder = Folder::new();
-    let arguments = "render ball.ron -o out/#.png --frames 1-40 --size 60x60 --samples 12";
+    let arguments = "render roll.ron -o out/#.png --frames 1-40 --size 60x60 --samples 12";
     for (before, ignored) in [("trap '' HUP", "HUP"), ("trap '' INT", "INT")] {
         let mut child = begin(&folder, before, arguments);
         signal(ignored, &child);

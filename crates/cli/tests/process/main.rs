@@ -45,13 +45,13 @@ fn exit_codes_tell_what_happened() {
         ("check ball.ron", 0),
         ("render ball.ron --size 9x9", 0),
         ("render ball.ron --size 9x9 -o new/folder/a.png", 0),
-        ("render ball.ron --size 9x9 --frames -2--1 -o a.#.exr", 0),
+        ("render roll.ron --size 9x9 --frames -2--1 -o a.#.exr", 0),
         ("render ball.ron --size 9x9 -o ball.ron/a.png", 1),
         ("", 2),
         ("paint ball.ron", 2),
         ("render", 2),
         ("render ball.ron -o a.jpg", 2),
-        ("render ball.ron -o a.png --frames 1-2", 2),
+        ("render roll.ron -o a.png --frames 1-2", 2),
         ("render ball.ron --frames 2-1", 2),
         ("render ball.ron --size 0x9", 2),
         ("render missing.ron", 2),
@@ -264,7 +264,7 @@ fn tables_are_found_beside_the_scene_and_told() {
 #[test]
 fn a_line_is_printed_for_each_file() {
     let folder = Folder::new();
-    let output = folder.run("render ball.ron -o out/%02d.png --frames 8-9 --size 30x20");
+    let output = folder.run("render roll.ron -o out/%02d.png --frames 8-9 --size 30x20");
     assert_eq!(code(&output), 0);
     let lines = text(&output.stdout);
     let lines: Vec<&str> = lines.lines().collect();
@@ -295,9 +295,48 @@ fn a_line_is_printed_for_each_file() {
 }
 
 #[test]
+fn frames_that_a_scene_does_not_have_are_refused() {
+    let folder = Folder::new();
+    let turn = BALL.replace(
+        "camera: Free()",
+        "camera: Orbit(target: (0, 0, 0), radius: 900), animation: Turntable(frames: 12)",
+    );
+    fs::write(folder.path("turn.ron"), turn).unwrap();
+    for (scene, frames, expected) in [
+        ("ball", "1-10", "1, the only frame of the scene, found 2"),
+        ("ball", "7", "1, the only frame of the scene, found 7"),
+        (
+            "turn",
+            "3,200",
+            "a frame of the scene, from 1 to 12, found 200",
+        ),
+        (
+            "turn",
+            "12-0:-1",
+            "a frame of the scene, from 1 to 12, found 0",
+        ),
+        (
+            "roll",
+            "-10",
+            "a frame of the scene, from -9 to 20100, found -10",
+        ),
+    ] {
+        for command in ["render", "spheres", "farm openjd", "farm slurm"] {
+            let arguments = format!("{command} {scene}.ron -o out/a.# --frames={frames}");
+            let ending = if command == "spheres" { "csv" } else { "png" };
+            let output = folder.run(&arguments.replace("a.#", &format!("a.#.{ending}")));
+            let said = format!("marbles: --frames: expected {expected}\n");
+            assert_eq!(text(&output.stderr), said, "{arguments}");
+            assert_eq!(code(&output), 2, "{arguments}");
+            assert!(!folder.path("out").exists(), "{arguments}");
+        }
+    }
+}
+
+#[test]
 fn quiet_prints_nothing() {
     let folder = Folder::new();
-    let output = folder.run("render ball.ron -o a.#.png --frames 1-3 --size 9x9 --quiet");
+    let output = folder.run("render roll.ron -o a.#.png --frames 1-3 --size 9x9 --quiet");
     assert_eq!(code(&output), 0);
     assert_eq!(text(&output.stdout), "");
     assert_eq!(text(&output.stderr), "");

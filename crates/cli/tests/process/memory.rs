@@ -21,7 +21,7 @@ fn in_memory(folder: &Folder, kilobytes: u32, arguments: &str) -> Command {
 fn colored() -> Folder {
     let folder = Folder::new();
     let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
-    fs::write(folder.path("ball.ron"), colored).unwrap();
+    folder.write_scene(&colored);
     folder
 }
 
@@ -52,7 +52,7 @@ fn too_little_memory_is_an_error() {
         for options in ["-o #.exr --float --alpha", "-o #.png --bits 16"] {
             // The widest there are.
             let arguments = format!(
-                "render ball.ron {options} --samples 1 --threads 2 --size 65536x30 --frames 1-2"
+                "render roll.ron {options} --samples 1 --threads 2 --size 65536x30 --frames 1-2"
             );
             let output = in_memory(&folder, kilobytes, &arguments).output().unwrap();
             let errors = text(&output.stderr);

@@ -9,13 +9,15 @@ use crate::folder::{BALL, Folder, code, text};
 fn bright() -> Folder {
     let folder = Folder::new();
     let scene = BALL.replace("(-1, 1, -1))]", "(-1, 1, -1), intensity: 2)]");
-    fs::write(folder.path("bright.ron"), scene).unwrap();
+    folder.write_scene(&scene);
     folder
 }
 
 /// What `render` prints.
 fn printed(folder: &Folder, arguments: &str) -> String {
-    let output = folder.run(&format!("render bright.ron --size 40x30 {arguments}"));
+    let is_sequence = arguments.contains("--frames");
+    let scene = if is_sequence { "roll" } else { "ball" };
+    let output = folder.run(&format!("render {scene}.ron --size 40x30 {arguments}"));
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     text(&output.stdout)
 }
@@ -71,7 +73,7 @@ fn clipped_pixels_are_an_error_where_warnings_are() {
     let folder = bright();
     for (options, expected) in [("", 1), ("--exposure -1", 0)] {
         let output = folder.run(&format!(
-            "render bright.ron --size 40x30 -o a.png --strict {options}"
+            "render ball.ron --size 40x30 -o a.png --strict {options}"
         ));
         let errors = text(&output.stderr);
         assert_eq!(code(&output), expected, "{errors}");
@@ -136,11 +138,11 @@ fn what_a_format_cannot_have_is_refused() {
             "--linear writes 16 bit, and --bits asks for 8",
         ),
     ] {
-        let output = folder.run(&format!("render bright.ron {options}"));
+        let output = folder.run(&format!("render ball.ron {options}"));
         assert_eq!(code(&output), 2, "{options}");
         assert_eq!(text(&output.stderr), format!("marbles: {reason}\n"));
     }
-    let output = folder.run("render bright.ron --exposure 101");
+    let output = folder.run("render ball.ron --exposure 101");
     let errors = text(&output.stderr);
     assert!(
         errors.contains("expected a number from -100 to 100"),

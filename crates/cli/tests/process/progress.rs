@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::folder::{BALL, Folder, code, text};
 
-const ARGUMENTS: &str = "render ball.ron -o #.png --size 9x9 --frames 1-3";
+const ARGUMENTS: &str = "render roll.ron -o #.png --size 9x9 --frames 1-3";
 
 #[test]
 fn runners_of_open_job_description_read_stdout() {

@@ -20,7 +20,7 @@ fn names(folder: &Folder) -> Vec<String> {
 #[test]
 fn every_picture_has_a_sidecar_beside_it() {
     let folder = Folder::new();
-    let output = folder.run("render ball.ron -o a.#.png --frames 1-2 --size 60x30 --sidecar");
+    let output = folder.run("render roll.ron -o a.#.png --frames 1-2 --size 60x30 --sidecar");
     assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     assert_eq!(
         names(&folder),
@@ -76,7 +76,7 @@ fn the_same_input_makes_the_same_sidecar() {
 fn a_frame_is_there_when_its_sidecar_is() {
     let folder = Folder::new();
     let run = |more: &str| {
-        let arguments = "render ball.ron -o #.png --frames 1-5 --size 9x9 --skip-existing";
+        let arguments = "render roll.ron -o #.png --frames 1-5 --size 9x9 --skip-existing";
         let output = folder.run(&format!("{arguments} {more}"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
         text(&output.stdout).matches(": skipped").count()

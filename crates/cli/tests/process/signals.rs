@@ -37,7 +37,7 @@ pub(crate) fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
 fn a_killed_process_leaves_complete_pictures() {
     let folder = Folder::new();
     let mut child = folder
-        .marbles("render ball.ron -o out/####.png --frames 1-60 --size 120x120 --samples 12")
+        .marbles("render roll.ron -o out/####.png --frames 1-60 --size 120x120 --samples 12")
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()
@@ -66,7 +66,7 @@ fn an_interrupted_process_ends_soon_and_cleans_up() {
         let out = format!("out{samples}");
         let mut child = folder
             .marbles(&format!(
-                "render ball.ron -o {out}/####.png --frames 1-60 --size 150x150 --samples {samples}"
+                "render roll.ron -o {out}/####.png --frames 1-60 --size 150x150 --samples {samples}"
             ))
             .stdout(Stdio::null())
             .stderr(Stdio::piped())
@@ -97,7 +97,7 @@ fn stuck(folder: &Folder) -> Child {
     // Long lines, so that it is full soon.
     let name = "n".repeat(200);
     let arguments =
-        format!("render ball.ron -o out/{name}#.png --frames 1-9999 --size 1x1 --samples 1");
+        format!("render roll.ron -o out/{name}#.png --frames 1-9999 --size 1x1 --samples 1");
     let child = folder
         .marbles(&arguments)
         .stdout(Stdio::piped())
@@ -150,7 +150,7 @@ fn a_second_interrupt_hurries_a_stuck_process() {
 fn a_closed_pipe_does_not_stop_the_work() {
     let folder = Folder::new();
     let mut child = folder
-        .marbles("render ball.ron -o out/#.png --frames 1-9 --size 9x9")
+        .marbles("render roll.ron -o out/#.png --frames 1-9 --size 9x9")
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

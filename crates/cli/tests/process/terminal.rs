@@ -85,7 +85,7 @@ fn a_terminal_shows_what_takes_long() {
 #[test]
 fn a_terminal_gets_plain_lines_where_they_are_asked_for() {
     let folder = Folder::new();
-    let arguments = "render ball.ron -o #.png --size 9x9 --frames 1-3";
+    let arguments = "render roll.ron -o #.png --size 9x9 --frames 1-3";
     for (form, count) in [("plain", 7), ("none", 4)] {
         let arguments = format!("{arguments} --progress={form}");
         let Some(shown) = run_on_terminal(&folder, 80, &arguments) else {
@@ -101,7 +101,7 @@ fn a_terminal_gets_plain_lines_where_they_are_asked_for() {
 #[test]
 fn a_bar_has_room_for_the_key_that_ends_it() {
     let folder = Folder::new();
-    let arguments = "render ball.ron -o #.png --size 400x400 --frames 1-4";
+    let arguments = "render roll.ron -o #.png --size 400x400 --frames 1-4";
     for columns in [80, 46] {
         let Some(shown) = run_on_terminal(&folder, columns, arguments) else {
             return;
