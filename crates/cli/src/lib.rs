@@ -13,8 +13,6 @@ mod terminal;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::Parser;
-
 use crate::base::status;
 use crate::commands::args::{Arguments, Command};
 use crate::terminal::console::Console;
@@ -44,7 +42,7 @@ fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
 /// Does what the command line asks for.
 fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     signals::outlive_file_limits();
-    let arguments = match Arguments::try_parse_from(args) {
+    let arguments = match Arguments::of(args, console.columns()) {
         Ok(arguments) => arguments,
         Err(message) => {
             console.clap(&message.render(), message.use_stderr());

@@ -1,6 +1,7 @@
 //! Failures and exit codes, sizes and parts of pictures, numbers for people.
 
 pub(crate) mod failure;
+pub(crate) mod layout;
 pub(crate) mod memory;
 pub(crate) mod numbers;
 pub(crate) mod region;

@@ -7,6 +7,7 @@ use clap_mangen::roff::{Roff, roman};
 
 use super::args::{Arguments, ManArguments};
 use crate::base::failure::Failure;
+use crate::base::layout::lay_out;
 use crate::base::shown::Shown;
 use crate::base::status;
 use crate::files::destination::prepare;
@@ -39,6 +40,9 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
     Ok(status::SUCCESS)
 }
 
+/// Columns of lines that stay as they are, so that they fit beside the margin of a page on 80.
+const COLUMNS: usize = 72;
+
 /// A page, and its end as clap has it: examples, exit codes and so on.
 struct Page {
     man: Man,
@@ -60,7 +64,8 @@ fn pages() -> Vec<Page> {
 }
 
 fn page(command: Command) -> Page {
-    let end = command.get_after_help().map(ToString::to_string);
+    let end = command.get_after_help();
+    let end = end.map(|help| lay_out(&help.to_string(), COLUMNS));
     let command = command.after_help(Resettable::Reset);
     Page {
         man: Man::new(command).source(concat!("marbles ", env!("CARGO_PKG_VERSION"))),

@@ -17,11 +17,10 @@ use crate::formats::encoding::Encoding;
 pub(super) fn result(path: &str, summary: &Summary, clipped: u64, time: Duration) -> String {
     let clipped = match clipped {
         0 => String::new(),
-        _ => format!(", {} clipped", counted(clipped, "pixel")),
+        _ => format!(", {clipped} clipped"),
     };
     format!(
-        "{path}: {} pixels, {}, {} over the tolerance{clipped}, {:.3} s",
-        summary.pixels,
+        "{path}: {}, {} over{clipped}, {:.3} s",
         claim(summary),
         summary.over_tolerance,
         time.as_secs_f64()
@@ -61,8 +60,8 @@ pub(crate) fn counts(outcome: &Outcome, noun: &str) -> String {
     counts
 }
 
-/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (bound for 97 % of the pixels)`, or `error
-/// unknown` where single samples tell nothing of it.
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (97 % bounds)`, or `error unknown`
+/// where single samples tell nothing of it.
 pub(crate) fn claim(summary: &Summary) -> String {
     if summary.largest_error == f64::INFINITY {
         return "error unknown".to_owned();
@@ -79,8 +78,8 @@ fn evidence(summary: &Summary) -> String {
     match bound_percent(summary) {
         100 => "bound".to_owned(),
         0 if summary.bounds == 0 => "estimate".to_owned(),
-        0 => "bound for less than 1 % of the pixels".to_owned(),
-        percent => format!("bound for {percent} % of the pixels"),
+        0 => "under 1 % bounds".to_owned(),
+        percent => format!("{percent} % bounds"),
     }
 }
 
@@ -126,13 +125,15 @@ mod tests {
         let time = Duration::from_millis(12);
         assert_eq!(
             result("a.png", &summary(600), 0, time),
-            "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, 0.012 s"
+            "a.png: error <= 8.3e-04 (bound), 2 over, 0.012 s"
         );
         assert_eq!(
             result("a.png", &summary(600), 1, time),
-            "a.png: 600 pixels, error <= 8.3e-04 (bound), 2 over the tolerance, \
-             1 pixel clipped, 0.012 s"
+            "a.png: error <= 8.3e-04 (bound), 2 over, 1 clipped, 0.012 s"
         );
+        let minutes = Duration::from_millis(123_456);
+        let line = result("frames/turntable.0001.png", &summary(380), 0, minutes);
+        assert!(line.len() <= 80, "{line}");
         let outcome = Outcome {
             written: 7,
             total: Some(summary(0)),
@@ -142,17 +143,11 @@ mod tests {
         };
         assert_eq!(
             total(&outcome, "frame").unwrap(),
-            "7 frames: 600 pixels, error <= 8.3e-04 (estimate), 2 over the tolerance, \
-             37 pixels clipped, 0.012 s"
+            "7 frames: error <= 8.3e-04 (estimate), 2 over, 37 clipped, 0.012 s"
         );
         assert_eq!(total(&Outcome::default(), "frame"), None);
-        for (bounds, share) in [
-            (599, "99 %"),
-            (360, "60 %"),
-            (6, "1 %"),
-            (5, "less than 1 %"),
-        ] {
-            let expected = format!("error <= 8.3e-04 (bound for {share} of the pixels)");
+        for (bounds, share) in [(599, "99 %"), (360, "60 %"), (6, "1 %"), (5, "under 1 %")] {
+            let expected = format!("error <= 8.3e-04 ({share} bounds)");
             assert_eq!(claim(&summary(bounds)), expected);
         }
         let unknown = Summary {

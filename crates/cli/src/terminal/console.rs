@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use clap::builder::StyledStr;
+use console::Term;
 use serde_json::Value;
 
 use crate::base::failure::{Failure, reason};
@@ -83,6 +84,18 @@ impl Console {
     /// Returns whether results go to a terminal.
     pub(crate) fn shows_results(&self) -> bool {
         self.out.terminal
+    }
+
+    /// Columns for text of several lines: no more than people like to read, and no more than the terminal has.
+    pub(crate) fn columns(&self) -> usize {
+        const MOST: usize = 100;
+        let err = || self.err.columns(&Term::stderr());
+        self.result_columns().or_else(err).unwrap_or(MOST).min(MOST)
+    }
+
+    /// Columns of the terminal to which results go, if they go to one.
+    pub(crate) fn result_columns(&self) -> Option<usize> {
+        self.out.columns(&Term::stdout())
     }
 
     /// A line of results, or several.
@@ -204,6 +217,12 @@ impl Stream {
             terminal,
             styled: colors && terminal,
         }
+    }
+
+    /// Columns, where this is a terminal that has a size.
+    fn columns(&self, terminal: &Term) -> Option<usize> {
+        let (_, columns) = terminal.size_checked().filter(|_| self.terminal)?;
+        (columns > 0).then(|| columns.into())
     }
 
     fn print(&self, text: &str) {

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::console::Console;
-use super::{alternate_screen, signals};
+use super::{alternate_screen, keyboard, signals};
 use crate::base::status::INTERRUPTED;
 use crate::files::temporary;
 
@@ -25,6 +25,11 @@ static REQUESTED: AtomicBool = AtomicBool::new(false);
 /// Returns whether the user wants the work to end.
 pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
+}
+
+/// Asks for the end of the work, as the first Ctrl-C does but without a time for it.
+pub(crate) fn request() {
+    REQUESTED.store(true, Ordering::Relaxed);
 }
 
 /// Listens from now on, for as long as the process lives.
@@ -52,6 +57,7 @@ fn end(farewell: &'static str) -> ! {
     // Another thread may hold the lock of stdout or stderr for as long as nobody reads from it.
     let said = thread::Builder::new().spawn(move || {
         alternate_screen::restore();
+        keyboard::restore();
         let _ = writeln!(std::io::stderr(), "{farewell}");
     });
     if said.is_ok() {

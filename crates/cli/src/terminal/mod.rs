@@ -4,6 +4,7 @@ pub(crate) mod alternate_screen;
 pub(crate) mod bar;
 pub(crate) mod console;
 pub(crate) mod interrupt;
+pub(crate) mod keyboard;
 pub(crate) mod lines;
 pub(crate) mod progress;
 pub(crate) mod signals;

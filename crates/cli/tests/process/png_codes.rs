@@ -24,7 +24,7 @@ fn printed(folder: &Folder, arguments: &str) -> String {
 
 /// The number of pixels that a line says are clipped.
 fn clipped(line: &str) -> Option<u64> {
-    let (start, _) = line.split_once(" pixels clipped, ")?;
+    let (start, _) = line.split_once(" clipped, ")?;
     start.rsplit_once(' ').unwrap().1.parse().ok()
 }
 

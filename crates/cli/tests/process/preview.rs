@@ -68,7 +68,7 @@ impl Terminal {
     fn screens(&self) -> Vec<String> {
         let shown = self.shown.lock().unwrap();
         let shown = String::from_utf8_lossy(&shown);
-        let mut screens: Vec<String> = shown.split("Ctrl-C ends").map(str::to_owned).collect();
+        let mut screens: Vec<String> = shown.split("q ends").map(str::to_owned).collect();
         screens.pop();
         screens
     }
@@ -148,6 +148,27 @@ fn what_is_saved_is_shown() {
     let (code, shown) = terminal.end();
     assert_eq!(code, Some(130));
     assert!(shown.ends_with(leave), "{shown:?}");
+}
+
+#[test]
+fn keys_end_the_watch() {
+    let folder = Folder::new();
+    for key in [b"q".as_slice(), b"\x1b"] {
+        let arguments = "preview ball.ron --watch";
+        let Some(mut terminal) = Terminal::run(&folder, (60, 20), arguments) else {
+            return;
+        };
+        wait_until("a picture", || terminal.screens().len() == 1);
+        // An arrow, whose first byte is that of Esc, and letters without a meaning.
+        terminal.keyboard.write_all(b"\x1b[Ax").unwrap();
+        fs::write(folder.path("ball.ron"), BALL.replace("300", "301")).unwrap();
+        wait_until("another picture", || terminal.screens().len() == 2);
+        terminal.keyboard.write_all(key).unwrap();
+        let (code, shown) = terminal.end();
+        assert_eq!(code, Some(0), "{key:?}");
+        assert!(shown.ends_with("\x1b[?25h\x1b[?1049l"), "{shown:?}");
+        fs::write(folder.path("ball.ron"), BALL).unwrap();
+    }
 }
 
 #[test]

@@ -20,7 +20,7 @@ Files of the layout `diligent`, in the camera's axes: x right, y up, z toward th
                         in proportion to light, scaled so that none is clipped
   filenames.txt         their names
   light_directions.txt  unit vectors toward the lights
-  light_intensities.txt red, green and blue of the lights in the pictures' numbers, in which the
+  light_intensities.txt  red, green and blue of the lights in the pictures' numbers, in which the
                         largest code is 1: a white surface that faces a light has its intensity
   mask.png              255 where the center of a pixel sees a sphere
   Normal_gt.mat         the normals there, an array `Normal_gt` of doubles, height × width × 3

@@ -14,7 +14,11 @@ mod scene;
 mod spheres;
 mod values;
 
-use clap::{Parser, Subcommand};
+use std::ffi::OsString;
+
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+
+use crate::base::layout::lay_out;
 
 pub(crate) use self::check::CheckArguments;
 pub(crate) use self::compare::CompareArguments;
@@ -51,6 +55,30 @@ pub(crate) enum Command {
     New(NewArguments),
     Completions(CompletionsArguments),
     Man(ManArguments),
+}
+
+impl Arguments {
+    /// The arguments in `words`, the program's name first; messages and help are laid out for so many columns.
+    pub(crate) fn of(
+        words: impl IntoIterator<Item = OsString>,
+        columns: usize,
+    ) -> Result<Self, clap::Error> {
+        let mut command = fitted(Self::command(), columns).term_width(columns);
+        let mut matches = command.try_get_matches_from_mut(words)?;
+        Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
+    }
+}
+
+/// The command, and its commands, with the end of their help laid out for so many columns.
+fn fitted(command: clap::Command, columns: usize) -> clap::Command {
+    let command = match command.get_after_help() {
+        Some(help) => {
+            let help = lay_out(&help.to_string(), columns);
+            command.after_help(help)
+        }
+        None => command,
+    };
+    command.mut_subcommands(|command| fitted(command, columns))
 }
 
 #[cfg(test)]

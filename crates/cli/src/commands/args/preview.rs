@@ -19,13 +19,13 @@ the output is no terminal, it is a text of 80 columns.
 
 With --watch the picture appears again when the scene file is saved, or a table that it names, and
 when the terminal has a new size. What is wrong with a file that was saved stands in its place.
-Ctrl-C ends it, and the terminal shows what it showed before.
+`q`, Esc and Ctrl-C end it, and the terminal shows what it showed before.
 
 Exit codes:
-  0  the picture was shown
+  0  the picture was shown, or `q` or Esc ended --watch
   1  something failed
   2  the command line or the scene file is wrong
-  130  interrupted: so --watch ends";
+  130  interrupted by Ctrl-C";
 
 /// Show a frame of a scene in the terminal
 #[derive(Debug, Args)]

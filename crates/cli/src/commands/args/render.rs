@@ -28,7 +28,7 @@ Examples:
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
   marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr: each light alone
-  marbles render ball.ron -o a.exr --per-light=layers the same in layers 1, …, ambient of a.exr
+  marbles render ball.ron -o a.exr --per-light=layers  the same in layers 1, …, ambient of a.exr
   marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
 
 Exit codes:

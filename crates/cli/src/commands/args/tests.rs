@@ -36,3 +36,31 @@ fn numbers_out_of_range_are_refused() {
         assert_eq!(arguments.unwrap_err().exit_code(), 2, "{option}");
     }
 }
+
+#[test]
+fn help_fits_the_terminal() {
+    let mut commands = vec![vec![]];
+    let all = Arguments::command();
+    for command in all.get_subcommands() {
+        commands.push(vec![command.get_name()]);
+        let its = command.get_subcommands();
+        commands.extend(its.map(|its| vec![command.get_name(), its.get_name()]));
+    }
+    for (columns, command) in [100, 80, 46].into_iter().flat_map(|columns| {
+        let commands = commands.iter();
+        commands.map(move |command| (columns, command))
+    }) {
+        let words = ["marbles"].iter().chain(command).chain(&["--help"]);
+        let help = Arguments::of(words.map(OsString::from), columns).unwrap_err();
+        let help = help.render().to_string();
+        assert!(help.contains("Usage: "), "{help}");
+        // clap does not break the line of the usage, and nobody breaks words.
+        let broken = |line: &&str| !line.starts_with("Usage: ") && line.trim().contains(' ');
+        for line in help.lines().filter(broken) {
+            assert!(
+                line.chars().count() <= columns,
+                "{columns} {command:?}: {line}"
+            );
+        }
+    }
+}

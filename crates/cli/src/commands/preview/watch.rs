@@ -22,6 +22,7 @@ use crate::commands::scene;
 use crate::terminal::alternate_screen::AlternateScreen;
 use crate::terminal::console::Console;
 use crate::terminal::interrupt;
+use crate::terminal::keyboard::Keyboard;
 
 /// The time between two looks at the files. What changes from one look to the next is still being saved.
 const INTERVAL: Duration = Duration::from_millis(100);
@@ -40,6 +41,7 @@ pub(super) fn run(
         ));
     }
     interrupt::listen(console);
+    let _keyboard = Keyboard::listen(interrupt::request);
     let _screen = AlternateScreen::enter(console);
     let mut files = Files::of(&arguments.scene);
     while !interrupt::requested() {
@@ -50,11 +52,14 @@ pub(super) fn run(
             Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
         };
         let scene = arguments.scene.shown();
-        let status = format!("{scene}: shown again when it is saved; Ctrl-C ends");
+        let status = format!("{scene}: shown again when it is saved; q ends");
         console.print(&(shown + &status_line(&status, screen.cells())));
         wait(&mut files, || screen.area(STATUS_LINES) != area);
     }
-    Ok(status::INTERRUPTED)
+    Ok(match Keyboard::was_pressed() {
+        true => status::SUCCESS,
+        false => status::INTERRUPTED,
+    })
 }
 
 /// The picture as the files have it now.

@@ -88,7 +88,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         write_bytes(plot::draw(&report).as_bytes(), path)?;
     }
     if !arguments.quiet {
-        for line in table::lines(&report) {
+        for line in table::lines(&report, console.result_columns()) {
             console.result(&line);
         }
     }

@@ -27,14 +27,13 @@ const EXTRAPOLATED: &str = " *";
 /// The mark behind an RMSE that the reference cannot tell.
 const BELOW_REFERENCE: &str = " ?";
 
-pub(super) fn lines(report: &Report) -> Vec<String> {
+/// The lines of all results, in tables of at most so many columns of text where there is a limit.
+pub(super) fn lines(report: &Report, columns: Option<usize>) -> Vec<String> {
     let mut lines = facts(report);
     lines.push(String::new());
     let rows = report.rows.iter().map(|row| cells(row, report));
-    lines.extend(markdown(
-        &TITLES.map(str::to_owned),
-        &rows.collect::<Vec<_>>(),
-    ));
+    let table = [TITLES.map(str::to_owned)].into_iter().chain(rows);
+    lines.extend(markdown(&table.collect::<Vec<_>>(), columns));
     let notes = notes(report);
     if !notes.is_empty() {
         lines.push(String::new());
@@ -153,33 +152,60 @@ fn notes(report: &Report) -> Vec<String> {
     notes
 }
 
-/// The lines of a table in Markdown, the first column to the left and the others to the right, in
-/// columns that are as wide as their widest cell.
-fn markdown<const N: usize>(titles: &[String; N], rows: &[[String; N]]) -> Vec<String> {
+/// The lines of a table in Markdown, of which the first row has the titles, the first column to the left and
+/// the others to the right, in columns that are as wide as their widest cell.
+///
+/// What is wider than the limit becomes several tables, each with the first column.
+fn markdown<const N: usize>(rows: &[[String; N]], limit: Option<usize>) -> Vec<String> {
     let mut widths = [0; N];
-    for row in [titles].into_iter().chain(rows) {
+    for row in rows {
         for (width, cell) in widths.iter_mut().zip(row) {
             *width = (*width).max(cell.chars().count());
         }
     }
-    let line = |row: &[String; N]| {
-        let mut line = String::from("|");
-        for (index, (cell, width)) in row.iter().zip(widths).enumerate() {
-            line.push_str(&if index == 0 {
-                format!(" {cell:<width$} |")
-            } else {
-                format!(" {cell:>width$} |")
-            });
+    let mut lines = Vec::new();
+    let mut next = 1;
+    while next < N {
+        let mut columns = vec![0];
+        let mut width = 4 + widths[0];
+        while next < N {
+            width += 3 + widths[next];
+            if columns.len() > 1 && limit.is_some_and(|limit| width > limit) {
+                break;
+            }
+            columns.push(next);
+            next += 1;
         }
-        line
+        if !lines.is_empty() {
+            lines.push(String::new());
+        }
+        lines.extend(table(rows, &columns, &widths));
+    }
+    lines
+}
+
+/// The lines of a table of some of the columns.
+fn table<const N: usize>(
+    rows: &[[String; N]],
+    columns: &[usize],
+    widths: &[usize; N],
+) -> Vec<String> {
+    let line = |row: &[String; N]| {
+        let cells = columns.iter().map(|&column| {
+            let (cell, width) = (&row[column], widths[column]);
+            match column {
+                0 => format!("| {cell:<width$} |"),
+                _ => format!(" {cell:>width$} |"),
+            }
+        });
+        cells.collect::<String>()
     };
-    let rule = |(index, width): (usize, usize)| match index {
-        0 => format!("{}|", "-".repeat(width + 2)),
-        _ => format!("{}:|", "-".repeat(width + 1)),
-    };
-    let rules: String = widths.into_iter().enumerate().map(rule).collect();
-    let mut lines = vec![line(titles), format!("|{rules}")];
-    lines.extend(rows.iter().map(line));
+    let rule = columns.iter().map(|&column| match column {
+        0 => format!("|{}|", "-".repeat(widths[0] + 2)),
+        _ => format!("{}:|", "-".repeat(widths[column] + 1)),
+    });
+    let mut lines: Vec<String> = rows.iter().map(line).collect();
+    lines.insert(1, rule.collect());
     lines
 }
 

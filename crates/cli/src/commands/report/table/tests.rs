@@ -6,10 +6,12 @@ use crate::commands::report::tests::report;
 #[test]
 fn tables_are_aligned() {
     let row = |cells: [&str; 3]| cells.map(str::to_owned);
-    let lines = markdown(
-        &row(["setting", "t", "x"]),
-        &[row(["a", "1.0 µs", "10"]), row(["longer name", "2", ""])],
-    );
+    let rows = [
+        row(["setting", "t", "x"]),
+        row(["a", "1.0 µs", "10"]),
+        row(["longer name", "2", ""]),
+    ];
+    let lines = markdown(&rows, None);
     let expected = [
         "| setting     |      t |  x |",
         "|-------------|-------:|---:|",
@@ -17,11 +19,25 @@ fn tables_are_aligned() {
         "| longer name |      2 |    |",
     ];
     assert_eq!(lines, expected);
+    assert_eq!(markdown(&rows, Some(29)), expected);
+    let narrow = [
+        "| setting     |      t |",
+        "|-------------|-------:|",
+        "| a           | 1.0 µs |",
+        "| longer name |      2 |",
+        "",
+        "| setting     |  x |",
+        "|-------------|---:|",
+        "| a           | 10 |",
+        "| longer name |    |",
+    ];
+    assert_eq!(markdown(&rows, Some(28)), narrow);
+    assert_eq!(markdown(&rows, Some(9)), narrow);
 }
 
 #[test]
 fn marks_are_explained_and_nothing_else() {
-    let text = lines(&report()).join("\n");
+    let text = lines(&report(), None).join("\n");
     assert!(text.contains(" 5000 * |"), "{text}");
     assert!(text.contains("\n* extrapolated: the time of supersampling as RMSE^-1.00,"));
     assert!(text.contains("times       median of 1 run; the time did not suffice for 5\n"));
