@@ -78,8 +78,14 @@ fn a_message_starts_with_the_place_and_ends_without_a_full_stop() {
             assert!(!fault.message.ends_with('.'), "{name}");
             assert!(!fault.message.contains('\n'), "{name}");
         }
-        assert!(error.styled().starts_with("\u{1b}["), "{name}");
-        assert_eq!(without_styles(&error.styled()), error.to_string(), "{name}");
+        let styled = error.for_terminal(1000, true);
+        assert!(styled.starts_with("\u{1b}["), "{name}");
+        assert_eq!(without_styles(&styled), error.to_string(), "{name}");
+        let narrow = error.for_terminal(46, false);
+        let excerpts = narrow.lines().filter(|line| line.contains(" |"));
+        for line in excerpts {
+            assert!(line.chars().count() <= 46, "{name}: {line}");
+        }
         let is_ordered = |pair: &[marbles_scene::SceneFault]| {
             (pair[0].line, pair[0].column) <= (pair[1].line, pair[1].column)
         };

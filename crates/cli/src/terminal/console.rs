@@ -175,7 +175,9 @@ impl Console {
                 let message = self.harmless(message);
                 format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
             }
-            Failure::Scene(error) if self.err.styled => error.styled(),
+            Failure::Scene(error) if self.err.terminal => {
+                error.for_terminal(self.columns(), self.err.styled)
+            }
             Failure::Scene(error) => error.to_string(),
         };
         text.trim_end().to_owned()

@@ -4,8 +4,9 @@ use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::located::{SceneFault, line_and_column, locate, message};
-use super::snippet::Style;
+use super::located::{SceneFault, locate, message};
+use super::snippet::{Style, Window};
+use crate::text::token::line_and_column;
 use crate::text::{Fault, LocatedFault, harmless};
 
 /// The reason for which a scene file was refused.
@@ -16,8 +17,9 @@ use crate::text::{Fault, LocatedFault, harmless};
 pub struct SceneError {
     path: PathBuf,
     faults: Vec<SceneFault>,
-    plain: String,
-    styled: String,
+    located: Vec<LocatedFault>,
+    /// What follows the messages of the faults.
+    end: String,
 }
 
 impl SceneError {
@@ -31,16 +33,28 @@ impl SceneError {
         &self.faults
     }
 
-    /// The message with ANSI colors, for a terminal; `Display` is the same without.
-    pub fn styled(&self) -> String {
-        self.styled.clone()
+    /// The message for a terminal with so many columns, with ANSI colors or without: excerpts of the file fit
+    /// into a line.
+    pub fn for_terminal(&self, columns: usize, with_colors: bool) -> String {
+        let paint = if with_colors {
+            Style::Styled
+        } else {
+            Style::Plain
+        };
+        self.message(paint, Window::of_columns(columns))
+    }
+
+    fn message(&self, style: Style, window: Window) -> String {
+        let faults = self.located.iter();
+        let parts = faults.map(|fault| message(&self.path, fault, style, window));
+        parts.collect::<Vec<_>>().join("\n\n") + &self.end
     }
 
     /// The error of a file that cannot be read.
     pub(crate) fn unreadable(path: &Path, reason: &str) -> Self {
         Self {
             faults: Vec::new(),
-            ..Self::new(path, &[LocatedFault::of_file(reason)], "")
+            ..Self::new(path, vec![LocatedFault::of_file(reason)], "")
         }
     }
 
@@ -53,7 +67,7 @@ impl SceneError {
         let (line, column) = line_and_column(text, place.start);
         let scene = harmless(&scene.to_string_lossy());
         let end = format!("\nthe table is named at {scene}:{line}:{column}");
-        Self::new(path, &[fault], &end)
+        Self::new(path, vec![fault], &end)
     }
 
     /// The error of a file in which something is wrong.
@@ -68,28 +82,24 @@ impl SceneError {
             untold => format!("\n\nand {untold} more faults"),
         };
         let told = faults.into_iter().take(MOST_FAULTS);
-        let faults: Vec<_> = told.map(|fault| locate(text, fault)).collect();
-        Self::new(path, &faults, &end)
+        let faults = told.map(|fault| locate(text, fault)).collect();
+        Self::new(path, faults, &end)
     }
 
     /// The error of these faults; `end` follows their messages.
-    fn new(path: &Path, faults: &[LocatedFault], end: &str) -> Self {
-        let all = |style: Style| {
-            let parts = faults.iter().map(|fault| message(path, fault, style));
-            parts.collect::<Vec<_>>().join("\n\n") + end
-        };
+    fn new(path: &Path, faults: Vec<LocatedFault>, end: &str) -> Self {
         Self {
             path: path.to_path_buf(),
-            plain: all(Style::Plain),
-            styled: all(Style::Styled),
             faults: faults.iter().map(SceneFault::new).collect(),
+            located: faults,
+            end: end.to_owned(),
         }
     }
 }
 
 impl fmt::Display for SceneError {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(&self.plain)
+        formatter.write_str(&self.message(Style::Plain, Window::WIDE))
     }
 }
 

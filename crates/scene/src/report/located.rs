@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use super::snippet::{Style, bold, snippet};
+use super::snippet::{Style, Window, bold, snippet};
 use crate::text::token::{self, Unclosed};
 use crate::text::{Fault, LocatedFault, Place, harmless, show};
 
@@ -39,7 +39,7 @@ impl SceneFault {
 }
 
 /// The message about a fault in the file at `path`: its place, the fault, and the line.
-pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style) -> String {
+pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style, window: Window) -> String {
     let SceneFault {
         line,
         column,
@@ -49,7 +49,7 @@ pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style) -> String
     let (place, snippet) = match &fault.place {
         Place::Text { text, span, .. } => (
             format!("{path}:{line}:{column}:"),
-            snippet(text, span.clone(), line, style),
+            snippet(text, span.clone(), line, style, window),
         ),
         Place::Row { byte, .. } => (
             format!("{path}: row {line}, column {column}, byte {byte}:"),
@@ -70,7 +70,7 @@ pub(super) fn locate(text: &str, fault: Fault) -> LocatedFault {
         true => with_found(text, fault),
         false => (fault.place, fault.message),
     };
-    let (line, _) = line_and_column(text, place.start);
+    let (line, _) = token::line_and_column(text, place.start);
     let (before, after) = text.split_at(place.start);
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     let end = after.find(['\n', '\r']);
@@ -95,14 +95,8 @@ fn with_found(text: &str, fault: Fault) -> (Range<usize>, String) {
             format!("expected a `*/` where this comment ends, {END}"),
         ),
         Some(Unclosed::Bracket(start)) if at == text.len() => {
-            let (line, column) = line_and_column(text, start);
-            let (opening, closing) = match text.as_bytes()[start] {
-                b'(' => ('(', ')'),
-                b'[' => ('[', ']'),
-                _ => ('{', '}'),
-            };
-            let expected = format!("`{closing}` for the `{opening}` at {line}:{column}");
-            (at..at, format!("expected {expected}, {END}"))
+            let expected = token::lacks_bracket(text, start);
+            (at..at, format!("{expected}, {END}"))
         }
         _ if at == text.len() => (at..at, format!("{}, {END}", fault.message)),
         _ => {
@@ -111,12 +105,4 @@ fn with_found(text: &str, fault: Fault) -> (Range<usize>, String) {
             (place, format!("{}, found {found}", fault.message))
         }
     }
-}
-
-/// Line and column of a byte, both from 1, the column in characters.
-pub(super) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
-    let before = &text[..at];
-    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
-    let newlines = before.bytes().filter(|&byte| byte == b'\n').count();
-    (newlines + 1, before[line_start..].chars().count() + 1)
 }

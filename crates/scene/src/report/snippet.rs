@@ -14,6 +14,33 @@ pub(super) enum Style {
     Styled,
 }
 
+/// The part of a long line that is shown: characters before and after the start of the place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    before: usize,
+    after: usize,
+}
+
+impl Window {
+    /// For readers of whom nothing is known.
+    pub(super) const WIDE: Self = Self {
+        before: 50,
+        after: 70,
+    };
+
+    /// No more than what a terminal with so many columns has room for.
+    pub(super) fn of_columns(columns: usize) -> Self {
+        /// Columns of the number of the line, its edge and two marks for what is cut off.
+        const BESIDE: usize = 12;
+        let room = columns.saturating_sub(BESIDE).max(BESIDE);
+        let before = Self::WIDE.before.min(2 * room / 5);
+        Self {
+            before,
+            after: Self::WIDE.after.min(room - before),
+        }
+    }
+}
+
 /// The text in bold letters, in a terminal.
 pub(super) fn bold(text: &str, style: Style) -> String {
     match style {
@@ -31,17 +58,15 @@ pub(super) fn snippet(
     place: Range<usize>,
     line: usize,
     style: Style,
+    window: Window,
 ) -> Option<String> {
-    // Characters of a long line that are shown before and after the start of the place.
-    const BEFORE: usize = 50;
-    const AFTER: usize = 70;
     const WIDER_THAN_THE_WINDOW: usize = 1000;
     let (before, after) = text.split_at(place.start);
     let line_end = after.find(['\n', '\r']).unwrap_or(after.len());
     let mut characters = before.char_indices().rev();
-    let start = characters.nth(BEFORE).map_or(0, |(at, _)| at);
+    let start = characters.nth(window.before).map_or(0, |(at, _)| at);
     let mut characters = after[..line_end].char_indices();
-    let end = characters.nth(AFTER).map_or(line_end, |(at, _)| at);
+    let end = characters.nth(window.after).map_or(line_end, |(at, _)| at);
     let (before, after) = (&before[start..], &after[..end]);
     if before.trim().is_empty() && after.trim().is_empty() {
         return None;

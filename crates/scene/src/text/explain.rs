@@ -102,10 +102,22 @@ impl Found<'_> {
             Error::ExpectedArray => "a list `[…]`",
             Error::ExpectedArrayEnd => "`]`",
             Error::ExpectedMap => "materials by name `{…}`",
+            Error::ExpectedMapColon if text[stop..].starts_with('=') => {
+                let name = &text[token::last_token(text, stop)];
+                let message = format!("expected `:`, found `=`; write `{name}: …`");
+                return Fault::new(self.token(stop), message);
+            }
             Error::ExpectedMapColon => "`:`",
             Error::ExpectedMapEnd => "`}`",
             Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => "`)`",
-            Error::ExpectedComma => &format!("`,`{}", or_closing_bracket(text, stop)),
+            Error::ExpectedComma => {
+                if let Some(end) = self.end_of_line_before() {
+                    let expected = self.comma();
+                    let message = format!("expected {expected}, found the end of the line");
+                    return Fault::new(end..end, message);
+                }
+                &self.comma()
+            }
             Error::ExpectedIdentifier
             | Error::InvalidIdentifier(_)
             | Error::SuggestRawIdentifier(_) => {
@@ -121,6 +133,9 @@ impl Found<'_> {
                 let message =
                     r#"expected an escape such as \\ or \" in this string, found another"#;
                 return Fault::new(self.token(token::token_start(text, stop)), message);
+            }
+            Error::ExpectedAttribute if !text[self.start..].starts_with("#!") => {
+                return self.expected_at(token::skip_trivia(text, 0), names.form);
             }
             Error::ExpectedAttribute | Error::ExpectedAttributeEnd => {
                 "an attribute such as `#![enable(unwrap_newtypes)]`"
@@ -146,6 +161,20 @@ impl Found<'_> {
         self.expected_at(stop, expected)
     }
 
+    /// A comma, or what else may stand where one is missing.
+    fn comma(&self) -> String {
+        format!("`,`{}", or_closing_bracket(self.slice.text, self.stop))
+    }
+
+    /// The place behind the token before, in the whole text, where that is on an earlier line.
+    fn end_of_line_before(&self) -> Option<usize> {
+        let (text, stop) = (self.slice.text, self.stop);
+        let end = token::last_token(text, stop).end;
+        // A token may reach beyond the place where `ron` stopped.
+        let between = text.get(end..stop).filter(|_| stop < text.len())?;
+        between.contains('\n').then_some(self.slice.start + end)
+    }
+
     /// The fault where a name stands without its `(…)`.
     fn alone(&self, place: Range<usize>) -> Fault {
         let name = &self.slice.text[place.clone()];
@@ -158,6 +187,10 @@ impl Found<'_> {
 
     /// The fault that something else was expected than the token at `at`.
     fn expected_at(&self, at: usize, expected: &str) -> Fault {
+        if self.slice.text[at..].starts_with('#') && self.names.noun != "color" {
+            let message = format!("expected {expected}, found `#`; comments begin with `//`");
+            return Fault::new(self.slice.start + at..self.slice.start + at + 1, message);
+        }
         Fault::at_token(self.slice.start + at, format!("expected {expected}"))
     }
 

@@ -71,6 +71,11 @@ pub(super) fn report(fault: Fault) {
     READING.with_borrow_mut(|reading| reading.faults.push(fault));
 }
 
+/// Takes back the faults of the text being read from this place on.
+pub(super) fn forget_from(place: usize) {
+    READING.with_borrow_mut(|reading| reading.faults.retain(|fault| fault.place.start < place));
+}
+
 /// Reports a fault whose message is complete; `None`, for the caller to return.
 pub(crate) fn refuse<T>(place: Range<usize>, message: impl Into<String>) -> Option<T> {
     report(Fault::new(place, message));

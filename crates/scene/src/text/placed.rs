@@ -7,7 +7,7 @@ use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
 use super::explain::explain;
-use super::fault::{self, Names};
+use super::fault::{self, Fault, Names};
 use super::raw::raw_text;
 use super::slice::Slice;
 use super::token;
@@ -135,6 +135,12 @@ pub(crate) fn read_file<'t, T: Deserialize<'t>>(slice: Slice<'t>, names: Names) 
             }
         }
         None => fault::report(explain(&error, slice, names)),
+    }
+    if let Some((open, at)) = token::missing_bracket(slice.text) {
+        // What was read behind it was taken for something else.
+        fault::forget_from(slice.start + open);
+        let expected = token::lacks_bracket(slice.text, open);
+        fault::report(Fault::at_token(slice.start + at, expected));
     }
     None
 }

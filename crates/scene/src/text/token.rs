@@ -122,6 +122,61 @@ pub(crate) fn unclosed(text: &str) -> Option<Unclosed> {
     comment.or(open.pop().map(Unclosed::Bracket))
 }
 
+/// The start of a bracket that is not closed where it should be, and that of the token which tells so: a closing
+/// bracket of another kind, or in a list the name of a field.
+pub(super) fn missing_bracket(text: &str) -> Option<(usize, usize)> {
+    let mut open: Vec<usize> = Vec::new();
+    let mut tokens = tokens(text, 0).peekable();
+    while let Some(token) = tokens.next() {
+        let kind = |at: usize| text.as_bytes()[at];
+        let is_in_list = open.last().is_some_and(|&at| kind(at) == b'[');
+        let is_name = |token: &Range<usize>| text[token.start..].starts_with(is_word);
+        match kind(token.start) {
+            b'(' | b'[' | b'{' => open.push(token.start),
+            closing @ (b')' | b']' | b'}') => {
+                let &start = open.last()?;
+                if closing != closing_bracket(kind(start)) {
+                    return Some((start, token.start));
+                }
+                open.pop();
+            }
+            _ if is_in_list
+                && is_name(&token)
+                && tokens.peek().is_some_and(|next| kind(next.start) == b':') =>
+            {
+                return Some((*open.last()?, token.start));
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// The bracket that closes this one.
+pub(crate) fn closing_bracket(opening: u8) -> u8 {
+    match opening {
+        b'(' => b')',
+        b'[' => b']',
+        _ => b'}',
+    }
+}
+
+/// Line and column of a byte, both from 1, the column in characters.
+pub(crate) fn line_and_column(text: &str, at: usize) -> (usize, usize) {
+    let before = &text[..at];
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let newlines = before.bytes().filter(|&byte| byte == b'\n').count();
+    (newlines + 1, before[line_start..].chars().count() + 1)
+}
+
+/// The words that a bracket which opens at `start` lacks the one that closes it.
+pub(crate) fn lacks_bracket(text: &str, start: usize) -> String {
+    let (line, column) = line_and_column(text, start);
+    let opening = text.as_bytes()[start];
+    let (opening, closing) = (char::from(opening), char::from(closing_bracket(opening)));
+    format!("expected `{closing}` for the `{opening}` at {line}:{column}")
+}
+
 /// White space as `ron` has it.
 pub(super) fn is_white_space(c: char) -> bool {
     matches!(c, '\t'..='\r' | ' ' | '\u{85}' | '\u{200E}'..='\u{200F}' | '\u{2028}'..='\u{2029}')
