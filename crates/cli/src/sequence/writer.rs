@@ -184,11 +184,10 @@ pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) 
             return outcome;
         }
         (Err(Unwritten::Failed(failure)), _) => {
-            // The one that was being written, if it was not the end of the file.
-            let failed = request.frames.iter().nth(outcome.written as usize);
-            let failed = failed.or_else(|| request.frames.iter().last());
-            let failed = failed.unwrap_or(request.frames.first());
-            pipeline.fail(failed, &path, &failure);
+            // Whichever was being written, all are lost.
+            for frame in request.frames.iter() {
+                pipeline.fail(frame, &path, &failure);
+            }
         }
         (Err(Unwritten::Stopped), _) | (Ok(()), None) => {}
     }
