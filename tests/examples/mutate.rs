@@ -1,10 +1,12 @@
-//! Alters scenes and tables at random, and looks for what panics or takes long:
+//! Alters files of all kinds at random, and looks for what panics, takes long or much memory:
 //! `cargo mutate [--seconds N] [--seed N]`, N seconds for each kind of input.
 
 use std::process::ExitCode;
-use std::time::Instant;
 
-use marbles_tests::mutations::{TARGETS, search};
+use marbles_tests::mutations::{Limit, most_memory, search_all};
+
+/// The memory that all of them together may take, in bytes.
+const MOST_MEMORY: u64 = 1_000_000_000;
 
 #[expect(
     clippy::print_stdout,
@@ -24,10 +26,8 @@ fn main() -> ExitCode {
         option.1 = number;
     }
     let [(_, seconds), (_, seed)] = options;
-    let mut is_clean = true;
-    for target in &TARGETS {
-        let start = Instant::now();
-        let found = search(target, seed, |_| start.elapsed().as_secs() < seconds);
+    let all = search_all(seed, Limit::Seconds(seconds));
+    for (target, found) in &all {
         println!(
             "{}: {} inputs, {} taken, the slowest {:.2} s, {} faults",
             target.name,
@@ -39,7 +39,12 @@ fn main() -> ExitCode {
         for fault in &found.faults {
             println!("  {}", fault.display());
         }
-        is_clean &= found.faults.is_empty();
     }
-    ExitCode::from(u8::from(!is_clean))
+    let memory = most_memory();
+    if let Some(memory) = memory {
+        println!("memory: {} MB at most", memory / 1_000_000);
+    }
+    let is_clean = all.iter().all(|(_, found)| found.faults.is_empty());
+    let is_small = memory.is_none_or(|memory| memory <= MOST_MEMORY);
+    ExitCode::from(u8::from(!(is_clean && is_small)))
 }

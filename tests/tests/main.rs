@@ -16,6 +16,7 @@ mod layers;
 mod mutations;
 mod parallel;
 mod photometric;
+mod pictures;
 mod point_lights;
 mod previews;
 mod promise;

@@ -11,6 +11,7 @@ mod sequence;
 mod terminal;
 
 use std::ffi::OsString;
+use std::io::Write;
 use std::process::ExitCode;
 
 use crate::base::status;
@@ -21,6 +22,16 @@ use crate::terminal::signals;
 /// Runs the command line `args`, the program's name first, as the binary `marbles` does.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     ExitCode::from(run_on(args, &Console::of_process()))
+}
+
+/// Does the same as [`run`], with results and messages to `out` and `err`, which are no terminals; returns the
+/// exit code.
+pub fn run_with(
+    args: impl IntoIterator<Item = OsString>,
+    out: impl Write + Send + 'static,
+    err: impl Write + Send + 'static,
+) -> u8 {
+    run_on(args, &Console::to(out, err))
 }
 
 /// Does the same as [`run`], with a console to print to; returns the exit code.

@@ -8,3 +8,4 @@ pub mod forms;
 pub mod frames;
 pub mod judge;
 pub mod tally;
+pub mod verdict;

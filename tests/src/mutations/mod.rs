@@ -3,17 +3,20 @@
 //! Whatever a file holds, it is read or refused: a panic is a fault, and so is what takes long.
 
 mod mutate;
+mod program;
+mod rays;
+mod scenes;
 mod seeds;
-mod targets;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use std::{env, fs, process};
+use std::{env, fs, process, thread};
 
 use self::mutate::mutated;
 use self::seeds::Seed;
-pub use self::targets::TARGETS;
 use crate::numbers::Numbers;
 
 /// A kind of input.
@@ -21,10 +24,45 @@ use crate::numbers::Numbers;
 pub struct Target {
     /// Its name.
     pub name: &'static str,
-    seeds: fn() -> Vec<Seed>,
-    /// Reads an input as a user's program would, in a folder of its own; returns whether it was taken.
+    /// The files that are altered; in a folder of the search's own.
+    seeds: fn(&Path) -> Vec<Seed>,
+    /// Reads an input as a user's program would; returns whether it was taken.
     read: fn(&Input<'_>) -> bool,
 }
+
+/// All kinds of input.
+pub const TARGETS: [Target; 6] = [
+    Target {
+        name: "scenes",
+        seeds: |_| seeds::scenes(),
+        read: scenes::read_scene,
+    },
+    Target {
+        name: "tables",
+        seeds: |_| seeds::tables(),
+        read: scenes::read_table,
+    },
+    Target {
+        name: "pictures",
+        seeds: |_| seeds::pictures(),
+        read: program::compare,
+    },
+    Target {
+        name: "existing files",
+        seeds: program::rendered,
+        read: program::resume,
+    },
+    Target {
+        name: "command lines",
+        seeds: program::command_lines,
+        read: program::plan,
+    },
+    Target {
+        name: "rays",
+        seeds: rays::seeds,
+        read: rays::judge_some,
+    },
+];
 
 /// An altered file.
 struct Input<'a> {
@@ -33,6 +71,15 @@ struct Input<'a> {
     bytes: &'a [u8],
     folder: &'a PathBuf,
     numbers: u64,
+}
+
+impl Input<'_> {
+    /// Writes the file under its name.
+    fn write(&self) -> PathBuf {
+        let path = self.folder.join(self.name);
+        fs::write(&path, self.bytes).expect("a file can be written");
+        path
+    }
 }
 
 /// What some inputs came to.
@@ -51,20 +98,60 @@ pub struct Found {
 /// The seconds that an input may take.
 const LONGEST: f64 = 5.0;
 
-/// Alters the seeds of a target until `goes_on` says no, which is asked before each input.
-///
-/// What is faulty is kept beside other temporary files.
+/// How long to search.
+#[derive(Clone, Copy, Debug)]
+pub enum Limit {
+    /// So many inputs of each kind.
+    Inputs(u64),
+    /// So many seconds for each kind.
+    Seconds(u64),
+}
+
+impl Limit {
+    fn is_reached(self, inputs: u64, start: Instant) -> bool {
+        match self {
+            Self::Inputs(most) => inputs >= most,
+            Self::Seconds(most) => start.elapsed().as_secs() >= most,
+        }
+    }
+}
+
+/// Searches with all kinds of input, as many at a time as there are processors.
 ///
 /// # Panics
 /// When files cannot be written.
-pub fn search(target: &Target, seed: u64, mut goes_on: impl FnMut(u64) -> bool) -> Found {
+pub fn search_all(seed: u64, limit: Limit) -> Vec<(&'static Target, Found)> {
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new(Vec::new());
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(target) = TARGETS.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let of_target = search(target, seed, limit);
+                    found
+                        .lock()
+                        .expect("nobody panics")
+                        .push((target, of_target));
+                }
+            });
+        }
+    });
+    found.into_inner().expect("nobody panics")
+}
+
+/// Alters the seeds of a target.
+///
+/// What is faulty is kept beside other temporary files.
+fn search(target: &Target, seed: u64, limit: Limit) -> Found {
     let folder = env::temp_dir().join(format!("marbles-mutations-{}", process::id()));
-    let folder = folder.join(target.name);
+    let folder = folder.join(target.name.replace(' ', "-"));
     fs::create_dir_all(&folder).expect("a folder can be made");
-    let seeds = (target.seeds)();
+    let seeds = (target.seeds)(&folder);
     let mut numbers = Numbers(seed);
     let mut found = Found::default();
-    while goes_on(found.inputs) {
+    let begun = Instant::now();
+    while !limit.is_reached(found.inputs, begun) {
         let seed = &seeds[numbers.below(seeds.len())];
         let other = &seeds[numbers.below(seeds.len())];
         let bytes = mutated(&mut numbers, &seed.bytes, &other.bytes);
@@ -91,4 +178,14 @@ pub fn search(target: &Target, seed: u64, mut goes_on: impl FnMut(u64) -> bool) 
         let _ = fs::remove_dir_all(&folder);
     }
     found
+}
+
+/// The most memory that the process has had, in bytes, where the system tells.
+pub fn most_memory() -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024 * kilobytes)
 }

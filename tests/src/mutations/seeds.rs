@@ -26,12 +26,27 @@ pub(super) fn scenes() -> Vec<Seed> {
 
 /// Small tables of all formats.
 pub(super) fn tables() -> Vec<Seed> {
-    files("tests/seeds", "").collect()
+    files("tests/seeds/tables", "").collect()
+}
+
+/// Small pictures of all formats, as other programs write them.
+pub(super) fn pictures() -> Vec<Seed> {
+    files("tests/seeds/pictures", "").collect()
+}
+
+/// The files of this folder.
+pub(super) fn in_folder(folder: &Path) -> Vec<Seed> {
+    read(folder, "").collect()
 }
 
 /// The files of a folder of the repository, in order, with an ending; any for none.
 fn files(folder: &str, ending: &str) -> impl Iterator<Item = Seed> {
-    let entries = fs::read_dir(repository().join(folder)).expect("the folder is there");
+    read(&repository().join(folder), ending)
+}
+
+/// The files of a folder, in order, with an ending; any for none.
+fn read<'e>(folder: &Path, ending: &'e str) -> impl Iterator<Item = Seed> + use<'e> {
+    let entries = fs::read_dir(folder).expect("the folder is there");
     let paths = entries.map(|entry| entry.expect("entries can be read").path());
     let is_wanted =
         |path: &PathBuf| ending.is_empty() || path.extension().is_some_and(|it| it == ending);

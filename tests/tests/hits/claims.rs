@@ -8,16 +8,7 @@ use marbles_tests::hits::forms::FORMS;
 use marbles_tests::hits::frames;
 use marbles_tests::hits::judge::{ExactHit, judge};
 use marbles_tests::hits::tally::Tally;
-
-/// The claimed error of t, in units in the last place.
-const DISTANCE_CLAIM: f64 = 1.0;
-
-/// The claimed angle between the normal and the exact one, in 2⁻⁵³ radians.
-const ANGLE_CLAIM: f64 = 2.0;
-
-/// The claimed distance of the normal's length from 1, in 2⁻⁵³: on the first floor it carries the
-/// rounding of 1 / r besides that of its components.
-const LENGTH_CLAIM: f64 = 2.5;
+use marbles_tests::hits::verdict::verdict;
 
 const FLOORS: [Floor; 3] = [Floor::Fast, Floor::Double, Floor::Exact];
 
@@ -86,29 +77,6 @@ impl Record {
 /// Whether a floor alone found what the whole found, to the bit.
 fn same(answer: Option<Option<Hit>>, sphere: &Sphere, ray: &Ray) -> bool {
     answer == Some(sphere.hit(ray))
-}
-
-/// Counts a case; says what is wrong with it.
-fn verdict(tally: &mut Tally, exact: Option<&ExactHit>, found: Option<Hit>) -> Option<String> {
-    let (distance, angle) = tally.count(exact, found.map(|hit| (hit.t, hit.normal)));
-    let (exact, found) = match (exact, found) {
-        (None, None) => return None,
-        (Some(exact), Some(found)) => (exact, found),
-        (Some(_), None) => return Some("a false miss".to_owned()),
-        (None, Some(_)) => return Some("a false hit".to_owned()),
-    };
-    let length = ExactHit::excess_length(found.normal);
-    let right = distance <= DISTANCE_CLAIM
-        && angle <= ANGLE_CLAIM
-        && length <= LENGTH_CLAIM
-        && found.inner_side == exact.inner_side;
-    let inner_side = exact.inner_side;
-    (!right).then(|| {
-        format!(
-            "t is off by {distance} ulp, n by {angle} · 2^-53 rad and {length} · 2^-53 in \
-             length, inner side {inner_side}: {found:?}"
-        )
-    })
 }
 
 /// Judges so many cases of every family.

@@ -57,7 +57,6 @@ impl Console {
     }
 
     /// A console that is no terminal.
-    #[cfg(test)]
     pub(crate) fn to(out: impl Write + Send + 'static, err: impl Write + Send + 'static) -> Self {
         Self {
             out: Stream::new(out, false, false),

@@ -53,18 +53,31 @@ impl BlockReader {
         &self.meta.headers[self.part]
     }
 
-    /// The block at this place of the table, with the samples of its rows, in each channel by channel.
-    pub(super) fn read(&mut self, index: usize) -> Result<UncompressedBlock, String> {
-        let chunk = self.chunk(index).map_err(|error| error.to_string())?;
+    /// The samples of the block in this column and row of blocks of the largest resolution, row by row, in each
+    /// channel by channel.
+    pub(super) fn read(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
+        let chunk = self.chunk(column, row).map_err(|error| error.to_string())?;
         let chunk = chunk.ok_or("a block is not where the file says it is")?;
-        UncompressedBlock::decompress_chunk(chunk, &self.meta, false)
-            .map_err(|error| error.to_string())
+        let block = UncompressedBlock::decompress_chunk(chunk, &self.meta, false)
+            .map_err(|error| error.to_string())?;
+        let bytes = block.index.pixel_size.area() * self.header().channels.bytes_per_pixel;
+        match block.data.len() == bytes {
+            true => Ok(block.data),
+            false => Err("a block has more or fewer samples than its pixels need".to_owned()),
+        }
     }
 
-    /// The block at this place of the table, compressed; `None` where there can be none.
+    /// That block, compressed; `None` where it cannot be or is another one.
     ///
     /// No more is allocated than the file has.
-    fn chunk(&mut self, index: usize) -> io::Result<Option<Chunk>> {
+    fn chunk(&mut self, column: usize, row: usize) -> io::Result<Option<Chunk>> {
+        let header = self.header();
+        let (size, block) = (header.layer_size, header.max_block_pixel_size());
+        let top = header.own_attributes.layer_position.y();
+        let is_tiled = matches!(header.blocks, BlockDescription::Tiles(_));
+        let most = header.max_block_byte_size();
+        // The largest resolution comes first.
+        let index = row * size.width().div_ceil(block.width()) + column;
         let entry = self.table.saturating_add(8 * index as u64);
         self.file.seek(SeekFrom::Start(entry))?;
         let place = u64::from_le_bytes(self.numbers()?);
@@ -75,12 +88,15 @@ impl BlockReader {
         if self.meta.requirements.is_multilayer() && self.number()? != self.part as i32 {
             return Ok(None);
         }
-        let most = self.header().max_block_byte_size();
-        let is_tiled = matches!(self.header().blocks, BlockDescription::Tiles(_));
-        let mut start = [0; 4];
-        let numbers = if is_tiled { 4 } else { 1 };
-        for number in &mut start[..numbers] {
-            *number = self.number()?;
+        let y_coordinate = i64::from(top) + (row * block.height()) as i64;
+        let expected: &[i64] = match is_tiled {
+            true => &[column as i64, row as i64, 0, 0],
+            false => &[y_coordinate],
+        };
+        for &number in expected {
+            if i64::from(self.number()?) != number {
+                return Ok(None);
+            }
         }
         let Ok(length) = usize::try_from(self.number()?) else {
             return Ok(None);
@@ -91,19 +107,16 @@ impl BlockReader {
         let mut compressed_pixels_le = vec![0; length];
         self.file.read_exact(&mut compressed_pixels_le)?;
         let compressed_block = if is_tiled {
-            let [Ok(x), Ok(y), Ok(level_x), Ok(level_y)] = start.map(usize::try_from) else {
-                return Ok(None);
-            };
             CompressedBlock::Tile(CompressedTileBlock {
                 coordinates: TileCoordinates {
-                    tile_index: Vec2(x, y),
-                    level_index: Vec2(level_x, level_y),
+                    tile_index: Vec2(column, row),
+                    level_index: Vec2(0, 0),
                 },
                 compressed_pixels_le,
             })
         } else {
             CompressedBlock::ScanLine(CompressedScanLineBlock {
-                y_coordinate: start[0],
+                y_coordinate: y_coordinate as i32,
                 compressed_pixels_le,
             })
         };

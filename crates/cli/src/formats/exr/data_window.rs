@@ -3,7 +3,7 @@
 use exr::meta::MetaData;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
-use exr::prelude::{Vec2, f16};
+use exr::prelude::f16;
 
 use super::block_reader::BlockReader;
 use crate::formats::source::Input;
@@ -122,7 +122,7 @@ impl DataWindow {
         if self.row_of_blocks != Some(row_of_blocks) {
             self.blocks.clear();
             for column in 0..self.size.0.div_ceil(self.block.0) {
-                let samples = self.read_block(column, row_of_blocks)?;
+                let samples = self.reader.read(column, row_of_blocks)?;
                 self.blocks.push(samples);
             }
             self.row_of_blocks = Some(row_of_blocks);
@@ -166,23 +166,5 @@ impl DataWindow {
             (SampleType::U32, &[a, b, c, d, ..]) => u32::from_ne_bytes([a, b, c, d]).into(),
             _ => 0.0,
         }
-    }
-
-    /// The samples of a block.
-    fn read_block(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
-        let columns = self.size.0.div_ceil(self.block.0);
-        // The largest resolution comes first.
-        let index = row * columns + column;
-        let block = self.reader.read(index)?;
-        let first = (column * self.block.0, row * self.block.1);
-        let width = self.block.0.min(self.size.0 - first.0);
-        let height = self.block.1.min(self.size.1 - first.1);
-        if block.index.level != Vec2(0, 0)
-            || block.index.pixel_position != Vec2(first.0, first.1)
-            || block.data.len() != width * height * self.pixel_bytes
-        {
-            return Err("a block is not the one that the file says it is".to_owned());
-        }
-        Ok(block.data)
     }
 }

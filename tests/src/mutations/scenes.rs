@@ -1,30 +1,15 @@
-//! What reads altered files.
+//! Scenes and tables, read as `marbles render` reads them.
 
-use std::fs;
 use std::ops::ControlFlow;
 
 use marbles_core::{Method, Renderer, Settings, View};
 use marbles_scene::Scene;
 
-use super::{Input, Target, seeds};
+use super::{Input, seeds};
 use crate::numbers::Numbers;
 
-/// All kinds of input.
-pub const TARGETS: [Target; 2] = [
-    Target {
-        name: "scenes",
-        seeds: seeds::scenes,
-        read: read_scene,
-    },
-    Target {
-        name: "tables",
-        seeds: seeds::tables,
-        read: read_table,
-    },
-];
-
 /// Reads a scene, and renders a few pixels of a small one.
-fn read_scene(input: &Input<'_>) -> bool {
+pub(super) fn read_scene(input: &Input<'_>) -> bool {
     let text = String::from_utf8_lossy(input.bytes);
     let path = seeds::repository().join("scenes").join(input.name);
     match Scene::parse(&text, &path) {
@@ -72,9 +57,8 @@ fn render(scene: &Scene) {
 }
 
 /// Reads a table by a scene that asks for one thing or another of it.
-fn read_table(input: &Input<'_>) -> bool {
-    let path = input.folder.join(input.name);
-    fs::write(&path, input.bytes).expect("a table can be written");
+pub(super) fn read_table(input: &Input<'_>) -> bool {
+    input.write();
     let mut numbers = Numbers(input.numbers);
     let radius = numbers.either(&["", "", ", radius: 0.5"]);
     let more = numbers.either(&[

@@ -1,0 +1,53 @@
+//! Pictures that other programs wrote, as `marbles compare` reads them: `tests/seeds/pictures` was written by
+//! OpenEXR, by NumPy, and by hand.
+
+use std::ffi::OsString;
+use std::io::sink;
+use std::path::{Path, PathBuf};
+
+/// All of them show the colors of this one.
+const COLORS: &str = "doubles.npy";
+
+fn seed(name: &str) -> PathBuf {
+    let seeds = Path::new(env!("CARGO_MANIFEST_DIR")).join("seeds/pictures");
+    seeds.join(name)
+}
+
+/// The exit code of a comparison.
+fn compare(name: &str, other: &str, tolerance: &str) -> u8 {
+    let words = ["marbles", "compare", "--quiet", "--tolerance", tolerance];
+    let words = words.map(OsString::from).into_iter();
+    let files = [name, other].map(|name| seed(name).into_os_string());
+    marbles_cli::run_with(words.chain(files), sink(), sink())
+}
+
+#[test]
+fn blocks_of_all_kinds_are_read() {
+    // Half a unit in the last place of a half below 1; PXR24 keeps 24 bit, and B44 less than there are.
+    for (name, tolerance, less) in [
+        ("zip.exr", "2.5e-4", "1e-4"),
+        ("rle.exr", "2.5e-4", "1e-4"),
+        ("piz.exr", "2.5e-4", "1e-4"),
+        ("tiles.exr", "2.5e-4", "1e-4"),
+        ("parts.exr", "2.5e-4", "1e-4"),
+        ("pxr24.exr", "1e-5", "1e-6"),
+        ("b44.exr", "6e-2", "1e-2"),
+        // Half a code of 16 bit, linear.
+        ("rgb16.png", "1.6e-5", "1e-6"),
+    ] {
+        assert_eq!(compare(name, COLORS, tolerance), 0, "{name}");
+        assert_eq!(compare(name, COLORS, less), 1, "{name}");
+    }
+}
+
+#[test]
+fn what_is_stored_in_two_ways_is_the_same() {
+    for (one, other) in [
+        ("interlaced.png", "rgb8.png"),
+        ("animated.png", "grey.png"),
+        ("floats.npy", "none_grey.exr"),
+    ] {
+        assert_eq!(compare(one, other, "0"), 0, "{one}");
+        assert_eq!(compare(one, COLORS, "0"), 1, "{one}");
+    }
+}
