@@ -104,7 +104,7 @@ fn signals_that_are_ignored_at_the_start_stay_ignored() {
 }
 
 #[test]
-fn a_merge_that_is_ended_leaves_nothing() {
+fn what_is_ended_while_it_writes_leaves_nothing() {
     let folder = Folder::new();
     for (name, region) in [("a", "0,0,3000,1500"), ("b", "0,1500,3000,1500")] {
         let arguments = format!(
@@ -113,19 +113,25 @@ fn a_merge_that_is_ended_leaves_nothing() {
         let output = folder.run(&arguments);
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
     }
-    let mut child = folder
-        .marbles("merge o.exr a.exr b.exr")
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    wait_until("a temporary file", || {
-        folder.path("o.exr.tmp").exists() || folder.path("o.exr").exists()
-    });
-    signal("TERM", &child);
-    let code = child.wait().unwrap().code();
-    assert!(matches!(code, Some(0 | 130)), "{code:?}");
-    assert!(!folder.path("o.exr.tmp").exists());
+    for arguments in [
+        "merge o.exr a.exr b.exr",
+        "compare a.exr a.exr --diff o.exr",
+    ] {
+        let mut child = folder
+            .marbles(arguments)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        wait_until("a temporary file", || {
+            folder.path("o.exr.tmp").exists() || folder.path("o.exr").exists()
+        });
+        signal("TERM", &child);
+        let code = child.wait().unwrap().code();
+        assert!(matches!(code, Some(0 | 130)), "{arguments}: {code:?}");
+        assert!(!folder.path("o.exr.tmp").exists(), "{arguments}");
+        let _ = std::fs::remove_file(folder.path("o.exr"));
+    }
 }
 
 /// However many threads are asked for, there are as many as have a use, or an error.

@@ -1,14 +1,15 @@
 //! What a scene file says that may be an oversight.
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use glam::DVec3;
 
 use crate::file::{File, Lens};
 use crate::text::{harmless, list, quoted};
 
-/// A field of view of fewer degrees looks like one in radians.
-const FEW_DEGREES: f64 = 3.2;
+/// A field of view of so many degrees looks like one in radians; fewer are those of a telescope.
+const LIKE_RADIANS: Range<f64> = 0.05..3.2;
 
 /// Plain sentences, what is odd first, and then what to do.
 pub(super) fn warnings(file: &File) -> Vec<String> {
@@ -41,7 +42,7 @@ fn lens(file: &File) -> Option<String> {
         return None;
     };
     let degrees = angle.get()?.0;
-    (degrees < FEW_DEGREES).then(|| {
+    LIKE_RADIANS.contains(&degrees).then(|| {
         let meant = (10.0 * degrees.to_degrees()).round() / 10.0;
         format!(
             "lens: Fov({degrees}) is in degrees, and looks like radians, of which it would be Fov({meant})"
@@ -129,6 +130,7 @@ mod tests {
                 "",
                 "lens: Fov(0.9) is in degrees, and looks like radians, of which it would be Fov(51.6)",
             ),
+            ("Fov(1e-9)", "", ""),
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: (200, 30, 0))}",

@@ -30,7 +30,8 @@ Rows of the result:
 Exit codes:
   0  no pixel is over the tolerance, or none was given
   1  some pixel is over the tolerance, the sizes differ, or something failed
-  2  the command line or a picture is wrong";
+  2  the command line or a picture is wrong
+  130  interrupted while --diff was written";
 
 /// Tell how far two pictures differ, as the absolute difference in linear light
 #[derive(Debug, Args)]

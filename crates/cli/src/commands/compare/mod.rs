@@ -25,6 +25,7 @@ use crate::files::save::Fault;
 use crate::formats::load;
 use crate::formats::picture::Picture;
 use crate::terminal::console::Console;
+use crate::terminal::interrupt;
 
 pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8, Failure> {
     let CompareArguments {
@@ -61,6 +62,8 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
     }
     let mut counter = Counter::new(&pair, *tolerance, arguments.worst);
     if let Some(picture) = &difference_picture {
+        // What is half written goes where the user ends it.
+        interrupt::listen(console);
         prepare(picture.path())?;
         let channels = pair.channels();
         let names = channels.iter().map(|&channel| pair.name(channel));
