@@ -106,7 +106,7 @@ impl<'watch> Frames<'watch> {
                 Some(array) => array,
                 None => self.array.insert(npy::Array::new(&mut self.input)?),
             };
-            return Ok(array.skip(&mut self.input)?);
+            return array.skip(&mut self.input);
         }
         let Some(header) = self.header()? else {
             return Ok(false);

@@ -106,11 +106,19 @@ impl Array {
     }
 
     /// Passes over the next table; returns whether there was one.
-    pub(crate) fn skip(&self, input: &mut Input<'_>) -> std::io::Result<bool> {
+    ///
+    /// # Errors
+    /// A file that ends within it, so that no header asks for more tables than there are.
+    pub(crate) fn skip(&self, input: &mut Input<'_>) -> Result<bool, TableError> {
         if input.position >= self.end() {
             return Ok(false);
         }
-        input.skip_to(input.position.saturating_add(self.size.max(1)), 0)?;
+        let next = input.position.saturating_add(self.size.max(1));
+        if self.size > 0 && input.size().is_some_and(|size| next > size) {
+            let expected = format!("{} tables of {} bytes", self.tables, self.size);
+            return Err(fault(&expected, "the end of the file").into());
+        }
+        input.skip_to(next, 0)?;
         Ok(true)
     }
 }

@@ -10,6 +10,7 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::Vec2;
 
+use super::guard::guarded;
 use crate::formats::source::Input;
 
 /// A file that is being read.
@@ -25,8 +26,13 @@ pub(super) struct BlockReader {
 
 /// What a file tells before its blocks; it is read up to there.
 pub(super) fn meta_of(file: &mut impl Input) -> Result<MetaData, String> {
-    MetaData::read_from_buffered(file, false).map_err(|error| error.to_string())
+    guarded(|| MetaData::read_from_buffered(file, false))
 }
+
+/// The most bytes of the blocks beside each other that any file may have: a hundred times what is usual.
+const MOST_BYTES: u64 = 1 << 28;
+/// The most bytes of them for a byte of the file, beyond that.
+const MOST_FOR_A_BYTE: u64 = 1 << 8;
 
 impl BlockReader {
     /// The blocks of this part of the file that was read as far as `meta`.
@@ -34,17 +40,33 @@ impl BlockReader {
         mut file: Box<dyn Input>,
         meta: MetaData,
         part: usize,
-    ) -> io::Result<Self> {
+    ) -> Result<Self, String> {
+        let header = &meta.headers[part];
+        if header.deep {
+            return Err("its pixels are deep, expected flat ones".to_owned());
+        }
         let before = meta.headers[..part].iter();
         let before: u64 = before.map(|header| 8 * header.chunk_count as u64).sum();
-        let table = file.stream_position()?.saturating_add(before);
-        let end = file.seek(SeekFrom::End(0))?;
+        let mut places = || -> io::Result<(u64, u64)> {
+            Ok((file.stream_position()?, file.seek(SeekFrom::End(0))?))
+        };
+        let (start, end) = places().map_err(|error| error.to_string())?;
+        let (size, block) = (header.layer_size, header.max_block_pixel_size());
+        let pixels = size.width().checked_mul(block.height().min(size.height()));
+        let bytes = pixels.and_then(|pixels| pixels.checked_mul(header.channels.bytes_per_pixel));
+        let most = MOST_BYTES.max(MOST_FOR_A_BYTE.saturating_mul(end));
+        if bytes.is_none_or(|bytes| bytes as u64 > most) {
+            let megabytes = most / 1_000_000;
+            return Err(format!(
+                "its blocks have more than {megabytes} MB side by side"
+            ));
+        }
         Ok(Self {
             file,
             end,
             meta,
             part,
-            table,
+            table: start.saturating_add(before),
         })
     }
 
@@ -58,8 +80,8 @@ impl BlockReader {
     pub(super) fn read(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
         let chunk = self.chunk(column, row).map_err(|error| error.to_string())?;
         let chunk = chunk.ok_or("a block is not where the file says it is")?;
-        let block = UncompressedBlock::decompress_chunk(chunk, &self.meta, false)
-            .map_err(|error| error.to_string())?;
+        let meta = &self.meta;
+        let block = guarded(|| UncompressedBlock::decompress_chunk(chunk, meta, false))?;
         let bytes = block.index.pixel_size.area() * self.header().channels.bytes_per_pixel;
         match block.data.len() == bytes {
             true => Ok(block.data),

@@ -8,9 +8,6 @@ use exr::prelude::f16;
 use super::block_reader::BlockReader;
 use crate::formats::source::Input;
 
-/// The most bytes of the blocks beside each other that a file may have: a hundred times what is usual.
-const MOST_BYTES: usize = 1 << 28;
-
 /// The samples of the largest resolution of a part, being read row by row.
 pub(super) struct DataWindow {
     reader: BlockReader,
@@ -67,23 +64,11 @@ impl DataWindow {
         meta: MetaData,
         part: usize,
     ) -> Result<Self, String> {
-        let reader = BlockReader::of_part(file, meta, part).map_err(|error| error.to_string())?;
+        let reader = BlockReader::of_part(file, meta, part)?;
         let header = reader.header();
-        if header.deep {
-            return Err("its pixels are deep, expected flat ones".to_owned());
-        }
         let block = header.max_block_pixel_size();
         let (width, height) = (header.layer_size.width(), header.layer_size.height());
         let pixel_bytes = header.channels.bytes_per_pixel;
-        let bytes = width
-            .checked_mul(block.height().min(height))
-            .and_then(|pixels| pixels.checked_mul(pixel_bytes));
-        if bytes.is_none_or(|bytes| bytes > MOST_BYTES) {
-            return Err(format!(
-                "its blocks have more than {} MB side by side",
-                MOST_BYTES / 1_000_000
-            ));
-        }
         let display = header.shared_attributes.display_window.position;
         let position = header.own_attributes.layer_position;
         let offset = |data: i32, display: i32| i64::from(data) - i64::from(display);

@@ -3,48 +3,54 @@
 use std::fs::File;
 use std::io::BufReader;
 
-use exr::block::UncompressedBlock;
-use exr::block::reader::{AllChunksReader, ChunksReader};
-use exr::error::Error;
+use exr::meta::BlockDescription;
 use exr::meta::header::Header;
 
-/// A file of one part that is being read.
+use super::block_reader::{BlockReader, meta_of};
+
+/// A file that is being read, whose first part has blocks of whole rows.
 pub(crate) struct Rows {
-    chunks: AllChunksReader<BufReader<File>>,
-    /// Samples of rows.
+    blocks: BlockReader,
+    /// The samples of the rows of a block.
     block: Vec<u8>,
-    /// Bytes of them that were handed out.
-    used: usize,
+    /// The number of the next row.
+    next: usize,
 }
 
 impl Rows {
-    pub(crate) fn begin(file: File) -> Result<Self, Error> {
-        let reader = exr::block::read(BufReader::new(file), false)?;
+    pub(crate) fn begin(file: File) -> Result<Self, String> {
+        let mut file = Box::new(BufReader::new(file));
+        let meta = meta_of(&mut file)?;
+        let blocks = BlockReader::of_part(file, meta, 0)?;
+        if blocks.header().blocks != BlockDescription::ScanLines {
+            return Err("expected blocks of whole rows, found tiles".to_owned());
+        }
         Ok(Self {
-            chunks: reader.all_chunks(false)?,
+            blocks,
             block: Vec::new(),
-            used: 0,
+            next: 0,
         })
     }
 
     pub(crate) fn header(&self) -> &Header {
-        &self.chunks.meta_data().headers[0]
+        self.blocks.header()
     }
 
-    /// The samples of the next row; `None` where the file ends early.
-    pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, Error> {
-        if self.used == self.block.len() {
-            let Some(chunk) = self.chunks.next() else {
-                return Ok(None);
-            };
-            let meta = self.chunks.meta_data();
-            self.block = UncompressedBlock::decompress_chunk(chunk?, meta, false)?.data;
-            self.used = 0;
-        }
+    /// The samples of the next row; `None` behind the last one.
+    pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, String> {
         let header = self.header();
-        let length = header.layer_size.width() * header.channels.bytes_per_pixel;
-        let row = self.used..self.used + length;
-        self.used = row.end;
-        Ok(self.block.get(row))
+        let size = header.layer_size;
+        let bytes = size.width() * header.channels.bytes_per_pixel;
+        let rows = header.max_block_pixel_size().height();
+        let row = self.next;
+        if row == size.height() {
+            return Ok(None);
+        }
+        self.next += 1;
+        if row.is_multiple_of(rows) {
+            self.block = self.blocks.read(0, row / rows)?;
+        }
+        let start = row % rows * bytes;
+        Ok(self.block.get(start..start + bytes))
     }
 }

@@ -8,6 +8,7 @@ use exr::meta::header::Header;
 use exr::prelude::AttributeValue;
 use marbles_core::Window;
 
+use super::guard::guarded;
 use super::header::DIGEST_ATTRIBUTE;
 use crate::base::region::Region;
 use crate::base::size::Size;
@@ -19,7 +20,7 @@ pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> 
     file.rewind().ok()?;
     let mut file = BufReader::new(file);
     // Pedantic: a number of blocks that does not fit the size tells of a file that was altered.
-    let meta = MetaData::read_from_buffered(&mut file, true).ok()?;
+    let meta = guarded(|| MetaData::read_from_buffered(&mut file, true)).ok()?;
     let [header] = &meta.headers[..] else {
         return None;
     };
