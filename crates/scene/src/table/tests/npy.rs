@@ -74,6 +74,23 @@ fn npy_of_records_is_read() {
     }
 }
 
+/// A header of a hundred bytes does not make the program look for 2⁶³ tables.
+#[test]
+fn npy_of_more_tables_than_the_file_has_is_refused() {
+    let of_tables = |tables: u64| {
+        let shape = format!("'shape': ({tables}, 2, 4)");
+        let header = format!("{{'descr': '<f8', 'fortran_order': False, {shape}}}");
+        npy(&header, &doubles(&TWO.concat()))
+    };
+    let whole = scene("a.npy", of_tables(1), "frames: All");
+    assert!(whole.has_steps());
+    for tables in [2, 1 << 63] {
+        let expected =
+            format!("a.npy: expected {tables} tables of 64 bytes, found the end of the file");
+        assert_eq!(refusal("a.npy", of_tables(tables), "frames: All"), expected);
+    }
+}
+
 #[test]
 fn npy_is_refused() {
     let header = |descr: &str, shape: &str| {
