@@ -140,12 +140,19 @@ pub fn search_all(seed: u64, limit: Limit) -> Vec<(&'static Target, Found)> {
     found.into_inner().expect("nobody panics")
 }
 
+/// The name of the input that is being read, in the folder of its kind.
+const CURRENT: &str = "current";
+
+/// The folder in which this process has a folder for each kind of input.
+pub fn folder() -> PathBuf {
+    env::temp_dir().join(format!("marbles-mutations-{}", process::id()))
+}
+
 /// Alters the seeds of a target.
 ///
 /// What is faulty is kept beside other temporary files.
 fn search(target: &Target, seed: u64, limit: Limit) -> Found {
-    let folder = env::temp_dir().join(format!("marbles-mutations-{}", process::id()));
-    let folder = folder.join(target.name.replace(' ', "-"));
+    let folder = folder().join(target.name.replace(' ', "-"));
     fs::create_dir_all(&folder).expect("a folder can be made");
     let seeds = (target.seeds)(&folder);
     let mut numbers = Numbers(seed);
@@ -161,6 +168,8 @@ fn search(target: &Target, seed: u64, limit: Limit) -> Found {
             folder: &folder,
             numbers: numbers.bits(),
         };
+        // For those who look for what ended the process.
+        fs::write(folder.join(CURRENT), &bytes).expect("a file can be written");
         let start = Instant::now();
         let read = catch_unwind(AssertUnwindSafe(|| (target.read)(&input)));
         let seconds = start.elapsed().as_secs_f64();
