@@ -11,6 +11,7 @@ use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::Vec2;
 
 use super::guard::guarded;
+use crate::base::failure::reason;
 use crate::formats::source::Input;
 
 /// A file that is being read.
@@ -50,7 +51,7 @@ impl BlockReader {
         let mut places = || -> io::Result<(u64, u64)> {
             Ok((file.stream_position()?, file.seek(SeekFrom::End(0))?))
         };
-        let (start, end) = places().map_err(|error| error.to_string())?;
+        let (start, end) = places().map_err(|error| reason(&error))?;
         let (size, block) = (header.layer_size, header.max_block_pixel_size());
         let pixels = size.width().checked_mul(block.height().min(size.height()));
         let bytes = pixels.and_then(|pixels| pixels.checked_mul(header.channels.bytes_per_pixel));
@@ -78,7 +79,7 @@ impl BlockReader {
     /// The samples of the block in this column and row of blocks of the largest resolution, row by row, in each
     /// channel by channel.
     pub(super) fn read(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
-        let chunk = self.chunk(column, row).map_err(|error| error.to_string())?;
+        let chunk = self.chunk(column, row).map_err(|error| reason(&error))?;
         let chunk = chunk.ok_or("a block is not where the file says it is")?;
         let meta = &self.meta;
         let block = guarded(|| UncompressedBlock::decompress_chunk(chunk, meta, false))?;

@@ -8,6 +8,7 @@ use exr::prelude::f16;
 use super::block_reader::meta_of;
 use super::channels::choose;
 use super::data_window::{Channel, DataWindow};
+use crate::base::failure::reason;
 use crate::base::size::Size;
 use crate::formats::encoding::Format;
 use crate::formats::picture::{Picture, Samples, size_of};
@@ -24,7 +25,7 @@ struct Numbers {
 
 /// The picture in an EXR file.
 pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
-    let mut file = source.open().map_err(|error| error.to_string())?;
+    let mut file = source.open().map_err(|error| reason(&error))?;
     let meta = meta_of(&mut file)?;
     let chosen = choose(&meta.headers)?;
     let part = &meta.headers[chosen.part];

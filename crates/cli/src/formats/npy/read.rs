@@ -4,6 +4,7 @@ use std::io::{Read, Seek, SeekFrom};
 
 use super::array::{Array, Number};
 use super::header;
+use crate::base::failure::reason;
 use crate::formats::encoding::Format;
 use crate::formats::picture::{Picture, Samples, size_of};
 use crate::formats::source::{Input, Source};
@@ -18,7 +19,7 @@ struct Numbers {
 
 /// The picture in a file.
 pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
-    let mut file = source.open().map_err(|error| error.to_string())?;
+    let mut file = source.open().map_err(|error| reason(&error))?;
     let header = header::read(&mut file)?;
     let array = header.array;
     let names = match array.channels {
@@ -30,9 +31,9 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     };
     let size = size_of(array.size.width as usize, array.size.height as usize)?;
     let end = file.seek(SeekFrom::End(0));
-    let end = end.map_err(|error| error.to_string())?;
+    let end = end.map_err(|error| reason(&error))?;
     file.seek(SeekFrom::Start(header.start))
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| reason(&error))?;
     if array.bytes() != end.checked_sub(header.start) {
         return Err("its numbers are more or fewer than its header says".to_owned());
     }
@@ -59,7 +60,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
 impl Samples for Numbers {
     fn advance(&mut self) -> Result<(), String> {
         let read = self.file.read_exact(&mut self.row);
-        read.map_err(|error| error.to_string())
+        read.map_err(|error| reason(&error))
     }
 
     fn rgba(&self, col: u32) -> [f64; 4] {

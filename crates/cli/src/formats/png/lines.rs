@@ -7,6 +7,7 @@
 use png::{ColorType, Reader, Transformations};
 
 use super::decoder::decoder;
+use crate::base::failure::reason;
 use crate::formats::source::{Input, Source};
 
 /// The first column and row of each of the seven, and the steps to the next ones.
@@ -131,7 +132,7 @@ impl Lines {
 
 /// Reads the header of a file.
 pub(super) fn open(source: &Source) -> Result<Reader<Box<dyn Input>>, String> {
-    let file = source.open().map_err(|error| error.to_string())?;
+    let file = source.open().map_err(|error| reason(&error))?;
     let mut decoder = decoder(file);
     // Samples of at least 8 bit, and colors for the numbers of a palette.
     decoder.set_transformations(Transformations::EXPAND);
