@@ -1,14 +1,26 @@
 """Whether lists of frames mean the same to marbles and to Open Job Description, both ways.
 
-Usage: farm_ranges.py SCENE, with marbles on the path and openjd installed.
+Usage: farm_ranges.py, with marbles on the path and openjd installed.
 """
 
+import pathlib
 import random
 import re
 import subprocess
-import sys
+import tempfile
 
 from openjd.model import IntRangeExpr
+
+# It has all frames that are asked for.
+SCENE = """(
+    image: (width: 9, height: 9),
+    lens: Fov(40),
+    camera: Free(),
+    lights: [Directional(toward: (1, 1, -1))],
+    spheres: [(center: (0, 0, 5), radius: 1)],
+    animation: Keyframes(frames: (-1000, 1000), keys: [(frame: 1)]),
+)
+"""
 
 
 def chunks(scene: str, frames: str, size: int) -> list[str]:
@@ -41,8 +53,7 @@ def expression(numbers: random.Random) -> str:
     return ",".join(items)
 
 
-def main() -> None:
-    scene = sys.argv[1]
+def main(scene: str) -> None:
     numbers = random.Random(1)
     for _ in range(60):
         text = expression(numbers)
@@ -57,4 +68,7 @@ def main() -> None:
     print("lists of frames mean the same to both: 60 of 60")
 
 
-main()
+with tempfile.TemporaryDirectory() as folder:
+    path = pathlib.Path(folder, "scene.ron")
+    path.write_text(SCENE)
+    main(str(path))

@@ -170,9 +170,16 @@ fn search(target: &Target, seed: u64, limit: Limit) -> Found {
         };
         // For those who look for what ended the process.
         fs::write(folder.join(CURRENT), &bytes).expect("a file can be written");
-        let start = Instant::now();
-        let read = catch_unwind(AssertUnwindSafe(|| (target.read)(&input)));
-        let seconds = start.elapsed().as_secs_f64();
+        let timed = || {
+            let start = Instant::now();
+            let read = catch_unwind(AssertUnwindSafe(|| (target.read)(&input)));
+            (read, start.elapsed().as_secs_f64())
+        };
+        let (mut read, mut seconds) = timed();
+        if read.is_ok() && seconds > LONGEST {
+            // Something else may have had the processor.
+            (read, seconds) = timed();
+        }
         found.inputs += 1;
         found.taken += u64::from(matches!(read, Ok(true)));
         found.slowest = found.slowest.max(seconds);
