@@ -244,7 +244,7 @@ kill_node() {
     local shell frames
     shell=$(script_on "$1") || return 1
     killed=$(variable "$shell" SLURM_ARRAY_TASK_ID)
-    frames=$(grep -c ' pixels, ' "$work/log/task-$killed" 2>/dev/null) || return 1
+    frames=$(grep -c ': error <= ' "$work/log/task-$killed" 2>/dev/null) || return 1
     [ "$frames" -lt 4 ] || return 1
     kill -KILL "$(cat "$work/spool/$1.pid")"
     end_task_on "$1"
@@ -278,7 +278,7 @@ slurm_job() {
     marbles farm slurm "$scene" --frames 1-40 --chunk 40 "${options[@]}" \
         -o "$work/canceled/####.png" --job "$job"
     id=$(timeout 10 sbatch --parsable --chdir="$work" --output="$work/log/canceled" "$job")
-    within 30 grep -qs ' pixels, ' "$work/log/canceled" || fail "nothing is rendered"
+    within 30 grep -qs ': error <= ' "$work/log/canceled" || fail "nothing is rendered"
     timeout 10 scancel "$id"
     within 30 none_is_left || fail "the job is not canceled"
     grep -q 'marbles: interrupted: ' "$work/log/canceled" || fail "the renderer was not interrupted"
