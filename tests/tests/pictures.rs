@@ -40,6 +40,12 @@ fn blocks_of_all_kinds_are_read() {
     }
 }
 
+/// The decoder of the library panics on these blocks.
+#[test]
+fn altered_blocks_are_refused() {
+    assert_eq!(compare("b44_altered.exr", COLORS, "1"), 2);
+}
+
 #[test]
 fn what_is_stored_in_two_ways_is_the_same() {
     for (one, other) in [

@@ -139,6 +139,5 @@ pub(super) fn plan(input: &Input<'_>) -> bool {
     };
     let scene = input.folder.join("scene.ron").into_os_string();
     let start = ["farm".into(), engine.into(), scene];
-    // Help is no job, and would tell nothing.
     marbles(start.into_iter().chain(text.lines().map(OsString::from))) == 0
 }

@@ -1,6 +1,6 @@
 //! Files that are read from any place, several times where that is needed.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 const BUFFER_BYTES: usize = 1 << 16;
 
 /// The place where the bytes of a file are.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) enum Source {
     File(PathBuf),
     /// A pipe can be read once and forward alone; this is what came out of it.
@@ -35,7 +35,7 @@ impl Source {
         Read::by_ref(&mut file)
             .take(start as u64)
             .read_to_end(&mut bytes)?;
-        if fs::metadata(path)?.is_file() {
+        if file.metadata()?.is_file() {
             return Ok((Self::File(path.to_owned()), bytes));
         }
         if is_wanted(&bytes) {

@@ -36,12 +36,12 @@ impl SceneError {
     /// The message for a terminal with so many columns, with ANSI colors or without: excerpts of the file fit
     /// into a line.
     pub fn for_terminal(&self, columns: usize, with_colors: bool) -> String {
-        let paint = if with_colors {
+        let style = if with_colors {
             Style::Styled
         } else {
             Style::Plain
         };
-        self.message(paint, Window::of_columns(columns))
+        self.message(style, Window::of_columns(columns))
     }
 
     fn message(&self, style: Style, window: Window) -> String {

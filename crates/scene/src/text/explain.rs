@@ -229,14 +229,13 @@ fn first_line(slice: Slice<'_>) -> Range<usize> {
 }
 
 /// " or `)`", the bracket that would close the one that is open before `stop`.
-fn or_closing_bracket(text: &str, stop: usize) -> &'static str {
+fn or_closing_bracket(text: &str, stop: usize) -> String {
     match token::unclosed(&text[..stop]) {
-        Some(Unclosed::Bracket(at)) => match text.as_bytes()[at] {
-            b'(' => " or `)`",
-            b'[' => " or `]`",
-            _ => " or `}`",
-        },
-        _ => "",
+        Some(Unclosed::Bracket(at)) => {
+            let closing = char::from(token::closing_bracket(text.as_bytes()[at]));
+            format!(" or `{closing}`")
+        }
+        _ => String::new(),
     }
 }
 

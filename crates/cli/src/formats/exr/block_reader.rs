@@ -25,15 +25,18 @@ pub(super) struct BlockReader {
     table: u64,
 }
 
+/// The most bytes of the blocks beside each other that any file may have: a hundred times what is usual.
+const MOST_BYTES: u64 = 1 << 28;
+/// The most bytes of them for a byte of the file, beyond that: deflate makes no more of one, so that no file
+/// which is compressed by it, as ours are, has more.
+///
+/// Source: zlib, "Maximum Compression Factor" in its technical details.
+const MOST_FOR_A_BYTE: u64 = 1032;
+
 /// What a file tells before its blocks; it is read up to there.
 pub(super) fn meta_of(file: &mut impl Input) -> Result<MetaData, String> {
     guarded(|| MetaData::read_from_buffered(file, false))
 }
-
-/// The most bytes of the blocks beside each other that any file may have: a hundred times what is usual.
-const MOST_BYTES: u64 = 1 << 28;
-/// The most bytes of them for a byte of the file, beyond that.
-const MOST_FOR_A_BYTE: u64 = 1 << 8;
 
 impl BlockReader {
     /// The blocks of this part of the file that was read as far as `meta`.

@@ -54,6 +54,23 @@ fn what_is_not_closed_is_found() {
 }
 
 #[test]
+fn brackets_that_are_missing_are_found() {
+    // The bracket that is not closed, and what tells so: a field's name in a list, or another closing bracket.
+    assert_eq!(missing_bracket("(a: [1, b: 2)"), Some((4, 8)));
+    assert_eq!(missing_bracket("(a: [(b: 1), (b: 2))"), Some((4, 19)));
+    assert_eq!(missing_bracket("[(1, 2]"), Some((1, 6)));
+    assert_eq!(missing_bracket("({\"a\": [1})"), Some((7, 9)));
+    for text in [
+        "(a: [1, 2], b: {\"c\": [(d: 3)]})",
+        "(a: [\"b: )\"]",
+        "(a))",
+        "(a: [1",
+    ] {
+        assert_eq!(missing_bracket(text), None, "{text}");
+    }
+}
+
+#[test]
 fn names_of_fields_are_found() {
     let text = "(frame: 1, /* pan: */ tilt /* : */ : 3)";
     let value = text.find('3').unwrap();
