@@ -1,11 +1,11 @@
 //! Alters files of all kinds at random, and looks for what panics, takes long or much memory:
-//! `cargo mutate [--seconds N] [--seed N]`, N seconds for each kind of input.
+//! `cargo mutate [--seconds N] [--seed N] [--target NAME]`, N seconds for each kind of input, or for one of them.
 
 use std::process::{self, ExitCode};
 use std::thread;
 use std::time::Duration;
 
-use marbles_tests::mutations::{Limit, folder, most_memory, search_all};
+use marbles_tests::mutations::{Limit, TARGETS, folder, most_memory, search_all};
 
 /// The memory that all of them together may take, in bytes.
 const MOST_MEMORY: u64 = 1_000_000_000;
@@ -18,11 +18,22 @@ const MOST_MEMORY: u64 = 1_000_000_000;
 fn main() -> ExitCode {
     let mut options = [("--seconds", 60), ("--seed", 1)];
     let mut words = std::env::args().skip(1);
+    let mut only = None;
     while let Some(word) = words.next() {
+        if word == "--target" {
+            let name = words.next().unwrap_or_default();
+            only = TARGETS.iter().find(|target| target.name == name);
+            if only.is_none() {
+                let names = TARGETS.map(|target| target.name).join(", ");
+                eprintln!("expected one of {names}, found {name}");
+                return ExitCode::from(2);
+            }
+            continue;
+        }
         let option = options.iter_mut().find(|option| option.0 == word);
         let number = words.next().and_then(|number| number.parse().ok());
         let (Some(option), Some(number)) = (option, number) else {
-            eprintln!("expected --seconds N or --seed N, found {word}");
+            eprintln!("expected --seconds N, --seed N or --target NAME, found {word}");
             return ExitCode::from(2);
         };
         option.1 = number;
@@ -41,7 +52,7 @@ fn main() -> ExitCode {
             }
         }
     });
-    let all = search_all(seed, Limit::Seconds(seconds));
+    let all = search_all(seed, Limit::Seconds(seconds), only);
     for (target, found) in &all {
         println!(
             "{}: {} inputs, {} taken, the slowest {:.2} s, {} faults",

@@ -6,6 +6,7 @@ mod averages;
 mod budget;
 mod claims;
 mod closed_forms;
+mod crowds;
 mod examples;
 mod floors;
 mod found;

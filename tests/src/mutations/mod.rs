@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use std::{env, fs, process, thread};
+use std::{env, fs, process, slice, thread};
 
 use self::mutate::mutated;
 use self::seeds::Seed;
@@ -116,18 +116,23 @@ impl Limit {
     }
 }
 
-/// Searches with all kinds of input, as many at a time as there are processors.
+/// Searches with all kinds of input, or with one of them, as many at a time as there are processors.
 ///
 /// # Panics
 /// When files cannot be written.
-pub fn search_all(seed: u64, limit: Limit) -> Vec<(&'static Target, Found)> {
+pub fn search_all(
+    seed: u64,
+    limit: Limit,
+    only: Option<&'static Target>,
+) -> Vec<(&'static Target, Found)> {
+    let targets = only.map_or(&TARGETS[..], slice::from_ref);
     let threads = thread::available_parallelism().map_or(1, usize::from);
     let next = AtomicUsize::new(0);
     let found = Mutex::new(Vec::new());
     thread::scope(|scope| {
         for _ in 0..threads {
             scope.spawn(|| {
-                while let Some(target) = TARGETS.get(next.fetch_add(1, Ordering::Relaxed)) {
+                while let Some(target) = targets.get(next.fetch_add(1, Ordering::Relaxed)) {
                     let of_target = search(target, seed, limit);
                     found
                         .lock()

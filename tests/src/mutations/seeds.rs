@@ -14,11 +14,11 @@ pub(super) fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The scenes of users, and those that are refused.
+/// The scenes of users, those that were slow, and those that are refused; all are read as if they lay in `scenes`.
 pub(super) fn scenes() -> Vec<Seed> {
     // Of the latter there are ten times as many.
     let whole = ["scenes", "scenes/original"].into_iter().cycle().take(20);
-    let folders = whole.chain(["tests/broken"]);
+    let folders = whole.chain(["tests/seeds/scenes", "tests/broken"]);
     let all = folders.flat_map(|folder| files(folder, "ron"));
     // Longer ones would take most of the time.
     all.filter(|seed| seed.bytes.len() < 8_000).collect()

@@ -2,7 +2,7 @@
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use super::budget::Allowance;
+use super::budget::{Allowance, CellWork, MOST};
 use super::classify::contents::Contents;
 use super::classify::magnitude::{is_ball_moderate, is_view_moderate};
 use super::classify::occluder_cache::OccluderCache;
@@ -210,7 +210,7 @@ impl<'scene> Areas<'scene> {
                         Sight::Edges => {
                             let cell = context.cell(pixel);
                             let memory = (&mut *scratch, &mut cache);
-                            self.divide(simd, (&cell, 0), memory, place, found);
+                            self.divide(simd, cell, memory, place, found);
                         }
                     }
                 }
@@ -218,17 +218,57 @@ impl<'scene> Areas<'scene> {
         }
     }
 
-    /// Measures a part of a pixel, which lies `depth` divisions deep, by boxes, or by its quarters.
+    /// Measures a pixel by boxes, or by its quarters and theirs: all of one size before smaller ones, as far as the work
+    /// that a pixel may cost goes.
     fn divide<S: Simd>(
         &self,
         simd: S,
-        (cell, depth): (&Cell, u32),
+        cell: Cell,
         (scratch, cache): (&mut Scratch, &mut OccluderCache),
         place: usize,
         found: &mut dyn Found,
     ) {
+        let mut spent = 0;
+        let mut cells = vec![cell];
+        for depth in 0..=DEEPEST {
+            let share = 0.25_f64.powi(depth as i32);
+            // What the quarters cost, as an estimate: each is held against all spheres, and pairs are mostly in one of them.
+            let mut quarters = Vec::new();
+            let mut planned = 0;
+            for cell in cells {
+                let is_known = self.measure_part(simd, &cell, (scratch, cache), |sphere, part| {
+                    found.add(place, sphere, part.map(|part| part * share));
+                });
+                let units = |tests: u64| CellWork { samples: 0, tests }.units();
+                let of_pairs = std::mem::take(&mut scratch.shares.tests) + scratch.contents.tests;
+                let of_all = scratch.spheres.len() as u64;
+                spent += units(of_all + of_pairs);
+                if is_known {
+                    continue;
+                }
+                planned += QUARTERS.len() as u64 * units(of_all) + of_pairs;
+                if depth < DEEPEST && spent + planned <= MOST {
+                    quarters.extend(QUARTERS.map(|[x, y]| cell.part(x, y)));
+                    continue;
+                }
+                for sphere in scratch.contents.spheres() {
+                    found.add(place, sphere, [0.5 * share; 2]);
+                }
+            }
+            cells = quarters;
+        }
+    }
+
+    /// Finds what a part of a pixel sees, and calls `put` with each sphere, the share that it has of the part, and its
+    /// error. Returns false without calling it where that is not known.
+    fn measure_part<S: Simd>(
+        &self,
+        simd: S,
+        cell: &Cell,
+        (scratch, cache): (&mut Scratch, &mut OccluderCache),
+        mut put: impl FnMut(usize, [f64; 2]),
+    ) -> bool {
         let scene = &self.context.scene;
-        let share = 0.25_f64.powi(depth as i32);
         let Scratch {
             spheres,
             contents,
@@ -237,32 +277,25 @@ impl<'scene> Areas<'scene> {
             ..
         } = scratch;
         contents.see(scene, cell, spheres, cache);
+        if contents.is_mixed || contents.is_crowded {
+            return false;
+        }
         match &contents.active[..] {
-            [] if !contents.is_mixed => return,
-            [one] if contents.conics.is_empty() && !contents.is_mixed => {
-                found.add(place, one.sphere, [share, 0.0]);
-                return;
+            [] => return true,
+            [one] if contents.conics.is_empty() => {
+                put(one.sphere, [1.0, 0.0]);
+                return true;
             }
             _ => {}
         }
         let tolerance = self.context.tolerance;
-        if !contents.is_mixed && boxes.shares(simd, scene, cell, contents, (tolerance, shares)) {
+        let is_known = boxes.shares(simd, scene, cell, contents, (tolerance, shares));
+        if is_known {
             for (active, [area, error]) in contents.active.iter().zip(&shares.of_spheres) {
-                let error = error + contents.rounding;
-                found.add(place, active.sphere, [area * share, error * share]);
+                put(active.sphere, [*area, error + contents.rounding]);
             }
-            return;
         }
-        if depth == DEEPEST {
-            for active in &contents.active {
-                found.add(place, active.sphere, [0.5 * share; 2]);
-            }
-            return;
-        }
-        for [x, y] in QUARTERS {
-            let part = cell.part(x, y);
-            self.divide(simd, (&part, depth + 1), (scratch, cache), place, found);
-        }
+        is_known
     }
 }
 

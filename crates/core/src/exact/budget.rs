@@ -106,6 +106,12 @@ const HOPELESS: f64 = 0.005;
 /// The share of the budget that a single part of a pixel may take.
 const OF_PART: u64 = 8;
 
+/// Returns whether so many pairs of curves, each of which is a test or more, cost more than a part of a pixel may before
+/// anything is known of it: its quarters see fewer of them each.
+pub(crate) fn is_beyond_a_part(pairs: u64) -> bool {
+    pairs > MOST / OF_PART
+}
+
 /// The units at which rounding is looked at for the first time; every doubling after that it is looked at
 /// again.
 const FIRST_LOOK: u64 = 512;

@@ -1,6 +1,7 @@
 //! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
 
 use super::active::{Active, Terminators};
+use super::behind::Cover;
 use super::coincidence::{ALIKE, has_same_outline, is_outline};
 use super::face::Face;
 use super::hidden::HiddenSpheres;
@@ -12,6 +13,7 @@ use crate::edges::seam::seam;
 use crate::edges::shadow::Caster;
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
+use crate::exact::budget::is_beyond_a_part;
 use crate::exact::scene::InCamera;
 use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::Quadratic;
@@ -52,6 +54,11 @@ pub(crate) struct Contents {
     pub(super) cut: Vec<(usize, Ball)>,
     /// Whether edges of the cell are not known because of these.
     pub(crate) is_mixed: bool,
+    /// The work on pairs of spheres, in the unit of tests.
+    pub(crate) tests: u64,
+    /// Whether the curves are so many that the cell is left to its quarters: not all of them are listed then, nor what
+    /// keeps the light away.
+    pub(crate) is_crowded: bool,
     hidden: HiddenSpheres,
 }
 
@@ -68,6 +75,11 @@ pub(super) const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 /// rounding moves such a line by, in sides of a cell: it is a double root.
 const SEEN_EDGE_ON: f64 = 1e-5;
 const ROOT_OF_ROUNDING: f64 = 1e-7;
+
+/// Pairs of spheres, or of what is seen and an occluder, that are compared in the time of a test, and the tests in the
+/// time of a seam: what the budget counts, about.
+pub(super) const PAIRS_OF_A_TEST: usize = 8;
+const TESTS_OF_A_SEAM: u64 = 4;
 
 impl Contents {
     /// Takes in the spheres out of some that a cell of the pixel may see, and their edges.
@@ -87,6 +99,9 @@ impl Contents {
         self.is_enclosed = false;
         self.is_mixed = false;
         self.cut.clear();
+        self.tests = 0;
+        self.is_crowded = false;
+        let cover = Cover::of(cell, spheres);
         let mut unresolved = 0.0;
         for &(sphere, mut ball) in spheres {
             if ball.is_cut() && !self.take_cut(scene, cell, (sphere, &mut ball)) {
@@ -105,6 +120,9 @@ impl Contents {
                 let length = ball.center.length() + ball.radius;
                 self.rounding = self.rounding.max(ROUNDINGS * length / size);
                 slack += 2.0 * ROUNDINGS * length * ball.radius;
+            }
+            if cover.is_some_and(|cover| cover.hides(&ball, &discriminant, &along)) {
+                continue;
             }
             let half = 0.5 * (along.x.abs() + along.y.abs());
             let is_outside = ball.outside > 0.0;
@@ -140,6 +158,7 @@ impl Contents {
                 }
                 continue;
             }
+            self.tests += (self.active.len() / PAIRS_OF_A_TEST) as u64;
             self.active.push(Active {
                 sphere,
                 ball,
@@ -159,7 +178,10 @@ impl Contents {
                 let kind = Kind::Silhouette(position);
                 self.conics.push((kind, active.discriminant));
             }
-            self.add_seams(cell, position);
+            if !self.is_mixed && !self.is_crowded {
+                self.add_seams(cell, position);
+            }
+            self.is_crowded |= self.has_too_many_curves();
             let may_be_lit = is_outside && !active.is_dark;
             let may_be_shaded = may_be_lit && reaching != 0 && scene.world.shadows;
             let patch = may_be_shaded.then(|| {
@@ -173,6 +195,10 @@ impl Contents {
             });
             for light in 0..scene.lights.len() {
                 let reach = if may_be_lit && reaching & (1 << light) != 0 {
+                    if self.is_crowded {
+                        self.reach.push(Reach::Past(0..0));
+                        continue;
+                    }
                     self.reach_of(scene, cell, (&active, patch.as_ref()), light, cache)
                 } else {
                     Reach::Nowhere
@@ -220,6 +246,19 @@ impl Contents {
         into.rounding = self.rounding;
     }
 
+    /// Whether holding each curve against all that may cut it would cost more than a part of a pixel may.
+    pub(super) fn has_too_many_curves(&self) -> bool {
+        let curves = (self.conics.len() + self.occluders.len()) as u64;
+        is_beyond_a_part(curves * (curves + self.active.len() as u64))
+    }
+
+    /// The spheres that the cell may see, those included of which only some rays begin inside.
+    pub(crate) fn spheres(&self) -> impl Iterator<Item = usize> {
+        let cut = self.cut.iter().filter(|_| self.is_mixed);
+        let active = self.active.iter().map(|active| active.sphere);
+        active.chain(cut.map(|(sphere, _)| *sphere))
+    }
+
     /// Returns whether a cell sees one sphere alone, with nothing but its outline in it.
     pub(crate) fn is_outline_alone(&self) -> bool {
         let is_outline = |(kind, _): &(Kind, Quadratic)| matches!(kind, Kind::Silhouette(_));
@@ -233,6 +272,7 @@ impl Contents {
     /// Adds the curves in which an active sphere intersects those before it.
     fn add_seams(&mut self, cell: &Cell, position: usize) {
         let ball = self.active[position].ball;
+        self.tests += (position / PAIRS_OF_A_TEST) as u64;
         for (index, other) in self.active[..position].iter().enumerate() {
             let apart_sq = (ball.center - other.ball.center).length_squared();
             let sum = ball.radius + other.ball.radius;
@@ -245,6 +285,7 @@ impl Contents {
             let slack = GEOMETRY_SLACK * (sum + apart);
             if apart < sum + slack && apart > difference - slack && apart > 0.0 {
                 let seam = seam(cell, &ball, &other.ball);
+                self.tests += TESTS_OF_A_SEAM;
                 if seam.may_vanish() {
                     self.conics.push((Kind::Seam(index, position), seam));
                     // The plane's place, by the radii or by K, whichever rounds less.

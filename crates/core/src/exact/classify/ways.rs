@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::active::Active;
 use super::coincidence::{hides_all, is_at_eye};
-use super::contents::{Contents, ROUNDINGS};
+use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS};
 use super::cut::begins_inside;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
@@ -37,6 +37,7 @@ impl Contents {
                 return Reach::Nowhere;
             };
             cache.tests += range.len() as u64;
+            self.tests += (range.len() / PAIRS_OF_A_TEST) as u64;
             let found = match cache.shade(patch, in_camera, range) {
                 Shade::Everything => return Reach::Nowhere,
                 Shade::Nothing => &[],
@@ -51,6 +52,10 @@ impl Contents {
             let size = cell.size[0].min(cell.size[1]) * distance;
             let hides_itself = cell.is_parallel() && is_at_eye(in_camera.toward);
             for &sphere in found {
+                if self.has_too_many_curves() {
+                    self.is_crowded = true;
+                    break;
+                }
                 let (center, radius) = scene.center(sphere as usize);
                 if hides_itself && center.z >= radius {
                     continue;
@@ -93,7 +98,12 @@ impl Contents {
             let apart = (middle - near.position).length() + around;
             let range = cache.occluders_of_near(scene, active.sphere, light);
             cache.tests += range.len() as u64;
+            self.tests += (range.len() / PAIRS_OF_A_TEST) as u64;
             for index in range {
+                if self.has_too_many_curves() {
+                    self.is_crowded = true;
+                    break;
+                }
                 let sphere = cache.sphere(index);
                 let (center, radius) = scene.center(sphere);
                 if !beam.is_reached_by(center, radius) {

@@ -120,7 +120,8 @@ impl Workspace {
             .contents
             .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
         // Boxes know no strokes and no point lights.
-        let is_plain = !self.contents.is_mixed && !self.contents.has_strokes();
+        let is_known = !self.contents.is_mixed && !self.contents.is_crowded;
+        let is_plain = is_known && !self.contents.has_strokes();
         let may_be_boxes = !is_fine && is_plain && !scene.has_near_lights;
         if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
             return Ok(part);
@@ -247,17 +248,12 @@ impl Workspace {
             ..
         } = pixel.context;
         let contents = &self.contents;
-        if contents.is_mixed {
-            self.budget.spend(CellWork {
-                samples: 0,
-                tests: pixel.spheres.len() as u64,
-            });
+        let tests = pixel.spheres.len() as u64 + contents.tests;
+        let mut work = CellWork { samples: 0, tests };
+        if contents.is_mixed || contents.is_crowded {
+            self.budget.spend(work);
             return Err(GiveUp::Unknown);
         }
-        let mut work = CellWork {
-            samples: 0,
-            tests: pixel.spheres.len() as u64,
-        };
         // What rounding makes hopeless is not looked at closely.
         let is_coarse = self.contrast * contents.rounding > *tolerance;
         let units = if is_coarse { 0 } else { self.budget.of_part() };

@@ -20,10 +20,15 @@ pub(crate) struct Shares {
     found: Vec<[Eight; 2]>,
     /// Those in each box that was just done.
     known: Vec<[f64; 2]>,
+    /// The work on cells since it was asked for, in the unit of tests.
+    pub(crate) tests: u64,
 }
 
 /// Times that eight boxes are measured before the cell is given up.
 const MOST_EIGHTS: usize = 40;
+
+/// The tests in the time in which eight boxes are measured, for each sphere: about, from cells with two.
+const TESTS_OF_EIGHT: usize = 8;
 
 impl Shares {
     /// Measures a cell to an error that all shares together may have; returns whether that succeeded.
@@ -42,10 +47,12 @@ impl Shares {
         let mut size = FIRST_SIZE;
         let (mut claimed, mut eights) = (0.0, 0);
         loop {
-            eights += self.boxes.len().div_ceil(8);
+            let more = self.boxes.len().div_ceil(8);
+            eights += more;
             if eights > MOST_EIGHTS {
                 return false;
             }
+            self.tests += (more * spheres * TESTS_OF_EIGHT) as u64;
             self.average(simd, setting, size);
             let area = size[0] * size[1];
             let claims: f64 = self.known.iter().map(|[_, error]| error * area).sum();
