@@ -1,7 +1,10 @@
 //! The areas of pictures in which spheres are seen.
 
+mod in_vain;
+
 use fearless_simd::{Level, Simd, dispatch};
 
+use self::in_vain::InVain;
 use super::budget::{Allowance, CellWork, MOST};
 use super::classify::contents::Contents;
 use super::classify::magnitude::{is_ball_moderate, is_view_moderate};
@@ -230,24 +233,27 @@ impl<'scene> Areas<'scene> {
     ) {
         let mut spent = 0;
         let mut cells = vec![cell];
+        let mut in_vain = InVain::default();
         for depth in 0..=DEEPEST {
             let share = 0.25_f64.powi(depth as i32);
-            // What the quarters cost, as an estimate: each is held against all spheres, and pairs are mostly in one of them.
+            let units = |tests: u64| CellWork { samples: 0, tests }.units();
+            let of_all = scratch.spheres.len() as u64;
             let mut quarters = Vec::new();
             let mut planned = 0;
             for cell in cells {
                 let is_known = self.measure_part(simd, &cell, (scratch, cache), |sphere, part| {
                     found.add(place, sphere, part.map(|part| part * share));
                 });
-                let units = |tests: u64| CellWork { samples: 0, tests }.units();
-                let of_pairs = std::mem::take(&mut scratch.shares.tests) + scratch.contents.tests;
-                let of_all = scratch.spheres.len() as u64;
-                spent += units(of_all + of_pairs);
+                let of_pairs = scratch.contents.tests;
+                let of_boxes = std::mem::take(&mut scratch.shares.tests);
+                spent += units(of_all + of_pairs + of_boxes);
                 if is_known {
                     continue;
                 }
-                planned += QUARTERS.len() as u64 * units(of_all) + of_pairs;
-                if depth < DEEPEST && spent + planned <= MOST {
+                in_vain.add(of_boxes, share);
+                // What the quarters cost, as an estimate: pairs are mostly in one of them.
+                planned += QUARTERS.len() as u64 * units(of_all + of_boxes) + of_pairs;
+                if depth < DEEPEST && spent + planned <= MOST && !in_vain.is_hopeless() {
                     quarters.extend(QUARTERS.map(|[x, y]| cell.part(x, y)));
                     continue;
                 }
@@ -255,6 +261,7 @@ impl<'scene> Areas<'scene> {
                     found.add(place, sphere, [0.5 * share; 2]);
                 }
             }
+            in_vain.end_size();
             cells = quarters;
         }
     }
@@ -350,3 +357,6 @@ impl Parts {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -28,7 +28,7 @@ pub(crate) struct Shares {
 const MOST_EIGHTS: usize = 40;
 
 /// The tests in the time in which eight boxes are measured, for each sphere: about, from cells with two.
-const TESTS_OF_EIGHT: usize = 8;
+const TESTS_OF_EIGHT: usize = 16;
 
 impl Shares {
     /// Measures a cell to an error that all shares together may have; returns whether that succeeded.
