@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What the system takes away, from every command that writes: descriptors, memory, room in files and on disks,
-# folders. Each run ends with 0, 1 or 2, says why it failed, and leaves complete files alone. Then sequences
+# What the system takes away, from every command that writes: descriptors, memory, threads, room in files and on
+# disks, folders. Each run ends with 0, 1 or 2, says why it failed, and leaves complete files alone. Then sequences
 # of a thousand frames, whose memory and descriptors stay as they were at the start.
 #
 # Usage: tests/faults.sh [MARBLES]    the program, by default target/release/marbles
@@ -40,6 +40,7 @@ sed '/clouds:/d' scene.ron >ball.ron
 sed -e 's/table.csv/series.####.csv/' -e 's/radius: 0.1)/radius: 0.1, frames: All)/' \
     -e '/animation:/d' -e 's/camera: .*/camera: Frame(),/' scene.ron >series.ron
 mkdir steps whole
+for step in 0001 0002; do cp table.csv "steps/series.$step.csv"; done
 sed 's/series\.#/steps\/series.#/' series.ron >tmp.ron && mv tmp.ron series.ron
 
 # What is put together and compared, from before anything is taken away.
@@ -63,6 +64,7 @@ commands=(
     "report ball.ron --runs 1 --seconds 0.1 --size 9x9 --quiet --csv out/r.csv --plot out/r.svg"
     "farm slurm scene.ron -o out/#.png --job out/job.sh"
     "check scene.ron"
+    "render series.ron --samples 1 --quiet --frames 1-2 -o out/#.png"
     "new out/new.ron"
     "man -o out/man"
 )
@@ -119,6 +121,23 @@ for step in $(seq 1 20); do each "ulimit -v $((100000 + 10000 * step * step - 10
 part memory
 for blocks in 0 1 2 4 16 64; do each "ulimit -f $blocks"; done
 part 'sizes of files'
+
+# Threads are counted for a user, and not for the system's own: here for a number that nobody has.
+if [ "$(id -u)" -eq 0 ] && setpriv --reuid=64321 --regid=64321 --clear-groups true 2>/dev/null; then
+    # Where that user may read and write.
+    own=$marbles
+    marbles=$work/marbles
+    cp "$own" "$marbles"
+    chmod -R a+rwX .
+    user='setpriv --reuid=64321 --regid=64321 --clear-groups'
+    for count in $(seq 2 10); do
+        each "exec $user bash -c 'ulimit -u $count; exec \"\$@\"' bash \"\$@\""
+    done
+    marbles=$own
+    part threads
+else
+    printf '== skipped: no other user can be had here\n'
+fi
 
 # ---- file systems
 

@@ -1,6 +1,6 @@
-//! The threads that render.
+//! The threads that render, and those beside them.
 
-use std::thread::available_parallelism;
+use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism};
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -33,4 +33,17 @@ pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
         .num_threads(count)
         .build()
         .map_err(|error| refused(&without_number(&error.to_string())))
+}
+
+/// Starts a thread beside those that render, where the system has one left. `what` it does is told where it has none.
+pub(crate) fn start_one<'scope, T: Send + 'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    what: &str,
+    work: impl FnOnce() -> T + Send + 'scope,
+) -> Result<ScopedJoinHandle<'scope, T>, Failure> {
+    let started = Builder::new().spawn_scoped(scope, work);
+    started.map_err(|error| {
+        let reason = without_number(&error.to_string());
+        Failure::Work(format!("cannot start the thread that {what}: {reason}"))
+    })
 }

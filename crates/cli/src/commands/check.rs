@@ -16,7 +16,7 @@ use super::{oversights, scene};
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::shown::Shown;
-use crate::base::status;
+use crate::base::{status, threads};
 use crate::formats::sidecar::Sidecar;
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
@@ -29,6 +29,10 @@ const LIGHTS_LISTED: usize = 8;
 const NAMES: usize = 12;
 
 pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
+    threads::start(None)?.install(|| check(arguments, console))
+}
+
+fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, &arguments.options, console, false)?;
     if arguments.json {
         return json(&scene, arguments, console);

@@ -13,6 +13,7 @@ use super::source::Source;
 use super::steps::Steps;
 use super::{workers, writer};
 use crate::base::failure::Failure;
+use crate::base::threads::start_one;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
 
@@ -31,26 +32,27 @@ pub(crate) fn render(
 ) -> Result<Outcome, Failure> {
     let pipeline = Pipeline::new(request, threads.current_num_threads(), progress)?;
     let (sender, receiver) = sync_channel(WAITING_PICTURES * pipeline.together);
-    let written = thread::scope(|scope| {
-        let writer = scope.spawn(|| {
+    let written = thread::scope(|scope| -> Result<Outcome, Failure> {
+        let (steps, reading) = Steps::new(request);
+        if let Some(task) = reading {
+            start_one(scope, "reads", || task.run(&request.scene))?;
+        }
+        // The last that may fail: a writer waits for pictures.
+        let writer = start_one(scope, "writes", || {
             if request.is_animation() {
                 writer::write_animation(receiver, &pipeline)
             } else {
                 writer::write_files(receiver, &pipeline)
             }
-        });
-        let (steps, reading) = Steps::new(request);
-        if let Some(task) = reading {
-            scope.spawn(|| task.run(&request.scene));
-        }
+        })?;
         threads.install(|| {
             let _closing = pipeline.buffer.closing();
             let mut source = Source::new(&pipeline, steps, sender);
             workers::run(|| source.next());
         });
         let written = writer.join();
-        written.unwrap_or_else(|panic| panic::resume_unwind(panic))
-    });
+        Ok(written.unwrap_or_else(|panic| panic::resume_unwind(panic)))
+    })?;
     let (pictures, skipped) = (request.pictures(), pipeline.skipped.into_inner());
     Ok(Outcome {
         pictures,

@@ -37,6 +37,12 @@ use crate::terminal::interrupt;
 pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, Failure> {
     let plot = arguments.plot.as_deref();
     plot.map_or(Ok(()), |plot| check_name("--plot", "plots", plot))?;
+    let pool = threads::start(arguments.threads)?;
+    pool.install(|| report(arguments, pool.current_num_threads(), console))
+}
+
+/// Measures on so many threads, those of the pool that it runs on.
+fn report(arguments: &ReportArguments, threads: usize, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(
         &arguments.scene,
         &arguments.options,
@@ -49,7 +55,6 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     let outputs = || arguments.csv.iter().chain(&arguments.plot);
     Inputs::of(&arguments.scene, &scene).refuse(outputs().cloned())?;
     check_files(arguments)?;
-    let pool = threads::start(arguments.threads)?;
     interrupt::listen(console);
     for path in outputs() {
         prepare(path)?;
@@ -66,7 +71,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
         seconds: arguments.seconds,
         progress: &progress,
     };
-    let measured = pool.install(|| plan.measure());
+    let measured = plan.measure();
     progress.finish();
     let Ok(measurement) = measured else {
         console.warn("interrupted: nothing was written");
@@ -74,9 +79,9 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     };
 
     let report = Report {
-        title: title(&arguments.scene, &view, &scene, pool.current_num_threads()),
+        title: title(&arguments.scene, &view, &scene, threads),
         scene: arguments.scene.shown(),
-        threads: pool.current_num_threads(),
+        threads,
         view,
         rows: Row::all(&measurement.settings),
         measurement,
