@@ -8,6 +8,8 @@
 mod animation;
 mod channels;
 mod compare;
+#[cfg(target_os = "linux")]
+mod datasets;
 #[cfg(unix)]
 mod farm;
 mod files;

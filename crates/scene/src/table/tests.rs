@@ -13,6 +13,7 @@ use super::Colormap;
 use crate::Scene;
 use crate::values::from_srgb;
 
+mod atoms;
 mod csv;
 mod formats;
 mod npy;

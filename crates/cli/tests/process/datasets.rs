@@ -1,0 +1,195 @@
+//! Data sets for photometric stereo.
+
+use std::fs;
+
+use crate::folder::{Folder, code, text};
+use crate::lights::{folder, run};
+
+#[test]
+fn a_data_set_has_the_files_that_its_readers_expect() {
+    let folder = folder();
+    let dataset = "dataset all.ron -o set --layout diligent";
+    let lines = run(&folder, dataset);
+    assert!(
+        lines.contains("\n3 pictures: ") && !lines.contains("clipped"),
+        "{lines}"
+    );
+    let expected = "001.png 002.png 003.png Normal_gt.mat Normal_gt.png filenames.txt \
+                    light_directions.txt light_intensities.txt mask.png normal.txt";
+    assert_eq!(folder.names("set").join(" "), expected);
+    let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
+    assert_eq!(read("filenames.txt"), "001.png\n002.png\n003.png\n");
+    // White is 0.5 at most: all light is doubled.
+    assert_eq!(
+        read("light_intensities.txt"),
+        "1 1 1\n1 0.5 0.25\n0.5 0.5 0.5\n"
+    );
+    let directions = read("light_directions.txt");
+    let first = 1.0 / 3.0_f64.sqrt();
+    assert!(
+        directions.starts_with(&format!("{} ", -first)),
+        "{directions}"
+    );
+    assert_eq!(directions.matches('\n').count(), 3);
+    let normals = read("normal.txt");
+    assert_eq!(normals.lines().count(), 50 * 37);
+    assert!(normals.starts_with("0 0 0\n") && normals.ends_with("\n0 0 0"));
+
+    // Each picture is that of the scene with its light, brighter by one stop.
+    run(
+        &folder,
+        "render light-2.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+    );
+    let [found, alone] = ["set/002.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert!(found == alone);
+
+    // What is there is left alone, and what is not is made again.
+    fs::remove_file(folder.path("set/002.png")).unwrap();
+    let lines = run(&folder, &format!("{dataset} --skip-existing"));
+    assert_eq!(lines.matches("skipped").count(), 2, "{lines}");
+    assert_eq!(folder.names("set").join(" "), expected);
+
+    let output = folder.run("dataset ambient.ron -o other --layout diligent");
+    assert_eq!(code(&output), 2);
+    assert!(text(&output.stderr).contains("ambient.ron: the scene has no lights"));
+    assert!(!folder.path("other").exists());
+}
+
+/// A ball 4 before a camera that looks to the right of the world, under these lights.
+fn beside(lights: &str) -> String {
+    format!(
+        "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (-6, 0, 0), pan: 90),
+         lights: [{lights}], spheres: [(center: (-1, 0, 0), radius: 1)])"
+    )
+}
+
+#[test]
+fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
+    let folder = folder();
+    let lights = [
+        "Point(position: (-4, 1, 2), intensity: 0.5, reference: 2)",
+        "Point(position: (-6, -1, 0), intensity: (0.5, 0.25, 0), reference: 4)",
+    ];
+    fs::write(folder.path("near.ron"), beside(&lights.join(", "))).unwrap();
+    fs::write(folder.path("second.ron"), beside(lights[1])).unwrap();
+    let dataset = "dataset near.ron -o set --layout luces";
+    let lines = run(&folder, dataset);
+    assert!(
+        lines.contains("\n2 pictures: ") && !lines.contains("clipped"),
+        "{lines}"
+    );
+    let expected = "01.png 02.png K.txt filenames.txt led_params.txt light_directions.txt \
+                    light_intensities.txt light_positions.txt mask.png normals.png zgt.npz";
+    assert_eq!(folder.names("set").join(" "), expected);
+    let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
+    assert_eq!(read("filenames.txt"), "01.png\n02.png\n");
+
+    let numbers = |text: &str| -> Vec<f64> {
+        let words = text.split([' ', '\n']).filter(|word| !word.is_empty());
+        words.map(|word| word.parse().unwrap()).collect()
+    };
+    let parameters = read("led_params.txt");
+    let (_, parameters) = parameters.split_once('\n').unwrap();
+    let parameters: Vec<Vec<f64>> = parameters.lines().map(numbers).collect();
+    let [setup, first, second] = &parameters[..] else {
+        panic!("{parameters:?}");
+    };
+    let (focal_length, mean_distance) = (setup[3], setup[6]);
+    let half_width = 20.0_f64.to_radians().tan();
+    assert!((focal_length * half_width - 25.0).abs() < 1e-12);
+    assert_eq!(setup[..3], [2.0, 37.0, 50.0]);
+    assert_eq!(setup[4..6], [24.5, 18.0]);
+    assert!((4.0..5.0).contains(&mean_distance), "{mean_distance}");
+    assert_eq!(
+        numbers(&read("K.txt")),
+        [
+            focal_length,
+            0.0,
+            24.5,
+            0.0,
+            focal_length,
+            18.0,
+            0.0,
+            0.0,
+            1.0
+        ]
+    );
+    // The camera's right is the world's back.
+    let close = |found: &[f64], expected: &[f64]| {
+        let mut pairs = found.iter().zip(expected);
+        let all = pairs.all(|(found, expected)| (found - expected).abs() < 1e-12);
+        assert!(all && found.len() == expected.len(), "{found:?}");
+    };
+    close(&first[..3], &[-2.0, -1.0, 2.0]);
+    close(&second[..3], &[0.0, 1.0, 0.0]);
+    close(
+        &numbers(&read("light_positions.txt")),
+        &[-2.0, 1.0, -2.0, 0.0, -1.0, 0.0],
+    );
+    let length = mean_distance.hypot(1.0);
+    close(
+        &numbers(&read("light_directions.txt"))[3..],
+        &[0.0, -1.0 / length, mean_distance / length],
+    );
+    // The first light is no more than 2.75 from the ball, and makes 0.265 of it at most; the second one 0.49.
+    let gain = 2.0;
+    let brightness = |intensity: f64, reference: f64| {
+        gain * intensity * (reference / mean_distance) * (reference / mean_distance)
+    };
+    let white = brightness(0.5, 2.0);
+    close(&first[6..], &[white, white, white, 0.0, 0.0]);
+    close(
+        &second[6..],
+        &[brightness(0.5, 4.0), brightness(0.25, 4.0), 0.0, 0.0, 0.0],
+    );
+    assert_eq!(numbers(&read("light_intensities.txt"))[3..], second[6..9]);
+
+    // Each picture is that of the scene with its light, brighter by one stop.
+    run(
+        &folder,
+        "render second.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+    );
+    let [found, alone] = ["set/02.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
+    assert!(found == alone);
+    let lines = run(&folder, &format!("{dataset} --skip-existing"));
+    assert_eq!(lines.matches("skipped").count(), 2, "{lines}");
+}
+
+#[test]
+fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
+    let folder = Folder::new();
+    let near = "Point(position: (-4, 1, 2))";
+    let scene = beside(near);
+    for (scene, why) in [
+        (
+            beside(&format!("{near}, Directional(toward: (0, 1, 0))")),
+            "light 2 of the scene is a directional one",
+        ),
+        (
+            beside("Point(position: (-4, 1, 2), falloff: None)"),
+            "light 1 of the scene does not fall off",
+        ),
+        (
+            scene.replace("Fov(40)", "Parallel(width: 4)"),
+            "the lens of the scene has none",
+        ),
+        (
+            scene.replace("pan: 90", "pan: -90"),
+            "no pixel sees a sphere",
+        ),
+        (beside(""), "the scene has no lights"),
+    ] {
+        fs::write(folder.path("near.ron"), scene).unwrap();
+        let output = folder.run("dataset near.ron -o other --layout luces");
+        assert_eq!(code(&output), 2);
+        let message = text(&output.stderr);
+        assert!(
+            message.contains("near.ron: ") && message.contains(why),
+            "{message}"
+        );
+        assert!(!folder.path("other").exists());
+    }
+    fs::write(folder.path("near.ron"), beside(near)).unwrap();
+    let output = folder.run("dataset near.ron -o other --layout diligent");
+    assert!(text(&output.stderr).contains("and the scene a point light"));
+}
