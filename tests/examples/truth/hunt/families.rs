@@ -5,8 +5,8 @@ use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
     aligned_grids, coincident, crowds, exponents, far_away, far_bumps, floors, grazing_shadows,
-    highlights, long_lenses, many_lights, ordinary, rough, seams, shutters, slivers, surface_bumps,
-    terminator_at_rim, touching, triple_points, wide_lenses,
+    highlights, long_lenses, many_lights, ordinary, overlapping_crowds, rough, seams, shutters,
+    slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use super::strokes::outlined;
 use marbles_tests::numbers::Numbers;
@@ -19,7 +19,7 @@ pub(super) struct Family {
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 30] = [
+pub(super) const FAMILIES: [Family; 31] = [
     Family {
         name: "ordinary",
         draft: ordinary,
@@ -169,5 +169,10 @@ pub(super) const FAMILIES: [Family; 30] = [
         name: "outlines",
         draft: outlined,
         rarity: 1,
+    },
+    Family {
+        name: "overlapping crowds",
+        draft: overlapping_crowds,
+        rarity: 10,
     },
 ];

@@ -233,6 +233,21 @@ pub(super) fn crowds(numbers: &mut Numbers) -> Draft {
     draft
 }
 
+/// Balls that overlap each other by the dozen in each pixel: most of them hidden, or all in sight.
+pub(super) fn overlapping_crowds(numbers: &mut Numbers) -> Draft {
+    let mut draft = Draft::new(numbers, DISTANCE, 1);
+    let depth = numbers.between(80.0, 120.0);
+    let [x, y, z] = place(numbers, depth);
+    let radius = numbers.between(5.0, 20.0);
+    let count = 20.0 * libm::pow(10.0, numbers.between(0.0, 1.2));
+    let spread = radius * libm::pow(10.0, numbers.between(-2.0, 0.0));
+    for _ in 0..count as usize {
+        let [u, v, w] = [(); 3].map(|()| numbers.between(-spread, spread));
+        draft.sphere([x + u, y + v, z + w], radius * numbers.between(0.98, 1.0));
+    }
+    draft
+}
+
 /// Thin rests of balls beside others.
 pub(super) fn slivers(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 2);
