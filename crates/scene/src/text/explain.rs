@@ -50,7 +50,10 @@ impl Found<'_> {
             } => {
                 let whole = self.whole(outer.as_deref());
                 let found_token = show(&text[start..token::token_end(text, start)]);
-                let meant = did_you_mean(found, expected.iter().copied(), show);
+                let mut meant = did_you_mean(found, expected.iter().copied(), show);
+                if meant.is_empty() {
+                    meant = known_elsewhere(found, expected);
+                }
                 let known = match meant.is_empty() {
                     true => format!(" ({})", either(expected.iter().copied())),
                     false => String::new(),
@@ -207,6 +210,24 @@ impl Found<'_> {
             None => self.names.noun.to_owned(),
         }
     }
+}
+
+/// Names that fields have in other renderers, the field that is meant, and how it is written.
+const ELSEWHERE: [(&str, &str, &str); 4] = [
+    ("fov", "lens", "`lens: Fov(…)`"),
+    ("size", "image", "`image: (width: …, height: …)`"),
+    ("position", "center", "`center`"),
+    ("color", "albedo", "`albedo`"),
+];
+
+/// The end of a message where an unknown field is known by another name among the expected ones, or nothing.
+fn known_elsewhere(found: &str, expected: &[&str]) -> String {
+    let known = ELSEWHERE
+        .iter()
+        .find(|(name, field, _)| found.eq_ignore_ascii_case(name) && expected.contains(field));
+    known.map_or_else(String::new, |(.., written)| {
+        format!(", did you mean {written}?")
+    })
 }
 
 /// Returns whether a value is due behind this text.
