@@ -1,4 +1,4 @@
-//! The files that a scene is made of, which no output may replace.
+//! The files that a command reads, which no output may replace.
 
 use std::collections::HashSet;
 use std::fs;
@@ -8,21 +8,29 @@ use marbles_scene::Scene;
 
 use crate::base::failure::Failure;
 
-/// The scene file and the tables that it names.
+/// The files that are read.
 pub(super) struct Inputs {
     /// At the ends of links.
     places: HashSet<PathBuf>,
+    /// The reason to refuse an output.
+    why: &'static str,
 }
 
 impl Inputs {
-    /// Those of the scene that was read from `path`.
+    /// The scene that was read from `path`, and the tables that it names.
     pub(super) fn of(path: &Path, scene: &Scene) -> Self {
         let files = scene.table_files().into_iter().chain([path.to_owned()]);
         Self {
-            // What is gone since it was read can be replaced.
-            places: files
-                .filter_map(|file| fs::canonicalize(file).ok())
-                .collect(),
+            places: places(files).collect(),
+            why: "the output would replace the scene, or a table that it names",
+        }
+    }
+
+    /// The parts of a picture.
+    pub(super) fn parts(parts: &[PathBuf]) -> Self {
+        Self {
+            places: places(parts).collect(),
+            why: "the output would replace a part",
         }
     }
 
@@ -33,11 +41,14 @@ impl Inputs {
             place.is_ok_and(|place| self.places.contains(&place))
         };
         match outputs.into_iter().find(is_input) {
-            Some(path) => {
-                let why = "the output would replace the scene, or a table that it names";
-                Err(Failure::unusable(&path, why))
-            }
+            Some(path) => Err(Failure::unusable(&path, self.why)),
             None => Ok(()),
         }
     }
+}
+
+/// Where files are. What is gone since it was read can be replaced.
+fn places(files: impl IntoIterator<Item = impl AsRef<Path>>) -> impl Iterator<Item = PathBuf> {
+    let places = files.into_iter().map(fs::canonicalize);
+    places.filter_map(Result::ok)
 }

@@ -217,6 +217,14 @@ fn no_output_replaces_an_input() {
     fs::write(folder.path("scene.png"), cloud).unwrap();
     fs::write(folder.path("a_id.npy"), &array).unwrap();
     std::os::unix::fs::symlink("a_id.npy", folder.path("link.1.npy")).unwrap();
+    let lit = cloud
+        .replace(
+            "clouds",
+            "lights: [Directional(toward: (0, 0, -1))], clouds",
+        )
+        .replace("a_id.npy", "normal.txt");
+    fs::write(folder.path("lit.ron"), lit).unwrap();
+    fs::write(folder.path("normal.txt"), "x y z radius\n0 0 5 1\n").unwrap();
     for (output, is_refused) in [
         ("render scene.png -o ./scene.png", true),
         ("render scene.png -o a_id.npy", true),
@@ -225,6 +233,10 @@ fn no_output_replaces_an_input() {
         ("render scene.png -o a.npy", false),
         ("spheres scene.png -o scene.png", true),
         ("report scene.png --runs 1 --csv a_id.npy", true),
+        ("farm slurm scene.png -o out.png --job scene.png", true),
+        ("farm slurm scene.png -o a_id.npy --job job", true),
+        ("dataset lit.ron -o set --layout diligent", false),
+        ("dataset lit.ron -o . --layout diligent", true),
     ] {
         let output = (output, folder.run(output));
         let errors = text(&output.1.stderr);

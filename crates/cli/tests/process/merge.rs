@@ -62,6 +62,10 @@ fn parts_are_merged_into_the_picture() {
         folder.run(&format!("{skipping} {}", parts(101, 83)[3]));
         names.rotate_left(5);
         let all = names.join(" ");
+        let output = folder.run(&format!("merge ./{} {all}", names[3]));
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), 2, "{errors}");
+        assert!(errors.contains("would replace a part"), "{errors}");
         let output = folder.run(&format!("merge merged.{ending} {all}"));
         assert_eq!(code(&output), 0, "{}", text(&output.stderr));
         let line = format!("merged.{ending}: 8383 pixels from 16 parts\n");

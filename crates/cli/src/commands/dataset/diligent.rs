@@ -21,6 +21,16 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<DirectionalLi
     distant.collect()
 }
 
+/// The files beside the pictures.
+pub(super) const NAMES: [&str; 6] = [
+    "light_directions.txt",
+    "light_intensities.txt",
+    "mask.png",
+    "Normal_gt.png",
+    "normal.txt",
+    "Normal_gt.mat",
+];
+
 /// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the mask and
 /// the normals.
 pub(super) fn write(
@@ -35,11 +45,12 @@ pub(super) fn write(
         line(&[x, -y, -z])
     };
     let intensity = |light: &DirectionalLight| line(&(light.intensity() * gain).to_array());
-    let path = |name: &str| folder.join(name);
-    write_lines(&path("light_directions.txt"), lights.iter().map(direction))?;
-    write_lines(&path("light_intensities.txt"), lights.iter().map(intensity))?;
-    centers.write_mask(&path("mask.png"))?;
-    centers.write_picture(&path("Normal_gt.png"))?;
-    centers.write_text(&path("normal.txt"))?;
-    centers.write_mat(&path("Normal_gt.mat"))
+    let [directions, intensities, mask, picture, normals, matrix] =
+        NAMES.map(|name| folder.join(name));
+    write_lines(&directions, lights.iter().map(direction))?;
+    write_lines(&intensities, lights.iter().map(intensity))?;
+    centers.write_mask(&mask)?;
+    centers.write_picture(&picture)?;
+    centers.write_text(&normals)?;
+    centers.write_mat(&matrix)
 }

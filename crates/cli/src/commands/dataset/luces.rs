@@ -67,6 +67,18 @@ pub(super) fn mean_distance(scene: &Path, centers: &Centers) -> Result<f64, Fail
     })
 }
 
+/// The files beside the pictures.
+pub(super) const NAMES: [&str; 8] = [
+    "led_params.txt",
+    "K.txt",
+    "light_positions.txt",
+    "light_directions.txt",
+    "light_intensities.txt",
+    "mask.png",
+    "normals.png",
+    "zgt.npz",
+];
+
 /// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the camera, the
 /// mask, the normals and the depths.
 pub(super) fn write(
@@ -82,7 +94,16 @@ pub(super) fn write(
         let ratio = light.reference() / mean_distance;
         light.intensity() * (gain * ratio * ratio)
     };
-    let path = |name: &str| folder.join(name);
+    let [
+        parameters_file,
+        matrix_file,
+        positions_file,
+        directions_file,
+        intensities_file,
+        mask_file,
+        normals_file,
+        depths_file,
+    ] = NAMES.map(|name| folder.join(name));
 
     let Intrinsics {
         focal_length,
@@ -99,33 +120,33 @@ pub(super) fn write(
         numbers.extend([exponent, last]);
         line(&numbers)
     });
-    write_lines(&path("led_params.txt"), setup.into_iter().chain(parameters))?;
+    write_lines(&parameters_file, setup.into_iter().chain(parameters))?;
     let matrix = [
         [focal_length, 0.0, x],
         [0.0, focal_length, y],
         [0.0, 0.0, 1.0],
     ];
-    write_lines(&path("K.txt"), matrix.map(|row| line(&row)))?;
+    write_lines(&matrix_file, matrix.map(|row| line(&row)))?;
 
     let upward = |vector: DVec3| line(&[vector.x, -vector.y, -vector.z]);
     write_lines(
-        &path("light_positions.txt"),
+        &positions_file,
         positions.iter().map(|&position| upward(position)),
     )?;
     let middle = DVec3::Z * mean_distance;
     write_lines(
-        &path("light_directions.txt"),
+        &directions_file,
         positions
             .iter()
             .map(|&position| upward((position - middle).normalize_or_zero())),
     )?;
     write_lines(
-        &path("light_intensities.txt"),
+        &intensities_file,
         lights
             .iter()
             .map(|light| line(&brightness(light).to_array())),
     )?;
-    centers.write_mask(&path("mask.png"))?;
-    centers.write_deep_picture(&path("normals.png"))?;
-    centers.write_depths(&["zgt", "zgt_int"], &path("zgt.npz"))
+    centers.write_mask(&mask_file)?;
+    centers.write_deep_picture(&normals_file)?;
+    centers.write_depths(&["zgt", "zgt_int"], &depths_file)
 }

@@ -7,6 +7,8 @@ mod luces;
 #[cfg(test)]
 mod tests;
 
+use std::path::Path;
+
 use marbles_core::{
     DirectionalLight, Light, LightPart, Method, PointLight, Renderer, Settings, View, World,
 };
@@ -16,6 +18,7 @@ use rayon::ThreadPool;
 use self::centers::Centers;
 use self::lines::write_lines;
 use super::args::{DatasetArguments, LayoutForm};
+use super::inputs::Inputs;
 use super::render::conclusion;
 use super::scene;
 use crate::base::failure::Failure;
@@ -53,6 +56,7 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     let world = pool.install(|| scene::world(&scene, arguments.frame))?;
     let gain = gain(&world, &lights);
     let request = request(arguments, scene, (&layout, lights.len()), gain)?;
+    layout.refuse_inputs(&arguments.output, &request)?;
     interrupt::listen(console);
 
     layout.write(arguments, &request, (&view, gain), (&world, &pool))?;
@@ -67,6 +71,9 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     }
     Ok(conclusion(&outcome, "picture", console))
 }
+
+/// The file that names the pictures.
+const PICTURES: &str = "filenames.txt";
 
 /// A layout, and the lights of the kind that it has.
 enum Layout {
@@ -95,6 +102,19 @@ impl Layout {
         }
     }
 
+    /// Refuses a folder in which a file would replace the scene or a table.
+    fn refuse_inputs(&self, folder: &Path, request: &Request) -> Result<(), Failure> {
+        let names: &[&str] = match self {
+            Self::Diligent(_) => &diligent::NAMES,
+            Self::Luces(_) => &luces::NAMES,
+        };
+        let beside = names.iter().chain([&PICTURES]);
+        let frame = request.frames.first();
+        let pictures = (0..request.parts.len()).map(|part| request.path(frame, part));
+        let files = beside.map(|name| folder.join(name)).chain(pictures);
+        Inputs::of(&request.scene_path, &request.scene).refuse(files)
+    }
+
     /// Writes all but the pictures.
     fn write(
         &self,
@@ -106,7 +126,7 @@ impl Layout {
         let renderer = || Renderer::new(world);
         let centers = pool.install(|| Centers::of(&renderer(), view));
         let folder = &arguments.output;
-        let names = folder.join("filenames.txt");
+        let names = folder.join(PICTURES);
         let write_names = || {
             prepare(&names)?;
             write_lines(&names, file_names(request.parts.len(), self.digits()))

@@ -7,6 +7,7 @@ use std::path::{self, Path};
 use crate::base::failure::Failure;
 use crate::base::threads;
 use crate::commands::args::JobArguments;
+use crate::commands::inputs::Inputs;
 use crate::commands::render::request;
 use crate::terminal::console::Console;
 
@@ -50,6 +51,8 @@ impl Job {
                 "tasks write a file for each frame, and the output has all of them".to_owned(),
             ));
         }
+        let inputs = Inputs::of(&request.scene_path, &request.scene);
+        inputs.refuse(arguments.job.clone())?;
         for frame in request.frames.iter().take(FRAMES_LOOKED_AT) {
             request.check(frame)?;
         }

@@ -7,6 +7,7 @@ mod parts;
 
 use self::parts::Parts;
 use super::args::MergeArguments;
+use super::inputs::Inputs;
 use crate::base::failure::Failure;
 use crate::base::numbers::counted;
 use crate::base::shown::Shown;
@@ -21,6 +22,7 @@ pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, F
     let format = Format::of_file(path).ok_or_else(|| {
         Failure::unusable(path, "expected a file name that ends in .png, .exr or .npy")
     })?;
+    Inputs::parts(&arguments.parts).refuse([path.clone()])?;
     interrupt::listen(console);
     let mut parts = Parts::examine(&arguments.parts)?;
     let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
