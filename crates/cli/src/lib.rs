@@ -17,10 +17,11 @@ use std::process::ExitCode;
 use crate::base::status;
 use crate::commands::args::{Arguments, Command};
 use crate::terminal::console::Console;
-use crate::terminal::signals;
+use crate::terminal::{abort, signals};
 
 /// Runs the command line `args`, the program's name first, as the binary `marbles` does.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
+    abort::end_as_failure();
     ExitCode::from(run_on(args, &Console::of_process()))
 }
 

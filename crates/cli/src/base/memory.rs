@@ -1,5 +1,5 @@
-//! Memory that is asked for before it is needed: where there is none, allocating ends the process
-//! without a word.
+//! Memory that is asked for before it is needed, so that an error tells what it was for. Where smaller pieces cannot be had,
+//! `terminal/abort.rs` ends the process.
 
 use marbles_core::{Renderer, World};
 

@@ -7,10 +7,12 @@
 
 use std::collections::HashMap;
 use std::ffi::{OsStr, OsString};
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
+use std::time::Duration;
+use std::{mem, thread};
 
 /// The longest names, in bytes, that common file systems take.
 const LONGEST_NAME: usize = 255;
@@ -109,11 +111,11 @@ fn create(path: &Path) -> io::Result<Option<File>> {
         match options.read(true).write(true).create_new(true).open(path) {
             Ok(file) => match file.try_lock() {
                 // Another process took it for left over.
-                Err(TryLockError::WouldBlock) => {}
+                Err(fs::TryLockError::WouldBlock) => {}
                 Ok(()) if !is_at(&file, path)? => {}
                 Ok(()) => return Ok(Some(file)),
                 // Without locks no process will take it for left over.
-                Err(TryLockError::Error(_)) => return Ok(Some(file)),
+                Err(fs::TryLockError::Error(_)) => return Ok(Some(file)),
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                 if !remove_left_over(path)? {
@@ -233,6 +235,31 @@ pub(crate) fn abandon_all() -> impl Sized {
         let _ = fs::remove_file(path);
     }
     open
+}
+
+/// Removes all temporary files of a process that ends before the answer could matter; those that another thread is
+/// about to make or move may stay.
+///
+/// It asks for no memory, unless names are very long, and waits for no more than a moment.
+pub(crate) fn abandon_now() {
+    const ATTEMPTS: u32 = 100;
+    const PAUSE: Duration = Duration::from_millis(1);
+    for _ in 0..ATTEMPTS {
+        let open = match OPEN.try_lock() {
+            Ok(open) => open,
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => {
+                thread::sleep(PAUSE);
+                continue;
+            }
+        };
+        for path in &*open {
+            let _ = fs::remove_file(path);
+        }
+        // No other thread makes one more.
+        mem::forget(open);
+        return;
+    }
 }
 
 fn lock() -> MutexGuard<'static, Vec<PathBuf>> {

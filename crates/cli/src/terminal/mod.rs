@@ -1,5 +1,6 @@
 //! The user's terminal, or the program in its place: results, messages, progress, signals.
 
+pub(crate) mod abort;
 pub(crate) mod alternate_screen;
 pub(crate) mod bar;
 pub(crate) mod console;

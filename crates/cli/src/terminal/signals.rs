@@ -37,6 +37,38 @@ pub(crate) fn outlive_file_limits() {
     }
 }
 
+/// Calls `handle` on the thread that aborts the process, which then ends with the code that it returns.
+///
+/// `handle` may neither wait for long nor ask for memory.
+#[cfg(unix)]
+pub(super) fn on_abort(handle: impl Fn() -> i32 + Send + Sync + 'static) {
+    use signal_hook::{consts::SIGABRT, low_level};
+
+    let end = move || low_level::exit(handle());
+    // SAFETY: a process sends itself this signal where it aborts, which is no place inside of the allocator. The
+    // handler asks for no memory, waits for locks for a short time at the most, and does not return.
+    #[expect(
+        unsafe_code,
+        reason = "handlers of signals are bound by rules that the compiler does not know"
+    )]
+    let registered = unsafe { low_level::register(SIGABRT, end) };
+    // Without a handler the process ends there as it always did.
+    let _ = registered;
+}
+
+/// Nothing is sent there.
+#[cfg(not(unix))]
+pub(super) fn on_abort(_handle: impl Fn() -> i32 + Send + Sync + 'static) {}
+
+/// Writes to stderr without a lock.
+#[cfg(unix)]
+pub(super) fn say(text: &[u8]) {
+    let _ = rustix::io::write(std::io::stderr(), text);
+}
+
+#[cfg(not(unix))]
+pub(super) fn say(_text: &[u8]) {}
+
 /// The ignored signals as bits, that of the signal 1 the lowest; none where the system does not tell.
 #[cfg(unix)]
 fn ignored() -> u64 {

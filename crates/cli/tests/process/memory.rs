@@ -1,5 +1,6 @@
 //! Pictures that are larger than the memory.
 
+use std::fmt::Write as _;
 use std::fs::{self, File};
 use std::process::Command;
 
@@ -110,6 +111,43 @@ fn tables_larger_than_the_memory_are_errors() {
     for expected in 0..=1 {
         assert!(codes.contains(&Some(expected)), "{codes:?}");
     }
+}
+
+/// Pieces that are too small to be asked for, in the libraries that decompress and the standard library among them.
+#[test]
+fn memory_that_ends_in_small_pieces_is_an_error() {
+    let folder = Folder::new();
+    let mut table = String::from("x,y,z\n");
+    for row in 0..400_000_u32 {
+        let place = |step: u32| row * step % 1009;
+        let _ = writeln!(table, "{},{},{}", place(7), place(131), place(517));
+    }
+    fs::write(folder.path("table.csv"), table).unwrap();
+    let packed = Command::new("gzip").arg(folder.path("table.csv")).status();
+    let name = if packed.is_ok_and(|packed| packed.success()) {
+        "table.csv.gz"
+    } else {
+        "table.csv"
+    };
+    let scene = format!(
+        "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(), clouds: [(file: {name:?}, radius: 1)])"
+    );
+    fs::write(folder.path("table.ron"), scene).unwrap();
+    let mut said = String::new();
+    // From less than the table takes on.
+    for kilobytes in (26_000..80_000).step_by(1000) {
+        let arguments = "render table.ron -o a.png --samples 1 --threads 2";
+        let output = in_memory(&folder, kilobytes, arguments).output().unwrap();
+        let errors = text(&output.stderr);
+        let code = output.status.code();
+        assert!(
+            matches!(code, Some(1 | 2)),
+            "{kilobytes} kB: {code:?}, {errors}"
+        );
+        assert!(errors.contains(" memory"), "{kilobytes} kB: {errors}");
+        said += &errors;
+    }
+    assert!(said.contains("no memory to go on"), "{said}");
 }
 
 /// A grey picture of one line that repeats.
