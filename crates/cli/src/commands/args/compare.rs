@@ -50,7 +50,7 @@ pub(crate) struct CompareArguments {
     pub(crate) tolerance: Option<f64>,
 
     /// List the N pixels that differ most
-    #[arg(long, value_name = "N", default_value = "5", value_parser = worst)]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = worst, allow_negative_numbers = true)]
     pub(crate) worst: usize,
 
     /// Write a picture of the differences: .png in grey, on a logarithmic scale with the tolerance

@@ -79,7 +79,7 @@ pub(crate) struct DatasetArguments {
     pub(crate) tolerance: f64,
 
     /// Size of the pictures in pixels, in place of the scene's
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
     /// Leave out pictures that are complete and made from the same scene and settings

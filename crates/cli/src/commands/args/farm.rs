@@ -47,7 +47,7 @@ pub(crate) enum Engine {
 #[derive(Debug, Args)]
 pub(crate) struct JobArguments {
     /// Frames that a task renders, one after the other
-    #[arg(long, value_name = "N", default_value = "20", value_parser = chunk)]
+    #[arg(long, value_name = "N", default_value = "20", value_parser = chunk, allow_negative_numbers = true)]
     pub(crate) chunk: NonZeroU32,
 
     /// Write the job to FILE instead of printing it

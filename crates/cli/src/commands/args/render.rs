@@ -95,12 +95,12 @@ pub(crate) struct RenderArguments {
     pub(crate) threads: Option<usize>,
 
     /// Size of the picture in pixels, in place of the scene's
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
     /// Render only a part of the picture, from column X and row Y on; `marbles merge` puts parts
     /// together
-    #[arg(long, value_name = "X,Y,W,H", value_parser = window_of)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = window_of, allow_hyphen_values = true)]
     pub(crate) region: Option<Window>,
 
     /// Leave the background out, and store how much of each pixel the spheres cover

@@ -54,7 +54,7 @@ pub(crate) struct ReportArguments {
     pub(crate) frame: Option<i32>,
 
     /// Size of the picture in pixels, in place of the scene's
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
     /// Render on N threads [default: one per core]
@@ -64,11 +64,11 @@ pub(crate) struct ReportArguments {
     /// Time for all runs together, and for a better reference; 1, 2, 4, 8, … samples a side are
     /// measured as far as their runs fit into it, or into half of it where the tolerances are slow.
     /// All tolerances, and 4 × 4 samples, are measured once in any case
-    #[arg(long, value_name = "S", default_value = "60", value_parser = seconds)]
+    #[arg(long, value_name = "S", default_value = "60", value_parser = seconds, allow_negative_numbers = true)]
     pub(crate) seconds: f64,
 
     /// Runs of every setting, of which the median time counts
-    #[arg(long, value_name = "N", default_value = "5", value_parser = runs)]
+    #[arg(long, value_name = "N", default_value = "5", value_parser = runs, allow_negative_numbers = true)]
     pub(crate) runs: usize,
 
     /// Write the numbers, and some more, as a table with commas

@@ -56,7 +56,7 @@ pub(crate) struct SpheresArguments {
     pub(crate) frames: Option<FrameList>,
 
     /// Size of the picture in pixels, in place of the scene's
-    #[arg(long, value_name = "WxH")]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
     /// Bring the visible areas of the spheres in every pixel together within E of their exact values,
