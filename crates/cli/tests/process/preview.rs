@@ -5,6 +5,7 @@ use std::io::{Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
 
 use crate::folder::{BALL, Folder};
 use crate::signals::wait_until;
@@ -66,18 +67,31 @@ impl Terminal {
 
     /// The screens that are complete: each ends with these words.
     fn screens(&self) -> Vec<String> {
-        let shown = self.shown.lock().unwrap();
-        let shown = String::from_utf8_lossy(&shown);
+        let shown = self.shown();
         let mut screens: Vec<String> = shown.split("q ends").map(str::to_owned).collect();
         screens.pop();
         screens
     }
 
+    fn shown(&self) -> String {
+        String::from_utf8_lossy(&self.shown.lock().unwrap()).into_owned()
+    }
+
+    /// Waits for the end of `marbles`, though not for ever: the exit code, and all that was shown.
     fn end(mut self) -> (Option<i32>, String) {
-        let code = self.script.wait().unwrap().code();
+        /// Ending takes no time; this much only where others have the processors.
+        const LIMIT: Duration = Duration::from_secs(60);
+        let started = Instant::now();
+        let status = loop {
+            if let Some(status) = self.script.try_wait().unwrap() {
+                break status;
+            }
+            let is_late = started.elapsed() > LIMIT;
+            assert!(!is_late, "it did not end, and showed {:?}", self.shown());
+            thread::sleep(Duration::from_millis(5));
+        };
         self.reader.take().unwrap().join().unwrap();
-        let shown = self.shown.lock().unwrap();
-        (code, String::from_utf8_lossy(&shown).into_owned())
+        (status.code(), self.shown())
     }
 }
 
