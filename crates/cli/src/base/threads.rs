@@ -18,8 +18,7 @@ const ADDRESSES: u64 = 1 << 22;
 /// Starts `count` threads, but no more than have any use, or one per core.
 pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
     let processors = available_parallelism().map_or(1, usize::from);
-    let most = ENOUGH.max(processors.saturating_mul(MOST_ON_A_PROCESSOR));
-    let count = count.map_or(processors, |count| count.min(most));
+    let count = useful(count, processors);
     let refused = |reason: &str| {
         Failure::Work(format!(
             "cannot start {count} threads that render: {reason}"
@@ -35,6 +34,12 @@ pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
         .map_err(|error| refused(&without_number(&error.to_string())))
 }
 
+/// The number of threads to start, where `asked` for or not.
+fn useful(asked: Option<usize>, processors: usize) -> usize {
+    let most = ENOUGH.max(processors.saturating_mul(MOST_ON_A_PROCESSOR));
+    asked.map_or(processors, |asked| asked.min(most))
+}
+
 /// Starts a thread beside those that render, where the system has one left. `what` it does is told where it has none.
 pub(crate) fn start_one<'scope, T: Send + 'scope>(
     scope: &'scope Scope<'scope, '_>,
@@ -46,4 +51,36 @@ pub(crate) fn start_one<'scope, T: Send + 'scope>(
         let reason = without_number(&error.to_string());
         Failure::Work(format!("cannot start the thread that {what}: {reason}"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_threads_start_than_have_a_use() {
+        for (asked, processors, expected) in [
+            (None, 2, 2),
+            (None, 128, 128),
+            (Some(1), 2, 1),
+            (Some(64), 2, 64),
+            (Some(65), 2, 64),
+            (Some(1024), 2, 64),
+            (Some(1024), 16, 64),
+            (Some(1024), 32, 128),
+            (Some(100), 32, 100),
+        ] {
+            let what = format!("{asked:?} on {processors}");
+            assert_eq!(useful(asked, processors), expected, "{what}");
+        }
+    }
+
+    #[test]
+    fn as_many_threads_start_as_are_told() {
+        let processors = available_parallelism().map_or(1, usize::from);
+        for asked in [None, Some(3), Some(1024)] {
+            let pool = start(asked).map_err(|failure| failure.to_string()).unwrap();
+            assert_eq!(pool.current_num_threads(), useful(asked, processors));
+        }
+    }
 }
