@@ -78,6 +78,33 @@ fn people_read_nothing_in_the_first_seconds() {
     assert_eq!(err.read(), "");
 }
 
+/// However much happens, people read no more than a line in the time of silence.
+#[test]
+fn people_read_one_line_after_each_silence() {
+    type Step = fn(&Lines<'_>);
+    let percents: Step = |lines| lines.advance(10);
+    let frames: Step = |lines| lines.written(&frame(1), 1, 0);
+    for (events, expected) in [
+        ([percents, percents], ["10%", "30%"]),
+        ([frames, frames], ["frame 1: 1 of 2", "frame 1: 1 of 2"]),
+        ([percents, frames], ["10%", "20%"]),
+        ([frames, percents], ["frame 1: 1 of 2", "frame 1: 1 of 2"]),
+    ] {
+        let err = Text::default();
+        let console = Console::to(Text::default(), err.clone());
+        let lines = Lines::new(&console, 2);
+        lines.begin(50);
+        for (silence, line) in expected.into_iter().enumerate() {
+            lines.told.lock().unwrap().at -= SILENCE;
+            for event in events {
+                event(&lines);
+            }
+            let text = err.read();
+            assert_eq!(timeless(&text), expected[..=silence], "{line}");
+        }
+    }
+}
+
 #[test]
 fn runners_of_open_job_description_read_whole_percents() {
     let (out, err) = tell(Reader::OpenJd);
