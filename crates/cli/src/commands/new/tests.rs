@@ -28,6 +28,22 @@ fn new_scenes_are_valid_and_rendered() {
     fs::remove_dir_all(folder).unwrap();
 }
 
+/// As they are, without smaller pictures or looser tolerances.
+#[test]
+fn new_scenes_meet_all_tolerances_of_reports() {
+    let folder = temporary("new-report");
+    for option in [None, Some("--turntable")] {
+        let scene = folder.join(format!("scene{}.ron", option.unwrap_or_default()));
+        let scene = scene.to_str().unwrap();
+        let (code, ..) = run_here(&[&["new", scene], option.as_slice()].concat());
+        assert_eq!(code, 0);
+        let options = ["--seconds", "0", "--runs", "1", "--quiet"];
+        let told = run_here(&[&["report", scene], &options[..]].concat());
+        assert_eq!(told, (0, String::new(), String::new()), "{option:?}");
+    }
+    fs::remove_dir_all(folder).unwrap();
+}
+
 #[test]
 fn files_that_are_there_stay() {
     let folder = temporary("new-there");
