@@ -3,13 +3,26 @@
 use std::fs;
 use std::process::{Command, Stdio};
 
-use crate::folder::{Folder, text};
+use crate::folder::{BALL, Folder, code, text};
 
 /// The output of `marbles` on a terminal of this width; `None` where there is no way to have one.
-fn run_on_terminal(folder: &Folder, columns: u32, arguments: &str) -> Option<String> {
+fn run_on_terminal(folder: &Folder, columns: usize, arguments: &str) -> Option<String> {
+    end_on_terminal(folder, columns, arguments, 0)
+}
+
+/// The same, of a run with this exit code.
+fn end_on_terminal(
+    folder: &Folder,
+    columns: usize,
+    arguments: &str,
+    expected: i32,
+) -> Option<String> {
     let marbles = folder.marbles(arguments);
     let program = marbles.get_program().to_str().unwrap();
-    let command = format!("stty cols {columns} rows 24 && '{program}' {arguments}");
+    // A shell reads them, in which `#` begins a comment.
+    let words = arguments.split_whitespace();
+    let words: String = words.map(|word| format!(" '{word}'")).collect();
+    let command = format!("stty cols {columns} rows 24 && '{program}'{words}");
     let output = Command::new("script")
         .args(["-qec", &command, "/dev/null"])
         .current_dir(&folder.0)
@@ -17,12 +30,41 @@ fn run_on_terminal(folder: &Folder, columns: u32, arguments: &str) -> Option<Str
         .stdin(Stdio::null())
         .output();
     match output {
-        Ok(output) if output.status.success() => Some(text(&output.stdout)),
-        _ => {
+        Ok(output) => {
+            let shown = text(&output.stdout);
+            assert_eq!(code(&output), expected, "{arguments}: {shown}");
+            Some(shown)
+        }
+        Err(_) => {
             eprintln!("skipped: this test needs the program `script`");
             None
         }
     }
+}
+
+/// What is shown from the start of a line, without colors and the like.
+fn visible_lines(shown: &str) -> Vec<String> {
+    let lines = shown.split(['\r', '\n']).map(|line| {
+        let parts = line.split("\x1b[").enumerate();
+        let visible = parts.map(|(index, part)| match index {
+            0 => part,
+            // Behind the letter that ends a control sequence.
+            _ => part.trim_start_matches(|byte: char| !byte.is_ascii_alphabetic()),
+        });
+        let visible = visible.enumerate().map(|(index, part)| match index {
+            0 => part,
+            _ => part.get(1..).unwrap_or_default(),
+        });
+        visible.collect::<String>()
+    });
+    lines.collect()
+}
+
+/// The widest of the lines that are `wanted`.
+fn widest(lines: &[String], wanted: impl Fn(&str) -> bool) -> usize {
+    let lines = lines.iter().filter(|line| wanted(line));
+    let widths = lines.map(|line| line.chars().count());
+    widths.max().expect("there is such a line")
 }
 
 #[test]
@@ -45,20 +87,7 @@ fn a_terminal_shows_what_takes_long() {
         let Some(shown) = run_on_terminal(&folder, columns, arguments) else {
             return;
         };
-        let lines = shown.split(['\r', '\n']).map(|line| {
-            let parts = line.split("\x1b[").enumerate();
-            let visible = parts.map(|(index, part)| match index {
-                0 => part,
-                // Behind the letter that ends a control sequence.
-                _ => part.trim_start_matches(|byte: char| !byte.is_ascii_alphabetic()),
-            });
-            let visible = visible.enumerate().map(|(index, part)| match index {
-                0 => part,
-                _ => part.get(1..).unwrap_or_default(),
-            });
-            visible.collect::<String>()
-        });
-        let lines: Vec<String> = lines.collect();
+        let lines = visible_lines(&shown);
         for (start, whole) in [
             (
                 "reading",
@@ -68,10 +97,7 @@ fn a_terminal_shows_what_takes_long() {
         ] {
             let mut found = lines.iter().filter(|line| line.starts_with(start));
             let widest = found.clone().map(|line| line.trim_end().len()).max();
-            assert!(
-                widest.is_some_and(|width| width <= columns as usize),
-                "{lines:?}"
-            );
+            assert!(widest.is_some_and(|width| width <= columns), "{lines:?}");
             assert!(
                 columns < 80 || found.any(|line| line.trim_end() == whole),
                 "{lines:?}"
@@ -83,17 +109,24 @@ fn a_terminal_shows_what_takes_long() {
 }
 
 #[test]
-fn a_terminal_gets_plain_lines_where_they_are_asked_for() {
+fn a_terminal_gets_no_bar_where_another_form_is_asked_for() {
     let folder = Folder::new();
     let arguments = "render roll.ron -o #.png --size 9x9 --frames 1-3";
-    for (form, count) in [("plain", 7), ("none", 4)] {
+    // Lines for people begin after some seconds, those for programs at once.
+    for (form, events) in [("plain", 0), ("none", 0), ("json", 6)] {
         let arguments = format!("{arguments} --progress={form}");
         let Some(shown) = run_on_terminal(&folder, 80, &arguments) else {
             return;
         };
         assert!(!shown.contains('\x1b'), "{shown:?}");
-        assert_eq!(shown.lines().count(), count, "{shown:?}");
+        let (lines, others): (Vec<&str>, Vec<&str>) =
+            shown.lines().partition(|line| line.starts_with('{'));
+        assert_eq!(others.len(), 4, "{shown:?}");
+        assert!(lines.len() >= events, "{shown:?}");
+        assert!(events > 0 || lines.is_empty(), "{shown:?}");
     }
+    let shown = run_on_terminal(&folder, 80, arguments).unwrap();
+    assert!(shown.contains('\x1b'), "{shown:?}");
 }
 
 /// Terminals show `^C` where the cursor is; at the end of a line that would begin another one, and the
@@ -112,5 +145,114 @@ fn a_bar_has_room_for_the_key_that_ends_it() {
         for bar in bars {
             assert!(bar.ends_with("  \x1b[2D"), "{bar:?}");
         }
+    }
+}
+
+#[test]
+fn help_is_laid_out_for_the_terminal() {
+    let folder = Folder::new();
+    for (columns, parts) in [
+        (
+            46,
+            [
+                "
+  marbles farm slurm ball.ron -o out/####.png
+      --frames 1-2400 --chunk 20 > ball.sh
+  sbatch --cpus-per-task=8 ball.sh
+",
+                "
+The scene is read and all options are checked
+before anything is written. Paths become
+absolute ones;",
+                "
+  2  the command line or the scene file is
+     wrong
+",
+            ],
+        ),
+        (
+            80,
+            [
+                "
+  marbles farm slurm ball.ron -o out/####.png --frames 1-2400 --chunk 20 >
+      ball.sh
+  sbatch --cpus-per-task=8 ball.sh
+",
+                "
+The scene is read and all options are checked before anything is written. Paths
+become absolute ones;",
+                "
+  2  the command line or the scene file is wrong
+",
+            ],
+        ),
+    ] {
+        for command in ["farm slurm", "render", "merge"] {
+            let arguments = format!("{command} --help");
+            let Some(shown) = run_on_terminal(&folder, columns, &arguments) else {
+                return;
+            };
+            let lines = visible_lines(&shown.replace('\r', ""));
+            // clap does not break the line of the usage.
+            let width = widest(&lines, |line| !line.starts_with("Usage: "));
+            assert!(
+                (columns - 6..=columns).contains(&width),
+                "{width}: {lines:#?}"
+            );
+            let help = lines.join("\n");
+            let is_there = |part: &&str| command != "farm slurm" || help.contains(*part);
+            let missing = parts.iter().find(|part| !is_there(part));
+            assert_eq!(missing, None, "{columns}: {help}");
+        }
+    }
+}
+
+/// And a bar tells what is rendered before them.
+#[test]
+fn tables_of_a_report_fit_the_terminal() {
+    /// Columns of the widest cell of the tables after the first.
+    const WIDEST: usize = " largest/claimed |".len();
+    let folder = Folder::new();
+    let arguments = "report ball.ron --size 9x9 --seconds 0 --runs 1";
+    for columns in [46, 80] {
+        let Some(shown) = run_on_terminal(&folder, columns, arguments) else {
+            return;
+        };
+        let lines = visible_lines(&shown);
+        let width = widest(&lines, |line| line.starts_with('|'));
+        assert!(
+            (columns - WIDEST..=columns).contains(&width),
+            "{width}: {lines:#?}"
+        );
+        let is_bar =
+            |line: &String| line.starts_with("reference, tolerance 1e-7") && line.contains("% of");
+        assert!(columns < 80 || lines.iter().any(is_bar), "{lines:#?}");
+    }
+}
+
+#[test]
+fn excerpts_fit_the_terminal() {
+    /// Columns that may stay empty, because the number of the line has few digits.
+    const LEFT: usize = 8;
+    let folder = Folder::new();
+    let beside = "/* many words beside it */ ".repeat(9);
+    let wrong = BALL.replace(
+        "-1))],",
+        &format!("-1), {beside} intensity: -1, {beside})],"),
+    );
+    fs::write(folder.path("wrong.ron"), wrong).unwrap();
+    for columns in [46, 80] {
+        let Some(shown) = end_on_terminal(&folder, columns, "check wrong.ron", 2) else {
+            return;
+        };
+        let lines = visible_lines(&shown);
+        let is_excerpt = |line: &str| line.starts_with("5 | …") && line.ends_with('…');
+        let width = widest(&lines, is_excerpt);
+        assert!(
+            (columns - LEFT..=columns).contains(&width),
+            "{width}: {lines:#?}"
+        );
+        let excerpt = lines.iter().find(|line| is_excerpt(line)).unwrap();
+        assert!(excerpt.contains("intensity: -1,"), "{excerpt}");
     }
 }
