@@ -181,12 +181,21 @@ fn names_and_contents_are_shown_harmless() {
     fs::write(folder.path(&format!("{evil}.ron")), &ball).unwrap();
     let wrong = ball.replace("spheres:", "/* \u{9b}31m\u{1b}[1m */ sphere\u{202e}s:");
     fs::write(folder.path(&format!("{evil}wrong.ron")), wrong).unwrap();
+    let table = "\u{1b}[1m\u{9b}31m.csv";
+    fs::write(folder.path(table), "x,y,z\n1,2\n").unwrap();
+    let cloud = format!("clouds: [(file: {table:?}, radius: 1)],");
+    let cloud = ball.replace("spheres:", &format!("{cloud} spheres:"));
+    fs::write(folder.path(&format!("{evil}cloud.ron")), cloud).unwrap();
+    // Its line does not end in a name.
+    let shown = "\\u{1b}]0;title\\u{7}\\u{a}\\u{9b}31m";
     for (arguments, expected) in [
         (["check", "E.ron", "", ""], 0),
         (["render", "E.ron", "-o", "E.png"], 0),
         (["check", "Ewrong.ron", "", ""], 2),
         (["render", "Enone.ron", "-o", "a.png"], 2),
         (["compare", "E.png", "E.ron", ""], 2),
+        (["check", "Ecloud.ron", "", ""], 2),
+        (["render", "Ecloud.ron", "-o", "a.png"], 2),
     ] {
         let mut marbles = folder.marbles("");
         for argument in arguments
@@ -200,6 +209,9 @@ fn names_and_contents_are_shown_harmless() {
         assert_eq!(code(&output), expected, "{arguments:?}: {said:?}");
         let harmful = |c: &char| c.is_control() && *c != '\n' || *c == '\u{202e}';
         assert_eq!(said.chars().find(harmful), None, "{said:?}");
+        assert!(said.contains(shown), "{arguments:?}: {said:?}");
+        let names_it = said.contains(&format!("\nthe table is named at {shown}cloud.ron:6:"));
+        assert_eq!(names_it, arguments[1] == "Ecloud.ron", "{said:?}");
     }
 }
 
@@ -208,7 +220,7 @@ fn names_and_contents_are_shown_harmless() {
 #[cfg(unix)]
 fn no_output_replaces_an_input() {
     let folder = Folder::new();
-    let cloud = "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(), clouds: [(file: \"a_id.npy\")])";
+    let cloud = "(image: (width: 9, height: 9), lens: Fov(40), camera: Frame(), clouds: [(file: \"a_id.npy\", value: \"x\")])";
     let mut array = b"\x93NUMPY\x01\x00".to_vec();
     let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 4)}";
     array.extend((header.len() as u16).to_le_bytes());
@@ -216,7 +228,13 @@ fn no_output_replaces_an_input() {
     array.extend([0.0_f64, 0.0, 5.0, 1.0].map(f64::to_le_bytes).concat());
     fs::write(folder.path("scene.png"), cloud).unwrap();
     fs::write(folder.path("a_id.npy"), &array).unwrap();
-    std::os::unix::fs::symlink("a_id.npy", folder.path("link.1.npy")).unwrap();
+    for (link, input) in [
+        ("link.1.npy", "a_id.npy"),
+        ("table.svg", "a_id.npy"),
+        ("scene.svg", "scene.png"),
+    ] {
+        std::os::unix::fs::symlink(input, folder.path(link)).unwrap();
+    }
     let lit = cloud
         .replace(
             "clouds",
@@ -231,8 +249,15 @@ fn no_output_replaces_an_input() {
         ("render scene.png -o link.#.npy --frames 1", true),
         ("render scene.png -o a.npy --channels id", true),
         ("render scene.png -o a.npy", false),
+        ("render scene.png -o b.png --legend scene.svg", true),
+        ("render scene.png -o b.png --legend table.svg", true),
+        ("render scene.png -o b.png --legend b.svg", false),
+        ("render scene.png -o b.png --scale-bar scene.svg", true),
+        ("render scene.png -o b.png --scale-bar table.svg", true),
+        ("render scene.png -o b.png --scale-bar b.svg", false),
         ("spheres scene.png -o scene.png", true),
         ("report scene.png --runs 1 --csv a_id.npy", true),
+        ("report scene.png --runs 1 --plot scene.svg", true),
         ("farm slurm scene.png -o out.png --job scene.png", true),
         ("farm slurm scene.png -o a_id.npy --job job", true),
         ("dataset lit.ron -o set --layout diligent", false),
