@@ -106,10 +106,13 @@ fn frames_follow_each_other() {
 
 #[test]
 fn wrong_frames_and_the_scene_as_output_are_refused() {
-    let path = temporary("spheres-refused.ron");
+    // If a table is written all the same, then here.
+    let folder = temporary("spheres-refused");
+    fs::create_dir_all(&folder).unwrap();
+    let (path, table) = (folder.join("scene.ron"), folder.join("table.csv"));
     fs::write(&path, SCENE).unwrap();
-    let name = path.to_str().unwrap();
-    let (code, _, err) = run_here(&["spheres", name, "--frames", "2"]);
+    let [name, table] = [&path, &table].map(|path| path.to_str().unwrap());
+    let (code, _, err) = run_here(&["spheres", name, "--frames", "2", "-o", table]);
     assert_eq!(code, status::REFUSED);
     assert!(
         err.contains("--frames: expected 1, the only frame of the scene, found 2"),
@@ -118,6 +121,7 @@ fn wrong_frames_and_the_scene_as_output_are_refused() {
     let (code, _, err) = run_here(&["spheres", name, "-o", name]);
     assert_eq!(code, status::REFUSED);
     assert!(err.contains("would replace the scene"), "{err}");
-    assert_eq!(fs::read_to_string(&path).unwrap(), SCENE);
-    fs::remove_file(&path).unwrap();
+    let text = fs::read_to_string(&path).unwrap();
+    fs::remove_dir_all(folder).unwrap();
+    assert_eq!(text, SCENE);
 }
