@@ -45,8 +45,9 @@ pub(super) fn on_abort(handle: impl Fn() -> i32 + Send + Sync + 'static) {
     use signal_hook::{consts::SIGABRT, low_level};
 
     let end = move || low_level::exit(handle());
-    // SAFETY: a process sends itself this signal where it aborts, which is no place inside of the allocator. The
-    // handler asks for no memory, waits for locks for a short time at the most, and does not return.
+    // SAFETY: a thread that aborts sends itself this signal, and not from inside of the allocator. Where another
+    // process sends it, it may come anywhere; but the handler asks for no memory, takes locks that are held for moments,
+    // and does not return.
     #[expect(
         unsafe_code,
         reason = "handlers of signals are bound by rules that the compiler does not know"
