@@ -3,6 +3,8 @@
 //! Samples stay as the file has them, and become light where a pixel is asked for: a table turns codes
 //! into light, and it is known what a number of the file may have been before it was rounded.
 
+use std::ops::Range;
+
 use crate::base::failure::lower;
 use crate::base::size::{LONGEST_SIDE, Size};
 use crate::formats::encoding::Format;
@@ -33,6 +35,11 @@ pub(crate) trait Samples {
     /// # Errors
     /// What is wrong with the file.
     fn advance(&mut self) -> Result<(), String>;
+
+    /// The columns of the row outside of which all pixels are alike.
+    fn held(&self) -> Range<u32> {
+        0..LONGEST_SIDE
+    }
 
     /// The light of a pixel, and its alpha.
     fn rgba(&self, col: u32) -> [f64; 4];

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Output;
 
-use crate::folder::{Folder, text};
+use crate::folder::{Folder, code, text};
 
 /// A ball before the camera.
 const BALL: &str = "(
@@ -171,4 +171,47 @@ fn quiet_prints_nothing() {
     let output = folder.run("compare a.exr fine.exr --tolerance 1e-9 --quiet");
     assert_eq!(output.status.code(), Some(1));
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
+}
+
+/// Pixels that neither file holds count all the same.
+#[test]
+fn parts_are_compared_as_whole_pictures() {
+    let folder = Folder::new();
+    let run = |arguments: &str| {
+        let output = folder.run(arguments);
+        assert_eq!(code(&output), 0, "{arguments}: {}", text(&output.stderr));
+        text(&output.stdout)
+    };
+    let render = "render ball.ron --float --size 60x45 --samples 1";
+    run(&format!("{render} -o all.exr"));
+    run(&format!("{render} -o a.exr --region 14,9,17,12"));
+    run(&format!("{render} -o b.exr --region 33,17,9,20"));
+    run("compare all.exr all.exr --diff black.exr");
+    let numbers = |a: &str, b: &str, difference: &str| {
+        let told = run(&format!("compare {a} {b} --diff {difference}"));
+        let wanted = ["largest ", "rms ", "99.9 % "];
+        let lines = told.lines();
+        let lines = lines.filter(|line| wanted.iter().any(|start| line.starts_with(start)));
+        let lines = lines.map(|line| line.split_once(" (").map_or(line, |(number, _)| number));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let apart = numbers("a.exr", "b.exr", "apart.exr");
+    assert_eq!(apart.len(), 3);
+    assert_eq!(apart, numbers("black.exr", "apart.exr", "same.exr"));
+    // What is left without the one is the other.
+    numbers("apart.exr", "a.exr", "left.exr");
+    assert!(run("compare left.exr b.exr").contains("the pictures are the same"));
+    assert!(!run("compare left.exr a.exr").contains("the pictures are the same"));
+    run("compare a.exr b.exr --diff apart.png");
+    run("compare black.exr apart.exr --diff same.png");
+    assert!(folder.read("apart.png") == folder.read("same.png"));
+
+    // Alpha is 1 where a file has none, and 0 where one has no pixels. These are in the ball.
+    for (name, alpha) in [("alpha", "--alpha"), ("none", "")] {
+        run(&format!(
+            "{render} -o {name}.exr {alpha} --region 29,22,2,2"
+        ));
+    }
+    let told = run("compare alpha.exr none.exr");
+    assert!(told.contains("largest     1.000e+00"), "{told}");
 }

@@ -72,10 +72,14 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
         picture.write(size, &names, *tolerance, |values| {
             pair.advance().map_err(Fault::Failed)?;
             counter.add_row(&pair);
-            for col in 0..size.width {
+            let columns = pair.columns();
+            let before = values.len();
+            values.resize(before + columns.start as usize * channels.len(), 0.0);
+            for col in columns {
                 let differences = pair.differences(col);
                 values.extend(channels.iter().map(|&channel| differences[channel]));
             }
+            values.resize(before + size.width as usize * channels.len(), 0.0);
             Ok(())
         })?;
     } else {

@@ -1,5 +1,6 @@
 //! Two pictures that are compared.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use crate::base::failure::Failure;
@@ -47,6 +48,22 @@ impl Pair {
             row.map_err(|reason| Failure::unusable(path, &reason))?;
         }
         Ok(())
+    }
+
+    /// Columns of the row outside of which nothing differs: all but those that neither file holds, where it has them.
+    pub(super) fn columns(&self) -> Range<u32> {
+        let width = self.a.size.width;
+        let held = [&self.a, &self.b].map(|picture| picture.row.held());
+        let held = held.into_iter().filter(|held| !held.is_empty());
+        let both = held.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+        let both = both.unwrap_or(0..0);
+        let both = both.start.min(width)..both.end.min(width);
+        // One that neither holds.
+        let other = if both.start > 0 { 0 } else { both.end };
+        if other < width && self.differences(other) != [0.0; 4] {
+            return 0..width;
+        }
+        both
     }
 
     /// The absolute differences of all four values, infinite where one is no finite number.

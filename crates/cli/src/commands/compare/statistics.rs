@@ -85,11 +85,12 @@ impl Counter {
     /// Looks at the row that is at hand.
     pub(super) fn add_row(&mut self, pair: &Pair) {
         let first = u64::from(self.row) * u64::from(self.width);
-        for (col, index) in (0..self.width).zip(first..) {
+        for col in pair.columns() {
+            let index = first + u64::from(col);
             let differences = pair.differences(col);
             let largest = pair.largest(&differences);
-            self.above_percentile.add(largest, index, || ());
             if largest > 0.0 {
+                self.above_percentile.add(largest, index, || ());
                 let worst = || worst_channel(pair, &differences, col, self.row);
                 self.worst.add(largest, index, worst);
                 self.add(pair, col, &differences, largest);
@@ -124,7 +125,7 @@ impl Counter {
         let count = self.statistics.pixels as f64 * self.channels.len() as f64;
         Statistics {
             rms: (self.squares / count).sqrt(),
-            percentile: self.above_percentile.least(),
+            percentile: self.above_percentile.least_of_most(),
             worst: self.worst.into_values(),
             ..self.statistics
         }
@@ -181,10 +182,9 @@ impl<T> Largest<T> {
         }
     }
 
-    /// The least of those that are kept; 0 where there is none.
-    fn least(&self) -> f64 {
-        let least = self.kept.keys().next();
-        least.map_or(0.0, |(bits, _)| f64::from_bits(*bits))
+    /// The least of as many as may be kept; 0 where fewer were taken: those that are 0 need not be.
+    fn least_of_most(&self) -> f64 {
+        self.least.map_or(0.0, |(bits, _)| f64::from_bits(bits))
     }
 
     /// What is known about those that are kept, the largest first, equal ones in their order.

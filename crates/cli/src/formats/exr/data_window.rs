@@ -1,5 +1,7 @@
 //! The samples of a part of a file, by their places: scan lines in any order, and tiles.
 
+use std::ops::Range;
+
 use exr::meta::MetaData;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::Header;
@@ -119,6 +121,17 @@ impl DataWindow {
     fn row_of_window(&self) -> Option<usize> {
         let row = usize::try_from(self.row - self.origin.1).ok()?;
         (row < self.size.1).then_some(row)
+    }
+
+    /// The columns of the display window that the present row has in the data window; none outside of it.
+    pub(super) fn columns(&self) -> Range<u32> {
+        if self.row_of_window().is_none() {
+            return 0..0;
+        }
+        let end = self.origin.0.saturating_add_unsigned(self.size.0 as u64);
+        // Columns of the display window are no larger, nor are those left of it any of its.
+        let column = |place: i64| place.clamp(0, i64::from(u32::MAX)) as u32;
+        column(self.origin.0)..column(end)
     }
 
     /// The place of the pixel in this column of the display window; `None` outside the data window.

@@ -1,6 +1,7 @@
 //! EXR, as it is: linear light, premultiplied.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use exr::meta::attribute::SampleType;
 use exr::prelude::f16;
@@ -74,6 +75,10 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
 impl Samples for Numbers {
     fn advance(&mut self) -> Result<(), String> {
         self.window.advance()
+    }
+
+    fn held(&self) -> Range<u32> {
+        self.window.columns()
     }
 
     fn rgba(&self, col: u32) -> [f64; 4] {

@@ -4,7 +4,7 @@ use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
 
-use exr::block::chunk::Chunk;
+use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::writer::ChunksWriter;
 use exr::meta::attribute::SampleType;
 use exr::meta::header::{Header, LayerAttributes};
@@ -48,6 +48,10 @@ pub(crate) fn write_floats(
             for _ in rows {
                 numbers.clear();
                 row(&mut numbers)?;
+                if numbers.iter().all(|number| number.to_bits() == 0) {
+                    samples.resize(samples.len() + size_of::<f32>() * numbers.len(), 0);
+                    continue;
+                }
                 for &(channel, _) in &channels {
                     let numbers = numbers.iter().skip(channel).step_by(names.len());
                     samples.extend(numbers.flat_map(|&number| (number as f32).to_ne_bytes()));
@@ -83,10 +87,26 @@ pub(crate) fn write_rows(
     let height = header.layer_size.height() as u32;
     let mut blocks = (0..height).step_by(ROWS_OF_A_BLOCK as usize).enumerate();
     let of_blocks = header.clone();
+    // The last block of zeros, and how many they were: those of large pictures of nothing are alike.
+    let mut zeros: Option<(usize, Chunk)> = None;
     let next = || {
         let (index, first) = blocks.next().ok_or(Fault::Stopped)?;
         let samples = samples(first..height.min(first + ROWS_OF_A_BLOCK))?;
-        compress(&of_blocks, index, samples).map_err(Fault::Encoding)
+        let count = samples.len();
+        let is_zero = samples.iter().all(|&byte| byte == 0);
+        if let Some((same, chunk)) = &mut zeros
+            && is_zero
+            && *same == count
+            && let CompressedBlock::ScanLine(block) = &mut chunk.compressed_block
+        {
+            block.y_coordinate = first as i32;
+            return Ok(chunk.clone());
+        }
+        let chunk = compress(&of_blocks, index, samples).map_err(Fault::Encoding)?;
+        if is_zero {
+            zeros = Some((count, chunk.clone()));
+        }
+        Ok(chunk)
     };
     write(file, header, next, || Ok(None))
 }

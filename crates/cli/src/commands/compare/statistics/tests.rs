@@ -98,9 +98,11 @@ fn the_percentile_is_by_nearest_rank() {
         let down: Vec<f64> = (1..=count).rev().map(f64::from).collect();
         let up: Vec<f64> = (1..=count).map(f64::from).collect();
         let most = above_percentile(u64::from(count));
-        assert_eq!(largest(&down, most).least(), expected, "{count}");
-        assert_eq!(largest(&up, most).least(), expected, "{count}");
+        assert_eq!(largest(&down, most).least_of_most(), expected, "{count}");
+        assert_eq!(largest(&up, most).least_of_most(), expected, "{count}");
     }
+    // Pixels that do not differ are not taken.
+    assert_eq!(largest(&[3.0], 2).least_of_most(), 0.0);
 }
 
 #[test]
