@@ -129,7 +129,7 @@ impl DataWindow {
             return 0..0;
         }
         let end = self.origin.0.saturating_add_unsigned(self.size.0 as u64);
-        // Columns of the display window are no larger, nor are those left of it any of its.
+        // What lies left of the display window is cut off, and so is what is farther right than any picture reaches.
         let column = |place: i64| place.clamp(0, i64::from(u32::MAX)) as u32;
         column(self.origin.0)..column(end)
     }
