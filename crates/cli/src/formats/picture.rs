@@ -3,6 +3,7 @@
 //! Samples stay as the file has them, and become light where a pixel is asked for: a table turns codes
 //! into light, and it is known what a number of the file may have been before it was rounded.
 
+use std::any::Any;
 use std::ops::Range;
 
 use crate::base::failure::lower;
@@ -29,7 +30,7 @@ pub(crate) struct Picture {
 ///
 /// Column 0 is the left one. All values come as red, green, blue and alpha; grey stands in all three
 /// colors, and alpha is 1 where the file has none.
-pub(crate) trait Samples {
+pub(crate) trait Samples: Any {
     /// Goes on to the next row, the first of which is the top one. There must be one.
     ///
     /// # Errors
@@ -39,6 +40,17 @@ pub(crate) trait Samples {
     /// The columns of the row outside of which all pixels are alike.
     fn held(&self) -> Range<u32> {
         0..LONGEST_SIDE
+    }
+
+    /// The columns outside of which this row has the same finite numbers as that of another picture of the same size;
+    /// `None` where that is not known without looking at pixels.
+    fn differing(&self, _other: &dyn Samples) -> Option<Range<u32>> {
+        None
+    }
+
+    /// The end of the columns from this one on that are known to hold the same numbers as it does.
+    fn end_of_run(&self, col: u32) -> u32 {
+        col + 1
     }
 
     /// The light of a pixel, and its alpha.

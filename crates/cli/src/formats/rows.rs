@@ -89,6 +89,7 @@ impl Kind {
                 })
             }),
             Self::Exr(header) => save(path, |mut file| {
+                let samples = |rows| samples(rows).map(Some);
                 write_rows(file.file(), header_like(header, size), samples)?;
                 Ok(file)
             }),

@@ -1,5 +1,6 @@
 //! A picture of where two pictures differ.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use crate::base::failure::Failure;
@@ -65,13 +66,14 @@ impl DifferencePicture {
         )
     }
 
-    /// Writes the picture of channels with these names; `row` adds the differences of the next row, pixel by pixel.
+    /// Writes the picture of channels with these names; `row` adds the differences of the next row, pixel by pixel, in
+    /// the columns that it returns, outside of which there are none.
     pub(super) fn write(
         &self,
         size: Size,
         names: &[&str],
         tolerance: Option<f64>,
-        mut row: impl FnMut(&mut Vec<f64>) -> Result<(), Fault>,
+        mut row: impl FnMut(&mut Vec<f64>) -> Result<Range<u32>, Fault>,
     ) -> Result<(), Failure> {
         if self.holds_floats {
             return write_floats(size, names, &self.path, row);
@@ -80,10 +82,19 @@ impl DifferencePicture {
         let mut differences = Vec::new();
         write_grey(size, &self.path, |codes| {
             differences.clear();
-            row(&mut differences)?;
+            let columns = row(&mut differences)?;
+            codes.resize(columns.start as usize, 0);
             let pixels = differences.chunks_exact(names.len());
             let largest = pixels.map(|pixel| pixel.iter().copied().fold(0.0, f64::max));
-            codes.extend(largest.map(|size| code(size, middle)));
+            // Many pixels differ as much as the one before, and logarithms take time.
+            let mut last = (0.0, code(0.0, middle));
+            codes.extend(largest.map(|size| {
+                if size != last.0 {
+                    last = (size, code(size, middle));
+                }
+                last.1
+            }));
+            codes.resize(size.width as usize, 0);
             Ok(())
         })
     }

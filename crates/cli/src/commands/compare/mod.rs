@@ -73,14 +73,13 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
             pair.advance().map_err(Fault::Failed)?;
             counter.add_row(&pair);
             let columns = pair.columns();
-            let before = values.len();
-            values.resize(before + columns.start as usize * channels.len(), 0.0);
-            for col in columns {
-                let differences = pair.differences(col);
-                values.extend(channels.iter().map(|&channel| differences[channel]));
+            for run in pair.runs(columns.clone()) {
+                let differences = pair.differences(run.start);
+                for _ in run {
+                    values.extend(channels.iter().map(|&channel| differences[channel]));
+                }
             }
-            values.resize(before + size.width as usize * channels.len(), 0.0);
-            Ok(())
+            Ok(columns)
         })?;
     } else {
         for _ in 0..pair.size().height {

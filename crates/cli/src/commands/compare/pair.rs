@@ -1,5 +1,6 @@
 //! Two pictures that are compared.
 
+use std::iter;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -50,9 +51,13 @@ impl Pair {
         Ok(())
     }
 
-    /// Columns of the row outside of which nothing differs: all but those that neither file holds, where it has them.
+    /// Columns of the row outside of which nothing differs: all but those that have the same codes, or that neither
+    /// file holds, where they are found out without looking at pixels.
     pub(super) fn columns(&self) -> Range<u32> {
         let width = self.a.size.width;
+        if let Some(differing) = self.a.row.differing(&*self.b.row) {
+            return differing;
+        }
         let held = [&self.a, &self.b].map(|picture| picture.row.held());
         let held = held.into_iter().filter(|held| !held.is_empty());
         let both = held.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
@@ -64,6 +69,23 @@ impl Pair {
             return 0..width;
         }
         both
+    }
+
+    /// Runs of these columns, in each of which all pixels are alike.
+    pub(super) fn runs(&self, columns: Range<u32>) -> impl Iterator<Item = Range<u32>> {
+        let mut next = columns.start;
+        let rows = [&self.a.row, &self.b.row];
+        let mut ends = [next; 2];
+        iter::from_fn(move || {
+            let start = next;
+            for (end, row) in ends.iter_mut().zip(rows) {
+                if *end == start && start < columns.end {
+                    *end = row.end_of_run(start);
+                }
+            }
+            next = ends[0].min(ends[1]).min(columns.end);
+            (start < next).then_some(start..next)
+        })
     }
 
     /// The absolute differences of all four values, infinite where one is no finite number.

@@ -4,6 +4,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use super::pair::Pair;
 
@@ -85,37 +86,43 @@ impl Counter {
     /// Looks at the row that is at hand.
     pub(super) fn add_row(&mut self, pair: &Pair) {
         let first = u64::from(self.row) * u64::from(self.width);
-        for col in pair.columns() {
-            let index = first + u64::from(col);
-            let differences = pair.differences(col);
+        for run in pair.runs(pair.columns()) {
+            let differences = pair.differences(run.start);
             let largest = pair.largest(&differences);
-            if largest > 0.0 {
-                self.above_percentile.add(largest, index, || ());
-                let worst = || worst_channel(pair, &differences, col, self.row);
-                self.worst.add(largest, index, worst);
-                self.add(pair, col, &differences, largest);
+            if largest == 0.0 {
+                continue;
             }
+            let index = |col: u32| first + u64::from(col);
+            let mut columns = run.clone();
+            columns.all(|col| self.above_percentile.add(largest, index(col), || ()));
+            let mut columns = run.clone();
+            columns.all(|col| {
+                let worst = || worst_channel(pair, &differences, col, self.row);
+                self.worst.add(largest, index(col), worst)
+            });
+            self.add(pair, run, &differences, largest);
         }
         self.row += 1;
     }
 
-    /// Counts a pixel that differs.
-    fn add(&mut self, pair: &Pair, col: u32, differences: &[f64; 4], largest: f64) {
+    /// Counts pixels that differ and are alike.
+    fn add(&mut self, pair: &Pair, run: Range<u32>, differences: &[f64; 4], largest: f64) {
+        let (col, count) = (run.start, u64::from(run.end - run.start));
         let (statistics, channels) = (&mut self.statistics, self.channels);
         let square = |&channel: &usize| differences[channel] * differences[channel];
-        self.squares += channels.iter().map(square).sum::<f64>();
+        self.squares += count as f64 * channels.iter().map(square).sum::<f64>();
         let is_over = self.tolerance.is_some_and(|most| largest > most);
-        statistics.over_tolerance += u64::from(is_over);
+        statistics.over_tolerance += count * u64::from(is_over);
         let rounding = pair.rounding(col);
         let beyond = |channel: usize| exceeds(differences[channel], rounding[channel]);
         if channels.iter().any(|&channel| beyond(channel)) {
-            statistics.beyond_rounding += 1;
+            statistics.beyond_rounding += count;
             let clipped = pair.is_clipped(col);
             let clipped = |&channel: &usize| clipped[channel] && beyond(channel);
-            statistics.clipped += u64::from(channels.iter().any(clipped));
+            statistics.clipped += count * u64::from(channels.iter().any(clipped));
         }
         if largest.is_infinite() {
-            statistics.not_finite += 1;
+            statistics.not_finite += count;
             statistics.first_not_finite.get_or_insert((col, self.row));
         }
     }
@@ -167,11 +174,12 @@ impl<T> Largest<T> {
         }
     }
 
-    /// Takes the difference with this index, at least 0.
-    fn add(&mut self, difference: f64, index: u64, about: impl FnOnce() -> T) {
+    /// Takes the difference with this index, at least 0; returns whether it is kept for now. Where it is not, neither
+    /// is one of the same size with a larger index.
+    fn add(&mut self, difference: f64, index: u64, about: impl FnOnce() -> T) -> bool {
         let new = (difference.to_bits(), Reverse(index));
         if self.least.is_some_and(|least| new < least) {
-            return;
+            return false;
         }
         self.kept.insert(new, about());
         if self.kept.len() > self.most {
@@ -180,6 +188,7 @@ impl<T> Largest<T> {
         if self.kept.len() == self.most {
             self.least = self.kept.keys().next().copied();
         }
+        true
     }
 
     /// The least of as many as may be kept; 0 where fewer were taken: those that are 0 need not be.

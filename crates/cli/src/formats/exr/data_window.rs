@@ -147,8 +147,51 @@ impl DataWindow {
         })
     }
 
+    /// The end of the columns of the display window from this one on that are known to have the same samples of these
+    /// channels.
+    pub(super) fn end_of_run<'a>(
+        &self,
+        col: u32,
+        channels: impl Iterator<Item = &'a Channel> + Clone,
+    ) -> u32 {
+        let Some(place) = self.place(col) else {
+            let start = self.columns().start;
+            return if col < start { start } else { u32::MAX };
+        };
+        // Whether the samples of some columns, counted from this one, are those of the next ones in all channels.
+        let repeat = |from: usize, to: usize| {
+            channels.clone().all(|channel| {
+                let bytes = channel.kind.bytes_per_sample();
+                let samples = self.samples(place, channel);
+                let next = samples.get((from + 1) * bytes..(to + 1) * bytes);
+                next.is_some_and(|next| next == &samples[from * bytes..to * bytes])
+            })
+        };
+        // Never looks much farther than all channels repeat, so that all runs of a row are found in the time of one.
+        let (mut repeats, mut step) = (0, 1);
+        while step > 0 {
+            if repeat(repeats, repeats + step) {
+                repeats += step;
+                step *= 2;
+            } else {
+                step /= 2;
+            }
+        }
+        col + 1 + repeats as u32
+    }
+
     /// The number of a channel there.
     pub(super) fn value(&self, place: Place, channel: &Channel) -> f64 {
+        match (channel.kind, self.samples(place, channel)) {
+            (SampleType::F16, &[a, b, ..]) => f16::from_ne_bytes([a, b]).to_f64(),
+            (SampleType::F32, &[a, b, c, d, ..]) => f32::from_ne_bytes([a, b, c, d]).into(),
+            (SampleType::U32, &[a, b, c, d, ..]) => u32::from_ne_bytes([a, b, c, d]).into(),
+            _ => 0.0,
+        }
+    }
+
+    /// The samples of a channel in the present row of a block, from this place on.
+    fn samples(&self, place: Place, channel: &Channel) -> &[u8] {
         let Place {
             block,
             columns,
@@ -156,13 +199,7 @@ impl DataWindow {
         } = place;
         let row = self.row_of_window().unwrap_or(0) % self.block.1;
         let line = row * columns * self.pixel_bytes + channel.before * columns;
-        let start = line + col * channel.kind.bytes_per_sample();
-        let samples = &self.blocks[block][start..];
-        match (channel.kind, samples) {
-            (SampleType::F16, &[a, b, ..]) => f16::from_ne_bytes([a, b]).to_f64(),
-            (SampleType::F32, &[a, b, c, d, ..]) => f32::from_ne_bytes([a, b, c, d]).into(),
-            (SampleType::U32, &[a, b, c, d, ..]) => u32::from_ne_bytes([a, b, c, d]).into(),
-            _ => 0.0,
-        }
+        let [start, end] = [col, columns].map(|col| line + col * channel.kind.bytes_per_sample());
+        &self.blocks[block][start..end]
     }
 }

@@ -81,6 +81,11 @@ impl Samples for Numbers {
         self.window.columns()
     }
 
+    fn end_of_run(&self, col: u32) -> u32 {
+        let channels = self.colors.iter().chain(&self.alpha);
+        self.window.end_of_run(col, channels)
+    }
+
     fn rgba(&self, col: u32) -> [f64; 4] {
         self.of_pixel(col, |_, value| value)
     }

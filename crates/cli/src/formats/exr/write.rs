@@ -27,13 +27,14 @@ const CHANNEL_BYTES: u64 = 1 << 9;
 const BUFFER_BYTES: usize = 1 << 18;
 
 /// Writes an EXR of channels with these names in single precision, whole or not at all; `row` adds the
-/// numbers of the next row, pixel by pixel.
+/// numbers of the next row, pixel by pixel, in the columns that it returns, outside of which they are 0.
 pub(crate) fn write_floats(
     size: Size,
     names: &[&str],
     path: &Path,
-    mut row: impl FnMut(&mut Vec<f64>) -> Result<(), Fault>,
+    mut row: impl FnMut(&mut Vec<f64>) -> Result<Range<u32>, Fault>,
 ) -> Result<(), Failure> {
+    const SAMPLE_BYTES: usize = size_of::<f32>();
     let mut channels: Vec<(usize, &str)> = names.iter().copied().enumerate().collect();
     channels.sort_unstable_by_key(|(_, name)| *name);
     let kinds = channels.iter().map(|(_, name)| (*name, SampleType::F32));
@@ -42,22 +43,34 @@ pub(crate) fn write_floats(
         ..LayerAttributes::default()
     };
     let header = header_of(size, kinds.collect()).with_attributes(attributes);
+    let row_bytes = SAMPLE_BYTES * names.len() * size.width as usize;
+    let mut numbers = Vec::new();
     Ok(save(path, |mut file| {
         write_rows(file.file(), header, |rows| {
-            let (mut numbers, mut samples) = (Vec::new(), Vec::new());
-            for _ in rows {
+            // Empty as long as there are zeros alone.
+            let mut samples = Vec::new();
+            for above in 0..rows.len() {
                 numbers.clear();
-                row(&mut numbers)?;
+                let columns = row(&mut numbers)?;
                 if numbers.iter().all(|number| number.to_bits() == 0) {
-                    samples.resize(samples.len() + size_of::<f32>() * numbers.len(), 0);
                     continue;
                 }
+                samples.resize(above * row_bytes, 0);
+                let [before, behind] = [columns.start, size.width - columns.end];
+                let [before, behind] =
+                    [before, behind].map(|columns| SAMPLE_BYTES * columns as usize);
                 for &(channel, _) in &channels {
+                    samples.resize(samples.len() + before, 0);
                     let numbers = numbers.iter().skip(channel).step_by(names.len());
                     samples.extend(numbers.flat_map(|&number| (number as f32).to_ne_bytes()));
+                    samples.resize(samples.len() + behind, 0);
                 }
             }
-            Ok(samples)
+            if samples.is_empty() {
+                return Ok(None);
+            }
+            samples.resize(rows.len() * row_bytes, 0);
+            Ok(Some(samples))
         })?;
         Ok(file)
     })?)
@@ -78,33 +91,35 @@ pub(crate) fn header_like(like: &Header, size: Size) -> Header {
 }
 
 /// Writes a file with this header; `samples` gives those of some rows, row by row, in each channel by
-/// channel.
+/// channel, or nothing where all of them are 0.
 pub(crate) fn write_rows(
     file: &mut (impl Read + Write + Seek),
     header: Header,
-    mut samples: impl FnMut(Range<u32>) -> Result<Vec<u8>, Fault>,
+    mut samples: impl FnMut(Range<u32>) -> Result<Option<Vec<u8>>, Fault>,
 ) -> Result<(), Fault> {
     let height = header.layer_size.height() as u32;
     let mut blocks = (0..height).step_by(ROWS_OF_A_BLOCK as usize).enumerate();
     let of_blocks = header.clone();
-    // The last block of zeros, and how many they were: those of large pictures of nothing are alike.
+    // The last block of zeros, and how many bytes they were: those of large pictures of nothing are alike.
     let mut zeros: Option<(usize, Chunk)> = None;
     let next = || {
         let (index, first) = blocks.next().ok_or(Fault::Stopped)?;
-        let samples = samples(first..height.min(first + ROWS_OF_A_BLOCK))?;
-        let count = samples.len();
-        let is_zero = samples.iter().all(|&byte| byte == 0);
+        let rows = first..height.min(first + ROWS_OF_A_BLOCK);
+        let bytes = rows.len() * of_blocks.layer_size.width() * of_blocks.channels.bytes_per_pixel;
+        let samples = samples(rows)?;
+        let is_zero = samples.is_none();
         if let Some((same, chunk)) = &mut zeros
             && is_zero
-            && *same == count
+            && *same == bytes
             && let CompressedBlock::ScanLine(block) = &mut chunk.compressed_block
         {
             block.y_coordinate = first as i32;
             return Ok(chunk.clone());
         }
+        let samples = samples.unwrap_or_else(|| vec![0; bytes]);
         let chunk = compress(&of_blocks, index, samples).map_err(Fault::Encoding)?;
         if is_zero {
-            zeros = Some((count, chunk.clone()));
+            zeros = Some((bytes, chunk.clone()));
         }
         Ok(chunk)
     };

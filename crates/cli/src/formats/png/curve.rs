@@ -15,7 +15,7 @@ const LINEAR_TRANSFER: u8 = 8;
 const SRGB_TRANSFER: u8 = 13;
 
 /// The curve by which codes from 0 to 1 stand for light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Curve {
     Srgb,
     Linear,

@@ -1,5 +1,8 @@
 //! PNG of any kind, as linear light.
 
+use std::any::Any;
+use std::ops::Range;
+
 use png::{BitDepth, ColorType};
 
 use super::curve::Curve;
@@ -16,6 +19,8 @@ struct Codes {
     deep: bool,
     /// Half the way between codes that the file can hold; more than ½ where it has less than 8 bit.
     half_step: f64,
+    /// The curve by which codes stand for light.
+    curve: Curve,
     /// The light of every code.
     light: Vec<f64>,
     /// The light half a step above every code; that is farther than the one half a step below.
@@ -57,6 +62,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
             color_type,
             deep,
             half_step,
+            curve,
             light: light(0.0).collect(),
             light_above: light(half_step).collect(),
         }),
@@ -66,6 +72,16 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
 impl Samples for Codes {
     fn advance(&mut self) -> Result<(), String> {
         self.lines.advance()
+    }
+
+    fn differing(&self, other: &dyn Samples) -> Option<Range<u32>> {
+        let other = (other as &dyn Any).downcast_ref::<Self>()?;
+        let kind = |codes: &Self| (codes.color_type, codes.deep, codes.half_step, codes.curve);
+        (kind(self) == kind(other)).then(|| self.lines.differing(&other.lines))
+    }
+
+    fn end_of_run(&self, col: u32) -> u32 {
+        self.lines.end_of_run(col)
     }
 
     fn rgba(&self, col: u32) -> [f64; 4] {

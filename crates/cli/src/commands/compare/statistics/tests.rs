@@ -11,12 +11,17 @@ use crate::tests::temporary;
 
 /// A picture of floats, one line high.
 fn line(values: &[f32]) -> Picture {
-    let width = values.len() as u32;
+    line_of(&["Y"], values)
+}
+
+/// One of floats of these channels, pixel by pixel.
+fn line_of(channels: &[&str], values: &[f32]) -> Picture {
+    let width = (values.len() / channels.len()) as u32;
     let path = temporary(&format!("{values:p}.exr"));
     let size = Size { width, height: 1 };
-    write_floats(size, &["Y"], &path, |row| {
+    write_floats(size, channels, &path, |row| {
         row.extend(values.iter().map(|&value| f64::from(value)));
-        Ok(())
+        Ok(0..width)
     })
     .unwrap();
     let bytes = std::fs::read(&path).unwrap();
@@ -37,11 +42,17 @@ fn png(color_type: ColorType, samples: &[u8]) -> Picture {
     load::decode(&bytes).unwrap()
 }
 
-fn statistics(a: Picture, b: Picture, tolerance: f64) -> Statistics {
+/// The first row of two pictures.
+fn first_row(a: Picture, b: Picture) -> Pair {
     let paths = ["a", "b"].map(PathBuf::from);
     let mut pair = Pair { a, b, paths };
-    let mut counter = Counter::new(&pair, Some(tolerance), 2);
     pair.advance().unwrap();
+    pair
+}
+
+fn statistics(a: Picture, b: Picture, tolerance: f64) -> Statistics {
+    let pair = first_row(a, b);
+    let mut counter = Counter::new(&pair, Some(tolerance), 2);
     counter.add_row(&pair);
     counter.finish()
 }
@@ -123,6 +134,109 @@ fn what_is_not_finite_differs_even_from_itself() {
     assert_eq!(statistics.over_tolerance, 3);
     assert_eq!(statistics.rms, f64::INFINITY);
     assert_eq!(statistics.worst[0].size, f64::INFINITY);
+}
+
+#[test]
+fn pixels_of_a_run_are_alike_and_others_do_not_differ() {
+    let rows: [&[u8]; 5] = [
+        &[0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+        &[0, 0, 9, 9, 9, 0, 0, 0, 9, 9, 0, 0],
+        &[7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7, 7],
+        &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12],
+        &[0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 2],
+    ];
+    let floats = |row: &[u8]| {
+        let light = row.iter().map(|&code| match code {
+            7 => f32::NAN,
+            code => f32::from(code),
+        });
+        light.collect::<Vec<f32>>()
+    };
+    type Read = fn(&[u8]) -> Picture;
+    let kinds: [Read; 4] = [
+        |row| png(ColorType::Grayscale, row),
+        |row| png(ColorType::GrayscaleAlpha, row),
+        |row| png(ColorType::Rgb, row),
+        |row| png(ColorType::Rgba, row),
+    ];
+    let mut pairs = Vec::new();
+    for a in rows {
+        for b in rows {
+            pairs.extend(kinds.map(|read| first_row(read(a), read(b))));
+            pairs.push(first_row(line(&floats(a)), line(&floats(b))));
+            pairs.push(first_row(line(&floats(a)), kinds[0](b)));
+            let [one, other] = [a, b].map(|row| line_of(&["R", "G", "B"], &floats(row)));
+            pairs.push(first_row(one, other));
+            let covered = line_of(&["A", "Y"], &floats(a));
+            pairs.push(first_row(covered, kinds[1](b)));
+        }
+    }
+    for pair in pairs {
+        let mut next = pair.columns().start;
+        for run in pair.runs(pair.columns()) {
+            assert_eq!(run.start, next);
+            next = run.end;
+            for col in run.clone() {
+                for row in [&pair.a.row, &pair.b.row] {
+                    let bits = |col| row.rgba(col).map(f64::to_bits);
+                    assert_eq!(bits(col), bits(run.start));
+                }
+            }
+        }
+        assert_eq!(next, pair.columns().end);
+        for col in 0..pair.size().width {
+            assert!(pair.columns().contains(&col) || pair.differences(col) == [0.0; 4]);
+        }
+    }
+}
+
+#[test]
+fn large_areas_are_looked_at_once() {
+    let runs = |a: Picture, b: Picture| {
+        let pair = first_row(a, b);
+        let runs = pair.runs(pair.columns());
+        runs.map(|run| (run.start, run.end)).collect::<Vec<_>>()
+    };
+    let [black, white] = [[0; 999], [255; 999]];
+    let mut dot = black;
+    dot[500] = 1;
+    let grey = |row: &[u8]| png(ColorType::Grayscale, row);
+    let color = |row: &[u8]| png(ColorType::Rgb, row);
+    assert_eq!(runs(grey(&white), grey(&white)), []);
+    assert_eq!(runs(grey(&black), grey(&white)), [(0, 999)]);
+    assert_eq!(runs(grey(&black), grey(&dot)), [(500, 501)]);
+    assert_eq!(
+        runs(grey(&dot), grey(&white)),
+        [(0, 500), (500, 501), (501, 999)]
+    );
+    assert_eq!(runs(color(&black), color(&white)), [(0, 333)]);
+    let [black, ones] = [[0.0; 999], [1.0; 999]];
+    let not_finite = [f32::NAN; 999];
+    assert_eq!(runs(line(&black), line(&ones)), [(0, 999)]);
+    assert_eq!(runs(line(&not_finite), line(&not_finite)), [(0, 999)]);
+}
+
+#[test]
+fn every_pixel_of_a_run_counts() {
+    let [black, white] = [[0; 40], [255; 40]].map(|row| png(ColorType::Grayscale, &row));
+    let counted = statistics(black, white, 0.5);
+    assert_eq!((counted.rms, counted.over_tolerance), (1.0, 40));
+    assert_eq!((counted.beyond_rounding, counted.clipped), (40, 0));
+    let columns = counted.worst.iter().map(|worst| worst.col);
+    assert_eq!(columns.collect::<Vec<_>>(), [0, 1]);
+    let [black, light] = [[0, 255], [0, 0]].map(|[first, second]| {
+        let mut row = [first; 40];
+        row[30..].fill(second);
+        png(ColorType::Grayscale, &row)
+    });
+    let bright = [2.0; 40];
+    assert_eq!(statistics(line(&bright), black, 0.5).clipped, 10);
+    assert_eq!(statistics(line(&bright), light, 0.5).clipped, 0);
+    let not_finite = [f32::NAN; 40];
+    assert_eq!(
+        statistics(line(&not_finite), line(&bright), 0.5).not_finite,
+        40
+    );
 }
 
 #[test]
