@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use serde_json::{Value, json};
 
 use crate::folder::{BALL, Folder, code, text};
+use crate::signals::is_ignored;
 
 /// Names that shells, directives and templates would read as something else.
 const ODD: &str = "it's \"one\" $HOME `id` \\n !x *;& #1 {é} ";
@@ -169,8 +170,8 @@ fn tasks_are_queued_again_at_the_time_limit() {
         ("TERM", "0", ""),
         ("INT", "0", ""),
     ] {
-        if signal == "INT" && ignores_interrupts() {
-            eprintln!("skipped: what ignores SIGINT from its start cannot be told to listen");
+        if is_ignored(signal) {
+            eprintln!("skipped: what ignores SIG{signal} from its start cannot be told to listen");
             continue;
         }
         let _ = fs::remove_file(folder.path("started"));
@@ -204,12 +205,6 @@ fn tasks_are_queued_again_though_the_renderer_has_just_started() {
         (code(&output), text(&output.stdout)),
         (143, "requeue 7_0\n".to_owned())
     );
-}
-
-/// Returns whether shells that this process starts ignore SIGINT, as all do in the background of a script.
-fn ignores_interrupts() -> bool {
-    let shell = Command::new("sh").args(["-c", "kill -INT $$"]).status();
-    shell.unwrap().success()
 }
 
 /// The output of a task that gets a signal as soon as it renders.

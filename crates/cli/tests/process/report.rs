@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::folder::{Folder, text};
 #[cfg(unix)]
-use crate::signals::signal;
+use crate::signals::{ending, signal};
 
 /// A ball before the camera, so small that all settings are measured in no time.
 const BALL: &str = "(
@@ -215,7 +215,7 @@ fn interrupted_reports_write_nothing() {
     let mut errors = child.stderr.take().unwrap();
     std::io::Read::read_exact(&mut errors, &mut first).unwrap();
     std::thread::sleep(Duration::from_millis(20));
-    signal("INT", &child);
+    signal(ending(), &child);
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(output.stdout.is_empty());

@@ -25,10 +25,23 @@ pub(crate) fn signal(name: &str, child: &Child) {
     assert!(kill.unwrap().success());
 }
 
+/// Returns whether what this process starts ignores the signal with this name, as all do under `nohup` (HUP) and in the
+/// background of a script (INT).
+pub(crate) fn is_ignored(name: &str) -> bool {
+    let command = format!("kill -{name} $$");
+    let shell = Command::new("sh").args(["-c", &command]).status();
+    shell.unwrap().success()
+}
+
+/// The name of a signal that ends processes.
+pub(crate) fn ending() -> &'static str {
+    if is_ignored("INT") { "TERM" } else { "INT" }
+}
+
 /// Asks the process to end and waits: its exit code, and how long it took.
 pub(crate) fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
     let started = Instant::now();
-    signal("INT", child);
+    signal(ending(), child);
     let status = child.wait().unwrap();
     (status.code(), started.elapsed())
 }
@@ -131,12 +144,13 @@ fn a_second_interrupt_hurries_a_stuck_process() {
     const GRACE: Duration = Duration::from_millis(700);
     const ATTEMPTS: u32 = 5;
     let folder = Folder::new();
+    let name = ending();
     let is_hurried = || {
         let mut child = stuck(&folder);
         let started = Instant::now();
         // Two that come at once are one.
         while child.try_wait().unwrap().is_none() {
-            signal("INT", &child);
+            signal(name, &child);
             sleep(Duration::from_millis(30));
         }
         let is_early = started.elapsed() < GRACE;
