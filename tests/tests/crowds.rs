@@ -120,6 +120,31 @@ fn crowds_cost_no_more_than_allowed() {
     }
 }
 
+/// Columns that were mixed up, or missing, put all spheres of a table in one place.
+#[test]
+fn spheres_that_are_equal_cost_as_much_as_one() {
+    let scene = |count: usize| {
+        let equal = "(center: (0.3, 0, 0), radius: 2, material: \"b\"), ".repeat(count);
+        let text = format!(
+            "(image: (width: 6, height: 4), {OUTSIDE}, ambient: 0.1,
+            lights: [Directional(toward: (-1, 2, -1.5), intensity: 0.7)],
+            materials: {{ \"a\": (albedo: 0.9), \"b\": (albedo: 0.3) }},
+            spheres: [(center: (0.3, 0, 0), radius: 2, material: \"a\"), {equal}
+            (center: (-1, 1.5, -1), radius: 0.5, material: \"a\")])"
+        );
+        Scene::parse(&text, Path::new("equal.ron")).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let [alone, many] = [0, 20_000].map(|count| picture(&scene(count), 1e-4));
+    let tests = [&alone, &many].map(|image| image.work().candidate_tests);
+    assert!(tests[1] < 3 * tests[0] + 1000, "{tests:?}");
+    assert_eq!(many.summary().over_tolerance, 0);
+    for (col, row) in pixels(&many) {
+        let off = (many.rgba(col, row)[0] - alone.rgba(col, row)[0]).abs();
+        let claimed = many.error(col, row) + alone.error(col, row);
+        assert!(off <= claimed, "({col}, {row}): {off:e} {claimed:e}");
+    }
+}
+
 /// The sphere that a ray meets first, from its inside too.
 fn first_hit(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<usize> {
     let mut nearest = (f64::INFINITY, None);

@@ -16,7 +16,7 @@ use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
 
 /// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
 /// the same scene do.
-const PURPOSE: &str = "marbles 2026-11-24.2 digest of a picture";
+const PURPOSE: &str = "marbles 2026-11-25.1 digest of a picture";
 
 /// Spheres that are hashed at a time; the digest depends on it.
 const SPHERES: usize = 1 << 14;

@@ -224,6 +224,11 @@ impl Lists {
         } else {
             order.par_sort_unstable_by_key(key);
         }
+        // Of equal spheres the first is seen.
+        order.dedup_by(|one, first| {
+            let [this, other] = [&one, &first].map(|visible| &spheres[visible.index as usize]);
+            one.nearest == first.nearest && this == other
+        });
         let here = order
             .iter()
             .map(|visible| (visible.index, &spheres[visible.index as usize]));

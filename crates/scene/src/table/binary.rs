@@ -117,6 +117,7 @@ pub(crate) fn read(
 ) -> Result<Rows, TableError> {
     let size = input.size();
     layout.check(size)?;
+    input.check_count(layout.rows, layout.noun)?;
     let stride = layout.stride();
     let mut rows = Rows::new(plan);
     let is_known = size.is_some() && plan.filters.is_empty();

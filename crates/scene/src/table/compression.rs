@@ -10,12 +10,42 @@ use std::thread;
 use flate2::bufread::MultiGzDecoder;
 use ruzstd::decoding::StreamingDecoder;
 
+use crate::text::LocatedFault;
+
 /// The ways in which files are compressed.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Compression {
     Gzip,
     Zstandard,
 }
+
+/// What compressed files may hold without more ado.
+const FREE_BYTES: u64 = 1 << 26;
+const FREE_COUNT: u64 = 1 << 17;
+/// Bytes, and rows or steps, that they may hold for each byte that they have: many times what any table of different
+/// spheres is compressed to. A megabyte of nothing else than zeros would take all memory, or hours.
+const MOST_FOR_A_BYTE: u64 = 250;
+const COUNT_FOR_A_BYTE: u64 = 4;
+
+/// The most bytes that a compressed file of this size may hold.
+pub(super) fn most_bytes(stored: u64) -> u64 {
+    FREE_BYTES.max(stored.saturating_mul(MOST_FOR_A_BYTE))
+}
+
+/// Refuses more rows or steps, which `noun` calls, than a compressed file of this size may hold.
+pub(super) fn check_count(stored: u64, count: u64, noun: &str) -> Result<(), LocatedFault> {
+    let most = FREE_COUNT.max(stored.saturating_mul(COUNT_FOR_A_BYTE));
+    if count <= most {
+        return Ok(());
+    }
+    let message = format!(
+        "expected at most {most} {noun} in a compressed file of {stored} bytes, found more: {REMEDY}"
+    );
+    Err(LocatedFault::of_file(message))
+}
+
+/// The way to read a file that holds more.
+pub(super) const REMEDY: &str = "decompress it to read it all the same";
 
 /// Bytes that the decoder hands over at a time.
 const BLOCK: usize = 1 << 20;

@@ -116,6 +116,11 @@ impl<'watch> Frames<'watch> {
         Ok(true)
     }
 
+    /// Refuses more frames than a compressed file may hold.
+    pub(crate) fn check_count(&self, count: usize) -> Result<(), TableError> {
+        Ok(self.input.check_count(count as u64, "frames")?)
+    }
+
     /// Says whether another frame follows.
     pub(crate) fn has_next(&mut self) -> Result<bool, TableError> {
         if self.is_at_end {

@@ -61,6 +61,11 @@ impl<'watch> Input<'watch> {
         self.source.size()
     }
 
+    /// Refuses more rows or steps, which `noun` calls, than a compressed file may hold.
+    pub(crate) fn check_count(&self, count: u64, noun: &str) -> Result<(), LocatedFault> {
+        self.source.check_count(count, noun)
+    }
+
     /// True where any byte can be read next.
     pub(crate) fn can_seek(&self) -> bool {
         self.source.can_seek()
@@ -130,7 +135,11 @@ impl<'watch> Input<'watch> {
 
     /// Some whole lines, at most so many, `None` at the end of the file. The caller counts them by `number`.
     pub(crate) fn next_block(&mut self, most: u64) -> Result<Option<&[u8]>, TableError> {
-        self.refill()?;
+        // What is left is moved to be filled up, which for many small blocks should not be all of it each time.
+        let has_enough = self.head().len() >= self.buffer.len() / 2;
+        if !has_enough || memchr::memchr(b'\n', self.head()).is_none() {
+            self.refill()?;
+        }
         let rest = self.head();
         if rest.is_empty() {
             return Ok(None);

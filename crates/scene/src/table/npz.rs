@@ -13,6 +13,7 @@ use zip::result::ZipError;
 
 use super::binary::{self, Column};
 use super::columns::{MOST_COLUMNS, components};
+use super::compression::{REMEDY, check_count, most_bytes};
 use super::error::TableError;
 use super::kind::Kind;
 use super::npy::{self, Elements, Header};
@@ -31,7 +32,10 @@ struct Array {
 
 /// Reads the arrays of the archive at `path`.
 pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
-    let archive = ZipArchive::new(BufReader::new(File::open(path)?));
+    let file = File::open(path)?;
+    let stored = file.metadata()?.len();
+    let mut left = most_bytes(stored);
+    let archive = ZipArchive::new(BufReader::new(file));
     let mut archive = archive.map_err(refused)?;
     let mut arrays = Vec::new();
     for index in 0..archive.len() {
@@ -40,7 +44,8 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
         let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else {
             continue;
         };
-        if let Some((header, bytes)) = array(&mut file)? {
+        if let Some((header, bytes)) = array(&mut file, left)? {
+            left -= bytes.len() as u64;
             arrays.push(Array {
                 name,
                 header,
@@ -53,6 +58,7 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
         let expected = "arrays of as many rows as there are spheres";
         LocatedFault::of_file(format!("expected {expected}, found {}", listed(&names)))
     })?;
+    check_count(stored, rows, "rows")?;
     let (mut names, mut columns) = (Vec::new(), Vec::new());
     let is_alone = arrays.len() == 1;
     for array in arrays.iter().filter(|array| array.header.shape[0] == rows) {
@@ -64,7 +70,7 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
 }
 
 /// An array that may be a column, or several; `None` of others.
-fn array(file: &mut dyn Read) -> Result<Option<(Header, Vec<u8>)>, TableError> {
+fn array(file: &mut dyn Read, most: u64) -> Result<Option<(Header, Vec<u8>)>, TableError> {
     let header = npy::header_of(file)?;
     let is_known = match &header.elements {
         Elements::Plain(kind) => !matches!(kind, Kind::Other(_)),
@@ -82,6 +88,11 @@ fn array(file: &mut dyn Read) -> Result<Option<(Header, Vec<u8>)>, TableError> {
         .iter()
         .try_fold(size, |all, side| all.checked_mul(*side));
     let all = all.ok_or(TableError::OutOfMemory(header.shape[0]))?;
+    if all > most {
+        let message =
+            format!("expected arrays of at most {most} bytes more, found {all}: {REMEDY}");
+        return Err(LocatedFault::of_file(message).into());
+    }
     // What is read decides, not what the header claims.
     let mut bytes = Vec::new();
     file.take(all).read_to_end(&mut bytes)?;

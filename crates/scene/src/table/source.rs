@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::Path;
 
-use super::compression::{Compression, Decoded};
+use super::compression::{Compression, Decoded, REMEDY, check_count, most_bytes};
+use crate::text::LocatedFault;
 
 /// The bytes of a table, whose reading somebody watches.
 pub(crate) struct Source<'watch> {
@@ -13,6 +14,8 @@ pub(crate) struct Source<'watch> {
     stored: Option<u64>,
     /// The bytes of the file that were read.
     read: u64,
+    /// The bytes that were decompressed.
+    decompressed: u64,
     /// Called with the number of bytes read so far, and those that there are.
     watch: &'watch (dyn Fn(u64, u64) + Sync),
 }
@@ -45,6 +48,7 @@ impl<'watch> Source<'watch> {
             stream,
             stored,
             read: 0,
+            decompressed: 0,
             watch,
         })
     }
@@ -57,6 +61,14 @@ impl<'watch> Source<'watch> {
     /// True where any byte can be read next.
     pub(crate) fn can_seek(&self) -> bool {
         matches!(self.stream, Stream::Plain(_)) && self.stored.is_some()
+    }
+
+    /// Refuses more rows or steps, which `noun` calls, than a compressed file may hold.
+    pub(crate) fn check_count(&self, count: u64, noun: &str) -> Result<(), LocatedFault> {
+        match (&self.stream, self.stored) {
+            (Stream::Decoded(_), Some(stored)) => check_count(stored, count, noun),
+            _ => Ok(()),
+        }
     }
 
     /// Continues at this byte.
@@ -82,6 +94,14 @@ impl Read for Source<'_> {
             Stream::Decoded(decoded) => {
                 let count = decoded.read(buffer)?;
                 self.read = decoded.taken();
+                self.decompressed += count as u64;
+                let stored = self.stored.unwrap_or(0);
+                let most = most_bytes(stored);
+                if self.decompressed > most {
+                    return Err(io::Error::other(format!(
+                        "its {stored} bytes are decompressed to more than {most}; {REMEDY}"
+                    )));
+                }
                 count
             }
         };

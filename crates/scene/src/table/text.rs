@@ -64,6 +64,7 @@ pub(crate) fn read(
             }
         }
         input.take_back(bytes - taken);
+        input.check_count(rows.read, "rows")?;
     }
     input.number = number;
     Ok(rows)

@@ -1,6 +1,7 @@
 //! The order in which neighbors in space are neighbors in a list.
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use rayon::slice::ParallelSliceMut;
 
 use crate::model::sphere::Sphere;
 use crate::numeric::lanes::LANES;
@@ -36,6 +37,8 @@ const FEWEST_TO_SHARE: usize = 1 << 13;
 
 /// All spheres so that every group of eight, and every group of eight such groups and so on, lies
 /// close together. Some places are left over.
+///
+/// Of more than eight equal spheres, most are left out, but never the first: the others are not seen.
 pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = spheres
         .par_iter()
@@ -45,7 +48,7 @@ pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
         .collect();
     let classes = classes(&entries);
     if classes.len() <= 1 {
-        split(&mut entries);
+        split(&mut entries, spheres);
         entries.resize(entries.len().next_multiple_of(WIDTH), EMPTY);
         return entries;
     }
@@ -53,7 +56,7 @@ pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
     for &(wanted, _) in &classes {
         let first = order.len();
         order.extend(entries.iter().filter(|entry| entry.class() == wanted));
-        split(&mut order[first..]);
+        split(&mut order[first..], spheres);
         order.resize(order.len().next_multiple_of(WIDTH), EMPTY);
     }
     order
@@ -113,19 +116,25 @@ fn classes(entries: &[Entry]) -> Vec<(i32, usize)> {
 
 /// Orders entries by halving them across their longest extent, again and again, at places where
 /// groups of powers of eight begin.
-fn split(entries: &mut [Entry]) {
+fn split(entries: &mut [Entry], spheres: &[Sphere]) {
     let count = entries.len();
     if count <= WIDTH {
         // The order within a group is that of the file, whatever the splits made of it.
         entries.sort_unstable_by_key(|entry| entry.index);
         return;
     }
+    let (axis, extent) = longest_axis(entries);
+    if extent == 0.0 {
+        let kept = leave_out_equals(entries, spheres);
+        if kept < count {
+            return split(&mut entries[..kept], spheres);
+        }
+    }
     let mut unit = WIDTH;
     while unit * WIDTH < count {
         unit *= WIDTH;
     }
     let middle = unit * count.div_ceil(unit).div_ceil(2);
-    let axis = longest_axis(entries);
     // Indices decide between equals: the result does not depend on how the halves are found.
     entries.select_nth_unstable_by(middle, |one, other| {
         let by_place = one.center[axis].total_cmp(&other.center[axis]);
@@ -133,14 +142,41 @@ fn split(entries: &mut [Entry]) {
     });
     let (low, high) = entries.split_at_mut(middle);
     if count < FEWEST_TO_SHARE {
-        split(low);
-        split(high);
+        split(low, spheres);
+        split(high, spheres);
     } else {
-        rayon::join(|| split(low), || split(high));
+        rayon::join(|| split(low, spheres), || split(high, spheres));
     }
 }
 
-fn longest_axis(entries: &[Entry]) -> usize {
+/// Leaves out all but the first of equal spheres: their places, the last ones, become empty. Returns how many are kept.
+fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) -> usize {
+    let key = |entry: &Entry| {
+        let sphere = &spheres[entry.index as usize];
+        let [x, y, z] = sphere.center().to_array();
+        [x, y, z, sphere.radius()]
+    };
+    entries.par_sort_unstable_by(|one, other| {
+        let mut numbers = key(one).into_iter().zip(key(other));
+        let differing = numbers.find_map(|(one, other)| {
+            let order = one.total_cmp(&other);
+            order.is_ne().then_some(order)
+        });
+        differing.unwrap_or(one.index.cmp(&other.index))
+    });
+    let mut kept = 1;
+    for place in 1..entries.len() {
+        if key(&entries[place]) != key(&entries[kept - 1]) {
+            entries[kept] = entries[place];
+            kept += 1;
+        }
+    }
+    entries[kept..].fill(EMPTY);
+    kept
+}
+
+/// The longest axis of the box around the centers, and its length.
+fn longest_axis(entries: &[Entry]) -> (usize, f32) {
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for entry in entries {
         for axis in 0..3 {
@@ -149,11 +185,12 @@ fn longest_axis(entries: &[Entry]) -> usize {
         }
     }
     let extent = |axis: usize| high[axis] - low[axis];
-    if extent(0) >= extent(1) && extent(0) >= extent(2) {
+    let axis = if extent(0) >= extent(1) && extent(0) >= extent(2) {
         0
     } else if extent(1) >= extent(2) {
         1
     } else {
         2
-    }
+    };
+    (axis, extent(axis))
 }

@@ -101,6 +101,52 @@ fn compressed_tables_are_those_that_were_compressed() {
     }
 }
 
+/// Few bytes can be compressed rows without end.
+#[test]
+fn files_that_are_compressed_too_well_are_refused() {
+    use std::io::Write;
+    let gzip = |start: &str, line: &str, count: usize| {
+        let level = flate2::Compression::best();
+        let mut gzip = flate2::write::GzEncoder::new(Vec::new(), level);
+        gzip.write_all(start.as_bytes()).unwrap();
+        let lines = line.repeat(1000);
+        for _ in 0..count / 1000 {
+            gzip.write_all(lines.as_bytes()).unwrap();
+        }
+        gzip.finish().unwrap()
+    };
+    let refused = |name: &str, bytes: &[u8], fields: &str, found: &str| {
+        let message = refusal(name, bytes, fields);
+        let words = message.contains(found) && message.contains("decompress it to read it");
+        assert!(words, "{message}");
+    };
+    let rows = gzip("x,y,z,r\n", "0,0,0,1\n", 132_000);
+    let most = "expected at most 131072 rows in a compressed file of";
+    refused("a.csv.gz", &rows, "", most);
+    let rows = gzip("x,y,z,r\n", "0,0,0,1\n", 131_000);
+    assert_eq!(spheres(&scene("a.csv.gz", rows, "")).len(), 131_000);
+    let empty = gzip("x,y,z,r\n", &format!("{}\n", " ".repeat(999)), 70_000);
+    refused(
+        "a.csv.gz",
+        &empty,
+        "",
+        "are decompressed to more than 67108864",
+    );
+    let steps = gzip("", "1\n\nH 0 0 0\n", 132_000);
+    let fields = "radius: 1, frames: All";
+    refused("a.xyz.gz", &steps, fields, "expected at most 131072 frames");
+    let header = "{'descr': '|i1', 'fortran_order': False, 'shape': (140000, 4)}";
+    let array = npy(header, &[1; 560_000]);
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+    gzip.write_all(&array).unwrap();
+    refused(
+        "a.npy.gz",
+        &gzip.finish().unwrap(),
+        "",
+        "expected at most 131072",
+    );
+}
+
 #[test]
 fn arrays_of_all_types_and_orders_are_read() {
     let header =

@@ -134,6 +134,7 @@ pub(super) fn index(frames: &mut Frames<'_>) -> Result<Vec<FramePlace>, TableErr
             return Ok(places);
         }
         places.push(place);
+        frames.check_count(places.len())?;
     }
 }
 
