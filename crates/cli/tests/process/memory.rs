@@ -119,8 +119,9 @@ fn memory_that_ends_in_small_pieces_is_an_error() {
     let folder = Folder::new();
     let mut table = String::from("x,y,z\n");
     for row in 0..400_000_u32 {
-        let place = |step: u32| row * step % 1009;
-        let _ = writeln!(table, "{},{},{}", place(7), place(131), place(517));
+        let mixed = row.wrapping_mul(2_654_435_761);
+        let place = |shift: u32| (mixed >> shift) % 1009;
+        let _ = writeln!(table, "{},{},{}", place(0), place(7), place(14));
     }
     fs::write(folder.path("table.csv"), table).unwrap();
     let packed = Command::new("gzip").arg(folder.path("table.csv")).status();
