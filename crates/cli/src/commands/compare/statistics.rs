@@ -93,6 +93,7 @@ impl Counter {
                 continue;
             }
             let index = |col: u32| first + u64::from(col);
+            // As far as they are kept: behind one that is not, none is.
             let mut columns = run.clone();
             columns.all(|col| self.above_percentile.add(largest, index(col), || ()));
             let mut columns = run.clone();

@@ -125,10 +125,7 @@ fn split(entries: &mut [Entry], spheres: &[Sphere]) {
     }
     let (axis, extent) = longest_axis(entries);
     if extent == 0.0 {
-        let kept = leave_out_equals(entries, spheres);
-        if kept < count {
-            return split(&mut entries[..kept], spheres);
-        }
+        return leave_out_equals(entries, spheres);
     }
     let mut unit = WIDTH;
     while unit * WIDTH < count {
@@ -149,8 +146,9 @@ fn split(entries: &mut [Entry], spheres: &[Sphere]) {
     }
 }
 
-/// Leaves out all but the first of equal spheres: their places, the last ones, become empty. Returns how many are kept.
-fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) -> usize {
+/// Leaves out all but the first of equal spheres: their places, the last ones, become empty. The others, whose centers
+/// are the same in single precision, so that no order brings them closer, are left in that of the file.
+fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) {
     let key = |entry: &Entry| {
         let sphere = &spheres[entry.index as usize];
         let [x, y, z] = sphere.center().to_array();
@@ -171,8 +169,8 @@ fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) -> usize {
             kept += 1;
         }
     }
+    entries[..kept].par_sort_unstable_by_key(|entry| entry.index);
     entries[kept..].fill(EMPTY);
-    kept
 }
 
 /// The longest axis of the box around the centers, and its length.
