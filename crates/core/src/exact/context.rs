@@ -1,6 +1,6 @@
 //! The view and the tolerance that pixels are integrated with.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::budget::Allowance;
 use super::part::Part;
@@ -10,6 +10,7 @@ use crate::edges::cell::Cell;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 use crate::picture::pixel::{Evidence, Pixel, Status};
 use crate::picture::tile::Tile;
@@ -127,7 +128,7 @@ impl Context<'_> {
             *u = self.view.cell_center(col, u64::from(start.row), 1).x / distance;
         }
         let ray = Vectors {
-            x: u.simd_into(simd),
+            x: f64x8::from_array(simd, u),
             ..Vectors::splat(simd, cell.middle)
         };
         (ray, cell.size[0])

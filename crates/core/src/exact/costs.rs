@@ -1,7 +1,6 @@
 //! What rules may miss of the light of a surface where it changes too fast for them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::points::Points;
@@ -10,6 +9,7 @@ use super::surface::Finish;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 
 impl Finish {

@@ -34,7 +34,7 @@ mod points;
 mod scene;
 mod surface;
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use self::budget::{FILLED, TileCosts};
 use self::classify::magnitude::is_ball_moderate;

@@ -1,10 +1,10 @@
 //! Points of spheres, eight at a time.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::edges::cell::Ball;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// Points of a sphere that the eye sees from outside.
@@ -102,7 +102,7 @@ impl<S: Simd> Points<S> {
         match self.parallel {
             Some((center, radius)) => {
                 let from_center = self.normal.times(self.t * 0.0 + radius);
-                Vectors::splat(self.t.simd, center).plus(&from_center)
+                Vectors::splat(self.t.simd(), center).plus(&from_center)
             }
             None => self.ray.times(self.t),
         }

@@ -1,7 +1,6 @@
 //! The light of points of spheres, eight at a time.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::points::Points;
 use super::scene::{InCamera, Light, MOST_LIGHTS};
@@ -10,6 +9,7 @@ use crate::light::shading_normal::ShadingNormal;
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 
 /// The surface of a sphere's outer side, prepared for the light of many points.

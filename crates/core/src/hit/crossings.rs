@@ -16,11 +16,11 @@
 //! quadratic is below A δ² / |d·v| where 8 A |δ| ≤ |d·v|. The sum of all this is the error of t + δ; each number adds what
 //! its own few roundings do, noted beside it.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::model::sphere::Sphere;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::{UNIT_ROUNDOFF, two_difference, two_product, two_sum};
 use crate::numeric::vectors::Vectors;
 
@@ -314,7 +314,7 @@ impl<S: Simd, const FUSED: bool> Crossings<S, FUSED> {
     #[inline(always)]
     fn normal_along(&self, axis: DVec3) -> Proved<S> {
         let [high, low] = &self.inward;
-        let simd = high.x.simd;
+        let simd = high.x.simd();
         let axes = Vectors::splat(simd, axis);
         let (part_x, error_x) = two_product::<FUSED, _>(high.x, axes.x);
         let (part_y, error_y) = two_product::<FUSED, _>(high.y, axes.y);

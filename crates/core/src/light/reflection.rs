@@ -10,13 +10,13 @@
 //! with sums over the lights that reach it and that it faces, the direction l toward a light, and h
 //! half-way between l and v. Sampling and the exact integrator both compute it here.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::model::color::Color;
 use crate::model::light::PointLight;
 use crate::model::material::Material;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::power::Power;
 use crate::numeric::vectors::Vectors;
 
@@ -55,7 +55,7 @@ impl NearLight {
     /// The unit vectors from points toward the light, and the factors of its intensity there.
     #[inline(always)]
     pub(crate) fn seen_from<S: Simd>(&self, points: &Vectors<S>) -> (Vectors<S>, f64x8<S>) {
-        let simd = points.x.simd;
+        let simd = points.x.simd();
         let way = Vectors::splat(simd, self.position).minus(points);
         let one = f64x8::splat(simd, 1.0);
         let least = f64x8::splat(simd, f64::MIN_POSITIVE);
@@ -100,8 +100,8 @@ impl Falloff {
     /// The power of cosines, which may be negative, or a little above 1 by rounding.
     #[inline(always)]
     pub(crate) fn of<S: Simd>(&self, cosine: f64x8<S>) -> f64x8<S> {
-        let zero = f64x8::splat(cosine.simd, 0.0);
-        let one = f64x8::splat(cosine.simd, 1.0);
+        let zero = f64x8::splat(cosine.simd(), 0.0);
+        let one = f64x8::splat(cosine.simd(), 1.0);
         self.of_clamped(cosine.max(zero).min(one))
     }
 
@@ -162,7 +162,7 @@ impl Reflectance {
         sum: &mut [f64x8<S>],
     ) {
         let diffuse = match lit {
-            Some(lit) => lit.select(self.diffuse.of(cosine), f64x8::splat(cosine.simd, 0.0)),
+            Some(lit) => lit.select(self.diffuse.of(cosine), f64x8::splat(cosine.simd(), 0.0)),
             None => self.diffuse.continued(cosine),
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
@@ -183,7 +183,7 @@ impl Reflectance {
         let (strength, falloff) = self.highlight.as_ref()?;
         let power = falloff.of(half_cosine);
         let highlight = match lit {
-            Some(lit) => lit.select(power, f64x8::splat(power.simd, 0.0)),
+            Some(lit) => lit.select(power, f64x8::splat(power.simd(), 0.0)),
             None => power,
         };
         for (channel, sum) in sum.iter_mut().enumerate() {
@@ -203,10 +203,10 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
         ray_sq: f64x8<S>,
         has_highlight: bool,
     ) -> Self {
-        let mut scale = f64x8::splat(ray_sq.simd, 0.0);
+        let mut scale = f64x8::splat(ray_sq.simd(), 0.0);
         let mut view_cosine = scale;
         if has_highlight {
-            scale = f64x8::splat(ray_sq.simd, -1.0) / ray_sq.sqrt();
+            scale = f64x8::splat(ray_sq.simd(), -1.0) / ray_sq.sqrt();
             view_cosine = normal.dot(ray) * scale;
         }
         Self {
@@ -232,7 +232,7 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
     #[inline(always)]
     pub(crate) fn half_cosine(&self, toward: DVec3, cosine: f64x8<S>) -> f64x8<S> {
         if !self.has_highlight {
-            return f64x8::splat(cosine.simd, 0.0);
+            return f64x8::splat(cosine.simd(), 0.0);
         }
         let view = self.ray.dot_one(toward) * self.scale;
         (cosine + self.view_cosine) / length_of_sum(view)
@@ -242,7 +242,7 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
     #[inline(always)]
     pub(crate) fn half_cosine_of_each(&self, toward: &Vectors<S>, cosine: f64x8<S>) -> f64x8<S> {
         if !self.has_highlight {
-            return f64x8::splat(cosine.simd, 0.0);
+            return f64x8::splat(cosine.simd(), 0.0);
         }
         let view = self.ray.dot(toward) * self.scale;
         (cosine + self.view_cosine) / length_of_sum(view)
@@ -265,6 +265,6 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
 /// |l + v| of unit vectors, from l · v; never 0.
 #[inline(always)]
 fn length_of_sum<S: Simd>(cosine: f64x8<S>) -> f64x8<S> {
-    let least = f64x8::splat(cosine.simd, f64::MIN_POSITIVE);
+    let least = f64x8::splat(cosine.simd(), f64::MIN_POSITIVE);
     (cosine * 2.0 + 2.0).max(least).sqrt()
 }

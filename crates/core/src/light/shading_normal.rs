@@ -1,6 +1,6 @@
 //! Shading normals of rough surfaces, eight at a time.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
 use crate::model::roughness::noise::NoiseCells;

@@ -3,9 +3,9 @@
 //! The exponent is prepared once for each material; bases come one at a time or eight at a time,
 //! with the same bits.
 
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 
-use super::lanes::{Lanes, polynomial};
+use super::lanes::{Lanes, f64x8, polynomial};
 
 /// A function base ↦ base^exponent, for bases from 0 to about 1 and one exponent.
 ///
@@ -63,17 +63,15 @@ impl Power {
     /// The power of each lane, with the bits that one number's has; 0 for numbers below 0.
     #[inline(always)]
     pub(crate) fn lanes<S: Simd>(&self, base: f64x8<S>) -> f64x8<S> {
-        self.of(base)
+        match &self.kind {
+            &Kind::Chain { whole, has_half } => chain(base, whole, has_half),
+            Kind::Logarithm(exponent) => lanes_by_logarithm(base, exponent),
+        }
     }
 
     /// The power of one number; 0 for numbers below 0.
     #[cfg(test)]
     pub(crate) fn scalar(&self, base: f64) -> f64 {
-        self.of(base)
-    }
-
-    #[inline(always)]
-    fn of<L: Lanes>(&self, base: L) -> L {
         match &self.kind {
             &Kind::Chain { whole, has_half } => chain(base, whole, has_half),
             Kind::Logarithm(exponent) => by_logarithm(base, exponent),
@@ -175,6 +173,15 @@ fn by_logarithm<L: Lanes>(base: L, exponent: &Exponent) -> L {
     let power = high.select_below(-LARGEST_EXPONENT, power.like(0.0), power);
     const LEAST: f64 = f64::from_bits(1);
     base.select_below(LEAST, power.like(0.0), power)
+}
+
+/// [`by_logarithm`] of each lane, once for each level: it is long, and wanted at many places.
+#[inline(never)]
+fn lanes_by_logarithm<S: Simd>(base: f64x8<S>, exponent: &Exponent) -> f64x8<S> {
+    base.simd().vectorize(
+        #[inline(always)]
+        || by_logarithm(base, exponent),
+    )
 }
 
 /// `whole` + log₂(mantissa) as a number of 26 bits and the rest.

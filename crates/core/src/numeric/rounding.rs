@@ -6,7 +6,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use fearless_simd::{Simd, SimdFloat, f64x4, f64x8};
+use super::lanes::f64x8;
+use fearless_simd::{Simd, SimdFloat, f64x4};
 
 /// Half the distance from 1 to the next double, 2⁻⁵³: the relative error of one rounding is at
 /// most this.

@@ -2,8 +2,8 @@
 //!
 //! As in [`crate::numeric::lanes`] there are no closures in what computes with them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use super::lanes::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
 /// Eight vectors, component by component. Sums of three add from left to right, as glam does for one

@@ -1,7 +1,6 @@
 //! What the rays through the centers of pixels see, beside its light.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::groups::{Group, Groups};
 use super::last_places::{LastPlaces, Seen};
@@ -10,7 +9,7 @@ use super::trace::{DISTANCE_ERROR, Sight, Tracer};
 use crate::model::camera::Projection;
 use crate::model::view::View;
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 use crate::picture::geometry::{Geometry, RowGeometry};
 use crate::picture::quantities::{Depth, GeometrySettings, Precision, Quantity};

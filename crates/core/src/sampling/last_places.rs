@@ -1,7 +1,6 @@
 //! What center rays see, to the last places of doubles.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use super::groups::{Group, Groups};
@@ -13,7 +12,7 @@ use crate::model::view::View;
 use crate::numeric::bits::set_bits;
 use crate::numeric::double_double::DoubleDouble;
 use crate::numeric::fused::is_fused;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 use crate::picture::geometry::RowGeometry;
 use crate::picture::quantities::{Axes, Depth, GeometrySettings, Quantity};

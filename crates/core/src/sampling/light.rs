@@ -1,7 +1,6 @@
 //! The light of what eight rays see.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
 use super::groups::{Group, Groups};
@@ -17,7 +16,7 @@ use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 use crate::search::view_index::ViewIndex;
 

@@ -2,8 +2,7 @@
 
 use std::cmp::Ordering;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::groups::Groups;
@@ -13,7 +12,7 @@ use super::trace::{Sight, Tracer};
 use crate::hit::outcome::Hit;
 use crate::model::ray::Ray;
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8};
 use crate::numeric::vectors::Vectors;
 
 /// Far above the rounding of squared lengths, relative to the largest of them: a ball is left out where that

@@ -1,13 +1,12 @@
 //! The rays of a tile, eight pixels of a row at a time.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use crate::model::camera::Projection;
 use crate::model::ray::Ray;
 use crate::model::view::View;
-use crate::numeric::lanes::LANE_NUMBERS;
+use crate::numeric::lanes::{LANE_NUMBERS, f64x8};
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
@@ -91,7 +90,7 @@ impl Rays {
     /// `width` repeat the last of them.
     #[inline(always)]
     pub(super) fn across<S: Simd>(&self, simd: S, place: Place, width: u32) -> f64x8<S> {
-        let steps = f64x8::simd_from(simd, LANE_NUMBERS);
+        let steps = f64x8::from_array(simd, LANE_NUMBERS);
         let last = f64x8::splat(simd, f64::from(width - 1));
         let steps = steps.simd_lt(last).select(steps, last);
         let first = self.twice(place.col, place.cell_col, self.view.width);

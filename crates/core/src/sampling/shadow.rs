@@ -1,7 +1,6 @@
 //! Shadows on eight points of a surface.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use super::groups::Groups;
@@ -12,6 +11,7 @@ use crate::model::light::DirectionalLight;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 use crate::search::discs::{Disc, point_allowance};

@@ -1,12 +1,12 @@
 //! The strokes of what eight rays see.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::groups::{Group, Groups};
 use super::light::{Light, Shading};
 use super::trace::Sight;
 use crate::model::camera::Projection;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 impl Shading<'_> {
     /// Puts the strokes of spheres in the place of light.

@@ -1,9 +1,9 @@
 //! The samples of eight pixels, summed.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::light::Light;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::picture::tile::RowLight;
 
 /// A sample of each of eight pixels.
@@ -19,12 +19,12 @@ impl<S: Simd, const CHANNELS: usize> Sample<S, CHANNELS> {
     #[inline(always)]
     pub(super) fn store(&self, simd: S, pixels: &mut RowLight) {
         for channel in 0..CHANNELS {
-            self.light[channel].store_slice(&mut pixels.channels[channel]);
+            pixels.channels[channel] = self.light[channel].into();
         }
         let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
         let covered = mask64x8::from_bitmask(simd, self.covered);
-        covered.select(one, zero).store_slice(&mut pixels.alpha);
-        f64x8::splat(simd, f64::INFINITY).store_slice(&mut pixels.errors);
+        pixels.alpha = covered.select(one, zero).into();
+        pixels.errors = f64x8::splat(simd, f64::INFINITY).into();
     }
 }
 
@@ -79,9 +79,9 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
             // Equal samples are their mean, which rounding would move.
             let mean = self.sum[channel] * (1.0 / count);
             let mean = range.simd_eq(zero).select(self.low[channel], mean);
-            mean.store_slice(&mut pixels.channels[channel]);
+            pixels.channels[channel] = mean.into();
         }
-        (self.covered / count).store_slice(&mut pixels.alpha);
-        (spread / (2.0 * f64::from(side))).store_slice(&mut pixels.errors);
+        pixels.alpha = (self.covered / count).into();
+        pixels.errors = (spread / (2.0 * f64::from(side))).into();
     }
 }

@@ -2,8 +2,7 @@
 
 use std::num::NonZeroU32;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, mask64x8};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
 use super::centers::Centers;
@@ -20,6 +19,7 @@ use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::numeric::lanes::mask64x8;
 use crate::numeric::vectors::Vectors;
 use crate::picture::band::Band;
 use crate::picture::geometry::{Geometry, TileGeometry};

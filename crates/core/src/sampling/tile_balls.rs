@@ -2,14 +2,13 @@
 
 use std::f64::consts::PI;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 
 use super::rays::{Bundle, Cone, Rows};
 use crate::hit::ball::Ball;
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8};
 use crate::numeric::vectors::Vectors;
 use crate::search::frustum::CLEAR;
 
@@ -163,12 +162,12 @@ impl<S: Simd> BallGroup<S> {
         }
         Self {
             center: Vectors {
-                x: f64x8::simd_from(simd, parts[0]),
-                y: f64x8::simd_from(simd, parts[1]),
-                z: f64x8::simd_from(simd, parts[2]),
+                x: f64x8::from_array(simd, parts[0]),
+                y: f64x8::from_array(simd, parts[1]),
+                z: f64x8::from_array(simd, parts[2]),
             },
-            radius: f64x8::simd_from(simd, parts[3]),
-            outside: f64x8::simd_from(simd, parts[4]),
+            radius: f64x8::from_array(simd, parts[3]),
+            outside: f64x8::from_array(simd, parts[4]),
         }
     }
 

@@ -1,14 +1,13 @@
 //! The surfaces that eight rays see.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::groups::{Group, Groups};
 use super::rays::{LEAST_SQUARE, Place, Rays};
 use super::tile_balls::{TileBall, TileBalls};
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 use crate::search::view_index::ViewIndex;
@@ -182,7 +181,7 @@ impl<'tile> Tracer<'tile> {
         if open.any_true() {
             let mut settled: [f64; LANES] = places.into();
             self.settle(place, open.to_bitmask(), &mut settled);
-            places = f64x8::simd_from(simd, settled);
+            places = f64x8::from_array(simd, settled);
         }
         self.meet(simd, place, (row.direction, row.length_sq), places, groups)
     }

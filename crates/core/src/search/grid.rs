@@ -2,12 +2,11 @@
 
 use std::num::NonZeroU32;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec2;
 
 use crate::model::view::View;
-use crate::numeric::lanes::LANES;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 use crate::picture::pixel::Method;
 
 /// The points of the retina that rays go through.

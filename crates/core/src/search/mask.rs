@@ -1,12 +1,11 @@
 //! The mask of the cells of a block that spheres cover.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
 use super::frustum::CLEAR;
 use super::grid::{BLOCK, CellRange, Grid, MOST_CELLS};
-use crate::numeric::lanes::{LANE_NUMBERS, LANES};
+use crate::numeric::lanes::{LANE_NUMBERS, LANES, f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// Words of a row of cells.
@@ -144,7 +143,7 @@ impl CoverageMask {
         let edges = if middle > 0.0 { 0 } else { 1 };
         let (mut row, last) = silhouette.range.rows;
         while row <= last {
-            let lines = f64x8::simd_from(simd, LANE_NUMBERS) + (f64::from(row) + middle);
+            let lines = f64x8::from_array(simd, LANE_NUMBERS) + (f64::from(row) + middle);
             let height = f64x8::splat(simd, grid.corner.y) - lines * grid.cell;
             let (low, high, is_met) = silhouette.along(simd, height);
             let low = (low - grid.corner.x) * grid.in_cells;

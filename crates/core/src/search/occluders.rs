@@ -5,8 +5,7 @@
 
 use std::sync::Arc;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::{DVec2, DVec3};
 
 use super::disc_grid::{HighDisc, Square};
@@ -16,6 +15,7 @@ use super::hierarchy::order::WIDTH;
 use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// The spheres as discs of a plane, asked which of them a point may lie in.
@@ -149,10 +149,10 @@ impl<'world> Occluders<'world> {
     fn along_light<S: Simd>(&self, simd: S, group: &Group) -> ([f64x8<S>; 3], f64x8<S>) {
         let zero = f64x8::splat(simd, 0.0);
         let (mut x, mut y, mut z) = (zero, zero, zero);
-        let radius = f64x8::simd_from(simd, group.radius);
+        let radius = f64x8::from_array(simd, group.radius);
         let mut size = radius;
         for axis in 0..3 {
-            let center = f64x8::simd_from(simd, group.center[axis]);
+            let center = f64x8::from_array(simd, group.center[axis]);
             x += center * self.right[axis];
             y += center * self.up[axis];
             z += center * self.toward[axis];
@@ -198,7 +198,7 @@ impl<'world> Occluders<'world> {
             |boxes| {
                 let mut tested = self.reaching_boxes(simd, boxes, shaft);
                 // A sphere's top lies above the bottom of any box around it.
-                let bottoms = f64x8::simd_from(simd, tested.keys);
+                let bottoms = f64x8::from_array(simd, tested.keys);
                 tested.may &= !(bottoms.simd_gt(end).to_bitmask() as u8);
                 tested
             },

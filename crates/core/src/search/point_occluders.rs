@@ -5,8 +5,7 @@
 
 use std::sync::Arc;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
 use super::hierarchy::boxes::{Boxes, doubles};
@@ -15,6 +14,7 @@ use super::hierarchy::{BoxTest, Hierarchy, is_sphere};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// The spheres as a point light sees them.
@@ -204,8 +204,8 @@ fn reaching_boxes<S: Simd>(simd: S, boxes: &Boxes, beam: &Beam) -> BoxTest {
 #[inline(always)]
 fn reaching_spheres<S: Simd>(simd: S, group: &Group, beam: &Beam) -> u8 {
     let [x, y, z] = &group.center;
-    let center = [x, y, z].map(|axis| f64x8::simd_from(simd, *axis));
-    reached_lanes(simd, beam, center, f64x8::simd_from(simd, group.radius)).0
+    let center = [x, y, z].map(|axis| f64x8::from_array(simd, *axis));
+    reached_lanes(simd, beam, center, f64x8::from_array(simd, group.radius)).0
 }
 
 /// What [`Beam::is_reached_by`] says of eight balls, as bits, and where along the beam they begin.

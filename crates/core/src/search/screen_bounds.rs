@@ -1,7 +1,6 @@
 //! Bounds on the retina of eight boxes, or eight spheres, side by side.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8, mask64x8};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::{DMat3, DVec3};
 
 use super::frustum::CLEAR;
@@ -10,6 +9,7 @@ use super::hierarchy::boxes::{Boxes, doubles};
 use super::hierarchy::groups::Group;
 use super::hierarchy::order::WIDTH;
 use crate::model::view::View;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 
@@ -136,11 +136,11 @@ impl Projection {
     fn spheres_in<S: Simd>(&self, simd: S, group: &Group, grid: &Grid) -> ScreenBounds {
         let [x, y, z] = &group.center;
         let offset = Vectors {
-            x: (f64x8::simd_from(simd, *x) - self.position.x) * self.scale,
-            y: (f64x8::simd_from(simd, *y) - self.position.y) * self.scale,
-            z: (f64x8::simd_from(simd, *z) - self.position.z) * self.scale,
+            x: (f64x8::from_array(simd, *x) - self.position.x) * self.scale,
+            y: (f64x8::from_array(simd, *y) - self.position.y) * self.scale,
+            z: (f64x8::from_array(simd, *z) - self.position.z) * self.scale,
         };
-        let radius = f64x8::simd_from(simd, group.radius) * self.scale;
+        let radius = f64x8::from_array(simd, group.radius) * self.scale;
         let size = offset.x.abs() + offset.y.abs() + offset.z.abs() + radius;
         let radius = radius + (size * (128.0 * UNIT_ROUNDOFF) + f64::MIN_POSITIVE);
         let center = self.turn(&offset, false);

@@ -1,9 +1,9 @@
 //! The discriminants of rays, eight at a time.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use crate::edges::cell::Ball;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// The discriminant Q = B² − A K = r² A − |d × c|² of rays d, with B = d · c and A = d · d, which is positive

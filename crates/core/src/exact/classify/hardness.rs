@@ -1,6 +1,6 @@
 //! What makes light in a cell hard: how bright highlights may be, and how fine bumps are.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use super::contents::Contents;

@@ -1,10 +1,10 @@
 //! Spheres that nearer ones together hide from a cell.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::{Level, Simd, dispatch};
 
 use super::active::Active;
 use super::mask;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
@@ -100,7 +100,7 @@ fn covers(level: Level, q: &Quadratic) -> u64 {
 
 #[inline(always)]
 fn covers_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
-    let x: f64x8<S> = CORNERS.simd_into(simd);
+    let x: f64x8<S> = f64x8::from_array(simd, CORNERS);
     let (constant, slope) = ((x * q.xx + q.x) * x + q.one, x * q.xy + q.y);
     let least = slack(q);
     let mut corners = 0;
@@ -118,7 +118,7 @@ fn touches(level: Level, q: &Quadratic) -> u64 {
 
 #[inline(always)]
 fn touches_lanes<S: Simd>(simd: S, q: &Quadratic) -> u64 {
-    let x: f64x8<S> = CORNERS.simd_into(simd);
+    let x: f64x8<S> = f64x8::from_array(simd, CORNERS);
     let x = x + HALF;
     let (constant, slope) = ((x * q.xx + q.x) * x + q.one, x * q.xy + q.y);
     let rise = x * (2.0 * q.xx) + q.x;

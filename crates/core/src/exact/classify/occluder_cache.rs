@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::{Level, Simd, dispatch};
 
 use super::occluders::{Occluder, Occluders, eight};
 use super::patch::Patch;
@@ -13,6 +12,7 @@ use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::Projection;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 use crate::search::point_occluders::Beam;
 

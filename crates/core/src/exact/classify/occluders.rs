@@ -1,10 +1,10 @@
 //! Spheres that may keep a light from others, as the light sees them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::exact::scene::Light;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
 /// A sphere as a light sees it: a disc.
@@ -76,5 +76,5 @@ pub(super) fn eight<S: Simd>(simd: S, numbers: &[f64], first: usize) -> f64x8<S>
     let rest = &numbers[first..];
     let count = rest.len().min(8);
     eight[..count].copy_from_slice(&rest[..count]);
-    eight.simd_into(simd)
+    f64x8::from_array(simd, eight)
 }

@@ -1,13 +1,13 @@
 //! Eight pixels of a row: the spheres that each of them may see, and those that fill it.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::discriminant::{Discriminant, bend};
 use super::patch::{Patch, Side};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::context::Context;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::row::{Coverage, Sight, classify_row, sight};
 use crate::edges::cell::Ball;

@@ -1,12 +1,12 @@
 //! The part of a patch's surroundings from which occluders together keep a light.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f64x8};
+use fearless_simd::{Level, Simd, dispatch};
 
 use super::mask;
 use super::occluders::Occluder;
 use super::patch::Patch;
 use crate::exact::scene::Light;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
 /// A margin in squares, more than rounding: discs that cover squares are taken to be narrower by it, and
@@ -90,7 +90,7 @@ impl ShadeMask {
         margin: f64,
     ) -> u64 {
         let lines: [f64; 8] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
-        let lines: f64x8<S> = lines.simd_into(simd);
+        let lines: f64x8<S> = f64x8::from_array(simd, lines);
         let y = (lines + shift) * self.step[1] + (self.low[1] - occluder.y);
         let rest = y * y * -1.0 + radius * radius;
         let half = rest.max(f64x8::splat(simd, 0.0)).sqrt() * (1.0 / self.step[0]);

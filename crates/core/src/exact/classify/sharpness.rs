@@ -1,7 +1,6 @@
 //! How fast light changes over a cell: what rules along its lines cannot follow.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::active::Terminators;
 use super::contents::Contents;
@@ -11,6 +10,7 @@ use crate::edges::cell::Cell;
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.

@@ -4,7 +4,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::boundary::{Boundary, Goal};
 use super::boxes::{self, Boxes};

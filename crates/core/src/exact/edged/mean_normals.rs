@@ -1,7 +1,7 @@
 //! Pixels with an outline and no other edge: light on plain surfaces is the product of the normals' integral with its
 //! direction.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::boundary::Goal;
 use super::cell::{EdgedPixel, FINER, Workspace};

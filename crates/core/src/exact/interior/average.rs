@@ -1,7 +1,6 @@
 //! The averages over eight pixels that one sphere fills, by 1, 5, 9 or 17 samples.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::estimate::{Estimate, ROUNDING, apart_on_bumps, bend_of_grid};
 use super::filled::{Filled, Radiance};
@@ -13,6 +12,7 @@ use crate::exact::points::Points;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The averages over eight pixels, and their errors.
 #[derive(Clone, Copy, Debug)]
@@ -78,8 +78,16 @@ impl<S: Simd> Filled<'_, S> {
     /// diagonals, which reach where an edge may be near. A rough surface has terminators inside its
     /// bumps: what they may cost is estimated where it may avert itself from a light between samples
     /// that face it, or face it between those that do not.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
+        simd.vectorize(
+            #[inline(always)]
+            || self.averages_of(simd, noise),
+        )
+    }
+
+    #[inline(always)]
+    fn averages_of(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
         let (mut domain, mut in_middle) = (None, None);
         if !self.finish.is_rough() && self.is_proved {
             let of_pixels = self.domain(simd);

@@ -1,7 +1,6 @@
 //! A cell that one sphere fills, and that lights reach all over, or nowhere.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::Filled;
 use super::parts::{ALL, Average};
@@ -17,6 +16,7 @@ use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// Divisions that a cell is worth; each takes forty samples. Bumps that are so small that their parts would be more

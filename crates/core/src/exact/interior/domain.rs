@@ -42,12 +42,12 @@
 
 mod derivatives;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use crate::edges::cell::Ball;
 use crate::exact::classify::discriminant::{Discriminant, bend};
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 

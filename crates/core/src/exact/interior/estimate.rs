@@ -1,7 +1,6 @@
 //! The error of rules with five and nine samples, by how light bends between them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::filled::{Filled, Radiance};
 use super::kinks::Kinks;
@@ -9,6 +8,7 @@ use super::light_cosines::LightCosines;
 use super::samples::{FROM_GRID, FROM_STAR, GAUSS_SAMPLES, GRID, POINTS, Rule, WEIGHTS};
 use super::terminators::{MEDIUM, SMALL};
 use crate::exact::costs::highest_cosine;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The nearness of a singularity from which on light is not smooth enough for an estimate. The terms of a
 /// root's series fall like powers of it; not tuned.

@@ -1,6 +1,6 @@
 //! Pixels of a row that one sphere fills.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::{Filled, FilledRow};
 use super::mean_normals::MeanNormals;
@@ -143,10 +143,7 @@ fn fill_lit<S: Simd>(
         allowance: context.allowance,
         is_proved: context.is_proved,
     };
-    let averages = simd.vectorize(
-        #[inline(always)]
-        || filled.averages(simd, noise),
-    );
+    let averages = filled.averages(simd, noise);
     let mut samples = averages.samples as u64 * u64::from(which.count_ones());
     let mut of_bumps = [0; 8];
     let mut hard = 0;

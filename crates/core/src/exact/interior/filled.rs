@@ -1,7 +1,6 @@
 //! Eight pixels that one sphere fills, and the light at their samples.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::light_cosines::LightCosines;
 use super::samples::{POINTS, STAR_SAMPLES, Sample};
@@ -12,6 +11,7 @@ use crate::exact::points::Points;
 use crate::exact::scene::{InCamera, MOST_LIGHTS};
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 

@@ -1,7 +1,6 @@
 //! Places in pixels where cells of the noise meet: the second derivatives of bumps jump there, and nowhere else.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::Filled;
 use super::light_cosines::LightCosines;
@@ -11,6 +10,7 @@ use crate::exact::points::Points;
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::f64x8;
 
 /// Bumps in eight pixels, or parts of one, as far as rules may miss something of them.
 #[derive(Clone, Copy, Debug)]
@@ -111,7 +111,7 @@ impl<S: Simd> Filled<'_, S> {
                 let span = self.turn * cells;
                 let span_sq = span * span;
                 Some(Kinks {
-                    jump: jump.simd_into(simd),
+                    jump: f64x8::from_array(simd, jump),
                     span: span_sq * span_sq * bumps.amplitude(),
                 })
             },

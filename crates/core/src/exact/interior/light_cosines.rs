@@ -1,12 +1,12 @@
 //! The cosines of the angles between shading normals and lights, at the samples of pixels that one
 //! sphere fills.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::samples::{GRID, STAR_SAMPLES, TO_CORNER};
 use crate::exact::scene::{Light, MOST_LIGHTS};
 use crate::exact::surface::HalfCosines;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 
 /// The cosines n · l and n · h of the samples so far, of each light.

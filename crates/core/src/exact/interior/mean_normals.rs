@@ -1,7 +1,6 @@
 //! The mean normals of pixels that one sphere fills: light on plain surfaces is their product with its direction.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::filled::FilledRow;
@@ -11,6 +10,7 @@ use super::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES, Sample};
 use crate::edges::cell::Ball;
 use crate::exact::context::Context;
 use crate::exact::points::Points;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 use crate::numeric::vectors::Vectors;
 

@@ -1,7 +1,6 @@
 //! The error of one sample in the middle of pixels with bumps.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::estimate::{Estimate, MOST_NEARNESS};
 use super::filled::Filled;
@@ -9,6 +8,7 @@ use super::light_cosines::LightCosines;
 use super::terminators::SMALL;
 use crate::exact::costs::highest_cosine;
 use crate::exact::scene::Light;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// Tolerances from which on one sample of bumps may suffice: at lower ones hardly any pixel is smooth enough.
 const LOOSE_ON_BUMPS: f64 = 2e-3;

@@ -3,8 +3,7 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::Filled;
 use super::light_cosines::LightCosines;
@@ -13,6 +12,7 @@ use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// All eight parts, bit by bit.
@@ -150,8 +150,8 @@ impl<S: Simd> Filled<'_, S> {
                     u[index] = self.middle.x[lane] + piece.place[0] * self.size[0];
                     v[index] = self.middle.y[lane] + piece.place[1] * self.size[1];
                 }
-                middle.x = u.simd_into(simd);
-                middle.y = v.simd_into(simd);
+                middle.x = f64x8::from_array(simd, u);
+                middle.y = f64x8::from_array(simd, v);
                 let first = pieces[0];
                 let size = [first.size[0] * self.size[0], first.size[1] * self.size[1]];
                 let (turn, nearness) = self.turn_of_parts(simd, middle, size);

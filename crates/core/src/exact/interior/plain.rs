@@ -1,7 +1,7 @@
 //! Pixels that a plain sphere fills under its only light: the product of their mean normal and its direction, or a ramp
 //! where the terminator is in them.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::FilledRow;
 use super::mean_normals::{MeanNormals, ROUNDING};

@@ -9,14 +9,14 @@
 //! Σ M s^m (m + 1) over m ≥ 3,    M s³ (4 − 3 s) / (1 − s)².
 //! ```
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::mean_normals::{ROUNDING, SLACK};
 use super::reached::Analytic;
 use super::remainder::MOST;
 use crate::exact::edged::boxes::half_plane::ramp;
+use crate::numeric::lanes::f64x8;
 
 /// The averages of n·l over eight pixels, where it is positive.
 #[derive(Clone, Copy, Debug)]

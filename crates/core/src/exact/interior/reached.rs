@@ -1,7 +1,6 @@
 //! The lights that reach all of pixels which one sphere fills.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::domain::{Domain, TowardEye};
 use super::filled::FilledRow;
@@ -12,6 +11,7 @@ use crate::exact::context::{Context, NEGLIGIBLE};
 use crate::exact::points::Points;
 use crate::exact::scene::{Light, MOST_LIGHTS};
 use crate::exact::surface::Finish;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 use crate::numeric::vectors::Vectors;
 
@@ -71,8 +71,8 @@ impl<'a, S: Simd> Extents<'a, S> {
         let one = f64x8::splat(simd, 1.0);
         let (ray, size) = context.rays(simd, row.start);
         let points = Points::new(simd, ball, ray);
-        let nearest: f64x8<S> = row.coverage.nearest.simd_into(simd);
-        let farthest: f64x8<S> = row.coverage.farthest.simd_into(simd);
+        let nearest: f64x8<S> = f64x8::from_array(simd, row.coverage.nearest);
+        let farthest: f64x8<S> = f64x8::from_array(simd, row.coverage.farthest);
         let half_diagonal = size * std::f64::consts::FRAC_1_SQRT_2 * WIDER;
         let length = points.ray_sq.sqrt();
         let away = (farthest - points.t).max(points.t - nearest) * length;

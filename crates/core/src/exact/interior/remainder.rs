@@ -17,13 +17,13 @@
 //! pixel, with neither terminator nor shadow in it, and others do not reach it. That the sphere fills the pixel
 //! follows once more: Q is not 0 in the domain, which contains the pixel.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::domain::{Change, Domain};
 use super::filled::Filled;
 use crate::exact::context::NEGLIGIBLE;
 use crate::light::reflection::Falloff;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// A rule whose remainder is bounded.

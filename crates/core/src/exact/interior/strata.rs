@@ -1,13 +1,13 @@
 //! Cells that one rough sphere fills, with bumps far smaller than the cell, by random samples.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::filled::Filled;
 use super::parts::Average;
 use crate::exact::points::Points;
 use crate::model::color::Color;
 use crate::model::roughness::noise::{NoiseCells, hash, spread};
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// ln(3/δ), where δ = 10⁻⁹ is the probability with which a claim may be too small.
@@ -59,7 +59,8 @@ impl<S: Simd> Filled<'_, S> {
                             u[index as usize] = place(stratum[0], x);
                             v[index as usize] = place(stratum[1], y);
                         }
-                        let (u, v): (f64x8<S>, f64x8<S>) = (u.simd_into(simd), v.simd_into(simd));
+                        let (u, v): (f64x8<S>, f64x8<S>) =
+                            (f64x8::from_array(simd, u), f64x8::from_array(simd, v));
                         let ray = Vectors {
                             x: u * self.size[0] + self.middle.x[lane],
                             y: v * self.size[1] + self.middle.y[lane],

@@ -1,11 +1,11 @@
 //! Terminators inside the bumps of rough surfaces, which samples may miss.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::filled::{Filled, SIZE_OF_PARTS};
 use super::light_cosines::{CosineRange, LightCosines};
 use crate::exact::context::NEGLIGIBLE;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The half diagonal over a cell of the noise below which five samples of a pixel are enough to know bumps
 /// by. By more samples, or in parts, larger pixels are known. It trades samples for false claims; not

@@ -5,8 +5,8 @@ use crate::hit::exact;
 use crate::hit::outcome::Components;
 use crate::model::ray::Ray;
 use crate::numeric::fused::is_fused;
-use crate::numeric::lanes::LANES;
 use crate::numeric::lanes::tests::levels;
+use crate::numeric::lanes::{LANES, f64x8, mask64x8};
 
 /// A rotation that is none of the world's axes.
 const AXES: [DVec3; 3] = [
@@ -44,7 +44,7 @@ fn all<S: Simd, const FUSED: bool>(
     // Half the lanes have either.
     let targets = one.or(mask64x8::from_bitmask(simd, 0b0101_1010), &each);
     let directions = Vectors::splat(simd, direction);
-    let near = f64x8::simd_from(simd, near) * SCALE;
+    let near = f64x8::from_array(simd, near) * SCALE;
     let inner = mask64x8::splat(simd, sphere.center.distance(ORIGIN) < sphere.radius);
     let crossings = Crossings::<S, FUSED>::new(simd, directions, (near, inner), &targets);
     let multiple = crossings.times(simd, f64x8::splat(simd, 3.0));

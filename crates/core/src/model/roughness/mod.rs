@@ -10,8 +10,7 @@
 
 pub(crate) mod noise;
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 #[cfg(test)]
@@ -19,7 +18,7 @@ use self::noise::Cell;
 use self::noise::{NoiseCells, hash, spread};
 use super::material::{Grain, Roughness};
 use crate::numeric::bits::set_bits;
-use crate::numeric::lanes::Lanes;
+use crate::numeric::lanes::{Lanes, f64x8, mask64x8};
 
 /// Cells that a radius may span; of more, doubles could not tell where in a cell a point lies.
 const MOST_CELLS: f64 = (1_u64 << 50) as f64;
@@ -140,9 +139,9 @@ impl Bumps {
         }
         let is_alone = mask64x8::from_bitmask(simd, which_alone);
         draw = [
-            is_alone.select(alone[0].simd_into(simd), draw[0]),
-            is_alone.select(alone[1].simd_into(simd), draw[1]),
-            is_alone.select(alone[2].simd_into(simd), draw[2]),
+            is_alone.select(f64x8::from_array(simd, alone[0]), draw[0]),
+            is_alone.select(f64x8::from_array(simd, alone[1]), draw[1]),
+            is_alone.select(f64x8::from_array(simd, alone[2]), draw[2]),
         ];
         self.tilt(normal, draw)
     }

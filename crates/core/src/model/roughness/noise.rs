@@ -1,10 +1,9 @@
 //! Smooth noise in [−1, 1): random values at the points of the unit lattice, blended by quadratic
 //! B-splines, so that slopes are continuous and no lattice shows.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 
-use crate::numeric::lanes::Lanes;
+use crate::numeric::lanes::{Lanes, f64x8};
 
 /// The noise in the unit cube about one lattice point: random values at the 27 lattice points around,
 /// blended.

@@ -1,5 +1,6 @@
 use crate::model::roughness::noise::NoiseCells;
-use fearless_simd::{SimdFrom, dispatch};
+use crate::numeric::lanes::f64x8;
+use fearless_simd::dispatch;
 
 use super::*;
 use crate::numeric::lanes::tests::levels;
@@ -196,7 +197,7 @@ fn lanes_hold_the_bits_of_single_normals() {
             for eight in eights(cells) {
                 let parts = [0, 1, 2].map(|part| eight.map(|normal| normal[part]));
                 let lanes: [[f64; 8]; 3] = dispatch!(level, simd => {
-                    let parts = parts.map(|part| f64x8::simd_from(simd, part));
+                    let parts = parts.map(|part| f64x8::from_array(simd, part));
                     unit(bumps.tilt_lanes(simd, parts, &mut table)).map(Into::into)
                 });
                 for (lane, normal) in eight.into_iter().enumerate() {

@@ -1,6 +1,6 @@
 //! Lanes hold the bits of doubles.
 
-use fearless_simd::{Level, SimdFrom, dispatch};
+use fearless_simd::{Level, dispatch};
 
 use super::*;
 
@@ -29,7 +29,7 @@ macro_rules! assert_same_bits {
                 let eight: [f64; 8] = chunk.try_into().unwrap();
                 let lanes: [f64; 8] = dispatch!(level, simd => {
                     let function = $function;
-                    function(f64x8::simd_from(simd, eight)).into()
+                    function(f64x8::from_array(simd, eight)).into()
                 });
                 for (number, lane) in eight.into_iter().zip(lanes) {
                     let function = $function;

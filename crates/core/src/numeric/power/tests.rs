@@ -1,6 +1,7 @@
-use fearless_simd::{SimdFrom, dispatch};
+use fearless_simd::dispatch;
 
 use super::*;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::lanes::tests::levels;
 
 /// Whole ones, halves, general ones; small, usual, large and absurd.
@@ -116,7 +117,7 @@ fn lanes_hold_the_bits_of_the_scalar_power() {
             for chunk in bases().chunks_exact(8) {
                 let eight: [f64; 8] = chunk.try_into().unwrap();
                 let lanes: [f64; 8] =
-                    dispatch!(level, simd => power.lanes(f64x8::simd_from(simd, eight)).into());
+                    dispatch!(level, simd => power.lanes(f64x8::from_array(simd, eight)).into());
                 for (base, lane) in eight.into_iter().zip(lanes) {
                     let scalar = power.scalar(base);
                     assert_eq!(

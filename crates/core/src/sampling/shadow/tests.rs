@@ -7,6 +7,7 @@ use crate::model::color::Color;
 use crate::model::light::Light;
 use crate::model::material::Material;
 use crate::model::world::World;
+use crate::numeric::lanes::f64x8;
 use crate::search::tests::Random;
 
 const SCALE: Scale = Scale {

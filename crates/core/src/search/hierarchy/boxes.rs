@@ -1,9 +1,9 @@
 //! Boxes in single precision, eight side by side.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f64x8};
+use fearless_simd::Simd;
 
 use super::order::{Entry, WIDTH};
+use crate::numeric::lanes::f64x8;
 
 /// Twice the bound of what rounding moved the center of an entry by, relatively; it is below the
 /// least number that is not 0, too.
@@ -69,7 +69,7 @@ impl Boxes {
 /// Eight numbers as doubles.
 #[inline(always)]
 pub(crate) fn doubles<S: Simd>(simd: S, numbers: &[f32; WIDTH]) -> f64x8<S> {
-    f64x8::simd_from(simd, numbers.map(f64::from))
+    f64x8::from_array(simd, numbers.map(f64::from))
 }
 
 /// A number that is not greater, for one that was rounded to a double.

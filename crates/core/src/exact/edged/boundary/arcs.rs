@@ -1,13 +1,13 @@
 //! Which parts of curves are seen, and what lies on either side of them.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use super::strokes::strokes;
 use crate::exact::classify::contents::Contents;
+use crate::numeric::lanes::f64x8;
 
 /// What is in front, or next behind a curve, at eight places.
 #[derive(Clone, Copy)]
@@ -181,7 +181,7 @@ impl Boundary {
         let known = self.breaks.len();
         for first in (0..known - 1).step_by(Lanes::STEPS) {
             let count = (known - 1 - first).min(Lanes::STEPS);
-            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let places = whole.trace(simd, setting, f64x8::from_array(simd, self.steps(first)));
             let hidden = own_hidden(simd, setting, whole.curve, &places);
             for step in 0..count {
                 if hidden >> step & 1 == 0 {
@@ -268,7 +268,7 @@ impl Boundary {
     fn see_steps<S: Simd>(&mut self, simd: S, setting: &Setting<'_, '_>, whole: &Stretch<'_>) {
         let steps = self.breaks.len() - 1;
         for first in (0..steps).step_by(Lanes::STEPS) {
-            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let places = whole.trace(simd, setting, f64x8::from_array(simd, self.steps(first)));
             let front = front(simd, setting.contents, whole.curve.own, &places);
             let hidden = front.hidden(whole.curve, &places)
                 | own_hidden(simd, setting, whole.curve, &places);

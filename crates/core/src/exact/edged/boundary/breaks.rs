@@ -1,6 +1,6 @@
 //! Places where curves begin or end to be seen.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::arcs::{Front, between, front};
 use super::curve::Trace;

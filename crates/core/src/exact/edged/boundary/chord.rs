@@ -1,8 +1,8 @@
 //! Chords: parts of lines of a cell on which one sphere is seen.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
+use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::{Linear, Quadratic};
 
 /// Where chords of a sphere begin: at x = `start` + `slope` · y.

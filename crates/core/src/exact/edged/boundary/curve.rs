@@ -1,12 +1,12 @@
 //! Curves on which what is seen changes, and points of them.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::{DVec2, DVec3};
 
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::{Caster, Cone};
 use crate::edges::terminator::Plane;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// A circle in space: the points `middle` + `right` cos θ + `up` sin θ.

@@ -1,7 +1,7 @@
 //! Where functions that are looked at in eight places may vanish between two of them, though they have one sign there.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use crate::numeric::lanes::f64x8;
+use fearless_simd::Simd;
 
 /// Whether a function that is convex toward zero, with such values of one sign at four places in a row, may
 /// vanish between the two in the middle: it lies on their side of both straight lines that go on from outside.

@@ -1,7 +1,6 @@
 //! What changes along curves, and where.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::curve::{Piece, Trace, trace};
 use super::dips::{around, dips, may_dip};
@@ -11,6 +10,7 @@ use crate::edges::cell::Ball;
 use crate::edges::terminator::Plane;
 use crate::exact::classify::face::Face;
 use crate::exact::points::Points;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::vectors::Vectors;
 
@@ -288,7 +288,7 @@ impl Stretch<'_> {
                 }
                 let mut inner = [0.0; 8];
                 inner.copy_from_slice(&places[1..9]);
-                let points = self.trace(simd, setting, inner.simd_into(simd));
+                let points = self.trace(simd, setting, f64x8::from_array(simd, inner));
                 let found: [f64; 8] = value(simd, setting, function, &points).into();
                 // Outside, it falls to the bracket at least as steeply as on the way there.
                 let mut values = [0.0; 12];
@@ -332,7 +332,7 @@ impl Stretch<'_> {
     /// The eight places.
     #[inline(always)]
     pub(super) fn places<S: Simd>(&self, simd: S, setting: &Setting<'_, '_>) -> Trace<S> {
-        let steps: f64x8<S> = STEPS.simd_into(simd);
+        let steps: f64x8<S> = f64x8::from_array(simd, STEPS);
         self.trace(simd, setting, steps * (self.end - self.start) + self.start)
     }
 
@@ -354,7 +354,7 @@ impl Stretch<'_> {
         simd.vectorize(
             #[inline(always)]
             || {
-                let around: f64x8<S> = AROUND.simd_into(simd);
+                let around: f64x8<S> = f64x8::from_array(simd, AROUND);
                 for _ in 0..MOST_ROUNDS {
                     let width = bracket[1] - bracket[0];
                     let guess = bracket[0] + width * share_of_root(&values);

@@ -18,8 +18,8 @@ use crate::edges::terminator::Plane;
 use crate::exact::points::Points;
 use crate::exact::scene::Light;
 use crate::numeric::bits::set_bits;
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use crate::numeric::lanes::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 /// What is integrated: the diffuse light of a light, for an intensity and an albedo of 1.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! What makes an arc hard for a rule along it.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::curve::Trace;

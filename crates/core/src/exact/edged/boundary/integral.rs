@@ -1,7 +1,6 @@
 //! The integral over a cell.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec2;
 
 use super::chord::Reference;
@@ -22,6 +21,7 @@ use crate::exact::part::{GiveUp, Part};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::{Linear, Quadratic};
 
 use super::setting::{

@@ -1,7 +1,6 @@
 //! Places on chords where cells of the noise meet: the second derivatives of bumps jump there, and nowhere else.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::{DMat3, DVec3};
 
 use super::chord::Chord;
@@ -12,6 +11,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::light::shading_normal::ShadingNormal;
 use crate::model::roughness::Bumps;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// Eight chords on a sphere with bumps. At the parameter σ the normal is the quotient of two polynomials of degree 2.
@@ -60,7 +60,7 @@ impl Sender<'_, '_> {
             || {
                 let mut missed = [0.0; 8];
                 let ShadingNormal::Bumpy(bumps) = &self.finish.shading_normal else {
-                    return missed.simd_into(simd);
+                    return f64x8::from_array(simd, missed);
                 };
                 let places = (self.cell, &self.active.ball);
                 let frame = &self.scene.world_from_camera;
@@ -68,7 +68,7 @@ impl Sender<'_, '_> {
                 let mut passages = Vec::new();
                 way.passages(bumps, &mut passages);
                 if passages.is_empty() {
-                    return missed.simd_into(simd);
+                    return f64x8::from_array(simd, missed);
                 }
                 let noise = noise.get_or_insert_with(|| Box::new(NoiseCells::new()));
                 let slope = self.finish.steepest(self.scene, lines.lights);
@@ -91,7 +91,7 @@ impl Sender<'_, '_> {
                     }
                     missed = [0.0; 8];
                 }
-                missed.simd_into(simd)
+                f64x8::from_array(simd, missed)
             },
         )
     }

@@ -3,8 +3,7 @@
 //! It bends, or jumps, where a bump turns from a light, or from its half vector: chords are divided
 //! there.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::chord::Chord;
 use super::primitive::{Lines, NEGLIGIBLE, Noise, Sender, Summed, greatest, ray};
@@ -14,6 +13,7 @@ use crate::exact::edged::rule::{CAUTION, NODES, OF_ODD, RULE};
 use crate::exact::points::Points;
 use crate::exact::scene::MOST_LIGHTS;
 use crate::numeric::bits::set_bits;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// A part of chords on which light is smooth.
@@ -124,7 +124,7 @@ impl Sender<'_, '_> {
                 };
                 let mut start = zero - 1.0;
                 for index in 0..=most {
-                    let end: f64x8<S> = stops.at(index).simd_into(simd);
+                    let end: f64x8<S> = f64x8::from_array(simd, stops.at(index));
                     let stretch = Stretch {
                         start,
                         end,

@@ -9,13 +9,14 @@
 //! Arcs are cut there, so that what is singular on an arc is so at its ends, where rules are made for it, or is not
 //! singular on either part.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::arcs::Lanes;
 use super::chord::Reference;
 use super::curve::Trace;
 use super::events::{Function, INTERVALS, Stretch, value};
 use super::setting::{Arc, Boundary, Edge, Setting};
+use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::Quadratic;
 
 impl Boundary {
@@ -99,7 +100,8 @@ impl Boundary {
                 self.order_breaks(arc.start, arc.end);
                 let steps = self.breaks.len() - 1;
                 for first in (0..steps).step_by(Lanes::STEPS) {
-                    let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+                    let places =
+                        whole.trace(simd, setting, f64x8::from_array(simd, self.steps(first)));
                     for step in 0..(steps - first).min(Lanes::STEPS) {
                         let lanes = Lanes::of_step(step);
                         self.lit_arcs.push(Arc {

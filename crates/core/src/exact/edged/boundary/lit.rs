@@ -1,6 +1,6 @@
 //! Where along curves lights begin and end on either side of them.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
 use super::curve::Trace;
@@ -11,6 +11,7 @@ use crate::edges::terminator::Plane;
 use crate::exact::classify::coincidence::is_outline;
 use crate::exact::classify::reach::Reach;
 use crate::exact::points::Points;
+use crate::numeric::lanes::f64x8;
 
 impl Boundary {
     /// Cuts the arcs of a piece where lights begin or end on either side; `whole` is all of it.
@@ -78,7 +79,7 @@ impl Boundary {
         let curve = whole.curve;
         let steps = self.breaks.len() - 1;
         for first in (0..steps).step_by(Lanes::STEPS) {
-            let places = whole.trace(simd, setting, self.steps(first).simd_into(simd));
+            let places = whole.trace(simd, setting, f64x8::from_array(simd, self.steps(first)));
             let mut lit = [[0; 8]; 2];
             if !arc.strokes[0] {
                 lit[0] = self.lit(simd, setting, arc.inner, curve, &places);

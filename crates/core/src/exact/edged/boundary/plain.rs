@@ -1,12 +1,12 @@
 //! n·l summed up along chords, by a rule whose error is known beforehand.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::chord::{Chord, Homogeneous};
 use super::primitive::{Lines, NEGLIGIBLE, RULES, Sender, Summed, greatest};
 use crate::edges::cell::{Ball, Cell};
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// What the rules are off by for n·l on a way of the parameter that is 1 long, wherever it lies: the

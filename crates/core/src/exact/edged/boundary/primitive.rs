@@ -1,7 +1,6 @@
 //! Light summed up along chords.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::chord::{Chord, Reference};
 use super::power_rules::PowerRules;
@@ -11,6 +10,7 @@ use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// Gauss's rules on 0 to 1: nodes and weights.

@@ -1,7 +1,6 @@
 //! The integral along an arc.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::curve::{Shape, Trace, trace, warped};
@@ -13,6 +12,7 @@ use crate::exact::edged::rule::{MIDDLE, RULE, doubt, error_estimate};
 use crate::exact::scene::InCamera;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::numeric::lanes::f64x8;
 
 /// How much larger than what the rules differ by their error is taken to be.
 const CAUTION: f64 = 3.0;
@@ -72,7 +72,7 @@ impl Boundary {
                     return;
                 }
                 let Path { curve, piece } = *path;
-                let nodes: f64x8<S> = RULE.nodes.simd_into(simd);
+                let nodes: f64x8<S> = f64x8::from_array(simd, RULE.nodes);
                 let is_singular = setting.is_singular(arc);
                 let mut roots = [is_singular; 2];
                 let (mut shares, mut slope) = warped(roots, nodes);
@@ -99,9 +99,9 @@ impl Boundary {
                     return;
                 }
                 let dy = places.dy * slope * (length * sign);
-                let fine: f64x8<S> = RULE.fine.simd_into(simd);
-                let coarse: f64x8<S> = RULE.coarse.simd_into(simd);
-                let odd: f64x8<S> = RULE.odd.simd_into(simd);
+                let fine: f64x8<S> = f64x8::from_array(simd, RULE.fine);
+                let coarse: f64x8<S> = f64x8::from_array(simd, RULE.coarse);
+                let odd: f64x8<S> = f64x8::from_array(simd, RULE.odd);
                 let sides = self.sides(simd, setting, curve, arc, &places);
                 let all = dy * fine;
                 let slip = (total(all) - rise).abs();

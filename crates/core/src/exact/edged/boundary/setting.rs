@@ -1,7 +1,6 @@
 //! Curves, arcs, and what does not change in a cell.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::chord::Reference;
 use super::curve::{Piece, Shape};
@@ -14,6 +13,7 @@ use crate::exact::classify::contents::Contents;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::numeric::lanes::f64x8;
 
 /// No sphere.
 pub(super) const NONE: usize = usize::MAX;

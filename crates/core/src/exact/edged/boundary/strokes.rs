@@ -1,6 +1,6 @@
 //! Strokes beside curves: where they begin and end along them, and on which side they are seen.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::curve::Trace;
 use super::events::{Function, Stretch, value};

@@ -1,13 +1,13 @@
 //! Places on chords where bumps turn from a light.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::chord::Chord;
 use super::primitive::{Lines, Noise, Sender};
 use crate::exact::points::Points;
 use crate::light::reflection::NearLight;
+use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
 /// What vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).

@@ -1,12 +1,12 @@
 //! The areas in which the spheres of a cell are seen, by boxes: as averages are, without light.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::average::Setting;
 use super::division::{FIRST, FIRST_SIZE, HALVES, SHARE};
 use super::eight_boxes::{Eight, EightBoxes};
 use super::outlines::Outline;
+use crate::numeric::lanes::f64x8;
 
 /// Shares of a cell, and estimates of their errors, for each of its active spheres.
 #[derive(Clone, Debug, Default)]
@@ -134,8 +134,8 @@ impl Setting<'_, '_> {
             #[inline(always)]
             || {
                 let boxes = EightBoxes {
-                    x: x.simd_into(simd),
-                    y: y.simd_into(simd),
+                    x: f64x8::from_array(simd, x),
+                    y: f64x8::from_array(simd, y),
                     size,
                 };
                 found.clear();
@@ -156,9 +156,9 @@ impl Setting<'_, '_> {
                 let covered = f64x8::splat(simd, 1.0) - outside.share(simd).area;
                 let scale = covered / seen.max(f64x8::splat(simd, f64::MIN_POSITIVE));
                 for [share, error] in found {
-                    let known: f64x8<S> = (*share).simd_into(simd);
+                    let known: f64x8<S> = f64x8::from_array(simd, *share);
                     let scaled = known * scale;
-                    let error_of: f64x8<S> = (*error).simd_into(simd);
+                    let error_of: f64x8<S> = f64x8::from_array(simd, *error);
                     *error = error_of.max((scaled - known).abs()).into();
                     *share = scaled.into();
                 }

@@ -1,7 +1,6 @@
 //! The average light of eight boxes of a cell.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::eight_boxes::{Eight, EightBoxes};
 use super::lights::Lit;
@@ -18,6 +17,7 @@ use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// What the boxes of a cell have in common.
 #[derive(Clone, Copy, Debug)]
@@ -181,8 +181,8 @@ impl Setting<'_, '_> {
         (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
     ) -> Averages {
         let boxes = EightBoxes {
-            x: x.simd_into(simd),
-            y: y.simd_into(simd),
+            x: f64x8::from_array(simd, x),
+            y: f64x8::from_array(simd, y),
             size,
         };
         let one = f64x8::splat(simd, 1.0);
@@ -221,28 +221,33 @@ impl Setting<'_, '_> {
     }
 
     /// Finds the outlines of the spheres that boxes may see; what is outside of all of them.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn outlines<S: Simd>(
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
         outlines: &mut Vec<Outline>,
     ) -> Region<S> {
-        let one = f64x8::splat(simd, 1.0);
-        outlines.clear();
-        let mut outside = Region::whole(simd);
-        for (position, active) in self.contents.active.iter().enumerate() {
-            let has_depth = self.orders.needs_depth(position);
-            let of = (position, active);
-            if !self.has_silhouette[position] {
-                outside.darken(simd, one.simd_gt(0.0));
-                outlines.push(Outline::filling(simd, boxes, of, has_depth));
-            } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
-                outside.cut(simd, &outline.outside(simd));
-                outlines.push(outline);
-            }
-        }
-        outside
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let one = f64x8::splat(simd, 1.0);
+                outlines.clear();
+                let mut outside = Region::whole(simd);
+                for (position, active) in self.contents.active.iter().enumerate() {
+                    let has_depth = self.orders.needs_depth(position);
+                    let of = (position, active);
+                    if !self.has_silhouette[position] {
+                        outside.darken(simd, one.simd_gt(0.0));
+                        outlines.push(Outline::filling(simd, boxes, of, has_depth));
+                    } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
+                        outside.cut(simd, &outline.outside(simd));
+                        outlines.push(outline);
+                    }
+                }
+                outside
+            },
+        )
     }
 
     /// The light of a sphere at these places of the boxes.

@@ -1,9 +1,9 @@
 //! The parts of boxes on one side of curves of the second degree.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::half_plane::{HalfPlane, Slopes};
+use crate::numeric::lanes::f64x8;
 
 /// The terms of second degree of functions on boxes, in sides from their middles: of x², x y and y².
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,12 @@
 //! Functions on boxes, and the distances of spheres among them.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::bent::Bends;
 use super::eight_boxes::{Eight, EightBoxes};
 use super::half_plane::HalfPlane;
 use crate::exact::classify::active::Active;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::polynomial::Quadratic;
 
 /// A polynomial of degree 2 on boxes: its values in their middles, its changes across them there, and its terms of the
@@ -151,8 +151,8 @@ impl Depth {
             xy: difference(simd, &other.bends[1], &self.bends[1]),
             yy: difference(simd, &other.bends[2], &self.bends[2]),
         };
-        let rest: f64x8<S> = self.rest.simd_into(simd);
-        let more: f64x8<S> = other.rest.simd_into(simd);
+        let rest: f64x8<S> = f64x8::from_array(simd, self.rest);
+        let more: f64x8<S> = f64x8::from_array(simd, other.rest);
         let part = HalfPlane::of_second_degree(simd, value, across, &bends, Some(rest + more));
         decided.or(is_open, &part)
     }
@@ -160,7 +160,7 @@ impl Depth {
 
 #[inline(always)]
 fn difference<S: Simd>(simd: S, one: &Eight, other: &Eight) -> f64x8<S> {
-    let one: f64x8<S> = (*one).simd_into(simd);
-    let other: f64x8<S> = (*other).simd_into(simd);
+    let one: f64x8<S> = f64x8::from_array(simd, *one);
+    let other: f64x8<S> = f64x8::from_array(simd, *other);
     one - other
 }

@@ -1,6 +1,6 @@
 //! The division of a cell into boxes, smaller where they claim too much.
 
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::average::Setting;
 use super::eight_boxes::Eight;

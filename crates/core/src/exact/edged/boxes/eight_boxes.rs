@@ -1,7 +1,7 @@
 //! Eight boxes of a cell, side by side.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use crate::numeric::lanes::f64x8;
+use fearless_simd::Simd;
 
 /// Eight numbers in memory.
 pub(super) type Eight = [f64; 8];

@@ -1,13 +1,13 @@
 //! The averages of powers of cosines over boxes.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::half_plane::{HalfPlane, ramp};
 use super::normals::Normals;
 use super::surroundings::OF_SECOND;
 use crate::exact::surface::Finish;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The cosines toward a light in boxes: in the middles of what is lit, and how they change across.
 #[derive(Clone, Copy, Debug)]

@@ -1,9 +1,9 @@
 //! The part of a box on one side of a line.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::eight_boxes::Eight;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The parts of eight boxes in which linear functions are positive.
 #[derive(Clone, Copy, Debug)]
@@ -44,17 +44,17 @@ impl StoredHalfPlane {
     #[inline(always)]
     pub(super) fn load<S: Simd>(&self, simd: S) -> HalfPlane<S> {
         HalfPlane {
-            value: self.value.simd_into(simd),
+            value: f64x8::from_array(simd, self.value),
             across: [
-                self.across[0].simd_into(simd),
-                self.across[1].simd_into(simd),
+                f64x8::from_array(simd, self.across[0]),
+                f64x8::from_array(simd, self.across[1]),
             ],
-            share: self.share.simd_into(simd),
+            share: f64x8::from_array(simd, self.share),
             moments: [
-                self.moments[0].simd_into(simd),
-                self.moments[1].simd_into(simd),
+                f64x8::from_array(simd, self.moments[0]),
+                f64x8::from_array(simd, self.moments[1]),
             ],
-            doubt: self.doubt.simd_into(simd),
+            doubt: f64x8::from_array(simd, self.doubt),
         }
     }
 }

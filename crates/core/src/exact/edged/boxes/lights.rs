@@ -1,7 +1,6 @@
 //! The light of what eight boxes see of a sphere.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::falloffs::{Faced, Power};
 use super::normals::Normals;
@@ -12,6 +11,7 @@ use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
 use crate::exact::surface::Finish;
 use crate::model::color::Color;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The light of a sphere in eight boxes.
 #[derive(Clone, Copy, Debug)]

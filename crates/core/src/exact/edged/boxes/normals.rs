@@ -1,13 +1,13 @@
 //! The normals that light is computed with, in boxes.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::outlines::Visible;
 use super::surroundings::{OF_SECOND, Surroundings};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
 use crate::model::roughness::noise::NoiseCells;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 
 /// Shading normals, and how they change across boxes.
@@ -164,5 +164,5 @@ const LEAST_EXTENT: f64 = 0.05;
 #[inline(always)]
 fn unit<S: Simd>(vectors: &Vectors<S>) -> Vectors<S> {
     let length = vectors.length_squared().sqrt();
-    vectors.times(f64x8::splat(length.simd, 1.0) / length)
+    vectors.times(f64x8::splat(length.simd(), 1.0) / length)
 }

@@ -1,7 +1,6 @@
 //! The shares of boxes in which spheres are seen.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::depth::{Depth, Function};
 use super::eight_boxes::{Eight, EightBoxes};
@@ -10,6 +9,7 @@ use super::orders::{Order, Orders};
 use super::region::{Region, Share};
 use super::wedge::part_beside;
 use crate::exact::classify::active::Active;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// A sphere as eight boxes see it.
 #[derive(Clone, Copy, Debug)]
@@ -116,13 +116,21 @@ impl Outline {
     }
 
     /// What is seen of it behind others; `None` where they hide it in all boxes.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn visible<S: Simd>(
         &self,
         simd: S,
         all: &[Self],
         orders: &Orders,
     ) -> Option<Visible<S>> {
+        simd.vectorize(
+            #[inline(always)]
+            || self.visible_of(simd, all, orders),
+        )
+    }
+
+    #[inline(always)]
+    fn visible_of<S: Simd>(&self, simd: S, all: &[Self], orders: &Orders) -> Option<Visible<S>> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let inside = self.inside.load(simd);
@@ -165,8 +173,8 @@ impl Outline {
         let left = inside.value + x * middle[0] + y * middle[1];
         let nearer = (left / all.max(tiny)).max(zero).min(one);
         let inward: [f64x8<S>; 2] = [
-            self.inward[0].simd_into(simd),
-            self.inward[1].simd_into(simd),
+            f64x8::from_array(simd, self.inward[0]),
+            f64x8::from_array(simd, self.inward[1]),
         ];
         let is_possible = region.most.simd_gt(zero);
         (is_possible.to_bitmask() != 0).then_some(Visible {

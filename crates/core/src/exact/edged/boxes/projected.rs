@@ -1,12 +1,12 @@
 //! Points of a sphere as a light sees them.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 
 use super::bent::Bends;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
+use crate::numeric::lanes::f64x8;
 
 /// The least of 1 − slide: boxes that see a plane up to its horizon are all in doubt.
 const LEAST_REST: f64 = 1e-6;

@@ -1,10 +1,10 @@
 //! The parts of boxes inside of several half-planes.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::half_plane::HalfPlane;
 use super::wedge::intersection;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// Half-planes that leave less of a box, or take less from it, do not cut it.
 const LEAST_AMBIGUITY: f64 = 1e-9;

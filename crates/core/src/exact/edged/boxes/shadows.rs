@@ -1,7 +1,6 @@
 //! The parts of boxes that shadows leave.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::half_plane::HalfPlane;
 use super::projected::Projected;
@@ -9,6 +8,7 @@ use super::region::Region;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// What casters leave to a light of a region.
 #[derive(Clone, Copy, Debug)]

@@ -1,12 +1,12 @@
 //! Points of a sphere, and how they move across boxes.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::eight_boxes::EightBoxes;
 use super::outlines::Visible;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::points::Points;
+use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::vectors::Vectors;
 
 /// A sphere's points and how they move across boxes.

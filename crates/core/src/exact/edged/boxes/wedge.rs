@@ -1,9 +1,9 @@
 //! The part of a box on the positive sides of two lines.
 
-use fearless_simd::prelude::*;
-use fearless_simd::{f64x8, mask64x8};
+use fearless_simd::Simd;
 
 use super::half_plane::HalfPlane;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// Lines whose directions differ by less than this, the sine squared, are parallel: where they cross is not known.
 const PARALLEL: f64 = 1e-12;

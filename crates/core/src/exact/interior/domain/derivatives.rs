@@ -1,10 +1,10 @@
 //! The derivatives of n·l in the middles of pixels.
 
-use fearless_simd::f64x8;
-use fearless_simd::prelude::*;
+use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::Domain;
+use crate::numeric::lanes::f64x8;
 
 impl<S: Simd> Domain<'_, S> {
     /// The derivatives of n·l along both axes of the retina at distance 1, and a bound of what rounding makes wrong in

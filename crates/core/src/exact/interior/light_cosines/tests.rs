@@ -4,6 +4,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::*;
 use crate::exact::interior::samples::POINTS;
+use crate::numeric::lanes::f64x8;
 
 /// Parabolas along both diagonals are followed to the corners.
 #[test]

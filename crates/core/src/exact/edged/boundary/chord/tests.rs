@@ -3,6 +3,7 @@
 use fearless_simd::{Level, dispatch};
 
 use super::*;
+use crate::numeric::lanes::f64x8;
 
 const ALONG: Linear = Linear {
     one: 1.0,

@@ -3,12 +3,13 @@
 use fearless_simd::{Level, dispatch};
 
 use super::*;
+use crate::numeric::lanes::f64x8;
 
 /// The intervals between 0, 1, ... 7 in which a function may dip.
 fn dips_of(function: impl Fn(f64) -> f64) -> u64 {
     let values: [f64; 8] = std::array::from_fn(|place| function(place as f64));
     dispatch!(Level::new(), simd => {
-        let values: f64x8<_> = values.simd_into(simd);
+        let values: f64x8<_> = f64x8::from_array(simd, values);
         dips(values)
     })
 }

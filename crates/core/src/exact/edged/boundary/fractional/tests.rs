@@ -19,6 +19,7 @@ use crate::model::roughness::PixelKey;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;
+use crate::numeric::lanes::f64x8;
 use crate::picture::image::Channels;
 use crate::search::tests::Random;
 use crate::search::visibility::Visibility;
@@ -175,7 +176,7 @@ fn powers_are_summed_up_along_chords() {
                 for (lane, line) in lanes.iter_mut().zip(&lines) {
                     *lane = part(line);
                 }
-                lanes.simd_into(simd)
+                f64x8::from_array(simd, lanes)
             };
             let lines = Lines {
                 x: lanes(|line| line.0),

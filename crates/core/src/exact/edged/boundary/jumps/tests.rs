@@ -11,6 +11,7 @@ use crate::exact::edged::rule::RULE;
 use crate::exact::points::Points;
 use crate::model::camera::Projection;
 use crate::model::material::{Grain, Roughness};
+use crate::numeric::lanes::f64x8;
 
 /// Of the squares of distances on one side of a place.
 #[test]

@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::*;
 use crate::edges::silhouette::silhouette;
 use crate::exact::edged::boundary::chord::Reference;
+use crate::numeric::lanes::f64x8;
 
 /// What a rule is off by for a part of n·l along a chord, which is the integral of cos² φ, sin φ cos φ
 /// or cos φ around some angle, on a way of 2 tan(φ / 2).

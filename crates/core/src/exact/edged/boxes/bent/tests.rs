@@ -2,6 +2,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::super::by_points::by_points;
 use super::*;
+use crate::numeric::lanes::f64x8;
 
 /// The share of a box inside of a disc.
 fn truth([x, y]: [f64; 2], radius: f64) -> f64 {

@@ -2,6 +2,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::super::by_points::by_points;
 use super::*;
+use crate::numeric::lanes::f64x8;
 
 /// The share, the moments and the mean of the positive part of a linear function over a box.
 fn truth(value: f64, [x, y]: [f64; 2]) -> [f64; 4] {

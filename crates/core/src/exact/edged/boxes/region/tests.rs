@@ -2,6 +2,7 @@ use fearless_simd::{Level, dispatch};
 
 use super::super::by_points::by_points;
 use super::*;
+use crate::numeric::lanes::f64x8;
 
 type Plane = (f64, [f64; 2]);
 

@@ -9,9 +9,17 @@
 //! closures: those are functions of their own, without the level's instructions and thirty times
 //! slower.
 
+#[macro_use]
+mod leaf;
+mod doubles;
+mod masks;
+
 use std::ops::{Add, Mul, Sub};
 
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, f64x8};
+use fearless_simd::{Simd, SimdFloat};
+
+pub(crate) use self::doubles::f64x8;
+pub(crate) use self::masks::mask64x8;
 
 /// Bits of the mantissa that a double stores.
 const MANTISSA_BITS: u32 = f64::MANTISSA_DIGITS - 1;
@@ -124,12 +132,12 @@ impl Lanes for f64 {
 impl<S: Simd> Lanes for f64x8<S> {
     #[inline(always)]
     fn like(self, number: f64) -> Self {
-        Self::splat(self.simd, number)
+        Self::splat(self.simd(), number)
     }
 
     #[inline(always)]
     fn sqrt(self) -> Self {
-        SimdFloat::sqrt(self)
+        Self::sqrt(self)
     }
 
     #[inline(always)]
@@ -144,23 +152,33 @@ impl<S: Simd> Lanes for f64x8<S> {
 
     #[inline(always)]
     fn upper_half(self) -> Self {
-        Self::from_bits(self.to_bits() & UPPER_HALF)
+        leaf!(self.simd(), {
+            let upper = self.0.to_bits() & UPPER_HALF;
+            Self(SimdFloat::from_bits(upper))
+        })
     }
 
     #[inline(always)]
     fn mantissa_and_exponent(self) -> (Self, Self) {
-        let shifted = self.to_bits() + (1.0_f64.to_bits() - LOWEST_MANTISSA);
-        let mantissa = (shifted & MANTISSA_MASK) + LOWEST_MANTISSA;
-        let biased = Self::from_bits(shifted >> MANTISSA_BITS | COUNTER_BITS);
-        (
-            Self::from_bits(mantissa),
-            biased - (COUNTER + EXPONENT_BIAS),
-        )
+        leaf!(self.simd(), {
+            let shifted = self.0.to_bits() + (1.0_f64.to_bits() - LOWEST_MANTISSA);
+            let mantissa = (shifted & MANTISSA_MASK) + LOWEST_MANTISSA;
+            let biased = Self(SimdFloat::from_bits(
+                shifted >> MANTISSA_BITS | COUNTER_BITS,
+            ));
+            (
+                Self(SimdFloat::from_bits(mantissa)),
+                biased - (COUNTER + EXPONENT_BIAS),
+            )
+        })
     }
 
     #[inline(always)]
     fn power_of_two(self) -> Self {
-        Self::from_bits((self + (COUNTER + EXPONENT_BIAS)).to_bits() << MANTISSA_BITS)
+        leaf!(self.simd(), {
+            let biased = (self.0 + (COUNTER + EXPONENT_BIAS)).to_bits();
+            Self(SimdFloat::from_bits(biased << MANTISSA_BITS))
+        })
     }
 }
 
