@@ -135,7 +135,10 @@ impl<'scene> Shadows<'scene> {
         let Some(occluders) = self.visibility.point_light(index) else {
             return asked;
         };
-        let (points, errors) = self.places(simd, sight);
+        let (points, errors) = simd.vectorize(
+            #[inline(always)]
+            || self.places(simd, sight),
+        );
         let mut reached = asked;
         for group in groups.as_slice() {
             for lane in set_bits(group.lanes & asked) {

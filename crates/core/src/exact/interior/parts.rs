@@ -127,6 +127,7 @@ impl<S: Simd> Filled<'_, S> {
     }
 
     /// Eight parts of a part, by five samples each.
+    #[inline(never)]
     fn divide(
         &self,
         simd: S,
@@ -135,10 +136,10 @@ impl<S: Simd> Filled<'_, S> {
         range: f64,
         noise: &mut Option<Box<NoiseCells>>,
     ) -> [Piece; 8] {
-        let mut pieces = self.eighths(simd, lane, of);
         simd.vectorize(
             #[inline(always)]
             || {
+                let mut pieces = self.eighths(simd, lane, of);
                 let zero = f64x8::splat(simd, 0.0);
                 let mut middle = Vectors {
                     x: zero,
@@ -192,9 +193,9 @@ impl<S: Simd> Filled<'_, S> {
                     };
                     piece.cost = error * piece.share;
                 }
+                pieces
             },
-        );
-        pieces
+        )
     }
 
     /// How far normals turn from the middles of parts to their corners, and how near the outline is, as
@@ -230,6 +231,7 @@ impl<S: Simd> Filled<'_, S> {
 
     /// The places of eight parts of a part: halves along one axis, quarters along the one along which it is
     /// longer on the surface.
+    #[inline(always)]
     fn eighths(&self, simd: S, lane: usize, of: &Piece) -> [Piece; 8] {
         const HALVES: [f64; 2] = [-0.25, 0.25];
         const QUARTERS: [f64; 4] = [-0.375, -0.125, 0.125, 0.375];

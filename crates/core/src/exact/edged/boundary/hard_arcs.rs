@@ -47,29 +47,36 @@ pub(super) fn spans_bumps<S: Simd>(
 ) -> bool {
     /// Cells of the noise that the seven lines of an arc may span. Noise has no shorter waves than two cells.
     const MOST_CELLS: f64 = 2.0;
-    for (sphere, lit) in [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])] {
-        if sphere == NONE || lit == 0 {
-            continue;
-        }
-        let surface = &setting.surfaces[sphere];
-        let cells = surface.finish.shading_normal.cells();
-        if cells == 0.0 {
-            continue;
-        }
-        let ball = &setting.contents.active[sphere].ball;
-        let start = surface.reference.at(places.y);
-        for x in [places.x, start, (places.x + start) * 0.5] {
-            let points = Points::new(simd, ball, ray(simd, setting.cell, x, places.y));
-            let normal = &points.normal;
-            let mut way = 0.0;
-            for node in 1..NODES {
-                let at = |node: usize| DVec3::new(normal.x[node], normal.y[node], normal.z[node]);
-                way += at(node).distance(at(node - 1));
+    simd.vectorize(
+        #[inline(always)]
+        || {
+            for (sphere, lit) in [(arc.inner, arc.lit[0]), (arc.outer, arc.lit[1])] {
+                if sphere == NONE || lit == 0 {
+                    continue;
+                }
+                let surface = &setting.surfaces[sphere];
+                let cells = surface.finish.shading_normal.cells();
+                if cells == 0.0 {
+                    continue;
+                }
+                let ball = &setting.contents.active[sphere].ball;
+                let start = surface.reference.at(places.y);
+                for x in [places.x, start, (places.x + start) * 0.5] {
+                    let points = Points::new(simd, ball, ray(simd, setting.cell, x, places.y));
+                    let normal = &points.normal;
+                    let mut way = 0.0;
+                    for node in 1..NODES {
+                        let at = |node: usize| {
+                            DVec3::new(normal.x[node], normal.y[node], normal.z[node])
+                        };
+                        way += at(node).distance(at(node - 1));
+                    }
+                    if way * cells > MOST_CELLS {
+                        return true;
+                    }
+                }
             }
-            if way * cells > MOST_CELLS {
-                return true;
-            }
-        }
-    }
-    false
+            false
+        },
+    )
 }

@@ -187,8 +187,14 @@ impl Sender<'_, '_> {
             return 0.0;
         }
         let reflectance = &self.finish.reflectance;
-        let cosine = f64x8::splat(simd, beyond.min(1.0));
-        let power = reflectance.diffuse.of_clamped(cosine)[0];
+        let power = simd.vectorize(
+            #[inline(always)]
+            || {
+                reflectance
+                    .diffuse
+                    .of_clamped(f64x8::splat(simd, beyond.min(1.0)))[0]
+            },
+        );
         let mut light = 0.0;
         for index in set_bits(lights) {
             let [diffuse, highlight] = reflectance.brightest(self.scene.lights[index].intensity);

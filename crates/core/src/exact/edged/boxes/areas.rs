@@ -4,9 +4,8 @@ use fearless_simd::Simd;
 
 use super::average::Setting;
 use super::division::{FIRST, FIRST_SIZE, HALVES, SHARE};
-use super::eight_boxes::{Eight, EightBoxes};
+use super::eight_boxes::Eight;
 use super::outlines::Outline;
-use crate::numeric::lanes::f64x8;
 
 /// Shares of a cell, and estimates of their errors, for each of its active spheres.
 #[derive(Clone, Debug, Default)]
@@ -110,59 +109,11 @@ impl Shares {
                 middles[0][lane] = x;
                 middles[1][lane] = y;
             }
-            setting.shares(simd, middles, size, outlines, found);
+            setting.areas(simd, middles, size, outlines, found);
             for lane in 0..group.len() {
                 let of_spheres = found.iter();
                 known.extend(of_spheres.map(|[share, error]| [share[lane], error[lane]]));
             }
         }
-    }
-}
-
-impl Setting<'_, '_> {
-    /// Writes the shares of eight boxes in which each sphere is seen, and their errors.
-    #[inline(never)]
-    fn shares<S: Simd>(
-        &self,
-        simd: S,
-        [x, y]: [Eight; 2],
-        size: [f64; 2],
-        outlines: &mut Vec<Outline>,
-        found: &mut Vec<[Eight; 2]>,
-    ) {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let boxes = EightBoxes {
-                    x: f64x8::from_array(simd, x),
-                    y: f64x8::from_array(simd, y),
-                    size,
-                };
-                found.clear();
-                found.resize(self.contents.active.len(), [[0.0; 8]; 2]);
-                let outside = self.outlines(simd, &boxes, outlines);
-                let zero = f64x8::splat(simd, 0.0);
-                let mut seen = zero;
-                for outline in outlines.iter() {
-                    let Some(visible) = outline.visible(simd, outlines, self.orders) else {
-                        continue;
-                    };
-                    let region = &visible.region;
-                    let error = (visible.doubt + visible.share.ambiguity).min(region.most);
-                    found[visible.position] = [visible.share.area.into(), error.into()];
-                    seen += visible.share.area;
-                }
-                // Of three spheres that meet in a box the products of shares do not fill it.
-                let covered = f64x8::splat(simd, 1.0) - outside.share(simd).area;
-                let scale = covered / seen.max(f64x8::splat(simd, f64::MIN_POSITIVE));
-                for [share, error] in found {
-                    let known: f64x8<S> = f64x8::from_array(simd, *share);
-                    let scaled = known * scale;
-                    let error_of: f64x8<S> = f64x8::from_array(simd, *error);
-                    *error = error_of.max((scaled - known).abs()).into();
-                    *share = scaled.into();
-                }
-            },
-        );
     }
 }

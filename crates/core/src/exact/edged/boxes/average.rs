@@ -7,7 +7,7 @@ use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
 use super::outlines::{Outline, Visible};
-use super::region::{OF_AMBIGUITY, Region};
+use super::region::{OF_AMBIGUITY, Region, Share};
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
 use crate::exact::classify::contents::Contents;
@@ -45,6 +45,13 @@ pub(super) struct Averages {
 }
 
 impl Averages {
+    const NOTHING: Self = Self {
+        value: [[0.0; 8]; 3],
+        covered: [0.0; 8],
+        error: [0.0; 8],
+        samples: 0,
+    };
+
     /// The integral over all boxes, which have this area.
     pub(super) fn total(&self, area: f64) -> Part {
         let sum = |lanes: &Eight| lanes.iter().sum::<f64>() * area;
@@ -133,6 +140,20 @@ impl<S: Simd> Sum<S> {
         }
     }
 
+    /// The same for the shares of single spheres; what they are changed by counts as their error.
+    #[inline(always)]
+    fn fill_areas(&self, simd: S, left: &Share<S>, found: &mut [[Eight; 2]]) {
+        let covered = f64x8::splat(simd, 1.0) - left.area;
+        let scale = covered / self.seen.max(f64x8::splat(simd, f64::MIN_POSITIVE));
+        for [share, error] in found {
+            let known = f64x8::from_array(simd, *share);
+            let scaled = known * scale;
+            let error_of = f64x8::from_array(simd, *error);
+            *error = error_of.max((scaled - known).abs()).into();
+            *share = scaled.into();
+        }
+    }
+
     /// Adds a range of light where it is seen.
     #[inline(always)]
     fn add_range(&mut self, light: &Lit<S>, is_seen: mask64x8<S>) {
@@ -156,9 +177,17 @@ impl<S: Simd> Sum<S> {
     }
 }
 
+/// What is asked of eight boxes.
+enum Wanted<'a> {
+    /// Their averages, with noise to work with.
+    Light(&'a mut Averages, &'a mut Option<Box<NoiseCells>>),
+    /// For each active sphere the shares in which it is seen, and their errors.
+    Areas(&'a mut Vec<[Eight; 2]>),
+}
+
 impl Setting<'_, '_> {
     /// The averages, with memory to work in.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn averages<S: Simd>(
         &self,
         simd: S,
@@ -166,35 +195,87 @@ impl Setting<'_, '_> {
         size: [f64; 2],
         (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
     ) -> Averages {
-        simd.vectorize(
-            #[inline(always)]
-            || self.averages_of(simd, boxes, size, (outlines, noise)),
-        )
+        let mut averages = Averages::NOTHING;
+        self.find(
+            simd,
+            (boxes, size),
+            outlines,
+            Wanted::Light(&mut averages, noise),
+        );
+        averages
     }
 
+    /// Writes the shares of eight boxes in which each active sphere is seen, and their errors.
     #[inline(always)]
-    fn averages_of<S: Simd>(
+    pub(super) fn areas<S: Simd>(
         &self,
         simd: S,
-        [x, y]: [Eight; 2],
+        boxes: [Eight; 2],
         size: [f64; 2],
-        (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
+        outlines: &mut Vec<Outline>,
+        found: &mut Vec<[Eight; 2]>,
+    ) {
+        found.clear();
+        found.resize(self.contents.active.len(), [[0.0; 8]; 2]);
+        self.find(simd, (boxes, size), outlines, Wanted::Areas(found));
+    }
+
+    /// Light and areas in one kernel: it is long, and what takes its time is the same.
+    #[inline(never)]
+    fn find<S: Simd>(
+        &self,
+        simd: S,
+        ([x, y], size): ([Eight; 2], [f64; 2]),
+        outlines: &mut Vec<Outline>,
+        mut wanted: Wanted<'_>,
+    ) {
+        simd.vectorize(
+            #[inline(always)]
+            || {
+                let boxes = EightBoxes {
+                    x: f64x8::from_array(simd, x),
+                    y: f64x8::from_array(simd, y),
+                    size,
+                };
+                let outside = self.outlines(simd, &boxes, outlines);
+                let mut sum = Sum::nothing(simd, self.scene.channels);
+                for outline in outlines.iter() {
+                    let Some(visible) = outline.visible(simd, outlines, self.orders) else {
+                        continue;
+                    };
+                    match &mut wanted {
+                        Wanted::Light(_, noise) => {
+                            let light = self.light(simd, &boxes, &visible, noise);
+                            sum.add(&visible, &light);
+                        }
+                        Wanted::Areas(found) => {
+                            found[visible.position] = visible.share_and_error();
+                            sum.seen += visible.share.area;
+                        }
+                    }
+                }
+                let left = outside.share(simd);
+                match wanted {
+                    Wanted::Light(averages, _) => {
+                        let is_open = outside.most.simd_gt(0.0);
+                        *averages = self.with_background(simd, &mut sum, &left, is_open);
+                    }
+                    Wanted::Areas(found) => sum.fill_areas(simd, &left, found),
+                }
+            },
+        );
+    }
+
+    /// The averages of what is seen and of what is left of boxes beside it.
+    #[inline(always)]
+    fn with_background<S: Simd>(
+        &self,
+        simd: S,
+        sum: &mut Sum<S>,
+        left: &Share<S>,
+        is_open: mask64x8<S>,
     ) -> Averages {
-        let boxes = EightBoxes {
-            x: f64x8::from_array(simd, x),
-            y: f64x8::from_array(simd, y),
-            size,
-        };
         let one = f64x8::splat(simd, 1.0);
-        let outside = self.outlines(simd, &boxes, outlines);
-        let mut sum = Sum::nothing(simd, self.scene.channels);
-        for outline in outlines.iter() {
-            if let Some(visible) = outline.visible(simd, outlines, self.orders) {
-                let light = self.light(simd, &boxes, &visible, noise);
-                sum.add(&visible, &light);
-            }
-        }
-        let left = outside.share(simd);
         let open = left.area;
         // What no sphere was found to fill may belong to any of them.
         sum.doubt += (one - open - sum.seen).abs();
@@ -204,7 +285,6 @@ impl Setting<'_, '_> {
         for (value, of_light) in sum.value.iter_mut().zip(&background.value) {
             *value += *of_light;
         }
-        let is_open = outside.most.simd_gt(0.0);
         sum.add_range(&background, is_open);
         let mut contrast = sum.contrast(simd);
         if self.has_alpha {
@@ -221,33 +301,28 @@ impl Setting<'_, '_> {
     }
 
     /// Finds the outlines of the spheres that boxes may see; what is outside of all of them.
-    #[inline(never)]
-    pub(super) fn outlines<S: Simd>(
+    #[inline(always)]
+    fn outlines<S: Simd>(
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
         outlines: &mut Vec<Outline>,
     ) -> Region<S> {
-        simd.vectorize(
-            #[inline(always)]
-            || {
-                let one = f64x8::splat(simd, 1.0);
-                outlines.clear();
-                let mut outside = Region::whole(simd);
-                for (position, active) in self.contents.active.iter().enumerate() {
-                    let has_depth = self.orders.needs_depth(position);
-                    let of = (position, active);
-                    if !self.has_silhouette[position] {
-                        outside.darken(simd, one.simd_gt(0.0));
-                        outlines.push(Outline::filling(simd, boxes, of, has_depth));
-                    } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
-                        outside.cut(simd, &outline.outside(simd));
-                        outlines.push(outline);
-                    }
-                }
-                outside
-            },
-        )
+        let one = f64x8::splat(simd, 1.0);
+        outlines.clear();
+        let mut outside = Region::whole(simd);
+        for (position, active) in self.contents.active.iter().enumerate() {
+            let has_depth = self.orders.needs_depth(position);
+            let of = (position, active);
+            if !self.has_silhouette[position] {
+                outside.darken(simd, one.simd_gt(0.0));
+                outlines.push(Outline::filling(simd, boxes, of, has_depth));
+            } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
+                outside.cut(simd, &outline.outside(simd));
+                outlines.push(outline);
+            }
+        }
+        outside
     }
 
     /// The light of a sphere at these places of the boxes.

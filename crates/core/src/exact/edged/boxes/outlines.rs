@@ -40,6 +40,15 @@ pub(super) struct Visible<S: Simd> {
     pub(super) is_possible: mask64x8<S>,
 }
 
+impl<S: Simd> Visible<S> {
+    /// The shares of boxes in which the sphere is seen, and how much they may be off.
+    #[inline(always)]
+    pub(super) fn share_and_error(&self) -> [Eight; 2] {
+        let error = (self.doubt + self.share.ambiguity).min(self.region.most);
+        [self.share.area.into(), error.into()]
+    }
+}
+
 /// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
 const OF_ROOT: f64 = 8.0 / 9.0;
 
@@ -116,21 +125,13 @@ impl Outline {
     }
 
     /// What is seen of it behind others; `None` where they hide it in all boxes.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn visible<S: Simd>(
         &self,
         simd: S,
         all: &[Self],
         orders: &Orders,
     ) -> Option<Visible<S>> {
-        simd.vectorize(
-            #[inline(always)]
-            || self.visible_of(simd, all, orders),
-        )
-    }
-
-    #[inline(always)]
-    fn visible_of<S: Simd>(&self, simd: S, all: &[Self], orders: &Orders) -> Option<Visible<S>> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let inside = self.inside.load(simd);
