@@ -2,29 +2,29 @@
 
 use std::cmp::Ordering;
 
-use dashu_int::ops::{Abs, BitTest, SquareRoot};
-use dashu_int::{IBig, UBig};
 use glam::DVec3;
+use num_bigint::{BigInt, BigUint};
+use num_traits::{Signed, ToPrimitive};
 
 use super::outcome::{Components, Hit};
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
 
 /// Digits that quotients and roots keep: far more than doubles have.
-const BITS: usize = 160;
+const BITS: u64 = 160;
 
 /// A sphere and a ray in integers, with the numbers of the [module](super).
 struct Numbers {
-    to_center: [IBig; 3],
-    radius: IBig,
+    to_center: [BigInt; 3],
+    radius: BigInt,
     /// A.
-    direction_sq: IBig,
+    direction_sq: BigInt,
     /// B.
-    along: IBig,
+    along: BigInt,
     /// K.
-    outside: IBig,
+    outside: BigInt,
     /// Q.
-    discriminant: IBig,
+    discriminant: BigInt,
 }
 
 /// The numbers of some spheres, and the exponent of the power of two that their lengths are multiples
@@ -32,7 +32,7 @@ struct Numbers {
 fn numbers<const COUNT: usize>(
     spheres: [&Sphere; COUNT],
     origin: DVec3,
-    direction: &[IBig],
+    direction: &[BigInt],
 ) -> ([Numbers; COUNT], i32) {
     let mut lengths = origin.to_array().to_vec();
     for sphere in spheres {
@@ -71,17 +71,17 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
         outside,
         discriminant,
     } = numbers;
-    let inner_side = outside <= IBig::ZERO;
-    if outside >= IBig::ZERO && along <= IBig::ZERO {
+    let inner_side = outside <= BigInt::ZERO;
+    if outside >= BigInt::ZERO && along <= BigInt::ZERO {
         return None;
     }
     // Negative is a miss.
-    let discriminant = UBig::try_from(discriminant).ok()?;
+    let discriminant = BigUint::try_from(discriminant).ok()?;
 
     // The root with `shift` binary places.
-    let shift = BITS.saturating_sub(discriminant.bit_len() / 2);
-    let root = IBig::from((discriminant << (2 * shift)).sqrt());
-    let backward = along < IBig::ZERO;
+    let shift = BITS.saturating_sub(discriminant.bits() / 2);
+    let root = BigInt::from((discriminant << (2 * shift)).sqrt());
+    let backward = along < BigInt::ZERO;
     let far = ((&along).abs() << shift) + &root;
     let t = if inner_side && !backward {
         quotient(far, &direction_sq << shift)
@@ -124,8 +124,8 @@ pub(super) fn components(sphere: &Sphere, ray: &Ray, axes: &[DVec3; 3]) -> Optio
     let position = |axis: usize| {
         let (mantissa, own) = mantissa_and_exponent(ray.origin[axis]);
         let origin = match mantissa {
-            0 => IBig::ZERO,
-            _ => IBig::from(mantissa) << (own - exponent) as usize,
+            0 => BigInt::ZERO,
+            _ => BigInt::from(mantissa) << (own - exponent) as usize,
         };
         let whole = &direction_sq * origin + &along * &direction[axis];
         let rooted = &direction[axis] * side;
@@ -154,12 +154,12 @@ pub(super) fn components(sphere: &Sphere, ray: &Ray, axes: &[DVec3; 3]) -> Optio
 /// (a + b √q) / c · 2ᵉ for q ≥ 0 and c > 0, rounded once after a relative error of 2⁻¹⁵⁷ at most.
 ///
 /// Where the terms would cancel, by way of (a² − b² q) / (a − b √q).
-fn surd(a: IBig, b: &IBig, q: &IBig, c: &IBig, exponent: i32) -> f64 {
-    let Ok(under_root) = UBig::try_from(q.clone()) else {
+fn surd(a: BigInt, b: &BigInt, q: &BigInt, c: &BigInt, exponent: i32) -> f64 {
+    let Ok(under_root) = BigUint::try_from(q.clone()) else {
         return f64::NAN;
     };
-    let shift = BITS.saturating_sub(under_root.bit_len() / 2);
-    let root = IBig::from((under_root << (2 * shift)).sqrt()) * b;
+    let shift = BITS.saturating_sub(under_root.bits() / 2);
+    let root = BigInt::from((under_root << (2 * shift)).sqrt()) * b;
     let shifted = &a << shift;
     let (mut numerator, mut denominator) = if signum(&a) * signum(b) >= 0 {
         (shifted + root, c << shift)
@@ -167,7 +167,7 @@ fn surd(a: IBig, b: &IBig, q: &IBig, c: &IBig, exponent: i32) -> f64 {
         let squares = &a * &a - b * b * q;
         (squares << shift, (shifted - root) * c)
     };
-    if denominator < IBig::ZERO {
+    if denominator < BigInt::ZERO {
         (numerator, denominator) = (-numerator, -denominator);
     }
     let (value, own) = quotient(numerator, denominator);
@@ -181,12 +181,12 @@ fn surd(a: IBig, b: &IBig, q: &IBig, c: &IBig, exponent: i32) -> f64 {
 pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> Ordering {
     let (direction, _) = integers(&ray.direction.to_array());
     let ([first, second], _) = numbers([first, second], ray.origin, &direction);
-    let [first_inside, second_inside] = [&first, &second].map(|ball| ball.outside <= IBig::ZERO);
+    let [first_inside, second_inside] = [&first, &second].map(|ball| ball.outside <= BigInt::ZERO);
     let (first_q, second_q) = (first.discriminant, second.discriminant);
 
     // The sign of ±√Q₂ ∓ √Q₁; both zero roots leave no sign of their own.
     let roots = match (second_inside, first_inside) {
-        _ if first_q == IBig::ZERO && second_q == IBig::ZERO => 0,
+        _ if first_q == BigInt::ZERO && second_q == BigInt::ZERO => 0,
         (true, false) => 1,
         (false, true) => -1,
         (true, true) => signum(&(&second_q - &first_q)),
@@ -200,7 +200,7 @@ pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> O
     }
     // The sign of gap² − Q₁ − Q₂ ± 2 √(Q₁ Q₂), where the squares of both decide.
     let excess = &gap * &gap - &first_q - &second_q;
-    let product = IBig::from(4) * first_q * second_q;
+    let product = BigInt::from(4) * first_q * second_q;
     let squares = &excess * &excess;
     let is_sum = first_inside == second_inside;
     let larger = match (is_sum, signum(&excess)) {
@@ -214,8 +214,8 @@ pub(super) fn compare_distances(first: &Sphere, second: &Sphere, ray: &Ray) -> O
     (gap_sign * larger).cmp(&0)
 }
 
-fn signum(value: &IBig) -> i32 {
-    match value.cmp(&IBig::ZERO) {
+fn signum(value: &BigInt) -> i32 {
+    match value.cmp(&BigInt::ZERO) {
         Ordering::Less => -1,
         Ordering::Equal => 0,
         Ordering::Greater => 1,
@@ -223,13 +223,13 @@ fn signum(value: &IBig) -> i32 {
 }
 
 /// Finite doubles as integers times one common power of two, and its exponent.
-fn integers(values: &[f64]) -> (Vec<IBig>, i32) {
+fn integers(values: &[f64]) -> (Vec<BigInt>, i32) {
     let parts = values.iter().map(|&value| mantissa_and_exponent(value));
     let used = parts.clone().filter(|(mantissa, _)| *mantissa != 0);
     let common = used.map(|(_, exponent)| exponent).min().unwrap_or(0);
     let integer = |(mantissa, exponent)| match mantissa {
-        0 => IBig::ZERO,
-        _ => IBig::from(mantissa) << (exponent - common) as usize,
+        0 => BigInt::ZERO,
+        _ => BigInt::from(mantissa) << (exponent - common) as usize,
     };
     (parts.map(integer).collect(), common)
 }
@@ -256,16 +256,16 @@ fn mantissa_and_exponent(value: f64) -> (i64, i32) {
 
 /// The quotient by a number greater than 0, as a double times a power of two; rounded once,
 /// after a relative error of 2⁻¹⁵⁹ at most.
-fn quotient(numerator: IBig, denominator: IBig) -> (f64, i32) {
-    let places = BITS as i64 + denominator.bit_len() as i64 - numerator.bit_len() as i64;
+fn quotient(numerator: BigInt, denominator: BigInt) -> (f64, i32) {
+    let places = BITS as i64 + denominator.bits() as i64 - numerator.bits() as i64;
     let quotient = if places >= 0 {
         (numerator << places as usize) / denominator
     } else {
         numerator / (denominator << -places as usize)
     };
-    (quotient.to_f64().value(), -places as i32)
+    (quotient.to_f64().unwrap_or(f64::NAN), -places as i32)
 }
 
-fn dot(a: &[IBig], b: &[IBig]) -> IBig {
+fn dot(a: &[BigInt], b: &[BigInt]) -> BigInt {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }

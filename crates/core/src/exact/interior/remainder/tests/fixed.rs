@@ -2,15 +2,15 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use dashu_int::ops::SquareRoot;
-use dashu_int::{IBig, UBig};
+use num_bigint::{BigInt, BigUint};
+use num_traits::ToPrimitive;
 
 /// Binary places: far more than doubles have.
 const PLACES: usize = 256;
 
 /// A multiple of 2⁻²⁵⁶.
 #[derive(Clone, Debug)]
-pub(super) struct Fixed(IBig);
+pub(super) struct Fixed(BigInt);
 
 impl Fixed {
     /// A double, without loss where it is a multiple of 2⁻²⁵⁶.
@@ -20,9 +20,9 @@ impl Fixed {
         let exponent = (bits >> 52 & 0x7ff) as i32;
         assert!((1..0x7ff).contains(&exponent) || number == 0.0, "{number}");
         if number == 0.0 {
-            return Self(IBig::ZERO);
+            return Self(BigInt::ZERO);
         }
-        let mantissa = IBig::from(bits & MANTISSA | 1 << 52);
+        let mantissa = BigInt::from(bits & MANTISSA | 1 << 52);
         let shift = exponent - 1075 + PLACES as i32;
         let size = if shift >= 0 {
             mantissa << shift as usize
@@ -38,7 +38,7 @@ impl Fixed {
     }
 
     pub(super) fn sqrt(&self) -> Self {
-        let square = UBig::try_from(self.0.clone() << PLACES).expect("it is not negative");
+        let square = BigUint::try_from(self.0.clone() << PLACES).expect("it is not negative");
         Self(square.sqrt().into())
     }
 
@@ -52,7 +52,7 @@ impl Fixed {
 
     /// The nearest double, to about 1e-17 of it or 2⁻²⁵⁶.
     pub(super) fn to_f64(&self) -> f64 {
-        self.0.to_f64().value() * libm::exp2(-(PLACES as f64))
+        self.0.to_f64().expect("it is finite") * libm::exp2(-(PLACES as f64))
     }
 }
 
