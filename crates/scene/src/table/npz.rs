@@ -5,11 +5,11 @@
 
 use std::borrow::Cow;
 use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::{self, BufReader, Read};
 use std::path::Path;
 
-use zip::ZipArchive;
-use zip::result::ZipError;
+use flate2::bufread::DeflateDecoder;
+use rawzip::{CompressionMethod, ErrorKind, MAX_CENTRAL_DIRECTORY_RECORD_SIZE, ZipArchive};
 
 use super::binary::{self, Column};
 use super::columns::{MOST_COLUMNS, components};
@@ -35,23 +35,43 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
     let file = File::open(path)?;
     let stored = file.metadata()?.len();
     let mut left = most_bytes(stored);
-    let archive = ZipArchive::new(BufReader::new(file));
-    let mut archive = archive.map_err(refused)?;
+    let mut buffer = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
+    let archive = ZipArchive::from_file(file, &mut buffer).map_err(refused)?;
     let mut arrays = Vec::new();
-    for index in 0..archive.len() {
-        let mut file = archive.by_index(index).map_err(refused)?;
-        let name = file.name().map_err(refused)?;
-        let Some(name) = name.strip_suffix(".npy").map(str::to_owned) else {
+    let (mut entries, mut missing) = (archive.entries(&mut buffer), archive.entries_hint());
+    while let Some(entry) = entries.next_entry().map_err(refused)? {
+        missing = missing.saturating_sub(1);
+        let Some(name) = entry.file_path().as_bytes().strip_suffix(b".npy") else {
             continue;
         };
-        if let Some((header, bytes)) = array(&mut file, left)? {
+        let name = String::from_utf8_lossy(name).into_owned();
+        let (method, is_encrypted) = (entry.compression_method(), entry.flags().is_encrypted());
+        let entry = archive.get_entry(entry.wayfinder()).map_err(refused)?;
+        let packed = BufReader::new(entry.reader());
+        let data: Box<dyn Read> = match method {
+            CompressionMethod::STORE if !is_encrypted => Box::new(packed),
+            CompressionMethod::DEFLATE if !is_encrypted => Box::new(DeflateDecoder::new(packed)),
+            _ => {
+                let message =
+                    format!("expected arrays that are stored or deflated, found others: `{name}`");
+                return Err(LocatedFault::of_file(message).into());
+            }
+        };
+        // Compares size and checksum at the end of the data.
+        let mut data = entry.verifying_reader(data);
+        if let Some((header, bytes)) = array(&mut data, left)? {
             left -= bytes.len() as u64;
+            io::copy(&mut data.take(left), &mut io::sink()).map_err(damaged)?;
             arrays.push(Array {
                 name,
                 header,
                 bytes,
             });
         }
+    }
+    if missing > 0 {
+        let message = format!("expected {missing} more arrays in the archive, found its end");
+        return Err(LocatedFault::of_file(message).into());
     }
     let rows = rows(&arrays).ok_or_else(|| {
         let names: Vec<&str> = arrays.iter().map(|array| &*array.name).collect();
@@ -95,7 +115,7 @@ fn array(file: &mut dyn Read, most: u64) -> Result<Option<(Header, Vec<u8>)>, Ta
     }
     // What is read decides, not what the header claims.
     let mut bytes = Vec::new();
-    file.take(all).read_to_end(&mut bytes)?;
+    file.take(all).read_to_end(&mut bytes).map_err(damaged)?;
     if (bytes.len() as u64) < all {
         let message = format!("expected an array of {all} bytes, found {}", bytes.len());
         return Err(LocatedFault::of_file(message).into());
@@ -175,12 +195,21 @@ fn listed(names: &[&str]) -> String {
     }
 }
 
-fn refused(error: ZipError) -> TableError {
-    match error {
-        ZipError::Io(error) => error.into(),
+fn refused(error: rawzip::Error) -> TableError {
+    match error.into_kind() {
+        ErrorKind::IO(error) => error.into(),
         other => {
+            let other = rawzip::Error::from(other);
             let message = format!("expected an archive of arrays, found a broken one: {other}");
             LocatedFault::of_file(message).into()
         }
+    }
+}
+
+/// What is wrong with the data of an array.
+fn damaged(error: io::Error) -> TableError {
+    match error.downcast() {
+        Ok(error) => refused(error),
+        Err(error) => error.into(),
     }
 }

@@ -195,14 +195,23 @@ fn arrays_of_all_types_and_orders_are_read() {
 
 /// An archive of arrays.
 fn npz(arrays: &[(&str, Vec<u8>)]) -> Vec<u8> {
-    use std::io::{Cursor, Write};
-    let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    use std::io::Write;
+    let mut file = Vec::new();
+    let mut archive = rawzip::ZipArchiveWriter::new(&mut file);
     for (name, bytes) in arrays {
-        let options = zip::write::SimpleFileOptions::default();
-        archive.start_file(format!("{name}.npy"), options).unwrap();
-        archive.write_all(bytes).unwrap();
+        let name = format!("{name}.npy");
+        let builder = archive.new_file(&*name);
+        let builder = builder.compression_method(rawzip::CompressionMethod::DEFLATE);
+        let (mut entry, config) = builder.start().unwrap();
+        let encoder = flate2::write::DeflateEncoder::new(&mut entry, flate2::Compression::fast());
+        let mut writer = config.wrap(encoder);
+        writer.write_all(bytes).unwrap();
+        let (encoder, descriptor) = writer.finish().unwrap();
+        encoder.finish().unwrap();
+        entry.finish(descriptor).unwrap();
     }
-    archive.finish().unwrap().into_inner()
+    archive.finish().unwrap();
+    file
 }
 
 #[test]
@@ -231,8 +240,24 @@ fn archives_of_named_arrays_are_tables() {
     assert_eq!(spheres(&scene("a.npz", &archive, "")), TWO);
     let kept = scene("a.npz", &archive, "keep: [(\"kind\", Is(\"B\"))]");
     assert_eq!(spheres(&kept), TWO[1..]);
-    let alone = npz(&[("arr_0", npy(&header("(2, 4)"), &doubles(&TWO.concat())))]);
-    assert_eq!(spheres(&scene("a.npz", alone, "")), TWO);
+    let mut alone = npz(&[("arr_0", npy(&header("(2, 4)"), &doubles(&TWO.concat())))]);
+    assert_eq!(spheres(&scene("a.npz", &alone, "")), TWO);
+    // Behind the data stand `PK\x07\x08` and the checksum, which the directory repeats.
+    let checksum = alone
+        .windows(4)
+        .position(|four| four == b"PK\x07\x08")
+        .unwrap()
+        + 4;
+    let stored = alone[checksum..checksum + 4].to_vec();
+    let places = (0..alone.len() - 4).filter(|&place| alone[place..place + 4] == stored);
+    for place in places.collect::<Vec<_>>() {
+        alone[place] ^= 1;
+    }
+    let message = refusal("a.npz", &alone, "");
+    assert!(
+        message.contains("expected an archive of arrays, found a broken one"),
+        "{message}"
+    );
     let message = refusal("a.npz", npz(&[]), "");
     assert_eq!(
         message,
