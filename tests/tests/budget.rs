@@ -94,10 +94,11 @@ fn confessed_pixels_are_within_what_they_claim() {
         assert_eq!(image.summary().over_tolerance, over.len() as u64);
         assert!(over.len() > 10, "{material} {lights}: {}", over.len());
         for &(col, row) in over.iter().step_by(over.len().div_ceil(12)) {
-            let truth = reference.pixel(col, row);
-            let off = (image.rgba(col, row)[0] - truth.value.x).abs();
             let claimed = image.error(col, row);
             assert!(claimed > 1e-6);
+            // Bumps make the truth dear: it is known well enough to judge the claim.
+            let truth = reference.pixel_to(col, row, claimed / 50.0);
+            let off = (image.rgba(col, row)[0] - truth.value.x).abs();
             assert!(
                 off <= claimed + truth.error,
                 "{material} {lights} ({col}, {row}): {off:e} {claimed:e}"

@@ -67,9 +67,14 @@ impl<'world> Reference<'world> {
 
     /// The truth of a pixel.
     pub fn pixel(&self, col: u32, row: u32) -> Truth {
+        self.pixel_to(col, row, TOLERANCE)
+    }
+
+    /// The truth of a pixel where it need not be known better than to this error.
+    pub fn pixel_to(&self, col: u32, row: u32, tolerance: f64) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row);
         let mut budget = BUDGET;
-        let mut truth = patch_truth(&patch, DEPTH, TOLERANCE, &mut budget);
+        let mut truth = patch_truth(&patch, DEPTH, tolerance.max(TOLERANCE), &mut budget);
         truth.error += ROUNDING + patch.noise;
         truth
     }

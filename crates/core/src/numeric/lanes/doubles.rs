@@ -7,8 +7,11 @@ use std::ops::{
 use fearless_simd as library;
 use fearless_simd::{Simd, SimdBase, SimdFloat, SimdFrom};
 
-use super::LANES;
-use super::masks::mask64x8;
+/// Numbers side by side.
+pub(crate) const LANES: usize = 8;
+
+/// The number of each lane.
+pub(crate) const LANE_NUMBERS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Eight doubles, for the level `S` of the processor.
 ///
@@ -123,29 +126,6 @@ impl<S: Simd> Operand<S> for f64 {
         f64x8::splat(simd, self)
     }
 }
-
-macro_rules! comparisons {
-    ($($name:ident: $of:literal),*) => {
-        impl<S: Simd> f64x8<S> {
-            $(
-                #[doc = concat!("The lanes whose number is ", $of, " the other one.")]
-                #[inline(always)]
-                pub(crate) fn $name(self, other: impl Operand<S>) -> mask64x8<S> {
-                    let other = other.operand(self.simd());
-                    leaf!(self.simd(), mask64x8(self.0.$name(other.0)))
-                }
-            )*
-        }
-    };
-}
-comparisons!(
-    simd_lt: "less than",
-    simd_le: "not greater than",
-    simd_gt: "greater than",
-    simd_ge: "not less than",
-    simd_eq: "equal to",
-    simd_ne: "not equal to"
-);
 
 macro_rules! operations {
     ($($Operation:ident::$name:ident, $Assigning:ident::$assigning:ident;)*) => {

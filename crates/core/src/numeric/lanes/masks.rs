@@ -3,9 +3,9 @@
 use std::ops::{BitAnd, BitAndAssign, BitOr, BitOrAssign, BitXor, BitXorAssign, Not};
 
 use fearless_simd as library;
-use fearless_simd::{ExtractToken, Select, Simd, SimdMask};
+use fearless_simd::{ExtractToken, Select, Simd, SimdBase, SimdMask};
 
-use super::doubles::f64x8;
+use super::doubles::{Operand, f64x8};
 
 /// Lanes of [`f64x8`] in which something holds.
 #[allow(
@@ -76,6 +76,29 @@ impl<S: Simd> Selectable<S> for mask64x8<S> {
         leaf!(mask.simd(), Self(mask.0.select(holds.0, otherwise.0)))
     }
 }
+
+macro_rules! comparisons {
+    ($($name:ident: $of:literal),*) => {
+        impl<S: Simd> f64x8<S> {
+            $(
+                #[doc = concat!("The lanes whose number is ", $of, " the other one.")]
+                #[inline(always)]
+                pub(crate) fn $name(self, other: impl Operand<S>) -> mask64x8<S> {
+                    let other = other.operand(self.simd());
+                    leaf!(self.simd(), mask64x8(self.0.$name(other.0)))
+                }
+            )*
+        }
+    };
+}
+comparisons!(
+    simd_lt: "less than",
+    simd_le: "not greater than",
+    simd_gt: "greater than",
+    simd_ge: "not less than",
+    simd_eq: "equal to",
+    simd_ne: "not equal to"
+);
 
 macro_rules! operations {
     ($($Operation:ident::$name:ident, $Assigning:ident::$assigning:ident;)*) => {

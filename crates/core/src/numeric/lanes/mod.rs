@@ -18,7 +18,7 @@ use std::ops::{Add, Mul, Sub};
 
 use fearless_simd::{Simd, SimdFloat};
 
-pub(crate) use self::doubles::f64x8;
+pub(crate) use self::doubles::{LANE_NUMBERS, LANES, f64x8};
 pub(crate) use self::masks::mask64x8;
 
 /// Bits of the mantissa that a double stores.
@@ -30,12 +30,6 @@ const COUNTER_BITS: u64 = COUNTER.to_bits();
 
 /// The number that is added to exponents where they are stored.
 const EXPONENT_BIAS: f64 = 1023.0;
-
-/// Numbers side by side.
-pub(crate) const LANES: usize = 8;
-
-/// The number of each lane.
-pub(crate) const LANE_NUMBERS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// A double, or eight.
 pub(crate) trait Lanes:

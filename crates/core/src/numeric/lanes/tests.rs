@@ -4,14 +4,13 @@ use fearless_simd::{Level, dispatch};
 
 use super::*;
 
-/// Every level that this processor has.
+/// Every level that this processor has and that kernels are compiled for.
 pub(crate) fn levels() -> Vec<Level> {
     #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
     {
         let best = Level::new();
         let of_x86 = [
             best.as_sse2().map(Level::Sse2),
-            best.as_sse4_2().map(Level::Sse4_2),
             best.as_avx2().map(Level::Avx2),
             best.as_avx512().map(Level::Avx512),
         ];

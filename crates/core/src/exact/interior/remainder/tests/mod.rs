@@ -57,7 +57,7 @@ fn nothing_that_parallel_rays_see_is_farther_from_its_average_than_is_proved() {
 
 fn hold(place: impl Fn(&mut Random, [f64; 2]) -> Place) {
     const PLACES: usize = 1500;
-    let nodes = fixed::gauss(20);
+    let nodes = fixed::gauss(14);
     let mut random = Random(15);
     let mut asked = 0;
     for (tolerances, tight) in [([-8.0, -4.0], 0.1), ([-4.0, -1.0], 0.05)] {
