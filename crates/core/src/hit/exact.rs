@@ -82,11 +82,11 @@ pub(super) fn hit(sphere: &Sphere, ray: &Ray) -> Option<Hit> {
     let shift = BITS.saturating_sub(discriminant.bits() / 2);
     let root = BigInt::from((discriminant << (2 * shift)).sqrt());
     let backward = along < BigInt::ZERO;
-    let far = ((&along).abs() << shift) + &root;
+    let far = (along.abs() << shift) + &root;
     let t = if inner_side && !backward {
         quotient(far, &direction_sq << shift)
     } else {
-        quotient((&outside).abs() << shift, far)
+        quotient(outside.abs() << shift, far)
     };
     let length = (&direction_sq * &radius) << shift;
     let component = |axis: usize| {

@@ -121,3 +121,75 @@ fn powers_of_two_are_exact() {
         );
     }
 }
+
+/// Each operation on eight, and the same one on doubles.
+macro_rules! assert_same_operations {
+    ($level:expr, $a:expr, $b:expr; $($eight:expr => $one:expr;)*) => {
+        $(
+            let found: [f64; 8] = dispatch!($level, simd => {
+                let (a, b) = (f64x8::from_array(simd, $a), f64x8::from_array(simd, $b));
+                let function: fn(f64x8<_>, f64x8<_>) -> f64x8<_> = $eight;
+                function(a, b).into()
+            });
+            for lane in 0..LANES {
+                let function: fn(f64, f64) -> f64 = $one;
+                let expected = function($a[lane], $b[lane]);
+                let is_same = found[lane].to_bits() == expected.to_bits()
+                    || found[lane].is_nan() && expected.is_nan();
+                let name = stringify!($eight);
+                assert!(is_same, "{name} of {:e}, {:e} at {:?}", $a[lane], $b[lane], $level);
+            }
+        )*
+    };
+}
+
+#[test]
+fn operations_are_those_of_doubles() {
+    let numbers = numbers();
+    for level in levels() {
+        for (a, b) in numbers.chunks_exact(8).zip(numbers[3..].chunks_exact(8)) {
+            let (a, b): ([f64; 8], [f64; 8]) = (a.try_into().unwrap(), b.try_into().unwrap());
+            assert_same_operations!(level, a, b;
+                |a, b| a + b => |a, b| a + b;
+                |a, b| a - b => |a, b| a - b;
+                |a, b| a * b => |a, b| a * b;
+                |a, b| a / b => |a, b| a / b;
+                |a, _| a + 0.3 => |a, _| a + 0.3;
+                |a, _| a / 0.3 => |a, _| a / 0.3;
+                |a, _| 0.3 - a => |a, _| 0.3 - a;
+                |a, _| 0.3 / a => |a, _| 0.3 / a;
+                |a, _| -a => |a, _| -a;
+                |a, _| a.abs() => |a, _| a.abs();
+                |a, _| a.floor() => |a, _| a.floor();
+                |a, _| a.ceil() => |a, _| a.ceil();
+                |a, b| a.mul_add_precise(b, a) => |a, b| a.mul_add(b, a);
+                |a, b| a.max(b + 0.1) => |a, b| a.max(b + 0.1);
+                |a, b| a.min(b + 0.1) => |a, b| a.min(b + 0.1);
+                |a, b| a.simd_lt(b).select(a, b) => |a, b| if a < b { a } else { b };
+                |a, b| a.simd_ge(b).select(a, b) => |a, b| if a >= b { a } else { b };
+                |a, b| (a.simd_gt(b) | a.simd_eq(b)).select(a, b) => |a, b| if a >= b { a } else { b };
+                |a, b| (a.simd_le(b) & a.simd_ne(b)).select(a, b) => |a, b| if a < b { a } else { b };
+                |a, b| (!(a.simd_gt(b) ^ a.simd_gt(0.0))).select(a, b)
+                    => |a, b| if (a > b) == (a > 0.0) { a } else { b };
+            );
+        }
+    }
+}
+
+#[test]
+fn masks_are_their_bits_and_lanes_slide() {
+    for level in levels() {
+        for bits in 0..256 {
+            let (found, any, all) = dispatch!(level, simd => {
+                let mask = mask64x8::from_bitmask(simd, bits);
+                (mask.to_bitmask(), mask.any_true(), mask.all_true())
+            });
+            assert_eq!((found, any, all), (bits, bits != 0, bits == 255));
+        }
+        let slid: [f64; 8] = dispatch!(level, simd => {
+            let lanes = f64x8::from_array(simd, LANE_NUMBERS);
+            lanes.slide::<3>(lanes + 10.0).into()
+        });
+        assert_eq!(slid, [3.0, 4.0, 5.0, 6.0, 7.0, 10.0, 11.0, 12.0]);
+    }
+}

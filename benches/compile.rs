@@ -1,0 +1,157 @@
+//! How long does a newcomer wait?
+//!
+//! Runs the README's two commands from empty targets. With `-- --write` it writes its part of docs/growth.md. It needs
+//! Linux, which tells what processes took and held.
+//!
+//! With `-- --lines` it only counts the lines of code that the compiler makes of `marbles-core` before it simplifies
+//! them, and fails where they are a tenth more than the page says: these decide how long the crate compiles, and do
+//! not depend on the machine's speed.
+
+use std::fmt::Write as _;
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use marbles_benches::page::Page;
+use marbles_benches::{Folder, in_repository, is_to_write};
+
+const PAGE: &str = "docs/growth.md";
+const COMMANDS: [&str; 2] = [
+    "cargo run --release --locked -- render scenes/turntable.ron --quiet -o FOLDER/turntable.####.png",
+    "cargo test --workspace --locked --quiet",
+];
+/// The row of the page with the number of lines.
+const LINES: &str = "| lines of `marbles-core` before they are simplified | ";
+
+#[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
+fn main() -> ExitCode {
+    let lines = lines();
+    if std::env::args().any(|argument| argument == "--lines") {
+        let known = known_lines();
+        println!("{lines} lines before they are simplified; {PAGE} has {known}");
+        return match lines <= known + known / 10 {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::FAILURE,
+        };
+    }
+    let mut table = String::from(
+        "| | wall time | of all processors | largest memory of a compiler |\n|---|--:|--:|--:|\n",
+    );
+    for (command, name) in COMMANDS.into_iter().zip(["first", "second"]) {
+        let Run {
+            wall,
+            processors,
+            memory,
+        } = run(command);
+        let memory = memory as f64 / 1e9;
+        let _ = writeln!(
+            table,
+            "| the README's {name} command | {wall:.0} s | {processors:.0} s | {memory:.1} GB |"
+        );
+    }
+    let _ = writeln!(table, "{LINES}{lines} | | |");
+    println!("{table}");
+    if is_to_write() {
+        Page::open(PAGE, &["build"]).write("build", &table);
+    }
+    ExitCode::SUCCESS
+}
+
+/// The lines of LLVM's code of the core after functions were inlined that always are, and before anything else.
+fn lines() -> u64 {
+    let folder = Folder::new();
+    let file = folder.0.join("core.ll");
+    let emit = format!("--emit=llvm-ir={}", file.display());
+    let status = cargo("cargo rustc --release --locked --quiet --package marbles-core --lib --")
+        .args([&emit, "-Cno-prepopulate-passes", "-Cpasses=always-inline"])
+        .env("CARGO_TARGET_DIR", folder.0.join("target"))
+        .status();
+    assert!(status.is_ok_and(|status| status.success()));
+    let file = File::open(file).expect("the compiler writes a file");
+    BufReader::new(file).split(b'\n').count() as u64
+}
+
+/// The number that the page has.
+fn known_lines() -> u64 {
+    let page = fs::read_to_string(in_repository(PAGE)).expect("the page can be read");
+    let row = page.lines().find_map(|line| line.strip_prefix(LINES));
+    let number = row.and_then(|row| row.split_whitespace().next()?.parse().ok());
+    number.unwrap_or_else(|| panic!("{PAGE}: no row \"{LINES}\""))
+}
+
+/// A command of words without spaces, in the repository.
+fn cargo(words: &str) -> Command {
+    let mut words = words.split_whitespace();
+    let mut command = Command::new(words.next().expect("a command has words"));
+    command.args(words).current_dir(in_repository(""));
+    command
+}
+
+struct Run {
+    /// In seconds.
+    wall: f64,
+    processors: f64,
+    /// In bytes.
+    memory: u64,
+}
+
+/// Runs a command with an empty target.
+fn run(command: &str) -> Run {
+    let folder = Folder::new();
+    let command = command.replace("FOLDER", &folder.0.display().to_string());
+    let (start, before) = (Instant::now(), children_time());
+    let child = cargo(&command)
+        .env("CARGO_TARGET_DIR", folder.0.join("target"))
+        .stdout(Stdio::null())
+        .spawn();
+    let mut child = child.unwrap_or_else(|error| panic!("{command}: {error}"));
+    let mut memory = 0;
+    let status = loop {
+        memory = memory.max(compilers_memory());
+        if let Some(status) = child.try_wait().expect("the process can be asked") {
+            break status;
+        }
+        thread::sleep(Duration::from_millis(100));
+    };
+    assert!(status.success(), "{command}: {status}");
+    Run {
+        wall: start.elapsed().as_secs_f64(),
+        processors: children_time() - before,
+        memory,
+    }
+}
+
+/// The seconds of all processes that this one has waited for, and of those that they have.
+fn children_time() -> f64 {
+    /// Parts of a second in which Linux tells times.
+    const TICKS: f64 = 100.0;
+    let stat = fs::read_to_string("/proc/self/stat").expect("Linux tells what processes took");
+    // Behind the name in parentheses come 13 other numbers.
+    let numbers = stat.rsplit(')').next().unwrap_or_default();
+    let mut times = numbers.split_whitespace().skip(13).map(str::parse::<f64>);
+    let mut next = || {
+        times
+            .next()
+            .and_then(Result::ok)
+            .expect("a number of ticks")
+    };
+    (next() + next()) / TICKS
+}
+
+/// The most that any compiler that runs now has held so far.
+fn compilers_memory() -> u64 {
+    let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
+    let held = processes.filter_map(|process| held_by_compiler(&process.path()));
+    held.max().unwrap_or(0)
+}
+
+fn held_by_compiler(process: &Path) -> Option<u64> {
+    let name = fs::read_to_string(process.join("comm")).ok()?;
+    let status = fs::read_to_string(process.join("status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes: u64 = line?.split_whitespace().next()?.parse().ok()?;
+    (name.trim() == "rustc").then_some(kilobytes * 1024)
+}
