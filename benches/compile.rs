@@ -20,7 +20,7 @@ use marbles_benches::{Folder, in_repository, is_to_write};
 
 const PAGE: &str = "docs/growth.md";
 const COMMANDS: [&str; 2] = [
-    "cargo run --release --locked -- render scenes/turntable.ron --quiet -o FOLDER/turntable.####.png",
+    "cargo run --release --locked --quiet -- render scenes/turntable.ron --quiet -o FOLDER/turntable.####.png",
     "cargo test --workspace --locked --quiet",
 ];
 /// The row of the page with the number of lines.
