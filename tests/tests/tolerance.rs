@@ -1,11 +1,13 @@
-//! Tolerances on scenes of every kind, against fine supersampling.
+//! Tolerances on scenes of every kind.
 
 use std::path::Path;
 
+use glam::DVec4;
 use marbles_core::{Image, Status, View};
 use marbles_scene::Scene;
+use marbles_tests::reference::Reference;
 
-use crate::studio::{exact_picture, picture, pixels, single_pixel};
+use crate::studio::{exact_picture, picture, pixels};
 
 fn scene(body: &str) -> Scene {
     let text = format!("(image: (width: 60, height: 40), {body})");
@@ -55,24 +57,13 @@ fn scenes() -> Vec<Scene> {
     scenes
 }
 
-/// The mean of N × N samples, twice, and what it may be off by: the difference of both.
-fn reference(scene: &Scene, pixel: &View) -> ([f64; 4], f64) {
-    let [coarse, fine] =
-        [40, 110].map(|samples| picture(scene.world(), pixel, samples, true).rgba(0, 0));
-    let apart = coarse
-        .iter()
-        .zip(fine)
-        .map(|(coarse, fine)| (coarse - fine).abs())
-        .fold(0.0, f64::max);
-    (fine, apart)
-}
-
 #[test]
 fn every_kind_of_scene_meets_its_tolerance() {
     let tolerance = 1e-3;
     let mut checked = 0;
     for (number, scene) in scenes().iter().enumerate() {
         let view = scene.view(1).unwrap();
+        let reference = Reference::new(scene.world(), &view);
         let image = exact_picture(scene.world(), &view, tolerance, true);
         for (index, (col, row)) in pixels(&image).enumerate() {
             let found = image.rgba(col, row);
@@ -88,14 +79,13 @@ fn every_kind_of_scene_meets_its_tolerance() {
                 continue;
             }
             checked += 1;
-            let (expected, uncertain) = reference(scene, &single_pixel(&view, col, row));
-            for (found, expected) in found.into_iter().zip(expected) {
-                let error = (found - expected).abs();
-                assert!(
-                    error <= tolerance + 2.0 * uncertain,
-                    "scene {number}, pixel ({col}, {row}) is off by {error:e} ± {uncertain:e}"
-                );
-            }
+            let truth = reference.pixel_to(col, row, 0.02 * tolerance);
+            let off = (DVec4::from_array(found) - truth.value).abs().max_element();
+            assert!(
+                off <= tolerance + truth.error,
+                "scene {number}, pixel ({col}, {row}) is off by {off:e} ± {:e}",
+                truth.error
+            );
         }
     }
     assert!(checked > 1500);

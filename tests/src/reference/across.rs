@@ -14,9 +14,11 @@ use super::seeds::{Seeds, touching_lines};
 /// Lines of the first look, beside those that seeds suggest.
 const FIRST_LINES: usize = 24;
 /// How closely the lines are found between which the structure changes, in pixels: what begins
-/// there does so with zero width.
+/// there does so with zero width. Less closely where less is asked: by so much of the patch's goal.
 const CLOSE: f64 = 1e-11;
-const TOLERANCE: f64 = 2e-12;
+const CLOSE_SHARE: f64 = 1e-2;
+/// What the integral across lines may be off by, beside the noise, as a share of the patch's goal.
+const SHARE: f64 = 2e-2;
 const HALVINGS: u32 = 10;
 const RETRIES: u32 = 4;
 /// Lines that may be cut in one direction; and after how many changes count as found ten times
@@ -89,7 +91,8 @@ pub(crate) fn integral(patch: &Patch<'_>, seeds: &Seeds, way: Way) -> Found {
 impl<'patch> Across<'patch> {
     fn close(&self) -> f64 {
         let impatience = 10_f64.powi((self.lines.get() / PATIENCE) as i32);
-        (CLOSE + 2.0 * self.patch.noise) * impatience
+        let close = CLOSE.max(CLOSE_SHARE * self.patch.goal);
+        (close + 2.0 * self.patch.noise) * impatience
     }
 
     fn line(&self, t: f64) -> Line<'patch> {
@@ -239,7 +242,7 @@ impl<'patch> Across<'patch> {
             .filter(|peak| *peak > start && *peak < end)
             .collect();
         inner.sort_by(f64::total_cmp);
-        let tolerance = TOLERANCE + 2.0 * self.patch.noise;
+        let tolerance = SHARE * self.patch.goal + 2.0 * self.patch.noise;
         let mut from = start;
         for to in inner.into_iter().chain([end]) {
             sum.add(integrate(from, to, tolerance, HALVINGS, &mut light));

@@ -10,12 +10,13 @@ use super::light::{Signature, Spot};
 use super::patch::{Candidate, Patch};
 use super::quadrature::{Integral, changes, integrate, zeros};
 
-/// Places closer than this are one, in pixels, beside the noise of rounding.
+/// Places closer than this are one, in pixels, beside the noise of rounding; closer than so much of the patch's goal, too.
 const CLOSE: f64 = 2e-12;
+const CLOSE_SHARE: f64 = 2e-3;
 /// Parts shorter than this many times that do not count as a difference between two lines.
 const SHORT: f64 = 10.0;
-/// What the light along a line may be off by, in pixels times light, beside the noise.
-const TOLERANCE: f64 = 2e-13;
+/// What the light along a line may be off by, in pixels times light, beside the noise, as a share of the patch's goal.
+const SHARE: f64 = 2e-3;
 /// How often a part of a line may be halved, and how often a line is cut again.
 const HALVINGS: u32 = 12;
 const RETRIES: u32 = 4;
@@ -47,7 +48,7 @@ impl Line<'_> {
     }
 
     fn close(&self) -> f64 {
-        CLOSE + self.patch.noise
+        CLOSE.max(CLOSE_SHARE * self.patch.goal) + self.patch.noise
     }
 
     /// What is seen along the line, in order.
@@ -102,7 +103,7 @@ impl Line<'_> {
             surprises.extend(surprise);
             return Integral::default();
         }
-        let tolerance = TOLERANCE + self.patch.noise;
+        let tolerance = SHARE * self.patch.goal + self.patch.noise;
         let mut sum = Integral::default();
         let mut start = piece.start;
         let inner = |peak: &&f64| **peak > piece.start && **peak < piece.end;

@@ -72,16 +72,17 @@ impl<'world> Reference<'world> {
 
     /// The truth of a pixel where it need not be known better than to this error.
     pub fn pixel_to(&self, col: u32, row: u32, tolerance: f64) -> Truth {
-        let patch = Patch::of_pixel(&self.stage, col, row);
+        let tolerance = tolerance.max(TOLERANCE);
+        let patch = Patch::of_pixel(&self.stage, col, row, tolerance);
         let mut budget = BUDGET;
-        let mut truth = patch_truth(&patch, DEPTH, tolerance.max(TOLERANCE), &mut budget);
+        let mut truth = patch_truth(&patch, DEPTH, tolerance, &mut budget);
         truth.error += ROUNDING + patch.noise;
         truth
     }
 
     /// The truth as the sum of its four quarters': what hides in one hardly hides in both.
     pub fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
-        let patch = Patch::of_pixel(&self.stage, col, row);
+        let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let mut budget = BUDGET;
         let mut sum = Truth {
             value: DVec4::ZERO,
@@ -101,12 +102,14 @@ impl<'world> Reference<'world> {
 
     /// Whether any sphere may be seen in a pixel.
     pub fn sees_anything(&self, col: u32, row: u32) -> bool {
-        !Patch::of_pixel(&self.stage, col, row).candidates.is_empty()
+        !Patch::of_pixel(&self.stage, col, row, TOLERANCE)
+            .candidates
+            .is_empty()
     }
 
     /// Whether corners and middle of a pixel, a few points in all, differ in what they see.
     pub fn seems_to_change(&self, col: u32, row: u32) -> bool {
-        let patch = Patch::of_pixel(&self.stage, col, row);
+        let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let look = |x: i32, y: i32| {
             let point = DVec2::new(f64::from(x), f64::from(y)) * 0.25;
             patch.signature(patch.direction(point))
@@ -118,7 +121,7 @@ impl<'world> Reference<'world> {
 
     /// The mean of N × N midpoints: slow and rough, but hard to get wrong.
     pub fn midpoints(&self, col: u32, row: u32, count: u32) -> DVec4 {
-        let patch = Patch::of_pixel(&self.stage, col, row);
+        let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let place = |index: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;
         let mut sum = DVec4::ZERO;
         for y in 0..count {

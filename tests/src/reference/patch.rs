@@ -97,6 +97,8 @@ pub(crate) struct Patch<'stage> {
     /// What rounding costs: places along lines are off by so many pixels, light by so much. Lines
     /// of both directions share it.
     pub(crate) noise: f64,
+    /// What the integral may be off by; lines and their parts have shares of it.
+    pub(crate) goal: f64,
     /// Spheres that may be seen in it.
     pub(crate) candidates: Vec<Candidate>,
 }
@@ -118,7 +120,7 @@ impl Candidate {
 }
 
 impl<'stage> Patch<'stage> {
-    pub(crate) fn of_pixel(stage: &'stage Stage<'stage>, col: u32, row: u32) -> Self {
+    pub(crate) fn of_pixel(stage: &'stage Stage<'stage>, col: u32, row: u32, goal: f64) -> Self {
         let view = &stage.view;
         let mut pixel = view.lens.width / f64::from(view.width);
         let from_middle = DVec2::new(
@@ -136,7 +138,7 @@ impl<'stage> Patch<'stage> {
         let (right, up) = (axes.x_axis * pixel, axes.y_axis * pixel);
         let key = (col, row, view.frame);
         let half = DVec2::splat(0.5);
-        Self::new(stage, key, [origin, right, up], -half, half)
+        Self::new(stage, key, [origin, right, up], (-half, half), goal)
     }
 
     /// The quarter on the left (0) or right (1), below (0) or above (1).
@@ -144,7 +146,7 @@ impl<'stage> Patch<'stage> {
         let size = 0.5 * (self.high - self.low);
         let low = self.low + size * side;
         let frame = [self.origin, self.right, self.up];
-        Patch::new(self.stage, self.key, frame, low, low + size)
+        Patch::new(self.stage, self.key, frame, (low, low + size), self.goal)
     }
 
     pub(crate) fn direction(&self, point: DVec2) -> DVec3 {
@@ -173,8 +175,8 @@ impl<'stage> Patch<'stage> {
         stage: &'stage Stage<'stage>,
         key: (u32, u32, i64),
         [origin, right, up]: [DVec3; 3],
-        low: DVec2,
-        high: DVec2,
+        (low, high): (DVec2, DVec2),
+        goal: f64,
     ) -> Self {
         let mut patch = Self {
             stage,
@@ -185,6 +187,7 @@ impl<'stage> Patch<'stage> {
             low,
             high,
             noise: 0.0,
+            goal,
             candidates: Vec::new(),
         };
         let cone = patch.beam();

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec4};
 
 use super::patch::Patch;
-use super::{Reference, Truth};
+use super::{Reference, TOLERANCE, Truth};
 
 /// Standard deviations that the mean is taken to be off by at most.
 const DEVIATIONS: f64 = 6.0;
@@ -13,7 +13,7 @@ impl Reference<'_> {
     ///
     /// The error follows from how far both samples of a stratum are apart; what no sample sees is not in it.
     pub fn by_strata(&self, col: u32, row: u32, side: u32) -> Truth {
-        let patch = Patch::of_pixel(&self.stage, col, row);
+        let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let mut state = u64::from(col) << 32 | u64::from(row);
         let mut uniform = || {
             state = state

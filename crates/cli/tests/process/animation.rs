@@ -180,7 +180,7 @@ fn without_all_frames_there_is_no_loop() {
 fn an_interrupted_loop_leaves_nothing() {
     let folder = Folder::new();
     let mut child = folder
-        .marbles("render roll.ron -o out/a.apng --frames 1-600 --size 150x150 --samples 30")
+        .marbles("render roll.ron -o out/a.apng --frames 1-600 --size 150x150 --samples 12")
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .spawn()

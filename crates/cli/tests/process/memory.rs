@@ -29,13 +29,12 @@ fn colored() -> Folder {
 #[test]
 fn pictures_larger_than_the_memory_are_rendered() {
     // Of address space, which the binary and the stacks of threads take, too.
-    const KILOBYTES: u32 = 400_000;
+    const KILOBYTES: u32 = 300_000;
     let folder = colored();
-    // 16.8 million pixels of four channels in double precision are 537 MB.
+    // 11.5 million pixels of four channels in double precision are 367 MB.
     for output in ["a.png --bits 16", "a.exr --float", "a.npy"] {
-        let arguments = format!(
-            "render ball.ron -o {output} --alpha --samples 1 --threads 2 --size 16384x1024"
-        );
+        let arguments =
+            format!("render ball.ron -o {output} --alpha --samples 1 --threads 2 --size 16384x700");
         let mut marbles = in_memory(&folder, KILOBYTES, &arguments);
         // Otherwise glibc sets 64 MiB aside for each thread, more or less of them from run to run.
         let output = marbles.env("MALLOC_ARENA_MAX", "1").output().unwrap();
@@ -136,7 +135,7 @@ fn memory_that_ends_in_small_pieces_is_an_error() {
     fs::write(folder.path("table.ron"), scene).unwrap();
     let mut said = String::new();
     // From less than the table takes on.
-    for kilobytes in (26_000..80_000).step_by(1000) {
+    for kilobytes in (26_000..80_000).step_by(1800) {
         let arguments = "render table.ron -o a.png --samples 1 --threads 2";
         let output = in_memory(&folder, kilobytes, arguments).output().unwrap();
         let errors = text(&output.stderr);

@@ -56,7 +56,7 @@ fn nothing_that_parallel_rays_see_is_farther_from_its_average_than_is_proved() {
 }
 
 fn hold(place: impl Fn(&mut Random, [f64; 2]) -> Place) {
-    const PLACES: usize = 1500;
+    const PLACES: usize = 800;
     let nodes = fixed::gauss(14);
     let mut random = Random(15);
     let mut asked = 0;
