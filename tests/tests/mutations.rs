@@ -4,7 +4,7 @@ use marbles_tests::mutations::{Limit, TARGETS, search_all};
 
 #[test]
 fn altered_files_are_read_or_refused() {
-    const INPUTS: u64 = 400;
+    const INPUTS: u64 = 300;
     let all = search_all(20261124, Limit::Inputs(INPUTS), None);
     assert_eq!(all.len(), TARGETS.len());
     for (target, found) in all {
