@@ -20,13 +20,11 @@ fn data_set(name: &str, layout: &str) -> PathBuf {
     folder
 }
 
-#[test]
 fn least_squares_find_the_normals_of_a_data_set() {
     let folder = data_set("photometric", "diligent");
     python::run("photometric_stereo.py", &PACKAGES, &[&folder]);
 }
 
-#[test]
 fn lights_normals_and_depths_predict_the_pictures_under_near_lights() {
     let folder = data_set("near_lights", "luces");
     python::run("near_lights.py", &PACKAGES, &[&folder]);
@@ -38,7 +36,6 @@ fn last_python(page: &str) -> &str {
     rest.split_once("```").unwrap().0
 }
 
-#[test]
 fn the_recipe_for_lens_noise_and_response_runs() {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("recipe");
     let repository = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -54,6 +51,14 @@ fn the_recipe_for_lens_noise_and_response_runs() {
         &["numpy"],
         &[&folder, Path::new("recipe.py")],
     );
+}
+
+/// One after the other: all wait for the same packages.
+#[test]
+fn pictures_are_what_others_make_of_them() {
+    least_squares_find_the_normals_of_a_data_set();
+    lights_normals_and_depths_predict_the_pictures_under_near_lights();
+    the_recipe_for_lens_noise_and_response_runs();
 }
 
 #[test]

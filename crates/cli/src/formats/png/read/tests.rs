@@ -152,7 +152,7 @@ fn interlaced_pictures_are_the_same() {
         [5, 6, 5, 6, 5, 6, 5, 6],
         [7, 7, 7, 7, 7, 7, 7, 7],
     ];
-    for (width, height) in [(1, 1), (2, 3), (5, 1), (8, 8), (13, 21), (40, 30)] {
+    for (width, height) in [(1, 1), (2, 3), (5, 1), (8, 8), (13, 21), (17, 9)] {
         let code = |col: u32, row: u32| (7 * col + 31 * row) as u8;
         let mut bytes = Vec::new();
         for pass in 1..=7 {
