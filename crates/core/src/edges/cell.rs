@@ -24,11 +24,13 @@ pub(crate) struct Cell {
 pub(crate) struct Ball {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
-    /// K = |center|² − radius², positive for an eye outside. For parallel rays the center's distance from the
-    /// plane in which they begin, where the sphere lies before it; not positive where the plane cuts it.
+    /// K for an eye. For parallel rays the center's distance from the plane in which they begin, where the sphere lies
+    /// before it; not positive where the plane cuts it.
     ///
     /// Of spheres that are apart the nearer has the smaller one, either way.
     pub(crate) outside: f64,
+    /// K = |center|² − radius², positive for an eye outside: rounded once, from the world's numbers.
+    pub(crate) power: f64,
     pub(crate) projection: Projection,
 }
 
@@ -48,7 +50,31 @@ impl Ball {
     /// come so near to the eye that the two nearly cancel.
     #[inline(always)]
     pub(crate) fn is_apart(&self) -> bool {
-        self.radius * self.radius <= self.outside
+        self.radius * self.radius <= self.power
+    }
+
+    /// K of a point: the square of its distance from the center less that of the radius.
+    #[inline(always)]
+    pub(crate) fn power_of(&self, point: DVec3) -> f64 {
+        if self.is_apart() {
+            let distance = (point - self.center).length();
+            (distance - self.radius) * (distance + self.radius)
+        } else {
+            point.dot(point - 2.0 * self.center) + self.power
+        }
+    }
+
+    /// The length that rounding moves the outline by which parallel rays see, in units of the roundoff.
+    pub(crate) fn outline_scale(&self, cell: &Cell) -> f64 {
+        let aside = cell.extent();
+        if self.is_apart() {
+            return self.center.length() + self.radius;
+        }
+        // That of the discriminant, over its slope.
+        let terms = self.center.z * self.center.z
+            + self.power.abs()
+            + aside * (aside + 2.0 * self.center.length());
+        0.5 * terms / self.radius
     }
 }
 

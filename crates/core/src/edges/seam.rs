@@ -5,32 +5,55 @@ use glam::DVec3;
 use super::cell::{Ball, Cell, dot};
 use crate::numeric::polynomial::{Linear, Quadratic};
 
-/// Vanishes where the ray through (x, y) meets both spheres in one point, on their near sides or
-/// on others.
-///
-/// The circle lies in the plane p · w = (K₁ − K₂) / 2, w = c₁ − c₂, which is cut with the smaller
-/// sphere.
-pub(crate) fn seam(cell: &Cell, one: &Ball, other: &Ball) -> Quadratic {
-    let (small, large) = if one.radius <= other.radius {
-        (one, other)
-    } else {
-        (other, one)
-    };
-    let between = small.center - large.center;
-    let length = between.length();
-    let normal = between / length;
-    // The plane's distance from the smaller center along the normal: from the radii, or from K,
-    // whichever rounds less.
-    let by_radii = (large.radius - length) * (large.radius + length) - small.radius * small.radius;
-    let by_outside = small.outside - large.outside - 2.0 * small.center.dot(between);
-    let radii_cost = large.radius.max(length) * length.max(1e-300);
-    let outside_cost = small.outside.abs() + large.outside.abs() + small.center.length() * length;
-    let twice = if radii_cost <= outside_cost || cell.is_parallel() {
-        by_radii
-    } else {
-        by_outside
-    };
-    plane_cut(cell, small, normal, 0.5 * twice / length)
+/// The plane in which two spheres intersect: p · w = (K₁ − K₂) / 2, w = c₁ − c₂.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeamPlane {
+    /// The smaller of the spheres.
+    pub(crate) small: Ball,
+    /// The unit vector toward it from the other one.
+    pub(crate) normal: DVec3,
+    /// The plane's distance from its center along that.
+    pub(crate) offset: f64,
+    /// The length that rounding moves the plane by, in units of the roundoff.
+    pub(crate) scale: f64,
+}
+
+impl SeamPlane {
+    /// Of two spheres that intersect: from the radii, or from K, whichever rounds less.
+    pub(crate) fn new(one: &Ball, other: &Ball) -> Self {
+        let (small, large) = if one.radius <= other.radius {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let between = small.center - large.center;
+        let length = between.length();
+        let radii_cost = large.radius.max(length) * length.max(1e-300);
+        let power_cost = small.power.abs() + large.power.abs() + small.center.length() * length;
+        let (twice, cost) = if radii_cost <= power_cost {
+            let radii = (large.radius - length) * (large.radius + length);
+            (radii - small.radius * small.radius, radii_cost)
+        } else {
+            let twice = small.power - large.power - 2.0 * small.center.dot(between);
+            (twice, power_cost)
+        };
+        Self {
+            small: *small,
+            normal: between / length,
+            offset: 0.5 * twice / length,
+            scale: cost / length,
+        }
+    }
+
+    /// The square of the circle's radius; not positive where there is none.
+    pub(crate) fn radius_sq(&self) -> f64 {
+        (self.small.radius - self.offset) * (self.small.radius + self.offset)
+    }
+
+    /// Vanishes where the ray through (x, y) meets both spheres in one point, on their near sides or on others.
+    pub(crate) fn seen(&self, cell: &Cell) -> Quadratic {
+        plane_cut(cell, &self.small, self.normal, self.offset)
+    }
 }
 
 /// Vanishes where the ray through (x, y) meets a sphere in the plane (p − c) · w = `offset`, w

@@ -1,5 +1,7 @@
 //! The outlines of spheres.
 
+use glam::DVec3;
+
 use super::cell::{Ball, Cell, dot};
 use crate::numeric::polynomial::Quadratic;
 
@@ -9,21 +11,31 @@ use crate::numeric::polynomial::Quadratic;
 /// # Source
 /// For |t d − c|² = r² in t, with A = d·d, B = d·c, K = c·c − r²: Q = B² − A K. For an eye far
 /// outside, Lagrange's identity makes of it A r² − |d × c|², in which no large terms cancel. Of parallel rays it is
-/// the square of the radius less that of the distance from the center.
+/// the square of the radius less that of the distance from the center, or c_z² less K of where they begin.
 pub(crate) fn silhouette(cell: &Cell, ball: &Ball) -> Quadratic {
     if cell.is_parallel() {
-        let [x, y] = cell.aside(ball.center);
-        let radius_sq = Quadratic {
-            one: ball.radius * ball.radius,
-            ..Quadratic::default()
-        };
-        radius_sq - x * x - y * y
+        if ball.is_apart() {
+            let [x, y] = cell.aside(ball.center);
+            constant(ball.radius * ball.radius) - x * x - y * y
+        } else {
+            // c_z² − K', with K' = K + u² + v² − 2 (u c_x + v c_y) where a ray begins.
+            let (c, [u, v]) = (ball.center, cell.aside(DVec3::ZERO));
+            let [by_u, by_v] = cell.aside(2.0 * c);
+            constant(c.z * c.z - ball.power) - u * by_u - v * by_v
+        }
     } else if ball.is_apart() {
         let across = cell.cross(ball.center);
         cell.ray_sq() * (ball.radius * ball.radius) - dot(&across, &across)
     } else {
         let along = cell.dot(ball.center);
         along * along - cell.ray_sq() * ball.outside
+    }
+}
+
+fn constant(one: f64) -> Quadratic {
+    Quadratic {
+        one,
+        ..Quadratic::default()
     }
 }
 

@@ -30,6 +30,7 @@ pub(crate) fn ball(center: DVec3, radius: f64) -> Ball {
         center,
         radius,
         outside: center.length_squared() - radius * radius,
+        power: center.length_squared() - radius * radius,
         projection: crate::model::camera::Projection::Central,
     }
 }

@@ -85,6 +85,7 @@ impl<'scene> Areas<'scene> {
                 tolerance,
                 is_proved: false,
                 has_alpha: false,
+                of_coverage: 1.0,
                 background: Color::ZERO,
                 contrast: 1.0,
                 allowance: Allowance::still(1),

@@ -218,7 +218,7 @@ pub(crate) const FILLED: [u64; 2] = [10, 60];
 /// 0.5 to 0.9: an estimate, which only decides how much is tried.
 fn need(grains: f64, tolerance: f64) -> f64 {
     const OF_ONE: f64 = 200.0;
-    const TOLERANCE: f64 = 1e-3;
+    const TOLERANCE: f64 = 5e-4;
     const POWER: f64 = 2.0 / 3.0;
     OF_ONE * grains * grains * libm::pow(TOLERANCE / tolerance, POWER)
 }

@@ -30,6 +30,9 @@ pub(crate) struct Context<'scene> {
     pub(crate) is_proved: bool,
     /// Whether pixels have an alpha channel.
     pub(crate) has_alpha: bool,
+    /// The light that an error of the covered area counts as, in units: 1 where the area is what is asked for. In pictures
+    /// without alpha light alone counts, which edges change by about as much.
+    pub(crate) of_coverage: f64,
     /// The light of pixels that see no sphere.
     pub(crate) background: Color,
     /// About the largest difference of light that an edge may make, highlights left out.

@@ -8,6 +8,7 @@ use super::budget::Allowance;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::scene::{InCamera, MOST_LIGHTS};
+use super::unit::LightUnit;
 use super::{LitTile, Scratch, tile_pixels};
 use crate::model::color::Color;
 use crate::model::roughness::PixelKey;
@@ -34,6 +35,8 @@ pub(crate) struct Exact<'scene> {
     /// One for each group of lights.
     groups: Vec<Context<'scene>>,
     world: &'scene World,
+    /// The unit of the light that the groups are integrated in.
+    unit: f64,
     /// The error that a pixel may have.
     tolerance: f64,
     /// Whether pictures have an alpha channel in place of the background.
@@ -48,6 +51,9 @@ pub(crate) struct Exact<'scene> {
 /// Samples on a side of a pixel that no other rung answers for.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
 const FEW_SAMPLES: NonZeroU32 = NonZeroU32::new(1).unwrap();
+
+/// The light, in units, that an error of the covered area counts as without an alpha channel. Not tuned.
+const OF_COVERAGE: f64 = 0.25;
 
 /// How far spheres may be, in radii, for rays to be decided without integers: the square of this is what
 /// numbers of twice the precision may lose and still have all places of a double.
@@ -73,28 +79,25 @@ impl<'scene> Exact<'scene> {
         alpha: bool,
     ) -> Self {
         let count = index.visibility.lights().len().div_ceil(MOST_LIGHTS).max(1);
-        let lights = index.visibility.lights().iter();
-        let lights = lights.map(|light| light.intensity().max_element());
-        let contrast = 1.0
-            + world.ambient.max_element()
-            + world.background.max_element()
-            + lights.sum::<f64>()
-            + brightest_stroke(world);
+        let LightUnit { contrast, unit } = LightUnit::new(world, index.visibility.lights());
+        let contrast = if alpha { contrast.max(1.0) } else { contrast };
         let channels = Channels::of(world, alpha);
         let context = |group| {
             let scene = InCamera::new(world, &index.visibility, view, channels, group);
+            let scene = scene.in_units_of(unit);
             let normals = scene.single_light().map(|_| scene.of_normals());
             Context {
                 scene,
                 normals,
                 view: *view,
-                tolerance: tolerance / count as f64,
+                tolerance: tolerance / unit / count as f64,
                 is_proved: true,
                 has_alpha: alpha,
+                of_coverage: if alpha { 1.0 } else { OF_COVERAGE },
                 background: if alpha || group > 0 {
                     Color::ZERO
                 } else {
-                    world.background
+                    world.background / unit
                 },
                 contrast,
                 allowance: Allowance::still(count),
@@ -104,6 +107,7 @@ impl<'scene> Exact<'scene> {
             is_moderate: is_view_moderate(view),
             groups: (0..count).map(context).collect(),
             world,
+            unit,
             tolerance,
             alpha,
             samples: Supersampling::new(world, view, index, SAMPLES, alpha),
@@ -186,6 +190,8 @@ impl<'scene> Exact<'scene> {
         }
         // What one group is over its share, another may be below.
         for pixel in &mut *pixels {
+            pixel.value *= self.unit;
+            pixel.error *= self.unit;
             if pixel.error <= self.tolerance {
                 pixel.status = Status::Met;
             }
@@ -222,7 +228,8 @@ impl<'scene> Exact<'scene> {
         let below = (pixel.value - least).max_element();
         pixel.error = above.max(below) * WIDER;
         if self.alpha {
-            pixel.error = pixel.error.max(pixel.alpha).max(1.0 - pixel.alpha);
+            let of_alpha = pixel.alpha.max(1.0 - pixel.alpha);
+            pixel.error = pixel.error.max(self.unit * of_alpha);
         }
         pixel.evidence = Evidence::Bound;
         pixel.status = if pixel.error <= self.tolerance {
@@ -233,11 +240,20 @@ impl<'scene> Exact<'scene> {
         pixel
     }
 
+    /// A pixel that sees no sphere. Only the first group of lights has a background.
+    fn empty_pixel(&self) -> Pixel {
+        let pixel = self.groups[0].empty_pixel();
+        Pixel {
+            value: pixel.value * self.unit,
+            ..pixel
+        }
+    }
+
     /// Bounds of the light, in each channel, of what may be seen of these spheres and of the background: in the
     /// dark, and where all lights and their highlights are at their highest.
     fn range_of_light(&self, candidates: &[usize]) -> [Color; 2] {
         let world = self.world;
-        let background = self.groups[0].background;
+        let background = self.empty_pixel().value;
         let [mut least, mut most] = [background; 2];
         for &sphere in candidates {
             let lights = self.index.visibility.lights().iter();
@@ -276,9 +292,9 @@ pub(crate) fn paint_each(
     };
     let candidates = first.index.indices(tile);
     if candidates.is_empty() {
-        // Most pictures have empty tiles. Only the first group of lights has a background.
+        // Most pictures have empty tiles.
         for (exact, band) in pictures {
-            band.write_same(tile, &exact.groups[0].empty_pixel());
+            band.write_same(tile, &exact.empty_pixel());
         }
         return Work::default();
     }
@@ -320,12 +336,6 @@ fn integrate_each(
         write(index, exact.sum(tile, candidates, lit));
     }
     work
-}
-
-/// The brightest channel of all strokes.
-fn brightest_stroke(world: &World) -> f64 {
-    let strokes = world.stroke_colors().map(Color::max_element);
-    strokes.fold(0.0, f64::max)
 }
 
 /// Adds the light of another group.

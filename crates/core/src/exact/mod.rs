@@ -33,6 +33,7 @@ mod part;
 mod points;
 mod scene;
 mod surface;
+pub(crate) mod unit;
 
 use fearless_simd::Simd;
 

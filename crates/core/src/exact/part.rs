@@ -26,6 +26,25 @@ impl Part {
         self.error += other.error * share;
         self.rounding += other.rounding * share;
     }
+
+    /// How far another integral over the same is from this one.
+    fn distance_from(&self, other: &Self) -> f64 {
+        let off = (self.value - other.value).abs().max_element();
+        off.max((self.covered - other.covered).abs())
+    }
+
+    /// Whether another integral over the same is farther away than both claim.
+    pub(crate) fn differs_from(&self, other: &Self) -> bool {
+        self.distance_from(other) > self.error + other.error
+    }
+
+    /// The same, which claims at least to be as far off as another one is.
+    pub(crate) fn or_as_far_as(&self, other: &Self) -> Self {
+        Self {
+            error: self.error.max(self.distance_from(other)),
+            ..*self
+        }
+    }
 }
 
 /// The reason for which a rung leaves a pixel, or a part of one, to the next rung.

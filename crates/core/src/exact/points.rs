@@ -17,8 +17,8 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) t: f64x8<S>,
     /// Unit outward normals.
     pub(crate) normal: Vectors<S>,
-    /// The center and the radius of the sphere, where rays are parallel: places follow from normals there.
-    parallel: Option<(DVec3, f64)>,
+    /// Where parallel rays begin, in the plane across them.
+    begin: Option<[f64x8<S>; 2]>,
 }
 
 impl<S: Simd> Points<S> {
@@ -36,7 +36,7 @@ impl<S: Simd> Points<S> {
             ray_sq: zero,
             t: zero,
             normal: nothing,
-            parallel: None,
+            begin: None,
         }
     }
 
@@ -47,8 +47,17 @@ impl<S: Simd> Points<S> {
         let one = f64x8::splat(simd, 1.0);
         if ball.is_parallel() {
             let (a, b) = (ray.x - ball.center.x, ray.y - ball.center.y);
-            let discriminant = (a * a + b * b) * -1.0 + ball.radius * ball.radius;
-            let root = discriminant.max(zero).sqrt();
+            let z = ball.center.z;
+            let (root, t) = if ball.is_apart() {
+                let discriminant = (a * a + b * b) * -1.0 + ball.radius * ball.radius;
+                let root = discriminant.max(zero).sqrt();
+                (root, root * -1.0 + z)
+            } else {
+                // K of where a ray begins.
+                let power = ray.x * (a - ball.center.x) + ray.y * (b - ball.center.y) + ball.power;
+                let root = (power * -1.0 + z * z).max(zero).sqrt();
+                (root, power / (root + z))
+            };
             let from_center = Vectors {
                 x: a,
                 y: b,
@@ -57,9 +66,9 @@ impl<S: Simd> Points<S> {
             return Self {
                 ray: Vectors::splat(simd, DVec3::Z),
                 ray_sq: one,
-                t: root * -1.0 + ball.center.z,
+                t,
                 normal: from_center.times(one * (1.0 / ball.radius)),
-                parallel: Some((ball.center, ball.radius)),
+                begin: Some([ray.x, ray.y]),
             };
         }
         let ray_sq = ray.length_squared();
@@ -79,7 +88,7 @@ impl<S: Simd> Points<S> {
                 ray_sq,
                 t,
                 normal,
-                parallel: None,
+                begin: None,
             }
         } else {
             let discriminant = along * along - ray_sq * ball.outside;
@@ -91,7 +100,7 @@ impl<S: Simd> Points<S> {
                 ray_sq,
                 t,
                 normal: from_center.times(one * (1.0 / ball.radius)),
-                parallel: None,
+                begin: None,
             }
         }
     }
@@ -99,11 +108,8 @@ impl<S: Simd> Points<S> {
     /// The points, in the camera's frame.
     #[inline(always)]
     pub(crate) fn place(&self) -> Vectors<S> {
-        match self.parallel {
-            Some((center, radius)) => {
-                let from_center = self.normal.times(self.t * 0.0 + radius);
-                Vectors::splat(self.t.simd(), center).plus(&from_center)
-            }
+        match self.begin {
+            Some([x, y]) => Vectors { x, y, z: self.t },
             None => self.ray.times(self.t),
         }
     }

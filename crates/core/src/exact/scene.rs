@@ -54,6 +54,8 @@ pub(crate) struct InCamera<'scene> {
     strokes: Option<StrokeView>,
     /// Whether strokes are black, as in all groups but the first.
     are_strokes_black: bool,
+    /// What their colors are multiples of.
+    stroke_unit: f64,
 }
 
 /// The number of spheres up to which all are brought into the camera's frame once for a view: they take
@@ -112,8 +114,11 @@ impl<'scene> InCamera<'scene> {
     ) -> Self {
         let world_from_camera = view.camera.world_from_camera;
         let camera_from_world = world_from_camera.transpose();
-        let viewpoint = view.camera.position;
         let projection = view.lens.projection();
+        let viewpoint = match projection {
+            Projection::Central => view.camera.position,
+            Projection::Parallel => moved_ahead(world, view.camera.position, view.camera.forward()),
+        };
         let in_camera =
             |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world, projection);
         let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
@@ -191,7 +196,18 @@ impl<'scene> InCamera<'scene> {
             is_of_normals: false,
             strokes: world.has_strokes().then(|| view.of_strokes()),
             are_strokes_black: group > 0,
+            stroke_unit: 1.0,
         }
+    }
+
+    /// The same, whose light is in multiples of a unit.
+    pub(crate) fn in_units_of(mut self, unit: f64) -> Self {
+        for light in &mut self.lights {
+            light.intensity /= unit;
+        }
+        self.ambient /= unit;
+        self.stroke_unit = unit;
+        self
     }
 
     /// The same scene whose smooth spheres send their normals, in the camera's frame, as red, green and blue: three
@@ -256,13 +272,15 @@ impl<'scene> InCamera<'scene> {
             return None;
         }
         let radius = stroke.width.inner_radius(view, ball.center, ball.radius);
+        let power = ball.power + (ball.radius - radius) * (ball.radius + radius);
         let outside = match ball.projection {
-            Projection::Central => ball.outside + (ball.radius - radius) * (ball.radius + radius),
+            Projection::Central => power,
             Projection::Parallel => ball.outside,
         };
         Some(Ball {
             radius,
             outside,
+            power,
             ..*ball
         })
     }
@@ -271,7 +289,7 @@ impl<'scene> InCamera<'scene> {
     pub(crate) fn stroke_color(&self, sphere: usize) -> Color {
         let stroke = self.world.material(sphere).stroke;
         match stroke {
-            Some(stroke) if !self.are_strokes_black => stroke.color,
+            Some(stroke) if !self.are_strokes_black => stroke.color / self.stroke_unit,
             _ => Color::ZERO,
         }
     }
@@ -315,6 +333,42 @@ impl<'scene> InCamera<'scene> {
     }
 }
 
+/// A viewpoint of parallel rays, moved along them to just before the nearest sphere that they may meet: how far away they
+/// begin changes nothing about them, but what rounding moves grows with it. Where their plane cuts a sphere it stays.
+fn moved_ahead(world: &World, viewpoint: DVec3, forward: DVec3) -> DVec3 {
+    let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
+    let begin = |sphere: &Sphere| {
+        let ahead = (sphere.center() - viewpoint).dot(forward);
+        let slack = WIDER * sphere.radius() + (ahead.abs() + viewpoint.length()) * (WIDER - 1.0);
+        if ahead >= slack {
+            // In the world, so that the place does not depend on the viewpoint's.
+            sphere.center().dot(forward) - WIDER * sphere.radius()
+        } else if ahead <= -slack {
+            f64::INFINITY
+        } else {
+            f64::NAN
+        }
+    };
+    let nearest = spheres.map(begin).reduce(
+        || f64::INFINITY,
+        |one, other| {
+            if one <= other {
+                one
+            } else if other < one {
+                other
+            } else {
+                f64::NAN
+            }
+        },
+    );
+    let moved = viewpoint + forward * (nearest - viewpoint.dot(forward));
+    if nearest.is_finite() && moved.is_finite() {
+        moved
+    } else {
+        viewpoint
+    }
+}
+
 fn in_camera(
     sphere: &Sphere,
     viewpoint: DVec3,
@@ -325,11 +379,13 @@ fn in_camera(
         *camera_from_world * (sphere.center() - viewpoint),
         sphere.radius(),
     );
+    let power = sphere.outside(viewpoint);
     Ball {
         center,
         radius,
+        power,
         outside: match projection {
-            Projection::Central => sphere.outside(viewpoint),
+            Projection::Central => power,
             Projection::Parallel if center.z >= radius => center.z,
             Projection::Parallel => -1.0,
         },

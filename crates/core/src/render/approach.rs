@@ -5,6 +5,7 @@ use std::num::NonZeroU32;
 use rayon::prelude::*;
 
 use super::settings::Settings;
+use crate::exact::unit::LightUnit;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::exposure::Exposure;
@@ -144,10 +145,10 @@ fn has_smaller(world: &World, view: &View, radius: f64) -> bool {
     world.spheres().par_iter().any(is_smaller)
 }
 
-/// The largest difference between what pixels may show, in any channel; alpha is one.
+/// The largest difference between what pixels may show, in any channel, and in alpha, which has the unit of light.
 fn contrast(world: &World, lights: &[Light], alpha: bool) -> f64 {
     let (background, of_alpha) = if alpha {
-        (Color::ZERO, 1.0)
+        (Color::ZERO, LightUnit::new(world, lights).unit)
     } else {
         (world.background, 0.0)
     };

@@ -2,6 +2,7 @@
 
 use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use crate::exact::unit::LightUnit;
 use crate::model::light::Light;
 use crate::model::world::World;
 
@@ -12,10 +13,16 @@ pub(super) struct Contrast {
     pub(super) ordinary: f64,
     /// A bound of all.
     pub(super) most: f64,
+    /// The light that an error of alpha counts as: none without an alpha channel.
+    pub(super) of_alpha: f64,
 }
 
 impl Contrast {
-    pub(super) fn new(world: &World, lights: &[Light]) -> Self {
+    pub(super) fn new(world: &World, lights: &[Light], alpha: bool) -> Self {
+        let of_alpha = match alpha {
+            true => LightUnit::new(world, lights).unit,
+            false => 0.0,
+        };
         let lights = lights.iter();
         let lights: f64 = lights.map(|light| brightest(world, light)).sum();
         let white = world.ambient.max_element() + lights;
@@ -26,11 +33,14 @@ impl Contrast {
             world.albedo(sphere).max_element() * white + strength * lights
         });
         let strokes = world.stroke_colors().map(|color| color.max_element());
-        let least = world.background.max_element().max(1.0);
+        let least = world.background.max_element();
+        // A black world has no contrast.
+        let least = least.max(of_alpha).max(f64::MIN_POSITIVE);
         let least = strokes.fold(least, f64::max);
         Self {
             ordinary: white.max(least),
             most: of_spheres.reduce(|| 0.0, f64::max).max(least),
+            of_alpha,
         }
     }
 }

@@ -48,7 +48,7 @@ impl<'scene> ExactOverTime<'scene> {
         tolerance: f64,
         alpha: bool,
     ) -> Self {
-        let contrast = Contrast::new(world, instants.visibility.lights());
+        let contrast = Contrast::new(world, instants.visibility.lights(), alpha);
         let (view, motion) = (&instants.view, instants.motion.as_ref());
         let levels = PanelLevels::new(world, view, motion, tolerance / contrast.ordinary);
         Self {
@@ -97,7 +97,8 @@ impl<'scene> ExactOverTime<'scene> {
                 let add = |pixel: u32, part| sums[pixel as usize].add(part);
                 let integrate = |instants: &[Instant<'scene>]| {
                     let integrators = self.integrators(instants, panel);
-                    integrate_panel(&integrators, &tiles, of_panel, (room, progress), add)
+                    let requests = (of_panel, self.contrast.of_alpha);
+                    integrate_panel(&integrators, &tiles, requests, (room, progress), add)
                 };
                 let (number, times) = (panel.number(), panel.times());
                 work += self.instants.with(number, &times, integrate)?;
@@ -125,11 +126,12 @@ impl<'scene> ExactOverTime<'scene> {
     }
 }
 
-/// Integrates some pixels over a panel, by the integrators at its moments, and calls `add` for each.
+/// Integrates some pixels over a panel, by the integrators at its moments, and calls `add` for each; an error of alpha
+/// counts as so much light.
 fn integrate_panel(
     integrators: &[Exact<'_>],
     tiles: &[Tile],
-    requests: &[Request],
+    (requests, of_alpha): (&[Request], f64),
     (room, progress): (&mut GroupScratch, &Progress<'_>),
     mut add: impl FnMut(u32, Part),
 ) -> Result<Work, Cancelled> {
@@ -163,7 +165,7 @@ fn integrate_panel(
                     std::array::from_fn(|moment| pixels[moment * count + place as usize]);
                 let part = Part {
                     units: costs[place as usize],
-                    ..Part::new(request.panel, &moments)
+                    ..Part::new(request.panel, &moments, of_alpha)
                 };
                 add(request.pixel, part);
             }

@@ -99,8 +99,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// From the pixel at the moments of a panel.
-    pub(super) fn new(panel: Panel, pixels: &[Pixel; MOMENTS]) -> Self {
+    /// From the pixel at the moments of a panel; an error of alpha counts as so much light.
+    pub(super) fn new(panel: Panel, pixels: &[Pixel; MOMENTS], of_alpha: f64) -> Self {
         let middle = &pixels[MOMENTS / 2];
         // Differences from the middle, so that what never changes is itself.
         let mut value = Color::ZERO;
@@ -122,7 +122,7 @@ impl Part {
             }
             is_lost |= pixel.status == Status::OutOfBudget;
         }
-        let mut off = libm::hypot(odd_alpha[0], odd_alpha[1]);
+        let mut off = of_alpha * libm::hypot(odd_alpha[0], odd_alpha[1]);
         let [first, second] = odd.map(|odd| odd.to_array());
         for (first, second) in first.into_iter().zip(second) {
             off = off.max(libm::hypot(first, second));

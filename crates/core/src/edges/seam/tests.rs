@@ -25,7 +25,7 @@ fn points_of_a_seam_lie_on_both_spheres() {
             continue;
         }
         let cell = cell_at(&mut random, &one, 3.0);
-        for (x, y) in zeros(&mut random, &seam(&cell, &one, &other)) {
+        for (x, y) in zeros(&mut random, &SeamPlane::new(&one, &other).seen(&cell)) {
             // Where the ray meets the plane of the seam.
             let d = ray(&cell, x, y).normalize();
             let between = one.center - other.center;
@@ -56,7 +56,8 @@ fn either_sphere_may_come_first() {
         let one = ball_in_front(&mut random);
         let other = across(&mut random, &one);
         let cell = cell_at(&mut random, &one, 3.0);
-        assert_eq!(seam(&cell, &one, &other), seam(&cell, &other, &one));
+        let seen = |one, other| SeamPlane::new(one, other).seen(&cell);
+        assert_eq!(seen(&one, &other), seen(&other, &one));
     }
 }
 
@@ -70,6 +71,7 @@ fn a_huge_floor_cuts_a_small_ball_in_its_circle() {
         // The center lies below by the radius and 1: K as the world computes it, exactly.
         let floor = Ball {
             outside: 64.25 + 2.0 * floor_radius + 1.0,
+            power: 64.25 + 2.0 * floor_radius + 1.0,
             ..floor
         };
         let height =
@@ -80,7 +82,7 @@ fn a_huge_floor_cuts_a_small_ball_in_its_circle() {
             size: [0.4; 2],
             projection: crate::model::camera::Projection::Central,
         };
-        let seam = seam(&cell, &floor, &small);
+        let seam = SeamPlane::new(&floor, &small).seen(&cell);
         for step in 0..40 {
             let (sin, cos) = (0.157 * f64::from(step) + 0.1).sin_cos();
             let point = small.center + DVec3::new(cos * radius, height, sin * radius);

@@ -64,6 +64,7 @@ fn light_from_behind_the_eye_has_a_circle_for_its_terminator() {
         center: DVec3::Z * 4.0,
         radius: 1.0,
         outside: 15.0,
+        power: 15.0,
         projection: crate::model::camera::Projection::Central,
     };
     let cell = Cell {

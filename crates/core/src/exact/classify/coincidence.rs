@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use crate::edges::cell::Ball;
 use crate::edges::terminator::Plane;
+use crate::exact::scene::InCamera;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
@@ -26,6 +27,17 @@ pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
         && (one.center * far[1] - other.center * far[0]).length() <= slack
 }
 
+/// Returns whether a sphere lies inside another one, or around it; none where neither holds.
+///
+/// The world's numbers tell: differences of doubles that are close to each other are exact, and in the camera's frame
+/// they are all rounding.
+pub(super) fn nesting(scene: &InCamera<'_>, one: usize, other: usize) -> Option<bool> {
+    let [one, other] = [one, other].map(|sphere| &scene.world.spheres()[sphere]);
+    let apart = (one.center() - other.center()).length();
+    let larger = other.radius() - one.radius();
+    (apart <= larger.abs()).then_some(larger > 0.0)
+}
+
 /// Returns whether parallel rays go along the axis of a terminator in the middle of a sphere: then it is an outline, and
 /// no edge of its own. Beside the outline it leaves less than the square of this of a radius.
 pub(crate) fn is_outline(terminator: &Plane) -> bool {
@@ -39,6 +51,11 @@ pub(super) fn is_at_eye(toward: DVec3) -> bool {
     toward.z < 0.0 && toward.truncate().length() < ALONG
 }
 
+/// How much nearer to a light, in radii, a sphere with the same outline is at least that hides all of another one: what
+/// outlines that differ by 10⁻¹² then leave lit is less than the square of 10⁻⁶. One that is closer to the other may be as
+/// well behind it.
+pub(super) const FARTHER: f64 = 1e-6;
+
 /// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow
 /// ends where the ball's own dark side begins, which edges must not be left to tell.
 pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
@@ -47,5 +64,6 @@ pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) 
     let offset = center - ball.center;
     let ahead = offset.dot(toward);
     let aside = (offset - toward * ahead).length();
-    ahead > 0.0 && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
+    ahead > FARTHER * ball.radius
+        && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
 }

@@ -2,19 +2,20 @@
 
 use super::active::{Active, Terminators};
 use super::behind::Cover;
-use super::coincidence::{ALIKE, has_same_outline, is_outline};
+use super::coincidence::{ALIKE, has_same_outline, is_outline, nesting};
 use super::face::Face;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
 use super::patch::Patch;
 use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
-use crate::edges::seam::seam;
+use crate::edges::seam::SeamPlane;
 use crate::edges::shadow::Caster;
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
 use crate::exact::budget::is_beyond_a_part;
 use crate::exact::scene::InCamera;
+use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
@@ -117,8 +118,10 @@ impl Contents {
             let spread = discriminant.spread();
             let mut slack = GEOMETRY_SLACK * (spread + discriminant.one.abs());
             if ball.is_parallel() {
-                let length = ball.center.length() + ball.radius;
-                self.rounding = self.rounding.max(ROUNDINGS * length / size);
+                let length = ball.outline_scale(cell);
+                if ball.is_apart() || discriminant.may_vanish() {
+                    self.rounding = self.rounding.max(ROUNDINGS * length / size);
+                }
                 slack += 2.0 * ROUNDINGS * length * ball.radius;
             }
             if cover.is_some_and(|cover| cover.hides(&ball, &discriminant, &along)) {
@@ -141,12 +144,16 @@ impl Contents {
                 }
                 continue;
             }
-            // Of spheres with one outline the nearest hides the others.
+            // Of spheres with one outline the nearest hides the others, or that around them.
             let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
             if let Some(other) = self.active.iter_mut().find(is_alike) {
                 let moved = ALIKE * (cell.extent() + ball.center.length()) / size;
                 self.rounding = self.rounding.max(moved);
-                if ball.outside < other.ball.outside {
+                let is_before = match nesting(scene, sphere, other.sphere) {
+                    Some(is_inside) => !is_inside,
+                    None => ball.outside < other.ball.outside,
+                };
+                if is_before {
                     *other = Active {
                         sphere,
                         ball,
@@ -284,21 +291,29 @@ impl Contents {
             let difference = (ball.radius - other.ball.radius).abs();
             let slack = GEOMETRY_SLACK * (sum + apart);
             if apart < sum + slack && apart > difference - slack && apart > 0.0 {
-                let seam = seam(cell, &ball, &other.ball);
+                let plane = SeamPlane::new(&ball, &other.ball);
+                let seam = plane.seen(cell);
                 self.tests += TESTS_OF_A_SEAM;
                 if seam.may_vanish() {
                     self.conics.push((Kind::Seam(index, position), seam));
-                    // The plane's place, by the radii or by K, whichever rounds less.
-                    let by_radii = ball.radius.max(other.ball.radius).max(apart);
-                    let by_outside = (ball.outside.abs() + other.ball.outside.abs()) / apart
-                        + ball.center.length().min(other.ball.center.length());
-                    let nearest = ball.outside.abs().min(other.ball.outside.abs())
-                        / ball.radius.min(other.ball.radius).max(ball.center.length());
-                    let size = cell.size[0].min(cell.size[1]) * nearest.max(f64::MIN_POSITIVE);
-                    let moved = ROUNDINGS * by_radii.min(by_outside) / size;
-                    self.rounding = self.rounding.max(moved);
-                    let past_eye = 0.5 * (ball.outside - other.ball.outside).abs() / apart;
-                    if past_eye < SEEN_EDGE_ON * ball.radius.min(other.ball.radius) {
+                    // It lies on both spheres, no nearer to the eye than either begins.
+                    let begin =
+                        |ball: &Ball| ball.power.abs() / (ball.center.length() + ball.radius);
+                    let distance = match cell.projection {
+                        Projection::Central => begin(&ball).max(begin(&other.ball)),
+                        Projection::Parallel => 1.0,
+                    };
+                    let size = cell.size[0].min(cell.size[1]) * distance.max(f64::MIN_POSITIVE);
+                    let length = plane.scale + plane.small.center.length() + plane.small.radius;
+                    self.rounding = self.rounding.max(ROUNDINGS * length / size);
+                    let is_edge_on = match cell.projection {
+                        Projection::Central => {
+                            let past_eye = 0.5 * (ball.power - other.ball.power).abs() / apart;
+                            past_eye < SEEN_EDGE_ON * ball.radius.min(other.ball.radius)
+                        }
+                        Projection::Parallel => plane.normal.z.abs() < SEEN_EDGE_ON,
+                    };
+                    if is_edge_on {
                         self.rounding = self.rounding.max(ROOT_OF_ROUNDING);
                     }
                 }

@@ -22,7 +22,7 @@ impl Begin {
         let mut inside = silhouette(cell, ball);
         let (at_center, spread) = (inside.one, inside.spread());
         inside.one -= z * z;
-        let size = cell.extent() + ball.center.length() + ball.radius;
+        let size = cell.extent() + ball.outline_scale(cell);
         let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
             + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
         if inside.one + spread + slack < 0.0 {
@@ -113,10 +113,12 @@ impl Contents {
         let moved = ROUNDINGS * (ball.center.length() + ball.radius) * ball.radius;
         self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
         let outer = Ball { outside: z, ..ball };
+        let center = ball.center.with_z(-(2.0 * ball.radius + radius));
         let cap = Ball {
-            center: ball.center.with_z(-(2.0 * ball.radius + radius)),
+            center,
             radius,
             outside: f64::MIN_POSITIVE,
+            power: center.length_squared() - radius * radius,
             ..ball
         };
         let width = 2.0 * radius / size;

@@ -25,8 +25,13 @@ impl<S: Simd> Discriminant<S> {
         let (c, r, k) = (ball.center, ball.radius, ball.outside);
         if ball.is_parallel() {
             let (a, b) = (u - c.x, v - c.y);
+            let value = if ball.is_apart() {
+                (a * a + b * b) * -1.0 + r * r
+            } else {
+                (u * (a - c.x) + v * (b - c.y)) * -1.0 + (c.z * c.z - ball.power)
+            };
             return Self {
-                value: (a * a + b * b) * -1.0 + r * r,
+                value,
                 along: u * 0.0 + c.z,
                 half_slopes: [-a, -b],
             };

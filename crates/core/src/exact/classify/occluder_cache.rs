@@ -166,6 +166,7 @@ impl OccluderCache {
             return Patch {
                 ends: [ball.center; 2],
                 around: ball.radius + GEOMETRY_SLACK * ball.center.length(),
+                is_parallel: false,
             };
         }
         let discriminant = silhouette(&self.tile, ball);

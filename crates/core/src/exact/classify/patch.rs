@@ -3,7 +3,6 @@
 use glam::{DVec2, DVec3};
 
 use crate::edges::cell::{Ball, Cell};
-use crate::model::camera::Projection;
 use crate::numeric::polynomial::{Linear, Quadratic};
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 
@@ -13,6 +12,8 @@ use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 pub(crate) struct Patch {
     pub(crate) ends: [DVec3; 2],
     pub(crate) around: f64,
+    /// Whether the rays are parallel, which do not diverge.
+    pub(super) is_parallel: bool,
 }
 
 /// The side of another sphere's surface on which all of a patch lies.
@@ -44,34 +45,76 @@ impl Patch {
             ends: [cell.middle * nearest, cell.middle * farthest],
             around: farthest * half_diagonal * WIDER
                 + GEOMETRY_SLACK * farthest * cell.middle.length(),
+            is_parallel: false,
         }
     }
 
-    /// For parallel rays, which all begin outside: they meet the sphere at c_z − √Q.
+    /// For parallel rays, which all begin outside: they meet the sphere at c_z − √Q = K' / (c_z + √Q), with K' of where
+    /// they begin.
     fn of_parallel_rays(cell: &Cell, ball: &Ball, discriminant: &Quadratic) -> Self {
         let spread = discriminant.spread();
         let root = |square: f64| square.max(0.0).sqrt();
-        let nearest = ball.center.z - root(discriminant.one + spread);
-        let farthest = ball.center.z - root(discriminant.one - spread);
+        let z = ball.center.z;
+        let roots = [spread, -spread].map(|spread| root(discriminant.one + spread));
+        let [nearest, farthest] = if ball.is_apart() {
+            roots.map(|root| z - root)
+        } else {
+            let power = ball.power_of(cell.middle.with_z(0.0));
+            let around = [-spread, spread].map(|spread| power + spread);
+            [0, 1].map(|end| around[end] / (z + roots[end]))
+        };
         let half_diagonal = 0.5 * DVec2::from_array(cell.size).length();
-        let size = cell.extent() + ball.center.length() + ball.radius;
+        let size = if ball.is_apart() {
+            cell.extent() + ball.center.length() + ball.radius
+        } else {
+            cell.extent() + farthest.abs()
+        };
         Self {
             ends: [cell.at(nearest), cell.at(farthest)],
             around: half_diagonal * WIDER + GEOMETRY_SLACK * size,
+            is_parallel: true,
         }
     }
 
     /// The distance of all of it from a point, at least.
+    ///
+    /// # Source
+    /// At w along a way of the length L a part is as wide as `start` + b w. From a point x beside the way and l along it
+    /// the least of √(x² + (w − l)²) − b w lies at w − l = b x / √(1 − b²).
     pub(crate) fn distance_from(&self, point: DVec3) -> f64 {
         let [start, end] = self.ends;
         let way = end - start;
-        let share = (point - start).dot(way) / way.length_squared();
-        let share = if share.is_finite() {
-            share.clamp(0.0, 1.0)
+        let length = way.length();
+        let around = self.width_at_start();
+        if !(length > 0.0 && length.is_finite()) {
+            return ((start - point).length() - self.around).max(0.0);
+        }
+        let unit = way / length;
+        let along = (point - start).dot(unit);
+        let aside = (point - start - unit * along).length();
+        let wider = (self.around - around) / length;
+        let share = if wider < 1.0 {
+            let rest = ((1.0 - wider) * (1.0 + wider)).sqrt();
+            (along + aside * wider / rest).clamp(0.0, length)
         } else {
-            0.0
+            length
         };
-        ((start + way * share - point).length() - self.around).max(0.0)
+        let distance = aside.hypot(share - along);
+        (distance - around - wider * share).max(0.0)
+    }
+
+    /// How wide it is where it begins: of an eye's rays the width grows with the distance.
+    fn width_at_start(&self) -> f64 {
+        let [start, end] = self.ends;
+        if self.is_parallel {
+            return self.around;
+        }
+        let share = start.length() / end.length();
+        if share < 1.0 {
+            self.around * share
+        } else {
+            self.around
+        }
     }
 
     /// A ball around it.
@@ -89,18 +132,10 @@ impl Patch {
     /// m = (Kᵢ − Kⱼ) / 2.
     pub(super) fn side_of(&self, ball: &Ball, other: &Ball) -> Option<Side> {
         let w = ball.center - other.center;
-        let [k, other_k] = [ball, other].map(|ball| match ball.projection {
-            Projection::Central => ball.outside,
-            Projection::Parallel => ball.center.length_squared() - ball.radius * ball.radius,
-        });
+        let [k, other_k] = [ball.power, other.power];
         let m = 0.5 * (k - other_k);
         let places = self.ends.map(|point| point.dot(w) - m);
-        let mut slack = GEOMETRY_SLACK * (k.abs() + other_k.abs());
-        if ball.is_parallel() {
-            // What K consists of may nearly cancel.
-            slack +=
-                GEOMETRY_SLACK * (ball.center.length_squared() + other.center.length_squared());
-        }
+        let slack = GEOMETRY_SLACK * (k.abs() + other_k.abs());
         let around = self.around * w.length() + slack;
         if places[0].min(places[1]) > around {
             Some(Side::Outside)

@@ -117,7 +117,14 @@ fn parallel_extent<S: Simd>(simd: S, ray: &Vectors<S>, size: f64, ball: &Ball) -
     let q = discriminant.value;
     let [by_u, by_v] = discriminant.half_slopes;
     let second = 0.25 * size * size * bend(ball);
-    let moved = (ray.x.abs() + ray.y.abs() + (c.length() + r)) * ROUNDINGS;
+    let aside = ray.x.abs() + ray.y.abs();
+    let scale = if ball.is_apart() {
+        aside * 0.0 + (c.length() + r)
+    } else {
+        let terms = aside * (aside + 2.0 * c.length()) + (c.z * c.z + ball.power.abs());
+        terms * (0.5 / r)
+    };
+    let moved = (aside + scale) * ROUNDINGS;
     let slack = moved * (2.0 * r + size) + moved * moved;
     let spread = (by_u.abs() + by_v.abs()) * size + second;
     let slack = slack + spread * GEOMETRY_SLACK + q.abs() * GEOMETRY_SLACK;
@@ -255,6 +262,9 @@ pub(crate) fn sight(
     }
 }
 
+/// Pairs of spheres of a pixel that are compared at most: of what is not compared nothing is left out.
+const MOST_PAIRS: usize = 200_000;
+
 /// Adds the spheres that the pixel with this number may see to `spheres`, which must be empty: without
 /// those that are hidden by one that fills it.
 ///
@@ -270,35 +280,40 @@ fn visible_spheres(
     let here = |coverage: &&Coverage| coverage.touched >> lane & 1 == 1;
     let all = coverages.iter().filter(here);
     spheres.extend(all.map(|coverage| (coverage.sphere, coverage.ball)));
-    let contains = |spheres: &[(usize, Ball)], coverage: &Coverage| {
-        spheres.iter().any(|&(sphere, _)| sphere == coverage.sphere)
-    };
-    for one in coverages.iter().filter(here) {
+    let mut is_hidden = vec![false; spheres.len()];
+    let mut pairs = 0;
+    for (place, one) in coverages.iter().filter(here).enumerate() {
         let ball = &one.ball;
-        if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || !contains(spheres, one) {
+        if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || is_hidden[place] {
             continue;
+        }
+        pairs += spheres.len();
+        if pairs > MOST_PAIRS {
+            break;
         }
         let (outline, along) = (silhouette(cell, ball), cell.along(ball.center));
         let patch = Patch::new(cell, ball, &outline, &along);
-        for other in coverages.iter().filter(here) {
-            if other.sphere == one.sphere || !contains(spheres, other) {
+        for (other_place, other) in coverages.iter().filter(here).enumerate() {
+            if other_place == place || is_hidden[other_place] {
                 continue;
             }
             let is_outside = other.ball.outside > 0.0;
             match patch.side_of(ball, &other.ball) {
                 Some(Side::Outside) => {
                     if is_outside && nearest_middle(cell, &other.ball) > one.farthest[lane] {
-                        spheres.retain(|&(sphere, _)| sphere != other.sphere);
+                        is_hidden[other_place] = true;
                     }
                 }
                 Some(Side::Inside) if other.covered >> lane & 1 == 1 && is_outside => {
-                    spheres.retain(|&(sphere, _)| sphere != one.sphere);
+                    is_hidden[place] = true;
                     break;
                 }
                 Some(Side::Inside) | None => {}
             }
         }
     }
+    let mut is_hidden = is_hidden.into_iter();
+    spheres.retain(|_| is_hidden.next() == Some(false));
 }
 
 /// The least distance of the middle of a sphere's chord along rays of a cell, in multiples of these.

@@ -1,12 +1,13 @@
 //! How fast light changes over a cell: what rules along its lines cannot follow.
 
 use fearless_simd::Simd;
+use glam::DVec3;
 
 use super::active::Terminators;
 use super::contents::Contents;
 use super::patch::Patch;
 use super::reach::Reach;
-use crate::edges::cell::Cell;
+use crate::edges::cell::{Ball, Cell};
 use crate::exact::points::Points;
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;
@@ -15,6 +16,28 @@ use crate::numeric::vectors::Vectors;
 
 /// The length of a patch of a surface, over its distance from a point light, up to which rules follow its light.
 const NEAREST: f64 = 0.5;
+
+/// Returns whether the light of a point light turns too much over a patch for rules to follow it.
+///
+/// A patch of a large ball at its horizon is many times as long as it is far from anything; light is smooth there in the
+/// reciprocal of the distance from the eye, which is linear on the retina. So what counts is how far the direction to the
+/// light turns.
+fn is_near(ball: &Ball, patch: &Patch, light: DVec3) -> bool {
+    let [start, end] = patch.ends;
+    if ball.is_apart() || ball.is_parallel() {
+        let length = (end - start).length() + 2.0 * patch.around;
+        return length > NEAREST * patch.distance_from(light);
+    }
+    let farthest = end.length();
+    let around = |place: DVec3| {
+        let distance = (place - light).length();
+        2.0 * patch.around * place.length() / (farthest * distance)
+    };
+    let turn = ((start - light).normalize() - (end - light).normalize()).length();
+    let turn = turn + around(start).max(around(end));
+    // What is not a number is near.
+    turn > NEAREST || turn.is_nan()
+}
 
 /// The fall of a highlight over half a cell, in powers of e, that rules along lines still follow.
 const FOLLOWED: f64 = 4.0;
@@ -61,7 +84,7 @@ impl Contents {
                 if let (Some(near), Reach::Past(_)) = (
                     &scene.lights[light].near,
                     &self.reach[position * lights + light],
-                ) && length > NEAREST * patch.distance_from(near.position)
+                ) && is_near(&active.ball, &patch, near.position)
                 {
                     return true;
                 }

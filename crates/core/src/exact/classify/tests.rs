@@ -103,6 +103,7 @@ fn shadows_on_a_patch_are_never_claimed_too_large() {
                 start + random.point() * magnitude(&mut random, 1e-3, 1.0),
             ],
             around: magnitude(&mut random, 1e-4, 0.3),
+            is_parallel: false,
         };
         let light = light_from(direction(&mut random));
         let toward = light.toward;
@@ -296,6 +297,7 @@ fn what_is_seen_in_a_cell_is_not_left_out_as_hidden() {
                     center,
                     radius,
                     outside: center.length_squared() - radius * radius,
+                    power: center.length_squared() - radius * radius,
                     projection: crate::model::camera::Projection::Central,
                 };
                 Active {

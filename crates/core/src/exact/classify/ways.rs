@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::active::Active;
-use super::coincidence::{hides_all, is_at_eye};
+use super::coincidence::{FARTHER, hides_all, is_at_eye, nesting};
 use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS};
 use super::cut::begins_inside;
 use super::occluder_cache::{OccluderCache, Shade};
@@ -14,6 +14,7 @@ use crate::edges::shadow::Cone;
 use crate::exact::scene::InCamera;
 use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
+use crate::numeric::rounding::GEOMETRY_SLACK;
 use crate::search::point_occluders::Beam;
 
 impl Contents {
@@ -44,12 +45,7 @@ impl Contents {
                 Shade::Edges(found) => found,
             };
             let extent = |center: DVec3, radius: f64| center.length() + radius;
-            let own = extent(active.ball.center, active.ball.radius);
-            let distance = match cell.projection {
-                Projection::Central => patch.ends[0].length() / cell.middle.length(),
-                Projection::Parallel => 1.0,
-            };
-            let size = cell.size[0].min(cell.size[1]) * distance;
+            let ends = ends(cell, &active.ball, patch);
             let hides_itself = cell.is_parallel() && is_at_eye(in_camera.toward);
             for &sphere in found {
                 if self.has_too_many_curves() {
@@ -57,7 +53,8 @@ impl Contents {
                     break;
                 }
                 let (center, radius) = scene.center(sphere as usize);
-                if hides_itself && center.z >= radius {
+                let is_inside = || nesting(scene, sphere as usize, active.sphere) == Some(true);
+                if hides_itself && center.z >= radius || is_inside() {
                     continue;
                 }
                 let mut known = self.occluders[first..].iter();
@@ -67,8 +64,10 @@ impl Contents {
                 if hides_all(&active.ball, center, radius, in_camera.toward) {
                     return Reach::Nowhere;
                 }
-                let largest = own.max(extent(center, radius));
-                self.rounding = self.rounding.max(ROUNDINGS * largest / size);
+                for End { scale, size, .. } in ends {
+                    let largest = scale.max(extent(center, radius));
+                    self.rounding = self.rounding.max(ROUNDINGS * largest / size);
+                }
                 self.occluders.push(in_camera.caster(center, radius));
             }
         }
@@ -91,11 +90,9 @@ impl Contents {
             return Reach::Nowhere;
         }
         if let Some(patch) = patch {
-            let size = cell.size[0].min(cell.size[1]);
-            let size = size * patch.ends[0].length() / cell.middle.length();
+            let ends = ends(cell, &active.ball, patch);
             let (middle, around) = patch.ball();
             let beam = Beam::new(near.position, middle, around);
-            let apart = (middle - near.position).length() + around;
             let range = cache.occluders_of_near(scene, active.sphere, light);
             cache.tests += range.len() as u64;
             self.tests += (range.len() / PAIRS_OF_A_TEST) as u64;
@@ -106,7 +103,11 @@ impl Contents {
                 }
                 let sphere = cache.sphere(index);
                 let (center, radius) = scene.center(sphere);
-                if !beam.is_reached_by(center, radius) {
+                let is_inside = || nesting(scene, sphere, active.sphere) == Some(true);
+                if !beam.is_reached_by(center, radius) || is_inside() {
+                    continue;
+                }
+                if is_above(&scene.ball(sphere), near.position, (middle, around)) {
                     continue;
                 }
                 let mut known = self.occluders[first..].iter();
@@ -125,15 +126,71 @@ impl Contents {
                 let distance = cone.axis.length();
                 let largest = near.position.length() + center.length() + radius;
                 let turned = largest / distance.min(cone.power.max(0.0).sqrt());
-                let moved = ROUNDINGS * (largest + active.ball.center.length() + turned * apart);
-                // Squares of distances nearly cancel in the functions of the cone and of the way to the ball.
-                let cancelled = ROUNDINGS * apart * apart / radius.min(active.ball.radius);
-                self.rounding = self.rounding.max((moved + cancelled) / size);
+                for End { place, scale, size } in ends {
+                    let apart = (place - near.position).length() + patch.around;
+                    let moved = ROUNDINGS * (largest + scale + turned * apart);
+                    // Squares of distances nearly cancel in the functions of the cone and of the way to the ball.
+                    let mut cancelled = ROUNDINGS * apart * distance / radius;
+                    if active.ball.is_apart() {
+                        cancelled += ROUNDINGS * apart * apart / active.ball.radius;
+                    }
+                    self.rounding = self.rounding.max((moved + cancelled) / size);
+                }
                 self.occluders.push(caster);
             }
         }
         Reach::Past(first..self.occluders.len())
     }
+}
+
+/// Returns whether no way from a point light to what lies within `around` of a point and outside of a large ball passes
+/// through that ball.
+///
+/// # Source
+/// The height F = K' / 2r of points above the ball, to first order, is convex along a way. So it nowhere falls below that
+/// of an end from which it rises, and nowhere farther below that of both ends than L² / 8r, with the length L.
+fn is_above(ball: &Ball, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
+    // What rays that begin inside of it see lies inside, too.
+    if ball.is_apart() || ball.outside <= 0.0 {
+        return false;
+    }
+    let height = |point: DVec3| ball.power_of(point) / (2.0 * ball.radius);
+    let length = (middle - light).length() + around;
+    let [of_light, of_middle] = [height(light), height(middle)];
+    // The slope of the height is its distance from the center, in radii.
+    let reach = around * ((middle - ball.center).length() + around) / ball.radius;
+    let sag = length * length / (2.0 * ball.radius);
+    let slack = GEOMETRY_SLACK * (light.length() + middle.length() + length);
+    let rises = of_light > of_middle + reach + sag + slack;
+    rises || of_light.min(of_middle - reach) > 0.25 * sag + slack
+}
+
+/// An end of what a cell sees of a ball.
+#[derive(Clone, Copy, Debug)]
+struct End {
+    place: DVec3,
+    /// The largest number that edges on the ball are computed from there, occluders apart.
+    scale: f64,
+    /// The side of the cell, as long as it is there.
+    size: f64,
+}
+
+/// The nearest and the farthest end. What rounding moves is to be compared with the size of the same end: at the
+/// horizon of a large ball the far one is many times as far as the near one.
+fn ends(cell: &Cell, ball: &Ball, patch: &Patch) -> [End; 2] {
+    let side = cell.size[0].min(cell.size[1]);
+    patch.ends.map(|place| End {
+        place,
+        scale: if ball.is_apart() {
+            ball.center.length() + ball.radius
+        } else {
+            place.length()
+        },
+        size: match cell.projection {
+            Projection::Central => side * place.length() / cell.middle.length(),
+            Projection::Parallel => side,
+        },
+    })
 }
 
 /// Returns whether an occluder keeps a point light from a ball whose outline it has, seen from the light.
@@ -142,7 +199,7 @@ fn hides_all_near(ball: &Ball, cone: &Cone, radius: f64) -> bool {
     const ALIKE: f64 = 1e-12;
     let own = ball.center - cone.apex;
     let [far, near] = [own.length(), cone.axis.length()];
-    far > near
+    far - near > FARTHER * ball.radius
         && (own * near - cone.axis * far).length() <= ALIKE * far * near
         && (ball.radius * near - radius * far).abs() <= ALIKE * far * near
 }

@@ -302,6 +302,7 @@ impl Workspace {
                 tolerance: *tolerance,
                 background: *background,
                 contrast: self.contrast,
+                of_coverage: pixel.context.of_coverage,
                 parts,
                 units,
             };
@@ -316,10 +317,13 @@ impl Workspace {
             work += cost;
             self.work.samples += cost.samples;
             self.work.lines += std::mem::take(&mut self.boundary.lines);
-            if let Ok(part) = found
-                && !best.is_ok_and(|known| known.error <= part.error)
-            {
-                best = Ok(part);
+            if let Ok(part) = found {
+                best = Ok(match best {
+                    // A closer look that sees something else outvotes the claim of the first.
+                    Ok(known) if known.differs_from(&part) => part.or_as_far_as(&known),
+                    Ok(known) if known.error <= part.error => known,
+                    _ => part,
+                });
             }
             if is_coarse || best.is_ok_and(|part| part.error <= *tolerance) {
                 break;

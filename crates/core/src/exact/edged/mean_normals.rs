@@ -81,6 +81,7 @@ impl Workspace {
                 tolerance,
                 background: Color::ZERO,
                 contrast: 1.0,
+                of_coverage: 1.0,
                 parts,
                 units: self.budget.of_part(),
             };

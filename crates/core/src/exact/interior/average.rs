@@ -42,7 +42,7 @@ struct Sampled<S: Simd> {
 }
 
 /// Tolerances from which on one sample may suffice: at lower ones hardly any pixel is smooth enough.
-const LOOSE: f64 = 1e-4;
+const LOOSE: f64 = 2.5e-5;
 
 /// Kronrod's samples on each diagonal.
 const ON_DIAGONAL: usize = (SAMPLES - GAUSS_SAMPLES) / 2;
@@ -194,7 +194,7 @@ impl<S: Simd> Filled<'_, S> {
         // Five samples.
         let rest = &mut lights[into.samples..STAR_SAMPLES];
         self.light(simd, into.samples, cosines, noise, rest);
-        let kinks = match self.is_wary() {
+        let kinks = match self.finish.is_rough() {
             true => self.kinks(simd, noise),
             false => None,
         };
@@ -282,7 +282,7 @@ impl<S: Simd> Filled<'_, S> {
             let difference = falling[channel].abs() + rising[channel].abs();
             // Where a number is not finite, the estimate tells.
             error = error.max(difference * caution + natural + by_grid.abs() * ROUNDING);
-            if self.is_wary() {
+            if self.finish.is_rough() {
                 error = error.max(apart_on_bumps(&sampled.lights, channel, zero));
             }
             let average = star.is_met.select(by_star, by_grid);

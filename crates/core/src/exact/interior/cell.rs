@@ -19,13 +19,18 @@ use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
-/// Divisions that a cell is worth; each takes forty samples. Bumps that are so small that their parts would be more
-/// are left to random samples.
+/// Divisions that a cell is worth; each takes forty samples.
 const MOST_DIVISIONS: usize = 128;
 
-/// The same to tolerances for which rules along lines are better than rules of five samples.
+/// Parts, each for five samples, up to which bumps are only looked at in parts; and, at tolerances from `LOOSE` on, which
+/// some parts may meet, up to which they are left to random samples where parts claim too much.
+const FEW_PARTS: f64 = 4.0 * MOST_DIVISIONS as f64;
+const MOST_PARTS: f64 = 16.0 * FEW_PARTS;
+const LOOSE: f64 = 1e-4;
+
+/// Divisions at tolerances for which rules along lines are better than rules of five samples.
 const FEW_DIVISIONS: usize = 8;
-const FINE: f64 = 5e-6;
+const FINE: f64 = 1.2e-6;
 
 /// The units of a pixel's budget for each division that it is worth.
 const UNITS_OF_DIVISION: u64 = MOST / MOST_DIVISIONS as u64;
@@ -49,30 +54,52 @@ impl<S: Simd> Filled<'_, S> {
         }
         // Parts as small as they must be for five samples.
         let across = self.turn[lane] * self.finish.shading_normal.cells() / SMALL;
-        if across * across < 4.0 * MOST_DIVISIONS as f64 {
+        let mut best = None;
+        let is_loose = self.tolerance >= LOOSE;
+        if across * across < if is_loose { MOST_PARTS } else { FEW_PARTS } {
             let most = if self.tolerance < FINE {
                 FEW_DIVISIONS
             } else {
                 MOST_DIVISIONS
             };
             let most = most.min((self.allowance.bumpy / UNITS_OF_DIVISION) as usize);
-            return Some(self.in_parts(simd, lane, most, noise));
+            let average = self.in_parts(simd, lane, most, noise);
+            if average.error <= self.tolerance || across * across < FEW_PARTS {
+                return Some(average);
+            }
+            best = Some(average);
         }
+        let random = self.of_random(simd, lane, noise);
+        Some(match best {
+            Some(best) if best.error <= random.error => Average {
+                samples: best.samples + random.samples,
+                ..best
+            },
+            Some(best) => Average {
+                samples: best.samples + random.samples,
+                ..random
+            },
+            None => random,
+        })
+    }
+
+    /// The average over one of the cells by strata.
+    fn of_random(&self, simd: S, lane: usize, noise: &mut Option<Box<NoiseCells>>) -> Average {
         // At a moment of many a look must do.
         if self.allowance.is_of_moment() {
-            return Some(self.by_strata(simd, lane, FEW_STRATA, noise));
+            return self.by_strata(simd, lane, FEW_STRATA, noise);
         }
         let first = self.by_strata(simd, lane, FIRST_STRATA, noise);
         // With so many more samples the claim falls by that at most.
         let gain = f64::from(MOST_STRATA * MOST_STRATA) / f64::from(FIRST_STRATA * FIRST_STRATA);
         if first.error <= self.tolerance || first.error > gain * self.tolerance {
-            return Some(first);
+            return first;
         }
         let more = self.by_strata(simd, lane, MOST_STRATA, noise);
-        Some(Average {
+        Average {
             samples: first.samples + more.samples,
             ..more
-        })
+        }
     }
 
     /// The average over the first of the cells, with these points in the middles, if its light is smooth enough.

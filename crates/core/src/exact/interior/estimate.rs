@@ -20,11 +20,6 @@ const MOST_NEARNESS_OF_BUMPS: f64 = 0.5;
 /// The relative error that rounding makes: some units in the last place, of about ten operations.
 pub(super) const ROUNDING: f64 = 1e-15;
 
-/// Tolerances at which it matters that the second differences of bumps may be small by chance, and the kinks of their
-/// second derivatives are not: found by `cargo truth hunt`. Then five samples are not enough, and nine must agree
-/// with them.
-const WARY: f64 = 5e-5;
-
 /// The error of a rule in eight pixels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Estimate<S: Simd> {
@@ -49,17 +44,14 @@ impl<S: Simd> Estimate<S> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// Returns whether second differences of light may be small by chance, at a tolerance at which that matters.
-    #[inline(always)]
-    pub(super) fn is_wary(&self) -> bool {
-        self.finish.is_rough() && self.tolerance < WARY
-    }
-
     /// An estimate of a rule's error by how much light bends, where it is smooth.
     ///
     /// It is small where light is linear, and compares with how much light changes rather than with
     /// how much there is, so that a weak highlight on a bright surface counts. The star's rule is
     /// off by 1/720 of the mixed fourth derivative.
+    ///
+    /// What could fool it: the second differences of bumps are small by chance, and the kinks of their second derivatives
+    /// are not. So five samples are never enough there, nine must agree with them, and the estimate is multiplied.
     #[inline(always)]
     pub(super) fn estimate(
         &self,
@@ -78,7 +70,7 @@ impl<S: Simd> Filled<'_, S> {
         /// The largest share of the bend that a kink of the second derivative costs, where cells of the
         /// noise meet. Not tuned.
         const OF_KINK: f64 = 0.1;
-        /// What errors of bumps are multiplied by where that matters: one pixel in some ten thousand was off by up to
+        /// What errors of bumps are multiplied by: one pixel in some ten thousand was off by up to
         /// four times what the bend told.
         const CAUTION: f64 = 3.0;
         /// And more where light begins steeply, with a power below 1: near places of bumps that hardly face it one
@@ -87,7 +79,6 @@ impl<S: Simd> Filled<'_, S> {
         let is_star = rule == Rule::Star;
         let zero = f64x8::splat(simd, 0.0);
         let is_rough = self.finish.is_rough();
-        let is_wary = self.is_wary();
         let nearness_sq = self.nearness * self.nearness;
         let mut of_root = nearness_sq * nearness_sq * nearness_sq * OF_ROOT[1];
         if is_star {
@@ -123,12 +114,12 @@ impl<S: Simd> Filled<'_, S> {
                 estimate += OF_KINK;
             }
             error = error.max(estimate * bend + highest * (of_root + ROUNDING));
-            if is_wary && !is_star {
+            if is_rough && !is_star {
                 let explained = kinks.map_or(zero, |kinks| kinks.apart(slope));
                 error = error.max(apart_on_bumps(lights, channel, explained));
             }
         }
-        if is_wary {
+        if is_rough {
             error *= CAUTION;
             let [exponent, _] = self.finish.reflectance.exponents();
             if exponent < 1.0 {
@@ -150,7 +141,7 @@ impl<S: Simd> Filled<'_, S> {
             error += kinks.missed(rule, slope);
         }
         let mut is_met = is_known & error.simd_le(self.tolerance);
-        if is_wary && is_star {
+        if is_rough && is_star {
             is_met = mask64x8::splat(simd, false);
         }
         Estimate {

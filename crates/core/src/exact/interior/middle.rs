@@ -11,7 +11,7 @@ use crate::exact::scene::Light;
 use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// Tolerances from which on one sample of bumps may suffice: at lower ones hardly any pixel is smooth enough.
-const LOOSE_ON_BUMPS: f64 = 2e-3;
+const LOOSE_ON_BUMPS: f64 = 5e-4;
 
 /// The average of squares over a pixel, with the distance of its corners as the unit.
 const OF_SQUARES: f64 = 1.0 / 3.0;

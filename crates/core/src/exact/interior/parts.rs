@@ -168,7 +168,7 @@ impl<S: Simd> Filled<'_, S> {
                 let mut cosines = Some(LightCosines::new(simd));
                 let mut lights = [[zero; 3]; GAUSS_SAMPLES];
                 parts.light(simd, 0, &mut cosines, noise, &mut lights[..STAR_SAMPLES]);
-                let kinks = match parts.is_wary() {
+                let kinks = match parts.finish.is_rough() {
                     true => parts.kinks(simd, noise),
                     false => None,
                 };

@@ -11,7 +11,7 @@ fn part(panel: Panel, light: impl Fn(f64) -> f64) -> Part {
         evidence: Evidence::Bound,
         status: Status::Met,
     });
-    Part::new(panel, &pixels)
+    Part::new(panel, &pixels, 1.0)
 }
 
 const WHOLE: Panel = Panel { level: 0, index: 0 };

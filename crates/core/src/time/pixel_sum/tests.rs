@@ -16,6 +16,7 @@ fn sum(missed: f64, is_fine: bool, error: f64, status: Status) -> PixelSum {
     let contrast = Contrast {
         ordinary: 1.5,
         most: 7.0,
+        of_alpha: 1.0,
     };
     let mut sum = PixelSum::new(first, &contrast);
     let pixel = Pixel {
@@ -26,7 +27,7 @@ fn sum(missed: f64, is_fine: bool, error: f64, status: Status) -> PixelSum {
         status,
     };
     let panel = Panel { level, index: 0 };
-    sum.add(Part::new(panel, &[pixel; MOMENTS]));
+    sum.add(Part::new(panel, &[pixel; MOMENTS], 1.0));
     sum
 }
 

@@ -75,10 +75,15 @@ pub(super) fn front<S: Simd>(
                 let along = x * active.along.x + y * active.along.y + active.along.one;
                 let root = discriminant.max(zero).sqrt();
                 let t = if active.ball.is_parallel() {
-                    if active.ball.outside > 0.0 {
+                    let (ball, point) = (&active.ball, &places.point);
+                    if ball.outside <= 0.0 {
+                        along + root
+                    } else if ball.is_apart() {
                         along - root
                     } else {
-                        along + root
+                        let (u, v) = (point.x, point.y);
+                        let power = u * (u - 2.0 * ball.center.x) + v * (v - 2.0 * ball.center.y);
+                        (power + ball.power) / (along + root)
                     }
                 } else if active.ball.outside > 0.0 {
                     covers &= along.simd_gt(0.0);

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::curve::{Circle, Piece, Shape};
+use super::curve::{Circle, NearShadow, Piece, Shape};
 use crate::edges::cell::Cell;
 
 /// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.
@@ -81,13 +81,21 @@ fn zeros(a: f64, b: f64, c: f64) -> [Option<DVec2>; 2] {
     ]
 }
 
-/// The part of the edge of a shadow that exists and may come as near as `around` to a point beside
-/// the light: the point is seen from the middle of the ball.
-pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Vec<Piece>) {
-    let (circle, radius_sq) = match shape {
+/// The part of the edge of a shadow of a light that exists and may come as near as `around` to a point beside the light.
+pub(super) fn of_shadow(
+    shape: &Shape,
+    (toward, point): (DVec3, DVec3),
+    around: f64,
+    pieces: &mut Vec<Piece>,
+) {
+    let (circle, radius_sq, center) = match shape {
         Shape::Shadow {
-            circle, radius_sq, ..
-        } => (circle, radius_sq),
+            circle,
+            radius_sq,
+            center,
+            ..
+        } => (circle, radius_sq, center),
+        Shape::NearShadow(shadow) => return of_near_shadow(shadow, point, around, pieces),
         Shape::Cone {
             rim,
             to_center,
@@ -96,6 +104,8 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
         } => return of_cone(rim, *to_center, *outside, pieces),
         Shape::Side(_) | Shape::Circle(_) => return,
     };
+    let middle = point - *center;
+    let near = middle - toward * middle.dot(toward);
     let disc_sq = circle.right.length_squared();
     let mut roots = [DVec2::ZERO; 4];
     let mut count = 0;
@@ -129,6 +139,45 @@ pub(super) fn of_shadow(shape: &Shape, near: DVec3, around: f64, pieces: &mut Ve
         piece.roots = piece
             .ends
             .map(|e| circle.at(e).length_squared() > radius_sq * (1.0 - 1e-9));
+    }
+}
+
+/// The same of an edge whose circle lies beside the point.
+fn of_near_shadow(shadow: &NearShadow, point: DVec3, around: f64, pieces: &mut Vec<Piece>) {
+    let circle = &shadow.circle;
+    let to_middle = circle.middle - point;
+    let to_middle = to_middle - shadow.toward * to_middle.dot(shadow.toward);
+    let [one, by_cos, by_sin] = shadow.discriminant();
+    // Both are positive where the edge exists and comes so near.
+    let limits = [
+        [
+            around * around - to_middle.length_squared() - circle.right.length_squared(),
+            -2.0 * circle.right.dot(to_middle),
+            -2.0 * circle.up.dot(to_middle),
+        ],
+        [one, by_cos, by_sin],
+    ];
+    let mut roots = [DVec2::ZERO; 4];
+    let (mut count, mut of_near) = (0, 0);
+    for [c, a, b] in limits {
+        of_near = count;
+        if let [Some(one), Some(other)] = zeros(a, b, c) {
+            roots[count] = one;
+            roots[count + 1] = other;
+            count += 2;
+        } else if c <= 0.0 || c.is_nan() {
+            return;
+        }
+    }
+    let mut turning = [DVec2::NAN; 2];
+    turning[..count - of_near].copy_from_slice(&roots[of_near..count]);
+    let first = pieces.len();
+    between(&mut roots[..count], pieces, |e| {
+        limits.iter().all(|[c, a, b]| c + a * e.x + b * e.y > 0.0)
+    });
+    // Where it ends because it does not exist any more, it turns back.
+    for piece in &mut pieces[first..] {
+        piece.roots = piece.ends.map(|e| turning.contains(&e));
     }
 }
 

@@ -106,8 +106,13 @@ pub(super) fn value<S: Simd>(
                 }
                 Function::Inside(sphere) => {
                     let ball = &contents.active[sphere].ball;
-                    let from = places.point.minus(&Vectors::splat(simd, ball.center));
-                    from.length_squared() - ball.radius * ball.radius
+                    if ball.is_apart() {
+                        let from = places.point.minus(&Vectors::splat(simd, ball.center));
+                        from.length_squared() - ball.radius * ball.radius
+                    } else {
+                        let point = &places.point;
+                        point.length_squared() - point.dot_one(2.0 * ball.center) + ball.power
+                    }
                 }
                 Function::Across(axis, side) => {
                     let edge = setting.cell.middle[axis] + side * setting.cell.size[axis];
@@ -348,8 +353,9 @@ impl Stretch<'_> {
     ) -> f64 {
         /// Places around where a straight line would vanish, in widths of the bracket.
         const AROUND: [f64; 8] = [-0.2, -0.02, -0.002, -0.0002, 0.0002, 0.002, 0.02, 0.2];
-        /// A bracket in which a straight line will do.
-        const NARROW: f64 = 3e-4;
+        /// A bracket in which a straight line will do. The parameter's range may be hundreds of cells long, and a root is
+        /// needed to a part of a cell.
+        const NARROW: f64 = 1e-9;
         const MOST_ROUNDS: usize = 4;
         simd.vectorize(
             #[inline(always)]

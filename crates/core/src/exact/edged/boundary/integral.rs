@@ -140,8 +140,7 @@ impl Boundary {
                     continue;
                 }
                 let patch = Patch::new(cell, &active.ball, &active.discriminant, &active.along);
-                let middle = 0.5 * (patch.ends[0] + patch.ends[1]) - active.ball.center;
-                let near = middle - toward * middle.dot(toward);
+                let middle = 0.5 * (patch.ends[0] + patch.ends[1]);
                 let around = 0.5 * (patch.ends[1] - patch.ends[0]).length() + patch.around;
                 // Without bumps, light reaches only one side of the sphere.
                 let sides: &[f64] = match active.terminators {
@@ -152,12 +151,12 @@ impl Boundary {
                     for &side in sides {
                         let caster_ball = &contents.occluders[caster];
                         let curve = Curve {
-                            shape: Shape::shadow(&active.ball, caster_ball, toward, side),
+                            shape: Shape::shadow(&active.ball, caster_ball, (toward, side), middle),
                             edge: Edge::Shadow(light, caster),
                             own,
                         };
                         self.pieces.clear();
-                        clip::of_shadow(&curve.shape, near, around, &mut self.pieces);
+                        clip::of_shadow(&curve.shape, (toward, middle), around, &mut self.pieces);
                         self.add(simd, &setting, &curve, &mut sum);
                     }
                 }

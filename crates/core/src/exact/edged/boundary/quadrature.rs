@@ -114,9 +114,9 @@ impl Boundary {
                     let spread = total((places.x * dy - total(one)).abs() * fine);
                     let of_odd = total(places.x * dy * odd);
                     let difference = doubt(total(one - other), of_odd);
-                    error = error_estimate(difference, spread) + slip;
+                    error = goal.of_coverage * (error_estimate(difference, spread) + slip);
                     if is_rough {
-                        error = error.max(LEAST_OF_DIFFERENCE * difference);
+                        error = error.max(goal.of_coverage * LEAST_OF_DIFFERENCE * difference);
                     }
                 }
                 let mut square = 0.0;
@@ -371,6 +371,13 @@ fn sign<S: Simd>(
             let aside = from_center - *toward * height;
             let away = aside - circle.middle;
             away - *toward * (aside.dot(away) / height)
+        }
+        (Edge::Shadow(..), Shape::NearShadow(shadow)) => {
+            let toward = shadow.toward;
+            let away = point - shadow.circle.middle;
+            let away = away - toward * away.dot(toward);
+            let normal = point - shadow.center;
+            away - toward * (normal.dot(away) / normal.dot(toward))
         }
         (Edge::Shadow(..), Shape::Cone { cone, center, .. }) => {
             // The slope of what vanishes on the cone, along the surface.

@@ -117,6 +117,8 @@ pub(crate) struct Goal {
     pub(crate) background: Color,
     /// About the largest difference of light that an edge may make.
     pub(crate) contrast: f64,
+    /// The light that an error of the covered area counts as.
+    pub(crate) of_coverage: f64,
     /// Into how many parts pieces of curves are cut; with one, events of what is hidden are not looked
     /// for.
     pub(crate) parts: usize,

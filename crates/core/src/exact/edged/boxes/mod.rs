@@ -64,7 +64,7 @@ pub(crate) struct Goal {
 }
 
 /// The least tolerance for which boxes are worth a try.
-const LEAST_TOLERANCE: f64 = 9e-4;
+const LEAST_TOLERANCE: f64 = 2.2e-4;
 
 /// The spheres in a cell from which on other ways are cheaper.
 const MOST_SPHERES: usize = 24;
@@ -76,7 +76,7 @@ const MOST_CURVES: usize = 6;
 /// to a loose tolerance, which boxes meet soon. Not tuned finely.
 const FEWEST_EIGHTS: usize = 10;
 const MOST_EIGHTS: usize = 40;
-const LOOSE: f64 = 5e-3;
+const LOOSE: f64 = 1.2e-3;
 
 impl Boxes {
     /// The average over a cell, if its claim is within the tolerance.

@@ -87,6 +87,7 @@ fn chords_pass_where_their_points_do() {
                 center,
                 radius,
                 outside: center.length_squared() - radius * radius,
+                power: center.length_squared() - radius * radius,
                 projection,
             };
             for size in [0.02, 0.1] {

@@ -75,6 +75,7 @@ fn sums_are_off_by_no_more_than_they_doubt() {
                     center,
                     radius,
                     outside: center.length_squared() - radius * radius,
+                    power: center.length_squared() - radius * radius,
                     projection: crate::model::camera::Projection::Central,
                 };
                 assert!(is_far(&cell, &ball));
