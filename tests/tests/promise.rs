@@ -33,10 +33,11 @@ enum Shortfall {
 }
 
 const ALLOWANCES: [Allowance; 2] = [
+    // The pictures have alpha, which is met to a quarter of the tolerance beside light that adds up to more than 2.
     Allowance {
         scene: "eye_near",
         what: Shortfall::Unmet,
-        pixels: [0, 0, 0, 0, 1],
+        pixels: [0, 0, 0, 0, 3],
     },
     Allowance {
         scene: "rough_shiny",
