@@ -15,10 +15,7 @@ const LARGEST_CHUNK: i64 = 1_000_000;
 
 /// A tolerance that a picture can meet.
 pub(super) fn tolerance_above_zero(text: &str) -> Result<f64, String> {
-    /// Nearer to the exact value rounding has a say.
-    const SMALLEST: f64 = 1e-9;
-    let expected = format!("a number from {SMALLEST:e}");
-    number(text, &expected, |tolerance| tolerance >= SMALLEST)
+    number(text, "a number greater than 0", |tolerance| tolerance > 0.0)
 }
 
 pub(super) fn samples(text: &str) -> Result<NonZeroU32, String> {
