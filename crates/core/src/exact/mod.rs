@@ -10,7 +10,7 @@
 //! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
 //! | one plain sphere under its only light: [`interior`], [`edged`] | its mean normal times the direction of light, or a ramp where the terminator is in the pixel | bound; along an outline estimate | other edges, claims above the tolerance |
 //! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
-//! | boxes with straight edges, to tolerances from about 1e-3 on: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
+//! | boxes with straight edges, to loose tolerances: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
 //! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
 //! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
