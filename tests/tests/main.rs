@@ -8,6 +8,7 @@ mod claims;
 mod closed_forms;
 mod crowds;
 mod examples;
+mod far_cameras;
 mod floors;
 mod found;
 mod geometry;

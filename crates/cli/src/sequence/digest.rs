@@ -274,6 +274,7 @@ impl Feed {
     fn camera(&mut self, camera: &Camera) {
         let Camera {
             position,
+            on_axis,
             world_from_camera:
                 DMat3 {
                     x_axis,
@@ -281,7 +282,7 @@ impl Feed {
                     z_axis,
                 },
         } = *camera;
-        for vector in [position, x_axis, y_axis, z_axis] {
+        for vector in [position, on_axis, x_axis, y_axis, z_axis] {
             self.vector(vector);
         }
     }

@@ -9,7 +9,7 @@ use super::classify::patch::Patch;
 use crate::edges::cell::Ball;
 use crate::edges::shadow::{Caster, Cone};
 use crate::light::reflection::NearLight;
-use crate::model::camera::Projection;
+use crate::model::camera::{Camera, Projection};
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;
 use crate::model::sphere::Sphere;
@@ -117,7 +117,7 @@ impl<'scene> InCamera<'scene> {
         let projection = view.lens.projection();
         let viewpoint = match projection {
             Projection::Central => view.camera.position,
-            Projection::Parallel => moved_ahead(world, view.camera.position, view.camera.forward()),
+            Projection::Parallel => moved_ahead(world, &view.camera),
         };
         let in_camera =
             |sphere: &Sphere| in_camera(sphere, viewpoint, &camera_from_world, projection);
@@ -335,7 +335,8 @@ impl<'scene> InCamera<'scene> {
 
 /// A viewpoint of parallel rays, moved along them to just before the nearest sphere that they may meet: how far away they
 /// begin changes nothing about them, but what rounding moves grows with it. Where their plane cuts a sphere it stays.
-fn moved_ahead(world: &World, viewpoint: DVec3, forward: DVec3) -> DVec3 {
+fn moved_ahead(world: &World, camera: &Camera) -> DVec3 {
+    let (viewpoint, forward) = (camera.position, camera.forward());
     let spheres = world.spheres().par_iter().with_min_len(FEWEST_TO_SHARE);
     let begin = |sphere: &Sphere| {
         let ahead = (sphere.center() - viewpoint).dot(forward);
@@ -361,7 +362,7 @@ fn moved_ahead(world: &World, viewpoint: DVec3, forward: DVec3) -> DVec3 {
             }
         },
     );
-    let moved = viewpoint + forward * (nearest - viewpoint.dot(forward));
+    let moved = camera.on_axis_at(nearest);
     if nearest.is_finite() && moved.is_finite() {
         moved
     } else {

@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::numeric::angle::Angle;
+use crate::numeric::angle::{Angle, Precise};
 
 /// A viewpoint and an orientation.
 ///
@@ -11,6 +11,12 @@ use crate::numeric::angle::Angle;
 pub struct Camera {
     /// The viewpoint, in the world frame.
     pub position: DVec3,
+    /// A point on the axis of view, in the world frame, that is known as well as what is looked at; the viewpoint
+    /// itself will do.
+    ///
+    /// A viewpoint far away is rounded, and with it what parallel rays meet. They are therefore measured from this
+    /// point where it is nearer, unless it is off the axis by more than rounding.
+    pub on_axis: DVec3,
     /// The rotation from camera axes to world axes.
     pub world_from_camera: DMat3,
 }
@@ -36,6 +42,7 @@ impl Camera {
         );
         Self {
             position,
+            on_axis: nearest_to_origin(position, pan, tilt),
             world_from_camera: about_y * about_x * about_z,
         }
     }
@@ -45,7 +52,10 @@ impl Camera {
     /// Straight up or down the pan is 0. `None` where the target is the position.
     pub fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Self> {
         let (pan, tilt) = Self::pan_and_tilt_toward(target - position)?;
-        Some(Self::free(position, pan, tilt, roll))
+        Some(Self {
+            on_axis: target,
+            ..Self::free(position, pan, tilt, roll)
+        })
     }
 
     /// The camera that looks at `target` from `radius` away: `azimuth` is its pan, `elevation`
@@ -57,13 +67,10 @@ impl Camera {
         elevation: Angle,
         roll: Angle,
     ) -> Self {
-        let tilt = Angle {
-            sin: -elevation.sin,
-            cos: elevation.cos,
-        };
-        let turned = Self::free(target, azimuth, tilt, roll);
+        let turned = Self::free(target, azimuth, elevation.reversed(), roll);
         Self {
             position: target - turned.forward() * radius,
+            on_axis: target,
             ..turned
         }
     }
@@ -71,6 +78,36 @@ impl Camera {
     /// Unit vector in the middle of the view, in the world frame.
     pub fn forward(&self) -> DVec3 {
         self.world_from_camera.z_axis
+    }
+
+    /// The same camera elsewhere, `by` away.
+    pub fn moved(self, by: DVec3) -> Self {
+        Self {
+            position: self.position + by,
+            on_axis: self.on_axis + by,
+            ..self
+        }
+    }
+
+    /// Where parallel rays begin that go through the plane across the axis of view at the distance `along` from the
+    /// world's origin: a point on the axis of view.
+    ///
+    /// # Accuracy
+    /// Across the axis it is off by rounding of the nearer one of the viewpoint and the point on the axis, and of how
+    /// far away they are.
+    pub(crate) fn on_axis_at(&self, along: f64) -> DVec3 {
+        let forward = self.forward();
+        let way = |from: DVec3| along - from.dot(forward);
+        let size = |from: DVec3| from.length() + way(from).abs();
+        let between = self.on_axis - self.position;
+        let aside = (between - forward * between.dot(forward)).length();
+        let is_on_axis = aside <= MOST_ASIDE * (between.length() + size(self.on_axis));
+        let from = if is_on_axis && size(self.on_axis) < way(self.position).abs() {
+            self.on_axis
+        } else {
+            self.position
+        };
+        from + forward * way(from)
     }
 
     /// Pan and tilt of a camera that looks along `direction`; pan 0 straight up or down, `None`
@@ -87,6 +124,28 @@ impl Camera {
             Angle::from_sides(y, libm::hypot(x, z)),
         ))
     }
+}
+
+/// How far aside a point on the axis of view may be, relative to its distance, for rounding alone: 32 units of a
+/// double's precision.
+const MOST_ASIDE: f64 = 16.0 * f64::EPSILON;
+
+/// The point on the axis of view that is nearest to the world's origin, or the position itself where that is nearer to
+/// the origin than rounding moves it.
+///
+/// # Accuracy
+/// It is rounded as doubles are: the way to it is computed with twice their precision.
+fn nearest_to_origin(position: DVec3, pan: Angle, tilt: Angle) -> DVec3 {
+    let [pan_sin, pan_cos] = pan.precise();
+    let [tilt_sin, tilt_cos] = tilt.precise();
+    let forward = [pan_sin * tilt_cos, tilt_sin, pan_cos * tilt_cos];
+    let along = position.dot(DVec3::from_array(forward.map(|it| it.high)));
+    let from_origin = |axis: usize| {
+        let way = forward[axis] * Precise::from(along);
+        (Precise::from(position[axis]) - way).high
+    };
+    let point = DVec3::from_array([0, 1, 2].map(from_origin));
+    if point.is_finite() { point } else { position }
 }
 
 /// The flat retina in front of the viewpoint.

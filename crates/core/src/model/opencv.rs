@@ -50,8 +50,10 @@ impl Extrinsics {
     /// The camera at this place.
     pub fn camera(&self) -> Camera {
         let world_from_camera = mirrored(self.rotation).transpose();
+        let in_world = |place: DVec3| -(world_from_camera * (DOWN * place)) + DVec3::ZERO;
         Camera {
-            position: -(world_from_camera * (DOWN * self.translation)) + DVec3::ZERO,
+            position: in_world(self.translation),
+            on_axis: in_world(self.translation.with_z(0.0)),
             world_from_camera,
         }
     }

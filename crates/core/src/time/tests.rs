@@ -43,6 +43,7 @@ impl Motion for Pan {
 const VIEW: View = View {
     camera: Camera {
         position: DVec3::ZERO,
+        on_axis: DVec3::ZERO,
         world_from_camera: glam::DMat3::IDENTITY,
     },
     lens: Lens {

@@ -102,13 +102,15 @@ impl Channels {
                 let azimuth = Angle::from_degrees(self.azimuth.at(time) + turned_degrees);
                 let (target, radius) = (self.target.at(time), self.radius.at(time));
                 let elevation = angle(&self.elevation);
-                let mut camera = Camera::orbit(target, radius, azimuth, elevation, roll);
-                if let Some(aside) = self.aside {
-                    let aside = radius * aside;
-                    let axes = camera.world_from_camera;
-                    camera.position -= axes.x_axis * aside.x + axes.y_axis * aside.y;
+                let camera = Camera::orbit(target, radius, azimuth, elevation, roll);
+                match self.aside {
+                    Some(aside) => {
+                        let aside = radius * aside;
+                        let axes = camera.world_from_camera;
+                        camera.moved(-(axes.x_axis * aside.x + axes.y_axis * aside.y))
+                    }
+                    None => camera,
                 }
-                camera
             }
             Kind::Pose(camera) => camera,
         };

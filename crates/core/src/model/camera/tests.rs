@@ -37,8 +37,11 @@ fn orientations_are_rotations() {
 
 #[test]
 fn looks_straight_up_with_pan_zero() {
-    let up = Camera::look_at(DVec3::ZERO, DVec3::new(0.0, 1e-300, 0.0), Angle::ZERO);
-    assert_eq!(up, Some(turned(0.0, 90.0, 0.0)));
+    let up = Camera::look_at(DVec3::ZERO, DVec3::new(0.0, 1e-300, 0.0), Angle::ZERO).unwrap();
+    assert_eq!(
+        up.world_from_camera,
+        turned(0.0, 90.0, 0.0).world_from_camera
+    );
     let down = Camera::look_at(DVec3::ONE, DVec3::new(1.0, -7.0, 1.0), Angle::ZERO).unwrap();
     assert_eq!(
         down.world_from_camera,
@@ -70,4 +73,22 @@ fn orbit_stands_behind_and_above_its_target() {
 fn field_of_view_is_the_angle_across_the_retina() {
     let lens = Lens::from_field_of_view(std::f64::consts::FRAC_PI_2);
     assert!((lens.width - 2.0).abs() < 1e-15);
+}
+
+/// The middle of a turned picture is where the axis of view, to 60 digits, comes nearest to the world's origin.
+#[test]
+fn a_point_on_the_axis_is_known_however_far_the_viewpoint_is() {
+    let angle = Angle::from_degrees;
+    let position = DVec3::new(-508464342596.1034, 358367949545.8003, -782966426513.0144);
+    let camera = Camera::free(position, angle(33.0), angle(-21.0), Angle::ZERO);
+    let expected = DVec3::new(-20.111860645919705, 14.851141078553571, -31.229516609603195);
+    let along = expected.dot(camera.forward());
+    assert!((camera.on_axis_at(along) - expected).length() < 1e-13);
+    // One that is not on the axis does not count.
+    let elsewhere = Camera {
+        on_axis: DVec3::X,
+        ..camera
+    };
+    let way = elsewhere.on_axis_at(along) - position;
+    assert!(way.cross(camera.forward()).length() < 1e-3);
 }

@@ -19,7 +19,11 @@ impl Motion for Around {
         let ahead = Camera::free(DVec3::ZERO, pan, Angle::ZERO, Angle::ZERO);
         let position = ahead.world_from_camera * DVec3::new(0.0, 0.0, -10.0);
         Some(Pose {
-            camera: Camera { position, ..ahead },
+            camera: Camera {
+                position,
+                on_axis: position,
+                ..ahead
+            },
             zoom: 1.0,
         })
     }

@@ -27,6 +27,7 @@ use crate::search::visibility::Visibility;
 const VIEW: View = View {
     camera: Camera {
         position: DVec3::ZERO,
+        on_axis: DVec3::ZERO,
         world_from_camera: DMat3::IDENTITY,
     },
     lens: Lens {
