@@ -353,9 +353,9 @@ impl Stretch<'_> {
     ) -> f64 {
         /// Places around where a straight line would vanish, in widths of the bracket.
         const AROUND: [f64; 8] = [-0.2, -0.02, -0.002, -0.0002, 0.0002, 0.002, 0.02, 0.2];
-        /// A bracket in which a straight line will do. The parameter's range may be hundreds of cells long, and a root is
-        /// needed to a part of a cell.
-        const NARROW: f64 = 1e-9;
+        /// A bracket in which a straight line will do, in sides of the cell: the parameter's range may be hundreds of
+        /// cells long.
+        const NARROW: f64 = 3e-4;
         const MOST_ROUNDS: usize = 4;
         simd.vectorize(
             #[inline(always)]
@@ -387,7 +387,9 @@ impl Stretch<'_> {
                         bracket[1] = at[first];
                         values[1] = found[first];
                     }
-                    if bracket[1] - bracket[0] < NARROW {
+                    let near = first.min(7);
+                    let speed = places.dx[near].abs().max(places.dy[near].abs());
+                    if (bracket[1] - bracket[0]) * speed.max(1.0) < NARROW {
                         break;
                     }
                 }
