@@ -89,20 +89,21 @@ impl Cell {
 
     /// The second derivative along an axis, which is the same all along it, at an offset from the lattice point.
     pub(super) fn bend(&self, axis: usize, offset: [f64; 3]) -> [f64; 3] {
+        // How far the coefficients of powers of x, y and z are apart.
+        const STRIDES: [usize; 3] = [32, 9, 3];
+        let coefficients = self.coefficients.as_flattened();
         let [one, other] = [(axis + 1) % 3, (axis + 2) % 3];
-        let mut bend = [0.0; 3];
-        for of_one in 0..3 {
-            for of_other in 0..3 {
-                let mut powers = [2; 3];
-                (powers[one], powers[other]) = (of_one, of_other);
-                let factor = 2.0 * power(offset[one], of_one) * power(offset[other], of_other);
-                let [x, y, z] = powers;
-                for (part, bend) in bend.iter_mut().enumerate() {
-                    *bend += factor * self.coefficients[x][9 * y + 3 * z + part];
-                }
-            }
-        }
-        bend
+        let [along_one, along_other] = [offset[one], offset[other]];
+        let first = 2 * STRIDES[axis];
+        [0, 1, 2].map(|part| {
+            let row = |power: usize| {
+                let at = first + power * STRIDES[one] + part;
+                let step = STRIDES[other];
+                let [a, b, c] = [at, at + step, at + 2 * step].map(|at| coefficients[at]);
+                (c * along_other + b) * along_other + a
+            };
+            2.0 * ((row(2) * along_one + row(1)) * along_one + row(0))
+        })
     }
 
     /// The noise at one offset, the same to the bit: with eight coefficients at a time, where
@@ -130,12 +131,6 @@ impl Cell {
         ]
     }
 }
-
-/// A power up to the second.
-fn power(number: f64, exponent: usize) -> f64 {
-    [1.0, number, number * number][exponent]
-}
-
 #[inline(always)]
 fn along<L: Lanes>(at: L, [a, b, c]: [[L; 3]; 3]) -> [L; 3] {
     [
