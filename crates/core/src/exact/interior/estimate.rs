@@ -17,6 +17,10 @@ pub(super) const MOST_NEARNESS: f64 = 0.25;
 /// The same on bumps, whose parts are many: there the terms of a root's series that are left out are counted.
 const MOST_NEARNESS_OF_BUMPS: f64 = 0.5;
 
+/// What errors of bumps are multiplied by: one pixel in some ten thousand was off by up to four times what the bend
+/// told.
+pub(super) const CAUTION: f64 = 3.0;
+
 /// The relative error that rounding makes: some units in the last place, of about ten operations.
 pub(super) const ROUNDING: f64 = 1e-15;
 
@@ -51,7 +55,8 @@ impl<S: Simd> Filled<'_, S> {
     /// off by 1/720 of the mixed fourth derivative.
     ///
     /// What could fool it: the second differences of bumps are small by chance, and the kinks of their second derivatives
-    /// are not. So five samples are never enough there, nine must agree with them, and the estimate is multiplied.
+    /// are not. So what kinks may cost is added, nine samples must agree with five where five are not enough, and the
+    /// estimate is multiplied.
     #[inline(always)]
     pub(super) fn estimate(
         &self,
@@ -70,9 +75,6 @@ impl<S: Simd> Filled<'_, S> {
         /// The largest share of the bend that a kink of the second derivative costs, where cells of the
         /// noise meet. Not tuned.
         const OF_KINK: f64 = 0.1;
-        /// What errors of bumps are multiplied by: one pixel in some ten thousand was off by up to
-        /// four times what the bend told.
-        const CAUTION: f64 = 3.0;
         /// And more where light begins steeply, with a power below 1: near places of bumps that hardly face it one
         /// pixel in a hundred thousand was off by 2.6 times that.
         const OF_STEEP: f64 = 3.0;
@@ -141,7 +143,7 @@ impl<S: Simd> Filled<'_, S> {
             error += kinks.missed(rule, slope);
         }
         let mut is_met = is_known & error.simd_le(self.tolerance);
-        if is_rough && is_star {
+        if is_rough && is_star && kinks.is_none() {
             is_met = mask64x8::splat(simd, false);
         }
         Estimate {

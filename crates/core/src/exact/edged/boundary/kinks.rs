@@ -63,7 +63,7 @@ const MOST_PARTS: usize = 16;
 
 /// Tolerances that are small enough for a search in earnest, and for what lies between lines to count: tips of light,
 /// and where chords cease to begin in the dark.
-const FINE: f64 = 9e-5;
+const FINE: f64 = 4.5e-5;
 const WARY: f64 = 9e-4;
 
 /// What it costs the sum across lines that some of them turn otherwise than others, in what they
