@@ -84,7 +84,11 @@ impl Finish {
                 albedo,
                 ..Reflectance::new(scene.world.material(sphere))
             },
-            shading_normal: ShadingNormal::new(scene.world, sphere, pixel),
+            // Without lights no bumps are seen.
+            shading_normal: match scene.lights.is_empty() {
+                true => ShadingNormal::Smooth,
+                false => ShadingNormal::new(scene.world, sphere, pixel),
+            },
         }
     }
 

@@ -78,7 +78,8 @@ impl Contents {
         let mut most = 0.0_f64;
         for active in &self.active {
             let material = scene.world.material(active.sphere);
-            if material.roughness.is_none() || active.ball.outside <= 0.0 {
+            let is_smooth = material.roughness.is_none() || scene.lights.is_empty();
+            if is_smooth || active.ball.outside <= 0.0 {
                 continue;
             }
             let finish = Finish::new(scene, active.sphere, self.pixel);
