@@ -1,5 +1,7 @@
 //! Truths to hold marbles against, computed independently of it: what tests, examples and benchmarks share.
 
+pub mod covering;
+pub mod features;
 pub mod hits;
 pub mod mutations;
 pub mod numbers;

@@ -12,9 +12,9 @@ impl Reference<'_> {
     /// The truth of a pixel by two random samples in each of `side` × `side` strata.
     ///
     /// The error follows from how far both samples of a stratum are apart; what no sample sees is not in it.
-    pub fn by_strata(&self, col: u32, row: u32, side: u32) -> Truth {
+    pub fn by_strata(&self, col: u32, row: u32, side: u32, seed: u64) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
-        let mut state = u64::from(col) << 32 | u64::from(row);
+        let mut state = (u64::from(col) << 32 | u64::from(row)) ^ seed;
         let mut uniform = || {
             state = state
                 .wrapping_mul(6_364_136_223_846_793_005)

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use marbles_scene::Scene;
 
+use super::units::scaled;
 use marbles_tests::numbers::Numbers;
 
-/// A scene file in parts.
+/// A scene file in parts, and the way to render it.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
     /// Fields of the scene.
@@ -14,6 +15,19 @@ pub(super) struct Draft {
     pub(super) material: String,
     pub(super) lights: Vec<String>,
     pub(super) spheres: Vec<String>,
+    /// Spheres that change nothing that could be told, so that judges do without them.
+    pub(super) doubles: Vec<String>,
+    /// The camera that judges take: it sees the same, from where doubles suffice to tell.
+    pub(super) near_camera: Option<String>,
+    /// The units of light and of length. Judges take 1.
+    pub(super) light: f64,
+    pub(super) length: f64,
+    /// The size of a pixel at what is seen.
+    pub(super) pixel: f64,
+    /// True for pictures with alpha in place of their background.
+    pub(super) alpha: bool,
+    /// True for the picture of the first light alone.
+    pub(super) per_light: bool,
 }
 
 impl Draft {
@@ -34,8 +48,7 @@ impl Draft {
                 format!("shadows: {}", numbers.either(&["true", "true", "false"])),
             ],
             material: "albedo: 1".to_owned(),
-            lights: Vec::new(),
-            spheres: Vec::new(),
+            ..Self::empty()
         };
         for _ in 0..lights {
             let toward = [
@@ -47,6 +60,23 @@ impl Draft {
             draft.light(toward, numbers.between(0.3, 1.0) * share);
         }
         draft
+    }
+
+    /// Nothing.
+    pub(super) fn empty() -> Self {
+        Self {
+            head: Vec::new(),
+            material: String::new(),
+            lights: Vec::new(),
+            spheres: Vec::new(),
+            doubles: Vec::new(),
+            near_camera: None,
+            light: 1.0,
+            length: 1.0,
+            pixel: 1.0,
+            alpha: false,
+            per_light: false,
+        }
     }
 
     pub(super) fn light(&mut self, [x, y, z]: [f64; 3], intensity: f64) {
@@ -81,12 +111,26 @@ impl Draft {
         self.lights.push(light);
     }
 
-    pub(super) fn sphere(&mut self, [x, y, z]: [f64; 3], radius: f64) {
-        let sphere = format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")");
-        self.spheres.push(sphere);
+    pub(super) fn sphere(&mut self, center: [f64; 3], radius: f64) {
+        self.spheres.push(sphere(center, radius));
     }
 
+    /// The scene file.
     pub(super) fn text(&self) -> String {
+        let spheres = [&self.spheres[..], &self.doubles].concat();
+        scaled(&self.unscaled(&spheres), self.light, self.length)
+    }
+
+    /// The file of a scene that shows the same, and that judges can tell.
+    fn plain_text(&self) -> String {
+        let mut plain = self.clone();
+        if let (Some(near), Some(camera)) = (&self.near_camera, plain.head.get_mut(2)) {
+            camera.clone_from(near);
+        }
+        plain.unscaled(&self.spheres)
+    }
+
+    fn unscaled(&self, spheres: &[String]) -> String {
         let lines = |list: &[String]| {
             list.iter()
                 .map(|item| format!("\n        {item},"))
@@ -101,17 +145,22 @@ impl Draft {
             "(\n{head}    lights: [{}\n    ],\n    materials: {{ \"m\": ({}) }},\n    spheres: [{}\n    ],\n)\n",
             lines(&self.lights),
             self.material,
-            lines(&self.spheres)
+            lines(spheres)
         )
     }
 
     pub(super) fn scene(&self) -> Result<Scene, String> {
-        Scene::parse(&self.text(), Path::new("hunt.ron")).map_err(|error| error.to_string())
+        parsed(&self.text())
     }
 
-    /// The scene with many frames for one, if its shutter is open from frame 1.5 to 2.5.
+    /// The scene that judges take.
+    pub(super) fn plain(&self) -> Result<Scene, String> {
+        parsed(&self.plain_text())
+    }
+
+    /// The scene that judges take with many frames for one, if its shutter is open from frame 1.5 to 2.5.
     pub(super) fn moments(&self) -> Option<Scene> {
-        let text = self.text();
+        let text = self.plain_text();
         if !text.contains(OPEN) {
             return None;
         }
@@ -134,6 +183,39 @@ impl Draft {
         }
         Some(less)
     }
+
+    /// The scene without what judges do without.
+    pub(super) fn without_doubles(&self) -> Option<Self> {
+        (!self.doubles.is_empty()).then(|| Self {
+            doubles: Vec::new(),
+            ..self.clone()
+        })
+    }
+
+    /// The scene with the radius of one sphere an ulp larger.
+    pub(super) fn grown(&self, index: usize) -> Option<Self> {
+        let (before, radius, after) = around_radius(self.spheres.get(index)?)?;
+        let mut grown = self.clone();
+        grown.spheres[index] = format!("{before}{:e}{after}", radius.next_up());
+        Some(grown)
+    }
+}
+
+/// A sphere of the file.
+pub(super) fn sphere([x, y, z]: [f64; 3], radius: f64) -> String {
+    format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")")
+}
+
+/// The radius of a sphere of the file, and the text before and after it.
+fn around_radius(sphere: &str) -> Option<(&str, f64, &str)> {
+    const NAME: &str = "radius: ";
+    let (before, rest) = sphere.split_at(sphere.find(NAME)? + NAME.len());
+    let (radius, after) = rest.split_at(rest.find([',', ')'])?);
+    Some((before, radius.parse().ok()?, after))
+}
+
+fn parsed(text: &str) -> Result<Scene, String> {
+    Scene::parse(text, Path::new("hunt.ron")).map_err(|error| error.to_string())
 }
 
 /// Columns and rows of the pictures.

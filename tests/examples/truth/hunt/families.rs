@@ -1,6 +1,7 @@
 //! Families of small random scenes, each hard in its own way.
 
 use super::draft::Draft;
+use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, nearly_coincident};
 use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
@@ -9,170 +10,208 @@ use super::scenes::{
     slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
 };
 use super::strokes::outlined;
+use super::together::together;
 use marbles_tests::numbers::Numbers;
+
+/// The way to make a scene: by random numbers alone, or by them and the number of the scene.
+#[derive(Clone, Copy)]
+pub(super) enum Maker {
+    Random(fn(&mut Numbers) -> Draft),
+    Row(fn(&mut Numbers, u64) -> Draft),
+}
 
 /// A family, and the way to make one of its scenes.
 pub(super) struct Family {
     pub(super) name: &'static str,
-    pub(super) draft: fn(&mut Numbers) -> Draft,
+    pub(super) draft: Maker,
     /// A scene for so many of the others: those that cost much.
     pub(super) rarity: u64,
 }
 
-pub(super) const FAMILIES: [Family; 31] = [
+pub(super) const FAMILIES: [Family; 37] = [
     Family {
         name: "ordinary",
-        draft: ordinary,
+        draft: Maker::Random(ordinary),
         rarity: 1,
     },
     Family {
         name: "touching",
-        draft: touching,
+        draft: Maker::Random(touching),
         rarity: 1,
     },
     Family {
         name: "coincident",
-        draft: coincident,
+        draft: Maker::Random(coincident),
         rarity: 1,
     },
     Family {
         name: "triple points",
-        draft: triple_points,
+        draft: Maker::Random(triple_points),
         rarity: 1,
     },
     Family {
         name: "grazing shadows",
-        draft: grazing_shadows,
+        draft: Maker::Random(grazing_shadows),
         rarity: 1,
     },
     Family {
         name: "terminator at the rim",
-        draft: terminator_at_rim,
+        draft: Maker::Random(terminator_at_rim),
         rarity: 1,
     },
     Family {
         name: "exponents",
-        draft: exponents,
+        draft: Maker::Random(exponents),
         rarity: 1,
     },
     Family {
         name: "highlights",
-        draft: highlights,
+        draft: Maker::Random(highlights),
         rarity: 1,
     },
     Family {
         name: "long lenses",
-        draft: long_lenses,
+        draft: Maker::Random(long_lenses),
         rarity: 1,
     },
     Family {
         name: "far away",
-        draft: far_away,
+        draft: Maker::Random(far_away),
         rarity: 1,
     },
     Family {
         name: "wide lenses",
-        draft: wide_lenses,
+        draft: Maker::Random(wide_lenses),
         rarity: 1,
     },
     Family {
         name: "floors",
-        draft: floors,
+        draft: Maker::Random(floors),
         rarity: 1,
     },
     Family {
         name: "crowds",
-        draft: crowds,
+        draft: Maker::Random(crowds),
         rarity: 1,
     },
     Family {
         name: "slivers",
-        draft: slivers,
+        draft: Maker::Random(slivers),
         rarity: 1,
     },
     Family {
         name: "aligned grids",
-        draft: aligned_grids,
+        draft: Maker::Random(aligned_grids),
         rarity: 1,
     },
     Family {
         name: "many lights",
-        draft: many_lights,
+        draft: Maker::Random(many_lights),
         rarity: 1,
     },
     Family {
         name: "near lights",
-        draft: near_lights,
+        draft: Maker::Random(near_lights),
         rarity: 1,
     },
     Family {
         name: "lights between spheres",
-        draft: lights_between_spheres,
+        draft: Maker::Random(lights_between_spheres),
         rarity: 1,
     },
     Family {
         name: "lights inside",
-        draft: lights_inside,
+        draft: Maker::Random(lights_inside),
         rarity: 1,
     },
     Family {
         name: "grazing cones",
-        draft: grazing_cones,
+        draft: Maker::Random(grazing_cones),
         rarity: 1,
     },
     Family {
         name: "seams",
-        draft: seams,
+        draft: Maker::Random(seams),
         rarity: 1,
     },
     Family {
         name: "parallel lenses",
-        draft: parallel_lenses,
+        draft: Maker::Random(parallel_lenses),
         rarity: 1,
     },
     Family {
         name: "planes that cut",
-        draft: planes_that_cut,
+        draft: Maker::Random(planes_that_cut),
         rarity: 1,
     },
     Family {
         name: "shutters",
-        draft: shutters,
+        draft: Maker::Random(shutters),
         rarity: 10,
     },
     Family {
         name: "bumps larger than pixels",
-        draft: |numbers| surface_bumps(numbers, [0.5, 2.0]),
+        draft: Maker::Random(|numbers| surface_bumps(numbers, [0.5, 2.0])),
         rarity: 20,
     },
     Family {
         name: "bumps far away",
-        draft: far_bumps,
+        draft: Maker::Random(far_bumps),
         rarity: 20,
     },
     Family {
         name: "bumps like pixels",
-        draft: |numbers| surface_bumps(numbers, [-0.3, 0.5]),
+        draft: Maker::Random(|numbers| surface_bumps(numbers, [-0.3, 0.5])),
         rarity: 20,
     },
     Family {
         name: "bumps finer than pixels",
-        draft: |numbers| surface_bumps(numbers, [-2.0, -0.3]),
+        draft: Maker::Random(|numbers| surface_bumps(numbers, [-2.0, -0.3])),
         rarity: 20,
     },
     Family {
         name: "bumps of pixels",
-        draft: |numbers| rough(numbers, "Pixel"),
+        draft: Maker::Random(|numbers| rough(numbers, "Pixel")),
         rarity: 20,
     },
     Family {
         name: "outlines",
-        draft: outlined,
+        draft: Maker::Random(outlined),
         rarity: 1,
     },
     Family {
         name: "overlapping crowds",
-        draft: overlapping_crowds,
+        draft: Maker::Random(overlapping_crowds),
         rarity: 10,
+    },
+    Family {
+        name: "huge floors",
+        draft: Maker::Random(huge_floors),
+        rarity: 1,
+    },
+    Family {
+        name: "near eyes",
+        draft: Maker::Random(near_eyes),
+        rarity: 1,
+    },
+    Family {
+        name: "far parallel lenses",
+        draft: Maker::Random(far_parallel_lenses),
+        rarity: 1,
+    },
+    Family {
+        name: "nearly coincident crowds",
+        draft: Maker::Random(nearly_coincident),
+        rarity: 4,
+    },
+    Family {
+        name: "brightness",
+        draft: Maker::Random(brightness),
+        rarity: 2,
+    },
+    Family {
+        name: "together",
+        draft: Maker::Row(together),
+        rarity: 1,
     },
 ];

@@ -1,15 +1,20 @@
 //! A hunt for pixels that break their promise, or claim too little.
 //!
 //! Each scene is rendered to every tolerance, and held against the same picture of 3 × 3 as many pixels at
-//! 1e-6, and against samples: cheap filters. The tests' own integrator decides about what disagrees.
+//! 1e-6, and against samples: cheap filters. The tests' own integrator decides about what disagrees. Each is rendered
+//! once more with a radius an ulp larger, and pixels that say that they are over their tolerance are counted.
 
 mod draft;
+mod extremes;
 mod families;
+mod limits;
 mod options;
 mod page;
 mod parallel;
+mod picture;
 mod pixels;
 mod point_lights;
+mod pose;
 mod random;
 mod reduce;
 mod report;
@@ -17,15 +22,20 @@ mod sampled;
 mod scenes;
 mod strokes;
 mod subject;
+mod together;
+mod ulp;
+mod units;
 
-use std::fmt::{self, Write};
+use std::fmt;
+use std::io::{self, Write};
 use std::path::Path;
+use std::time::Instant;
 
 use marbles_tests::promise::honesty::Honesty;
 use rayon::prelude::*;
 
 use self::draft::Draft;
-use self::families::{FAMILIES, Family};
+use self::families::{FAMILIES, Family, Maker};
 use self::options::Options;
 use self::report::Report;
 use self::subject::Subject;
@@ -68,12 +78,18 @@ impl fmt::Display for Broken {
 /// What scenes came to.
 #[derive(Clone, Debug)]
 struct Found {
+    /// Pixels that were judged.
     pixels: u64,
+    /// Pixels that were rendered, and of each tolerance those that say that they are over it.
+    rendered: u64,
+    given_up: Vec<u64>,
     /// Pixels whose truth is not known well enough to judge a tolerance.
     unjudged: u64,
     broken: Vec<Broken>,
     /// Pixels within their tolerance that claim next to nothing of what they are off by.
     false_claims: Vec<Broken>,
+    /// Pixels that an ulp of a radius moves by more than they claim.
+    moved: Vec<Broken>,
     /// For each tolerance, how far pixels are off whose claims are not negligible.
     honesty: Vec<Honesty>,
 }
@@ -82,22 +98,40 @@ impl Found {
     fn new(tolerances: &[f64]) -> Self {
         Self {
             pixels: 0,
+            rendered: 0,
+            given_up: vec![0; tolerances.len()],
             unjudged: 0,
             broken: Vec::new(),
             false_claims: Vec::new(),
+            moved: Vec::new(),
             honesty: vec![Honesty::default(); tolerances.len()],
         }
     }
 
     fn add(&mut self, other: &Self) {
         self.pixels += other.pixels;
+        self.rendered += other.rendered;
+        for (all, given_up) in self.given_up.iter_mut().zip(&other.given_up) {
+            *all += given_up;
+        }
         self.unjudged += other.unjudged;
         self.broken.extend(&other.broken);
         self.false_claims.extend(&other.false_claims);
+        self.moved.extend(&other.moved);
         for (all, honesty) in self.honesty.iter_mut().zip(&other.honesty) {
             all.add(honesty);
         }
     }
+}
+
+/// Seconds from which on a scene is told to be slow.
+const SLOW: f64 = 20.0;
+
+/// A scene of a family, and what was found in it.
+struct Scene {
+    index: u64,
+    draft: Draft,
+    found: Found,
 }
 
 /// Hunts, and reports by families; an error, with the report, if a pixel is broken.
@@ -116,40 +150,105 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let mut examples = String::new();
     for family in families {
         let each = most.div_ceil(family.rarity);
+        let start = Instant::now();
         let found = search(family, each, &options)?;
-        report.add(family.name, each, found.iter().map(|(_, found)| found));
-        for (index, (draft, found)) in found.iter().enumerate() {
-            let worst = |broken: &&Broken| broken.error / broken.tolerance;
-            let all = found.broken.iter().chain(&found.false_claims);
-            let worst = all.max_by(|a, b| worst(a).total_cmp(&worst(b)));
-            let Some(worst) = worst else { continue };
-            // Writing to a string does not fail.
-            let _ = writeln!(examples, "{} {index}: {worst}", family.name);
-            if let Some(folder) = &options.folder {
-                let name = format!("{}-{}-{index}", family.name.replace(' ', "_"), options.seed);
-                reduce::write(Path::new(folder), &name, draft, worst)?;
+        let mut sum = Found::new(&options.tolerances);
+        found.iter().for_each(|scene| sum.add(&scene.found));
+        // A long hunt tells how far it is; nothing is left to do when even this fails.
+        let seconds = start.elapsed().as_secs_f64();
+        let _ = writeln!(
+            io::stderr(),
+            "{}, {seconds:.0} s",
+            report::line(family.name, each, &options.tolerances, &sum)
+        );
+        report.add(family.name, each, &sum);
+        for Scene {
+            index,
+            draft,
+            found,
+        } in &found
+        {
+            let seed = scene_seed(&options, *index);
+            for (worst, is_moved) in worst_of(found) {
+                let kind = if is_moved { " an ulp" } else { "" };
+                let example = format!("{} {index}:{kind} {worst}", family.name);
+                let _ = writeln!(io::stderr(), "{example}");
+                examples += &format!("{example}\n");
+                if let Some(folder) = &options.folder {
+                    let kind = if is_moved { "-ulp" } else { "" };
+                    let name = family.name.replace(' ', "_");
+                    let name = format!("{name}-{}-{index}{kind}", options.seed);
+                    let folder = Path::new(folder);
+                    reduce::write(folder, &name, draft, &worst, is_moved.then_some(seed))?;
+                }
             }
         }
     }
+    let exceeded = match &options.limits {
+        Some(path) => report.exceeded(Path::new(path))?,
+        None => String::new(),
+    };
     let text = report.text();
     if let Some(page) = &options.page {
         page::write(Path::new(page), &options, &text)?;
     }
-    if examples.is_empty() {
+    if examples.is_empty() && exceeded.is_empty() {
         Ok(text)
     } else {
-        Err(format!("pixels are broken\n{text}\n{examples}"))
+        Err(format!("{text}\n{examples}{exceeded}"))
     }
 }
 
-/// The first scenes of a family, and what was found in each.
-fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<(Draft, Found)>, String> {
-    let judged = |index| {
-        let seed = options.seed.wrapping_mul(1_000_003).wrapping_add(index);
-        let draft = (family.draft)(&mut Numbers(seed));
-        let subject = Subject::of(&draft)?;
-        let found = pixels::judge(&subject, &options.tolerances);
-        Ok((draft, found))
+/// The worst pixel that fell short, and the worst that an ulp moves too far.
+fn worst_of(found: &Found) -> impl Iterator<Item = (Broken, bool)> {
+    let ratio = |broken: &&Broken| broken.error / broken.tolerance;
+    let worst = |list: &mut dyn Iterator<Item = &Broken>| {
+        list.max_by(|a, b| ratio(a).total_cmp(&ratio(b))).copied()
     };
-    (0..scenes).into_par_iter().map(judged).collect()
+    let short = worst(&mut found.broken.iter().chain(&found.false_claims));
+    let moved = worst(&mut found.moved.iter());
+    let short = short.map(|broken| (broken, false));
+    short.into_iter().chain(moved.map(|broken| (broken, true)))
+}
+
+/// The number from which a scene is made.
+fn scene_seed(options: &Options, index: u64) -> u64 {
+    options.seed.wrapping_mul(1_000_003).wrapping_add(index)
+}
+
+/// The first scenes of a family, and what was found in each.
+fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>, String> {
+    let judged = |index| {
+        let seed = scene_seed(options, index);
+        let mut numbers = Numbers(seed);
+        let draft = match family.draft {
+            Maker::Random(draft) => draft(&mut numbers),
+            // Other seeds begin with other rows.
+            Maker::Row(draft) => draft(&mut numbers, options.seed.wrapping_mul(scenes) + index),
+        };
+        let subject = Subject::of(&draft).map_err(|error| format!("{}: {error}", family.name))?;
+        let start = Instant::now();
+        let mut found = pixels::judge(&subject, &options.tolerances);
+        let judging = start.elapsed().as_secs_f64();
+        ulp::judge(&mut found, &draft, &subject, seed, &options.tolerances);
+        let seconds = start.elapsed().as_secs_f64();
+        if seconds > SLOW {
+            let _ = writeln!(
+                io::stderr(),
+                "{} {index} took {judging:.0} and {:.0} s",
+                family.name,
+                seconds - judging
+            );
+        }
+        Ok(Scene {
+            index,
+            draft,
+            found,
+        })
+    };
+    let indices: Vec<u64> = match options.only {
+        Some(index) => vec![index],
+        None => (0..scenes).collect(),
+    };
+    indices.into_par_iter().map(judged).collect()
 }

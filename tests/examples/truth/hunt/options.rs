@@ -12,6 +12,10 @@ pub(super) struct Options {
     pub(super) tolerances: Vec<f64>,
     pub(super) folder: Option<String>,
     pub(super) page: Option<String>,
+    /// The only scene of a family.
+    pub(super) only: Option<u64>,
+    /// The file of what may be given up.
+    pub(super) limits: Option<String>,
 }
 
 impl Options {
@@ -23,6 +27,8 @@ impl Options {
             tolerances: TOLERANCES.to_vec(),
             folder: None,
             page: None,
+            limits: None,
+            only: None,
         };
         for pair in arguments.chunks(2) {
             let [name, value] = pair else {
@@ -39,6 +45,8 @@ impl Options {
                 "--family" => options.family = (*value).to_owned(),
                 "--tolerances" => options.tolerances = tolerances(value)?,
                 "--write" => options.folder = Some((*value).to_owned()),
+                "--only" => options.only = Some(number()?),
+                "--limits" => options.limits = Some((*value).to_owned()),
                 "--page" => options.page = Some((*value).to_owned()),
                 _ => return Err(format!("unknown option {name}")),
             }

@@ -1,11 +1,11 @@
 //! The pixels of a scene, held against the same picture with more pixels, and by samples.
 
 use glam::DVec4;
-use marbles_core::{Image, View};
 
 use super::draft::SIDE;
+use super::picture::Picture;
 use super::sampled::Sampled;
-use super::subject::{Subject, render};
+use super::subject::Subject;
 use super::{Broken, Found, random};
 use marbles_tests::numbers::Numbers;
 
@@ -38,30 +38,23 @@ const SHARE: u32 = 256;
 
 /// The pixels of a scene that fall short, and how far its pixels are off.
 pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
-    let mut found = Found::new(tolerances);
-    let scene = &subject.scene;
-    let Some(view) = subject.view() else {
-        return found;
-    };
-    if random::is_fine(scene) {
-        return random::judge(scene, &view, tolerances);
+    if random::is_fine(subject) {
+        return random::judge(subject, tolerances);
     }
-    let finer = View {
-        width: view.width * FINER,
-        height: view.height * FINER,
-        ..view
-    };
-    let Some(finer) = render(scene, &finer, FINEST) else {
+    let mut found = Found::new(tolerances);
+    let Some(finer) = subject.finer_picture(FINER, FINEST) else {
         return found;
     };
-    let sampled = Sampled::of(subject, &view);
+    let sampled = Sampled::of(subject);
     for (index, &tolerance) in tolerances.iter().enumerate() {
-        let Some(image) = render(scene, &view, tolerance) else {
+        let Some(picture) = subject.picture(tolerance) else {
             continue;
         };
         for place in 0..SIDE * SIDE {
-            let pixel = Pixel::of(&image, &finer, place, tolerance);
+            let pixel = Pixel::of(&picture, &finer, place, tolerance);
             found.pixels += 1;
+            found.rendered += 1;
+            found.given_up[index] += u64::from(pixel.is_confessed);
             if pixel.is_suspect() || sampled.as_ref().is_some_and(|it| pixel.is_unlike(it)) {
                 found.broken.extend(pixel.shortfall(subject));
             } else if pixel.has_false_claim() {
@@ -90,22 +83,22 @@ struct Pixel {
 }
 
 impl Pixel {
-    fn of(image: &Image, finer: &Image, place: u32, tolerance: f64) -> Self {
+    fn of(picture: &Picture, finer: &Picture, place: u32, tolerance: f64) -> Self {
         let (col, row) = (place % SIDE, place / SIDE);
         let (mut mean, mut uncertain) = (DVec4::ZERO, 0.0);
         let parts = FINER * FINER;
         for part in 0..parts {
             let (col, row) = (col * FINER + part % FINER, row * FINER + part / FINER);
-            mean += DVec4::from_array(finer.rgba(col, row)) / f64::from(parts);
-            uncertain += finer.error(col, row) / f64::from(parts);
+            mean += finer.value(col, row) / f64::from(parts);
+            uncertain += finer.claimed(col, row) / f64::from(parts);
         }
-        let value = DVec4::from_array(image.rgba(col, row));
+        let value = picture.value(col, row);
         Self {
             place,
             tolerance,
             value,
-            claimed: image.error(col, row),
-            is_confessed: image.status(col, row).is_over_tolerance(),
+            claimed: picture.claimed(col, row),
+            is_confessed: picture.is_over(col, row),
             apart: (value - mean).abs().max_element(),
             uncertain,
         }
@@ -138,9 +131,8 @@ impl Pixel {
 
     /// The pixel as a broken one, if the truth says that it is.
     fn shortfall(&self, subject: &Subject) -> Option<Broken> {
-        let (col, row) = self.place();
         let allowed = self.allowed();
-        let (error, uncertain) = subject.error_of(col, row, self.value, allowed)?;
+        let (error, uncertain) = subject.error_of(self.place(), self.value, allowed)?;
         (error > allowed + uncertain).then(|| self.broken(error))
     }
 
@@ -180,8 +172,7 @@ impl Pixel {
         if subject.is_slow() || chance.below(SHARE as usize) != 0 {
             return None;
         }
-        let (col, row) = self.place();
-        let (error, uncertain) = subject.error_of(col, row, self.value, claimed)?;
+        let (error, uncertain) = subject.error_of(self.place(), self.value, claimed)?;
         tells(error, uncertain).then_some((error / claimed, SHARE))
     }
 }

@@ -1,16 +1,16 @@
 //! Judges scenes whose bumps are too fine for lines, and those whose pixels have bumps of their own.
 
 use glam::DVec4;
-use marbles_core::{Grain, View};
+use marbles_core::Grain;
 use marbles_scene::Scene;
-use marbles_tests::reference::{Reference, Truth};
 
-use super::draft::SIDE;
+use super::draft::{MOMENTS, SIDE};
 use super::pixels::claims_something;
-use super::subject::render;
+use super::subject::Subject;
 use super::{Broken, Found};
+use marbles_tests::numbers::Numbers;
 
-/// Bumps, in units of a scene, which in the families of bumps are about pixels, that are fine.
+/// Bumps, in pixels, that are fine.
 const FINE: f64 = 0.5;
 
 /// One of so many pixels is judged.
@@ -23,10 +23,18 @@ const TELLING: f64 = 10.0;
 /// Strata on a side of a pixel: at first, and for those that seem off.
 const STRATA: [u32; 2] = [64, 400];
 
+/// Parts of the time with two random moments each, where the shutter is open, and standard deviations that the mean
+/// is taken to be off by at most.
+const PARTS: i32 = 32;
+const DEVIATIONS: f64 = 6.0;
+
+/// What the mean over time of bumps of pixels may be off by.
+const FINE_OVER_TIME: f64 = 1e-5;
+
 /// Returns whether a scene has surfaces whose pixels finer pictures tell nothing of.
-pub(super) fn is_fine(scene: &Scene) -> bool {
-    grains(scene).any(|grain| match grain {
-        Grain::Surface(size) => size < FINE,
+pub(super) fn is_fine(subject: &Subject) -> bool {
+    grains(subject.plain()).any(|grain| match grain {
+        Grain::Surface(size) => size < FINE * subject.pixel,
         Grain::Pixel => true,
     })
 }
@@ -37,47 +45,80 @@ pub(super) fn grains(scene: &Scene) -> impl Iterator<Item = Grain> {
     materials.filter_map(|material| Some(material.roughness.as_ref()?.grain))
 }
 
+/// The truth of a pixel by so many strata on a side, and what it may be off by.
+fn truth(subject: &Subject, (col, row): (u32, u32), strata: u32) -> Option<(DVec4, f64)> {
+    let is_by_pixel = grains(subject.plain()).any(|grain| grain == Grain::Pixel);
+    if is_by_pixel {
+        return subject.truth(FINE_OVER_TIME, |judge, _| judge.pixel(col, row));
+    }
+    let Some(moments) = subject.moments() else {
+        return subject.truth(0.0, |judge, _| judge.by_strata(col, row, strata, 0));
+    };
+    // As of strata: how far two samples of a part are apart tells how far their mean is off.
+    let mut numbers = Numbers(u64::from(col) << 32 | u64::from(row));
+    let length = MOMENTS / PARTS;
+    let strata = (strata / 4).max(16);
+    let (mut sum, mut squares) = (DVec4::ZERO, DVec4::ZERO);
+    for part in 0..PARTS {
+        let mut sample = || {
+            let within = numbers.below(length as usize) as i32;
+            let frame = 2 * MOMENTS - MOMENTS / 2 + part * length + within;
+            let seed = numbers.bits();
+            let judged = subject.at(moments, frame, |judge, _| {
+                judge.by_strata(col, row, strata, seed)
+            });
+            judged.map(|(value, _)| value)
+        };
+        let (one, other) = (sample()?, sample()?);
+        sum += one + other;
+        squares += (one - other) * (one - other);
+    }
+    let count = f64::from(2 * PARTS);
+    let off = DEVIATIONS * squares.max_element().sqrt() / count;
+    Some((sum / count, off))
+}
+
 /// The pixels, of a part of a scene's, that fall short, and how far they are off.
-pub(super) fn judge(scene: &Scene, view: &View, tolerances: &[f64]) -> Found {
+pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     let mut found = Found::new(tolerances);
-    let reference = Reference::new(scene.world(), view);
-    let is_by_pixel = grains(scene).any(|grain| grain == Grain::Pixel);
-    let truth = |col: u32, row: u32, strata: u32| {
-        if is_by_pixel {
-            reference.pixel(col, row)
-        } else {
-            reference.by_strata(col, row, strata)
-        }
-    };
-    let background = scene.world().background;
-    let error_of = |truth: &Truth, value: DVec4| {
-        let exact = truth.value.truncate() + background * (1.0 - truth.value.w);
-        (value.truncate() - exact).abs().max_element()
-    };
-    let images: Vec<_> = tolerances
+    let is_by_pixel = grains(subject.plain()).any(|grain| grain == Grain::Pixel);
+    let pictures: Vec<_> = tolerances
         .iter()
-        .map(|&tolerance| render(scene, view, tolerance))
+        .map(|&tolerance| subject.picture(tolerance))
         .collect();
+    for (index, picture) in pictures.iter().enumerate() {
+        let places = (0..SIDE * SIDE).map(|place| (place % SIDE, place / SIDE));
+        let over = places.filter(|&(col, row)| {
+            picture
+                .as_ref()
+                .is_some_and(|picture| picture.is_over(col, row))
+        });
+        found.given_up[index] += over.count() as u64;
+        found.rendered += u64::from(SIDE * SIDE);
+    }
     for place in (0..SIDE * SIDE).step_by(STRIDE as usize) {
         let (col, row) = (place % SIDE, place / SIDE);
-        let mut known = truth(col, row, STRATA[0]);
+        let Some(mut known) = truth(subject, (col, row), STRATA[0]) else {
+            continue;
+        };
         let mut is_fine = is_by_pixel;
-        for (index, (image, &tolerance)) in images.iter().zip(tolerances).enumerate() {
-            let Some(image) = image else { continue };
+        for (index, (picture, &tolerance)) in pictures.iter().zip(tolerances).enumerate() {
+            let Some(picture) = picture else { continue };
             found.pixels += 1;
-            let claimed = image.error(col, row);
-            let is_confessed = image.status(col, row).is_over_tolerance();
+            let claimed = picture.claimed(col, row);
+            let is_confessed = picture.is_over(col, row);
             let allowed = if is_confessed { claimed } else { tolerance };
-            let value = DVec4::from_array(image.rgba(col, row));
-            if error_of(&known, value) > 0.5 * allowed && !is_fine {
-                known = truth(col, row, STRATA[1]);
+            let value = picture.value(col, row);
+            let error_of = |known: DVec4| (value - known).abs().max_element();
+            if error_of(known.0) > 0.5 * allowed && !is_fine {
+                known = truth(subject, (col, row), STRATA[1]).unwrap_or(known);
                 is_fine = true;
             }
-            let error = error_of(&known, value);
-            if claims_something(claimed, tolerance) && claimed >= TELLING * known.error {
+            let error = error_of(known.0);
+            if claims_something(claimed, tolerance) && claimed >= TELLING * known.1 {
                 found.honesty[index].count(error / claimed, STRIDE);
             }
-            if error > allowed + known.error + 1e-13 {
+            if error > allowed + known.1 {
                 found.broken.push(Broken {
                     col,
                     row,
@@ -86,7 +127,7 @@ pub(super) fn judge(scene: &Scene, view: &View, tolerances: &[f64]) -> Found {
                     claimed,
                     is_confessed,
                 });
-            } else if known.error > allowed {
+            } else if known.1 > allowed {
                 found.unjudged += 1;
             }
         }

@@ -5,31 +5,57 @@ use std::path::Path;
 use super::Broken;
 use super::draft::Draft;
 use super::subject::Subject;
+use super::ulp;
 
-/// Leaves out what is not needed for a pixel to fall short.
-fn reduced(draft: &Draft, broken: &Broken) -> Draft {
+/// Leaves out what is not needed for a pixel to fall short, or to move too far when the sphere grows that a seed tells.
+fn reduced(draft: &Draft, broken: &Broken, moved: Option<u64>) -> (Draft, Option<usize>) {
     let mut draft = draft.clone();
+    let mut grown = moved.and_then(|seed| Some(ulp::grown(&draft, seed)?.0));
+    let falls_short = |draft: &Draft, grown: Option<usize>| match grown {
+        Some(grown) => ulp::still_moves(draft, grown, broken),
+        None => Subject::of(draft).is_ok_and(|subject| subject.shortfall(broken).is_some()),
+    };
+    if let Some(less) = draft.without_doubles()
+        && falls_short(&less, grown)
+    {
+        draft = less;
+    }
     let mut index = 0;
     while let Some(less) = draft.without(index) {
-        let falls_short =
-            Subject::of(&less).is_ok_and(|subject| subject.shortfall(broken).is_some());
-        if falls_short {
-            draft = less;
+        let is_grown = grown == Some(index);
+        // The others move up.
+        let moved_up = grown.map(|grown| grown - usize::from(index < grown));
+        if !is_grown && falls_short(&less, moved_up) {
+            (draft, grown) = (less, moved_up);
         } else {
             index += 1;
         }
     }
-    draft
+    (draft, grown)
 }
 
-/// Writes the reduced scene of a broken pixel into a folder.
+/// Writes the reduced scene of a broken pixel into a folder; of one that moves when a sphere grows with the seed that
+/// tells which.
 pub(super) fn write(
     folder: &Path,
     name: &str,
     draft: &Draft,
     broken: &Broken,
+    moved: Option<u64>,
 ) -> Result<(), String> {
-    let text = format!("// {broken}\n{}", reduced(draft, broken).text());
+    let (reduced, grown) = reduced(draft, broken, moved);
+    let mut head = format!("// {broken}");
+    if let Some(grown) = grown {
+        head += &format!("; when spheres[{grown}] grows by an ulp");
+    }
+    for (name, is_set) in [("alpha", draft.alpha), ("per light", draft.per_light)] {
+        head += if is_set { "; " } else { "" };
+        head += if is_set { name } else { "" };
+    }
+    if draft.light != 1.0 {
+        head += &format!("; all in units of {:e} of light", draft.light);
+    }
+    let text = format!("{head}\n{}", reduced.text());
     let path = folder.join(name).with_extension("ron");
     std::fs::create_dir_all(folder)
         .and_then(|()| std::fs::write(&path, text))

@@ -1,10 +1,11 @@
 //! The tables that tell what a hunt found.
 
 use std::fmt::Write;
+use std::path::Path;
 
 use marbles_tests::promise::honesty::Honesty;
 
-use super::Found;
+use super::{Found, limits};
 
 /// The tables, family by family.
 pub(super) struct Report<'a> {
@@ -13,9 +14,13 @@ pub(super) struct Report<'a> {
     counts: String,
     /// The medians of true over claimed errors.
     medians: String,
+    /// Pixels that say that they are over their tolerance, of a million.
+    given_up: String,
     /// Of all families, for each tolerance.
     honesty: Vec<Honesty>,
     unjudged: u64,
+    /// The same pixels of each family, counted.
+    counts_given_up: Vec<(String, Vec<u64>)>,
 }
 
 impl<'a> Report<'a> {
@@ -25,48 +30,48 @@ impl<'a> Report<'a> {
         Self {
             tolerances,
             counts: format!(
-                "| family | scenes | pixels |{names} beyond claim | false claims |\n|---|--:|--:|{rules}--:|--:|\n"
+                "| family | scenes | pixels |{names} beyond claim | false claims | moved by an ulp |\n\
+                 |---|--:|--:|{rules}--:|--:|--:|\n"
             ),
             medians: format!("| true / claimed error |{names}\n|---|{rules}\n"),
+            given_up: format!("| given up, per million |{names}\n|---|{rules}\n"),
             honesty: vec![Honesty::default(); tolerances.len()],
             unjudged: 0,
+            counts_given_up: Vec::new(),
         }
     }
 
     /// Adds what was found in the scenes of a family.
-    pub(super) fn add<'found>(
-        &mut self,
-        family: &str,
-        scenes: u64,
-        found: impl Iterator<Item = &'found Found>,
-    ) {
-        let mut sum = Found::new(self.tolerances);
-        for found in found {
-            sum.add(found);
-        }
+    pub(super) fn add(&mut self, family: &str, scenes: u64, sum: &Found) {
         self.unjudged += sum.unjudged;
-        let pixels = sum.pixels;
         // Writing to a string does not fail.
-        let _ = write!(self.counts, "| {family} | {scenes} | {pixels} ");
-        for &tolerance in self.tolerances {
-            let broken = sum.broken.iter();
-            let broken =
-                broken.filter(|broken| !broken.is_confessed && broken.tolerance == tolerance);
-            let _ = write!(self.counts, "| {} ", broken.count());
-        }
-        let beyond = sum.broken.iter().filter(|broken| broken.is_confessed);
-        let false_claims = sum.false_claims.len();
-        let _ = writeln!(self.counts, "| {} | {false_claims} |", beyond.count());
+        let _ = writeln!(
+            self.counts,
+            "| {family} | {scenes} | {} |{}",
+            sum.pixels,
+            counts(self.tolerances, sum)
+        );
         self.medians.push_str(&medians(family, &sum.honesty));
+        let of_each = sum.rendered as f64 / self.tolerances.len() as f64;
+        let share = |&count: &u64| format!(" {:.0} |", 1e6 * count as f64 / of_each);
+        let shares: String = sum.given_up.iter().map(share).collect();
+        let _ = writeln!(self.given_up, "| {family} |{shares}");
+        self.counts_given_up
+            .push((family.to_owned(), sum.given_up.clone()));
         for (all, honesty) in self.honesty.iter_mut().zip(&sum.honesty) {
             all.add(honesty);
         }
     }
 
-    /// The text of both tables.
+    /// The families of which more is given up than a file allows; see [`limits::exceeded`].
+    pub(super) fn exceeded(&self, path: &Path) -> Result<String, String> {
+        limits::exceeded(path, &self.counts_given_up)
+    }
+
+    /// The text of all tables.
     pub(super) fn text(self) -> String {
         let all = medians("all", &self.honesty);
-        let mut text = format!("{}\n{}{all}", self.counts, self.medians);
+        let mut text = format!("{}\n{}{all}\n{}", self.counts, self.medians, self.given_up);
         if self.unjudged > 0 {
             let _ = writeln!(
                 text,
@@ -76,6 +81,36 @@ impl<'a> Report<'a> {
         }
         text
     }
+}
+
+/// The cells of a family that count pixels which fell short.
+fn counts(tolerances: &[f64], sum: &Found) -> String {
+    let mut text = String::new();
+    for &tolerance in tolerances {
+        let broken = sum.broken.iter();
+        let broken = broken.filter(|broken| !broken.is_confessed && broken.tolerance == tolerance);
+        let _ = write!(text, " {} |", broken.count());
+    }
+    let beyond = sum.broken.iter().filter(|broken| broken.is_confessed);
+    let _ = write!(
+        text,
+        " {} | {} | {} |",
+        beyond.count(),
+        sum.false_claims.len(),
+        sum.moved.len()
+    );
+    text
+}
+
+/// What a hunt tells of a family when it is done with it.
+pub(super) fn line(family: &str, scenes: u64, tolerances: &[f64], sum: &Found) -> String {
+    format!(
+        "{family}: {scenes} scenes, {} pixels, fell short |{} given up {:?}, unjudged {}",
+        sum.pixels,
+        counts(tolerances, sum),
+        sum.given_up,
+        sum.unjudged
+    )
 }
 
 /// A row of medians.

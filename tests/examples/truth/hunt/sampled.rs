@@ -4,10 +4,10 @@
 use std::num::NonZeroU32;
 
 use glam::DVec4;
-use marbles_core::{Image, Method, View};
 
 use super::draft::SIDE;
-use super::subject::{Subject, render_by};
+use super::picture::Picture;
+use super::subject::Subject;
 
 /// Samples along each side of a pixel.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
@@ -20,19 +20,19 @@ const OF_RANGE: f64 = 0.1;
 
 /// A picture of means over samples.
 pub(super) struct Sampled {
-    image: Image,
+    picture: Picture,
     missed: f64,
 }
 
 impl Sampled {
-    pub(super) fn of(subject: &Subject, view: &View) -> Option<Self> {
+    pub(super) fn of(subject: &Subject) -> Option<Self> {
         let missed = if subject.is_slow() {
             MISSED_OF_SLOW
         } else {
             MISSED
         };
-        let image = render_by(&subject.scene, view, Method::Samples(SAMPLES))?;
-        Some(Self { image, missed })
+        let picture = subject.sampled_picture(SAMPLES)?;
+        Some(Self { picture, missed })
     }
 
     /// True if a pixel is farther than its tolerance from all that samples find near it.
@@ -40,7 +40,7 @@ impl Sampled {
         let (mut least, mut most) = (DVec4::INFINITY, DVec4::NEG_INFINITY);
         for row in row.saturating_sub(1)..=(row + 1).min(SIDE - 1) {
             for col in col.saturating_sub(1)..=(col + 1).min(SIDE - 1) {
-                let near = DVec4::from_array(self.image.rgba(col, row));
+                let near = self.picture.value(col, row);
                 least = least.min(near);
                 most = most.max(near);
             }

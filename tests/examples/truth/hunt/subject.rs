@@ -1,94 +1,183 @@
 //! A scene of a hunt, and the truth about its pixels.
 
-use std::ops::ControlFlow;
+use std::num::NonZeroU32;
 
-use glam::{DVec3, DVec4};
-use marbles_core::{Image, Method, Renderer, Settings, View};
+use glam::DVec4;
+use marbles_core::{Method, View, World};
 use marbles_scene::Scene;
-use marbles_tests::reference::Reference;
+use marbles_tests::reference::{Reference, Truth};
 
 use super::draft::{Draft, MOMENTS};
+use super::picture::{Mode, Picture};
 use super::{Broken, random};
 
-/// A scene, and the same with many frames for one, where its shutter is open.
+/// What the last digits of sums cost the truth.
+const ROUNDING: f64 = 1e-13;
+
+/// A scene, one that judges can tell and that shows the same in another unit, and that with many frames for one,
+/// where its shutter is open.
 pub(super) struct Subject {
-    pub(super) scene: Scene,
+    scene: Scene,
+    plain: Scene,
     moments: Option<Scene>,
+    mode: Mode,
+    /// The size of a pixel at what is seen.
+    pub(super) pixel: f64,
 }
 
 impl Subject {
     pub(super) fn of(draft: &Draft) -> Result<Self, String> {
         let scene = draft.scene()?;
-        let moments = draft.moments();
-        Ok(Self { scene, moments })
+        let mode = Mode::of(&scene, draft.alpha, draft.per_light, draft.light);
+        Ok(Self {
+            scene,
+            plain: draft.plain()?,
+            moments: draft.moments(),
+            mode,
+            pixel: draft.pixel,
+        })
     }
 
-    pub(super) fn view(&self) -> Option<View> {
-        let frame = if self.moments.is_some() { 2 } else { 1 };
-        self.scene.view(frame).ok()
+    /// The scene that judges have.
+    pub(super) fn plain(&self) -> &Scene {
+        &self.plain
+    }
+
+    fn frame(&self) -> i32 {
+        if self.moments.is_some() { 2 } else { 1 }
+    }
+
+    /// The picture to a tolerance.
+    pub(super) fn picture(&self, tolerance: f64) -> Option<Picture> {
+        let view = self.scene.view(self.frame()).ok()?;
+        Picture::of(&self.scene, &view, self.mode, Method::Tolerance(tolerance))
+    }
+
+    /// The picture that judges have of so many times as many columns and rows, to a tolerance.
+    pub(super) fn finer_picture(&self, times: u32, tolerance: f64) -> Option<Picture> {
+        self.plain_picture(times, Method::Tolerance(tolerance))
+    }
+
+    /// The picture that judges have by samples.
+    pub(super) fn sampled_picture(&self, samples: NonZeroU32) -> Option<Picture> {
+        self.plain_picture(1, Method::Samples(samples))
+    }
+
+    fn plain_picture(&self, times: u32, method: Method) -> Option<Picture> {
+        let view = self.plain.view(self.frame()).ok()?;
+        let view = View {
+            width: view.width * times,
+            height: view.height * times,
+            ..view
+        };
+        let mode = Mode {
+            light: 1.0,
+            ..self.mode
+        };
+        Picture::of(&self.plain, &view, mode, method)
     }
 
     /// True if the truth about a pixel takes a large part of a second: of bumps, and over time.
     pub(super) fn is_slow(&self) -> bool {
-        self.moments.is_some() || random::grains(&self.scene).next().is_some()
+        self.moments.is_some() || random::grains(&self.plain).next().is_some()
     }
 
-    /// The light of a pixel with its background, and what that may be off by.
-    fn truth(&self, col: u32, row: u32, fine: f64) -> Option<(DVec3, f64)> {
+    /// A value that [`Picture::value`] is to have, and what it may be off by, by some integrator for single moments.
+    pub(super) fn truth(
+        &self,
+        fine: f64,
+        judge: impl Fn(&Reference<'_>, i32) -> Truth,
+    ) -> Option<(DVec4, f64)> {
         match &self.moments {
-            None => Some(truth(&self.scene, &self.view()?, col, row)),
-            Some(moments) => over_time(moments, col, row, fine),
+            None => self.at(&self.plain, 1, &judge),
+            Some(moments) => over_time(fine, |frame| self.at(moments, frame, &judge)),
         }
     }
 
+    /// The same of a frame of a scene that judges have.
+    pub(super) fn at(
+        &self,
+        scene: &Scene,
+        frame: i32,
+        judge: impl Fn(&Reference<'_>, i32) -> Truth,
+    ) -> Option<(DVec4, f64)> {
+        let mut view = scene.view(frame).ok()?;
+        // Bumps of pixels are drawn once for the frame.
+        view.frame = self.plain.view(self.frame()).ok()?.frame;
+        let part = self.mode.part(scene.world());
+        let part: Option<World> = part.map(|part| scene.world().under(part));
+        let world = part.as_ref().unwrap_or(scene.world());
+        let truth = judge(&Reference::new(world, &view), frame);
+        let light = truth.value.truncate();
+        if self.mode.alpha {
+            let of_alpha = self.mode.of_alpha;
+            let value = light.extend(truth.value.w * of_alpha);
+            return Some((value, truth.error * of_alpha.max(1.0) + ROUNDING));
+        }
+        let background = world.background * (1.0 - truth.value.w);
+        Some(((light + background).extend(0.0), truth.error + ROUNDING))
+    }
+
+    /// The scene with many frames for one, where its shutter is open.
+    pub(super) fn moments(&self) -> Option<&Scene> {
+        self.moments.as_ref()
+    }
+
     /// How far a pixel's light is from the truth, and what that may be off by.
+    ///
+    /// A pixel that seems to be off by more than is allowed is held against the sum of its quarters, too: what hides
+    /// from lines through it hardly hides in them as well.
     pub(super) fn error_of(
         &self,
-        col: u32,
-        row: u32,
+        (col, row): (u32, u32),
         value: DVec4,
         allowed: f64,
     ) -> Option<(f64, f64)> {
         /// Of what is allowed.
         const FINE: f64 = 0.02;
-        let (exact, uncertain) = self.truth(col, row, FINE * allowed)?;
-        Some(((value.truncate() - exact).abs().max_element(), uncertain))
+        let fine = FINE * allowed;
+        let whole = self.truth(fine, |judge, _| judge.pixel(col, row))?;
+        let error = |(exact, _): (DVec4, f64)| (value - exact).abs().max_element();
+        if error(whole) <= allowed + whole.1 {
+            return Some((error(whole), whole.1));
+        }
+        let parts = self.truth(fine, |judge, _| judge.pixel_by_quarters(col, row))?;
+        let apart = (whole.0 - parts.0).abs().max_element();
+        let uncertain = if apart > whole.1 + parts.1 {
+            apart + parts.1
+        } else {
+            whole.1.min(parts.1)
+        };
+        Some((error(parts), uncertain))
     }
 
     /// The error of one pixel at a tolerance, where it is over it without saying so, or over its claim.
     pub(super) fn shortfall(&self, broken: &Broken) -> Option<f64> {
         let (col, row) = (broken.col, broken.row);
-        let image = render(&self.scene, &self.view()?, broken.tolerance)?;
-        let value = DVec4::from_array(image.rgba(col, row));
-        let allowed = if image.status(col, row).is_over_tolerance() {
-            image.error(col, row)
+        let picture = self.picture(broken.tolerance)?;
+        let allowed = if picture.is_over(col, row) {
+            picture.claimed(col, row)
         } else {
             broken.tolerance
         };
-        let (error, uncertain) = self.error_of(col, row, value, allowed)?;
+        let value = picture.value(col, row);
+        let (error, uncertain) = self.error_of((col, row), value, allowed)?;
         (error > allowed + uncertain).then_some(error)
     }
-}
-
-fn truth(scene: &Scene, view: &View, col: u32, row: u32) -> (DVec3, f64) {
-    let truth = Reference::new(scene.world(), view).pixel(col, row);
-    let background = scene.world().background * (1.0 - truth.value.w);
-    (truth.value.truncate() + background, truth.error + 1e-13)
 }
 
 /// The mean over the midpoints of equal parts of the time, twice as many as long as that changes it by more than
 /// a little. Light goes with time without jumps, so that the mean converges with the square of their number:
 /// it is said to be off by twice the last change.
-fn over_time(moments: &Scene, col: u32, row: u32, fine: f64) -> Option<(DVec3, f64)> {
+fn over_time(fine: f64, of_frame: impl Fn(i32) -> Option<(DVec4, f64)>) -> Option<(DVec4, f64)> {
     const FIRST: i32 = 32;
     const LAST: i32 = 1024;
     let mean = |count: i32| {
         let step = MOMENTS / count;
-        let mut sum = (DVec3::ZERO, 0.0);
+        let mut sum = (DVec4::ZERO, 0.0);
         for part in 0..count {
             let frame = 2 * MOMENTS - MOMENTS / 2 + part * step + step / 2;
-            let view = moments.view(frame).ok()?;
-            let (light, error) = truth(moments, &view, col, row);
+            let (light, error) = of_frame(frame)?;
             sum.0 += light / f64::from(count);
             sum.1 += error / f64::from(count);
         }
@@ -104,21 +193,4 @@ fn over_time(moments: &Scene, col: u32, row: u32, fine: f64) -> Option<(DVec3, f
             return Some((known.0, known.1 + 2.0 * change));
         }
     }
-}
-
-/// The picture to a tolerance.
-pub(super) fn render(scene: &Scene, view: &View, tolerance: f64) -> Option<Image> {
-    render_by(scene, view, Method::Tolerance(tolerance))
-}
-
-/// The picture by a method.
-pub(super) fn render_by(scene: &Scene, view: &View, method: Method) -> Option<Image> {
-    let settings = Settings {
-        method,
-        alpha: false,
-    };
-    let go = |_| ControlFlow::Continue(());
-    Renderer::new(scene.world())
-        .render(scene.exposure(view), &settings, &go)
-        .ok()
 }

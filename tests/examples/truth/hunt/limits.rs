@@ -1,0 +1,50 @@
+//! What a hunt may give up: it may not grow.
+
+use std::fmt::Write;
+use std::path::Path;
+
+/// The lines about families of which more pixels are given up than a file allows, which has lines such as
+/// `ordinary,0,0,1,12,40`: as many numbers as the hunt has tolerances. With `MARBLES_BLESS=1` the file is written anew.
+///
+/// Pictures are the same on all machines, so that the same hunt gives up the same pixels. A family that the file lacks
+/// may give up nothing.
+pub(super) fn exceeded(path: &Path, counts: &[(String, Vec<u64>)]) -> Result<String, String> {
+    let at = |error| format!("{}: {error}", path.display());
+    if std::env::var_os("MARBLES_BLESS").is_some() {
+        let line = |(family, counts): &(String, Vec<u64>)| {
+            let counts = counts.iter().map(|count| format!(",{count}"));
+            format!("{family}{}\n", counts.collect::<String>())
+        };
+        let text: String = counts.iter().map(line).collect();
+        std::fs::write(path, text).map_err(at)?;
+        return Ok(String::new());
+    }
+    let text = std::fs::read_to_string(path).map_err(at)?;
+    let limits_of = |family: &str| {
+        let line = text
+            .lines()
+            .find_map(|line| line.strip_prefix(family)?.strip_prefix(','));
+        let limits = line.into_iter().flat_map(|line| line.split(','));
+        limits
+            .map(|limit| limit.parse().unwrap_or(0))
+            .collect::<Vec<u64>>()
+    };
+    let mut report = String::new();
+    for (family, counts) in counts {
+        let limits = limits_of(family);
+        let limit = |index: usize| limits.get(index).copied().unwrap_or(0);
+        if counts
+            .iter()
+            .enumerate()
+            .any(|(index, &count)| count > limit(index))
+        {
+            // Writing to a string does not fail.
+            let _ = writeln!(
+                report,
+                "{family} gives up {counts:?} pixels, of {limits:?} that {} allows",
+                path.display()
+            );
+        }
+    }
+    Ok(report)
+}
