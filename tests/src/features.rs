@@ -1,5 +1,6 @@
 //! Features of scenes, and rows of them in which every three occur together.
 
+use std::fmt;
 use std::sync::OnceLock;
 
 use crate::covering::{Choice, rows};
@@ -92,6 +93,20 @@ impl Row<'_> {
     /// Whether a feature has a value.
     pub fn has(&self, feature: Feature, value: &str) -> bool {
         self.value(feature) == value
+    }
+}
+
+impl fmt::Display for Row<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, (feature, values)) in FEATURES.iter().enumerate() {
+            let separator = if index == 0 { "" } else { ", " };
+            write!(
+                formatter,
+                "{separator}{feature:?} {}",
+                values[self.0[index]]
+            )?;
+        }
+        Ok(())
     }
 }
 

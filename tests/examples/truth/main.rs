@@ -6,6 +6,7 @@ mod files;
 mod hunt;
 mod judge;
 mod table;
+mod whole;
 
 use std::io::{self, Write};
 use std::process::ExitCode;
@@ -20,10 +21,16 @@ cargo truth doubt SCENE [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT]
 cargo truth pixel SCENE COL ROW [--size WIDTHxHEIGHT]
     what is known of one pixel
 cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--tolerances 1e-2,1e-3,1e-4,1e-5,1e-6]
-                 [--write FOLDER] [--page docs/hunt.md]
+                 [--write FOLDER] [--page docs/hunt.md] [--only SCENE] [--limits FILE]
     renders random scenes of every family to all tolerances, counts pixels that are over them without
     saying so, and pixels that are over what they say, and tells the medians of true over claimed errors;
-    --write reduces scenes of such pixels and writes them, --page writes the tables into a page
+    every scene is rendered again with a radius an ulp larger: pixels that move by more than they claim are broken;
+    the scenes of the family \"together\" go through the rows of an array of features, any three of which occur together;
+    --write reduces scenes of such pixels and writes them, --page writes the tables into a page,
+    --only takes a single scene of each family, --limits refuses to give up more pixels than a file allows
+cargo truth whole [SCENE ...] [--size own|WIDTHxHEIGHT] [--tolerances 1e-2,1e-3,1e-4,5e-5,1e-5]
+    renders the scenes, or all of scenes/, in their own size and in two odd ones, and holds every pixel against the
+    same picture with 3 x 3 as many pixels at 1e-7
 cargo truth write [NAME]
 cargo truth check [NAME]
     write, or compute again, the exact pixels of the scenes in tests/truth/promise, or of those
@@ -52,6 +59,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         ["doubt", scene, options @ ..] => judge::doubt(scene, options)?,
         ["pixel", scene, col, row, options @ ..] => judge::pixel(scene, col, row, options)?,
         ["hunt", options @ ..] => hunt::hunt(options)?,
+        ["whole", options @ ..] => whole::whole(options)?,
         ["write"] => files::write("")?,
         ["write", part] => files::write(part)?,
         ["check"] => files::check("")?,

@@ -28,6 +28,8 @@ pub(super) struct Draft {
     pub(super) alpha: bool,
     /// True for the picture of the first light alone.
     pub(super) per_light: bool,
+    /// What it is a scene of, within its family.
+    pub(super) kind: String,
 }
 
 impl Draft {
@@ -76,6 +78,7 @@ impl Draft {
             pixel: 1.0,
             alpha: false,
             per_light: false,
+            kind: String::new(),
         }
     }
 

@@ -171,7 +171,7 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
             let seed = scene_seed(&options, *index);
             for (worst, is_moved) in worst_of(found) {
                 let kind = if is_moved { " an ulp" } else { "" };
-                let example = format!("{} {index}:{kind} {worst}", family.name);
+                let example = format!("{} {index}:{kind} {worst} {}", family.name, draft.kind);
                 let _ = writeln!(io::stderr(), "{example}");
                 examples += &format!("{example}\n");
                 if let Some(folder) = &options.folder {
@@ -232,12 +232,23 @@ fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>,
         let judging = start.elapsed().as_secs_f64();
         ulp::judge(&mut found, &draft, &subject, seed, &options.tolerances);
         let seconds = start.elapsed().as_secs_f64();
+        let over: u64 = found.given_up.iter().sum();
+        if over > 0 && !draft.kind.is_empty() {
+            let _ = writeln!(
+                io::stderr(),
+                "{} {index} gives up {:?}: {}",
+                family.name,
+                found.given_up,
+                draft.kind
+            );
+        }
         if seconds > SLOW {
             let _ = writeln!(
                 io::stderr(),
-                "{} {index} took {judging:.0} and {:.0} s",
+                "{} {index} took {judging:.0} and {:.0} s: {}",
                 family.name,
-                seconds - judging
+                seconds - judging,
+                draft.kind
             );
         }
         Ok(Scene {

@@ -44,6 +44,20 @@ impl Picture {
         Some(Self { image, mode })
     }
 
+    pub(super) fn columns(&self) -> u32 {
+        self.image.width()
+    }
+
+    pub(super) fn rows(&self) -> u32 {
+        self.image.height()
+    }
+
+    /// All columns and rows.
+    pub(super) fn places(&self) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let (columns, rows) = (self.columns(), self.rows());
+        (0..columns * rows).map(move |place| (place % columns, place / columns))
+    }
+
     /// The light of a pixel with its background; or its spheres' light, and its alpha as light.
     pub(super) fn value(&self, col: u32, row: u32) -> DVec4 {
         let value = DVec4::from_array(self.image.rgba(col, row));

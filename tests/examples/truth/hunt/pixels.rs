@@ -2,7 +2,6 @@
 
 use glam::DVec4;
 
-use super::draft::SIDE;
 use super::picture::Picture;
 use super::sampled::Sampled;
 use super::subject::Subject;
@@ -50,7 +49,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
         let Some(picture) = subject.picture(tolerance) else {
             continue;
         };
-        for place in 0..SIDE * SIDE {
+        for place in picture.places() {
             let pixel = Pixel::of(&picture, &finer, place, tolerance);
             found.pixels += 1;
             found.rendered += 1;
@@ -70,7 +69,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
 
 /// A pixel at a tolerance, and what the finer picture knows of it.
 struct Pixel {
-    place: u32,
+    place: (u32, u32),
     tolerance: f64,
     value: DVec4,
     claimed: f64,
@@ -83,8 +82,8 @@ struct Pixel {
 }
 
 impl Pixel {
-    fn of(picture: &Picture, finer: &Picture, place: u32, tolerance: f64) -> Self {
-        let (col, row) = (place % SIDE, place / SIDE);
+    fn of(picture: &Picture, finer: &Picture, place: (u32, u32), tolerance: f64) -> Self {
+        let (col, row) = place;
         let (mut mean, mut uncertain) = (DVec4::ZERO, 0.0);
         let parts = FINER * FINER;
         for part in 0..parts {
@@ -105,7 +104,7 @@ impl Pixel {
     }
 
     fn place(&self) -> (u32, u32) {
-        (self.place % SIDE, self.place / SIDE)
+        self.place
     }
 
     /// What the pixel may be off by.
@@ -168,7 +167,7 @@ impl Pixel {
         if tells(apart, self.uncertain) {
             return Some((apart / claimed, 1));
         }
-        let mut chance = Numbers(claimed.to_bits() ^ u64::from(self.place));
+        let mut chance = Numbers(claimed.to_bits() ^ u64::from(32 * self.place.1 + self.place.0));
         if subject.is_slow() || chance.below(SHARE as usize) != 0 {
             return None;
         }

@@ -4,7 +4,8 @@ use glam::DVec4;
 use marbles_core::Grain;
 use marbles_scene::Scene;
 
-use super::draft::{MOMENTS, SIDE};
+use super::draft::MOMENTS;
+use super::picture::Picture;
 use super::pixels::claims_something;
 use super::subject::Subject;
 use super::{Broken, Found};
@@ -14,7 +15,7 @@ use marbles_tests::numbers::Numbers;
 const FINE: f64 = 0.5;
 
 /// One of so many pixels is judged.
-const STRIDE: u32 = 21;
+const STRIDE: usize = 21;
 
 /// The truth tells how far a pixel is off, as a part of what it claims, if the claim is so many times what the
 /// truth may be off by: to a tenth.
@@ -87,17 +88,15 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
         .map(|&tolerance| subject.picture(tolerance))
         .collect();
     for (index, picture) in pictures.iter().enumerate() {
-        let places = (0..SIDE * SIDE).map(|place| (place % SIDE, place / SIDE));
-        let over = places.filter(|&(col, row)| {
-            picture
-                .as_ref()
-                .is_some_and(|picture| picture.is_over(col, row))
-        });
+        let Some(picture) = picture else { continue };
+        let over = picture
+            .places()
+            .filter(|&(col, row)| picture.is_over(col, row));
         found.given_up[index] += over.count() as u64;
-        found.rendered += u64::from(SIDE * SIDE);
+        found.rendered += picture.places().count() as u64;
     }
-    for place in (0..SIDE * SIDE).step_by(STRIDE as usize) {
-        let (col, row) = (place % SIDE, place / SIDE);
+    let places = pictures.iter().flatten().next().map(Picture::places);
+    for (col, row) in places.into_iter().flatten().step_by(STRIDE) {
         let Some(mut known) = truth(subject, (col, row), STRATA[0]) else {
             continue;
         };
@@ -116,7 +115,7 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
             }
             let error = error_of(known.0);
             if claims_something(claimed, tolerance) && claimed >= TELLING * known.1 {
-                found.honesty[index].count(error / claimed, STRIDE);
+                found.honesty[index].count(error / claimed, STRIDE as u32);
             }
             if error > allowed + known.1 {
                 found.broken.push(Broken {

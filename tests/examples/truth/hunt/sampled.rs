@@ -5,7 +5,6 @@ use std::num::NonZeroU32;
 
 use glam::DVec4;
 
-use super::draft::SIDE;
 use super::picture::Picture;
 use super::subject::Subject;
 
@@ -38,8 +37,8 @@ impl Sampled {
     /// True if a pixel is farther than its tolerance from all that samples find near it.
     pub(super) fn contradicts(&self, (col, row): (u32, u32), value: DVec4, allowed: f64) -> bool {
         let (mut least, mut most) = (DVec4::INFINITY, DVec4::NEG_INFINITY);
-        for row in row.saturating_sub(1)..=(row + 1).min(SIDE - 1) {
-            for col in col.saturating_sub(1)..=(col + 1).min(SIDE - 1) {
+        for row in row.saturating_sub(1)..=(row + 1).min(self.picture.rows() - 1) {
+            for col in col.saturating_sub(1)..=(col + 1).min(self.picture.columns() - 1) {
                 let near = self.picture.value(col, row);
                 least = least.min(near);
                 most = most.max(near);

@@ -12,13 +12,16 @@ use marbles_tests::numbers::Numbers;
 /// the surface.
 const FAR: f64 = 100.0;
 
+/// Columns and rows of pictures with bumps or an open shutter.
+const SIDE_OF_SLOW: u32 = 10;
+
 /// A scene of a row, by random numbers.
 pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
     let row = row(index);
     let lens = Sight::of(&row, numbers);
     let mut draft = Draft::empty();
     draft.head = vec![
-        format!("image: (width: {SIDE}, height: {SIDE})"),
+        format!("image: (width: {0}, height: {0})", lens.side),
         lens.text(),
         lens.pose.camera(),
         format!(
@@ -28,6 +31,7 @@ pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
         format!("ambient: {}", numbers.either(&["0", "0.1"])),
         format!("shadows: {}", row.has(Feature::Shadows, "yes")),
     ];
+    draft.kind = row.to_string();
     draft.pixel = lens.pixel(FAR);
     add_spheres(&mut draft, &row, &lens, numbers);
     add_lights(&mut draft, &row, &lens, numbers);
@@ -54,6 +58,8 @@ pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
 /// The lens and the camera of a scene.
 struct Sight {
     pose: Pose,
+    /// Columns and rows.
+    side: u32,
     /// The distance of the retina, in pixels; none of a parallel lens.
     distance: Option<f64>,
     /// The shift, in pixels.
@@ -73,10 +79,13 @@ impl Sight {
         let wall = row.has(Feature::Eye, "near").then_some([height, radius]);
         let near = wall.map_or(1.0, |_| 10.0 * height / FAR);
         let ordinary = 50.0 * numbers.between(0.5, 2.0);
+        let is_slow = !row.has(Feature::Surface, "smooth") || row.has(Feature::Shutter, "open");
+        let side = if is_slow { SIDE_OF_SLOW } else { SIDE };
         let half_angle = numbers.between(60.0, 87.5_f64).to_radians();
-        let wide = 0.5 * f64::from(SIDE) / libm::tan(half_angle);
+        let wide = 0.5 * f64::from(side) / libm::tan(half_angle);
         let shift = [(); 2].map(|()| numbers.between(-40.0, 40.0));
         Self {
+            side,
             pose: Pose::random(numbers, if wall.is_some() { radius } else { 50.0 }),
             distance: match row.value(Feature::Lens) {
                 "parallel" => None,
@@ -97,9 +106,15 @@ impl Sight {
         let [x, y] = self.shift;
         match self.distance {
             Some(distance) => {
-                format!("lens: Retina(width: {SIDE}, distance: {distance}, shift: ({x}, {y}))")
+                format!(
+                    "lens: Retina(width: {}, distance: {distance}, shift: ({x}, {y}))",
+                    self.side
+                )
             }
-            None => format!("lens: Parallel(width: {})", f64::from(SIDE) * self.size),
+            None => format!(
+                "lens: Parallel(width: {})",
+                f64::from(self.side) * self.size
+            ),
         }
     }
 
@@ -113,7 +128,7 @@ impl Sight {
 
     /// A place in the picture at a depth, in the axes of the camera.
     fn place(&self, depth: f64, numbers: &mut Numbers) -> DVec3 {
-        let half = 0.45 * f64::from(SIDE);
+        let half = 0.45 * f64::from(self.side);
         let pixel = self.pixel(depth);
         let [x, y] = self
             .shift

@@ -7,7 +7,7 @@ use glam::DVec4;
 use marbles_core::Light;
 use marbles_tests::numbers::Numbers;
 
-use super::draft::{Draft, SIDE};
+use super::draft::Draft;
 use super::picture::Picture;
 use super::subject::Subject;
 use super::{Broken, Found};
@@ -60,7 +60,7 @@ pub(super) fn judge(
 
 /// The pixels of two pictures that are farther apart than both claim, and than a shift of edges explains.
 fn moved(one: &Picture, other: &Picture, shift: f64, tolerance: f64) -> Vec<Broken> {
-    let places = || (0..SIDE * SIDE).map(|place| (place % SIDE, place / SIDE));
+    let places = || one.places();
     let brightest = places()
         .map(|(col, row)| one.value(col, row).max_element())
         .fold(0.0, f64::max);

@@ -1,0 +1,246 @@
+//! Whole pictures of scenes, all pixels held against the same pictures with 3 × 3 as many.
+
+use std::fmt::Write as _;
+use std::io::{self, Write as _};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use glam::DVec4;
+use marbles_core::{Image, Method, Renderer, Settings, View};
+use marbles_scene::Scene;
+
+/// The tolerances of those who name no others: 5e-5 was a gate once.
+const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 5e-5, 1e-5];
+
+/// The division of pixels, and the tolerance of their parts.
+const FINER: u32 = 3;
+const FINEST: f64 = 1e-7;
+
+/// What is asked.
+struct Options {
+    scenes: Vec<PathBuf>,
+    tolerances: Vec<f64>,
+    /// None for a scene's own size and two odd ones.
+    size: Option<(u32, u32)>,
+    is_own_size: bool,
+}
+
+impl Options {
+    fn parse(arguments: &[&str]) -> Result<Self, String> {
+        let mut options = Self {
+            scenes: Vec::new(),
+            tolerances: TOLERANCES.to_vec(),
+            size: None,
+            is_own_size: false,
+        };
+        let mut rest = arguments.iter();
+        while let Some(&argument) = rest.next() {
+            let mut value = || {
+                rest.next()
+                    .copied()
+                    .ok_or(format!("{argument} needs a value"))
+            };
+            match argument {
+                "--tolerances" => options.tolerances = list(value()?)?,
+                "--size" => match value()? {
+                    "own" => options.is_own_size = true,
+                    size => options.size = Some(parse_size(size)?),
+                },
+                scene => options.scenes.push(scene.into()),
+            }
+        }
+        if options.scenes.is_empty() {
+            options.scenes = examples()?;
+        }
+        Ok(options)
+    }
+
+    /// The sizes in which a scene is rendered.
+    fn sizes(&self, view: &View) -> Vec<(u32, u32)> {
+        let own = (view.width, view.height);
+        match self.size {
+            Some(size) => vec![size],
+            None if self.is_own_size => vec![own],
+            // One wider than the scene's own, with pixels nearly as large; one as high, with larger ones.
+            None => {
+                let wide = (view.width * 6 / 7 | 1, view.height * 3 / 7 | 1);
+                let small = (view.width / 4 | 1, view.height / 3 | 1);
+                vec![own, wide, small]
+            }
+        }
+    }
+}
+
+fn list(text: &str) -> Result<Vec<f64>, String> {
+    let number = |text: &str| {
+        text.parse()
+            .map_err(|_| format!("{text} is not a tolerance"))
+    };
+    text.split(',').map(number).collect()
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once('x');
+    let sides = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    sides.ok_or_else(|| format!("a size is 120x80, not {text}"))
+}
+
+/// The scenes for people.
+fn examples() -> Result<Vec<PathBuf>, String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
+    let at = |error| format!("{}: {error}", folder.display());
+    let mut scenes = Vec::new();
+    for entry in std::fs::read_dir(&folder).map_err(at)? {
+        let path = entry.map_err(at)?.path();
+        if path.extension().is_some_and(|ending| ending == "ron") {
+            scenes.push(path);
+        }
+    }
+    scenes.sort();
+    Ok(scenes)
+}
+
+/// Counts, for every scene, size and tolerance, pixels that are over it without saying so, that say so, and that are
+/// beyond their claims; an error, with the table, if there is one of the first.
+pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
+    let options = Options::parse(arguments)?;
+    let mut table = String::from(
+        "| scene | size | tolerance | over unsaid | given up | beyond claim | worst / tolerance | worst / claim | in doubt | seconds |\n\
+         |---|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
+    );
+    // A long run tells its rows as it has them; nothing is left to do when even this fails.
+    let _ = write!(io::stderr(), "{table}");
+    let mut broken = 0;
+    for path in &options.scenes {
+        let scene = Scene::load(path).map_err(|error| error.to_string())?;
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let frame = scene.frames().map_or(1, |frames| *frames.start());
+        let view = scene.view(frame).map_err(|error| error.to_string())?;
+        let world = scene.world_at(frame).map_err(|error| error.to_string())?;
+        let renderer = Renderer::new(&world);
+        for (width, height) in options.sizes(&view) {
+            let view = View {
+                width,
+                height,
+                ..view
+            };
+            let finer = View {
+                width: width * FINER,
+                height: height * FINER,
+                ..view
+            };
+            let Some(finer) = picture(&renderer, &scene, &finer, FINEST) else {
+                continue;
+            };
+            for &tolerance in &options.tolerances {
+                let start = Instant::now();
+                let Some(image) = picture(&renderer, &scene, &view, tolerance) else {
+                    continue;
+                };
+                let seconds = start.elapsed().as_secs_f64();
+                let count = Count::of(&image, &finer, tolerance);
+                broken += count.over;
+                let row = format!(
+                    "| {name} | {width}x{height} | {tolerance:e} | {} | {} | {} | {:.2} | {:.2} | {} | {seconds:.2} |",
+                    count.over,
+                    count.given_up,
+                    count.beyond,
+                    count.worst,
+                    count.worst_of_claim,
+                    count.doubtful
+                );
+                let places = format!(
+                    "{}{}",
+                    told("over", &count.places),
+                    told("beyond", &count.beyond_places)
+                );
+                let _ = writeln!(io::stderr(), "{row}{places}");
+                // Writing to a string does not fail.
+                let _ = writeln!(table, "{row}");
+            }
+        }
+    }
+    match broken {
+        0 => Ok(table),
+        _ => Err(format!(
+            "{broken} pixels are over a tolerance and do not say so\n{table}"
+        )),
+    }
+}
+
+/// The first places of a list.
+fn told(name: &str, places: &[(u32, u32)]) -> String {
+    match places.is_empty() {
+        true => String::new(),
+        false => format!(" {name} {:?}", &places[..places.len().min(6)]),
+    }
+}
+
+fn picture(renderer: &Renderer<'_>, scene: &Scene, view: &View, tolerance: f64) -> Option<Image> {
+    let settings = Settings {
+        method: Method::Tolerance(tolerance),
+        alpha: false,
+    };
+    let go = |_| ControlFlow::Continue(());
+    renderer.render(scene.exposure(view), &settings, &go).ok()
+}
+
+/// What the pixels of a picture came to.
+#[derive(Default)]
+struct Count {
+    over: usize,
+    given_up: usize,
+    beyond: usize,
+    /// The largest error of a pixel that claims to be within, as a part of the tolerance, and of its claim where that
+    /// is exceeded.
+    worst: f64,
+    worst_of_claim: f64,
+    /// Pixels that the finer picture knows no better.
+    doubtful: usize,
+    places: Vec<(u32, u32)>,
+    beyond_places: Vec<(u32, u32)>,
+}
+
+impl Count {
+    fn of(image: &Image, finer: &Image, tolerance: f64) -> Self {
+        let mut count = Self::default();
+        for row in 0..image.height() {
+            for col in 0..image.width() {
+                count.add(image, finer, (col, row), tolerance);
+            }
+        }
+        count
+    }
+
+    fn add(&mut self, image: &Image, finer: &Image, (col, row): (u32, u32), tolerance: f64) {
+        let (mut mean, mut uncertain) = (DVec4::ZERO, 0.0);
+        let parts = FINER * FINER;
+        for part in 0..parts {
+            let (col, row) = (col * FINER + part % FINER, row * FINER + part / FINER);
+            mean += DVec4::from_array(finer.rgba(col, row)) / f64::from(parts);
+            uncertain += finer.error(col, row) / f64::from(parts);
+        }
+        let error = (DVec4::from_array(image.rgba(col, row)) - mean)
+            .abs()
+            .max_element();
+        let claimed = image.error(col, row);
+        let is_over = image.status(col, row).is_over_tolerance();
+        self.given_up += usize::from(is_over);
+        self.doubtful += usize::from(uncertain > 0.1 * tolerance);
+        if !is_over {
+            self.worst = self.worst.max((error - uncertain) / tolerance);
+            if error > tolerance + uncertain {
+                self.over += 1;
+                self.places.push((col, row));
+            }
+        }
+        if error > claimed + uncertain {
+            self.beyond += 1;
+            self.beyond_places.push((col, row));
+            // A claim of 0 counts as rounding.
+            let ratio = (error - uncertain) / claimed.max(f64::EPSILON);
+            self.worst_of_claim = self.worst_of_claim.max(ratio);
+        }
+    }
+}
