@@ -21,11 +21,12 @@ cargo truth doubt SCENE [--pixels 2000] [--seed 1] [--size WIDTHxHEIGHT]
 cargo truth pixel SCENE COL ROW [--size WIDTHxHEIGHT]
     what is known of one pixel
 cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--tolerances 1e-2,1e-3,1e-4,1e-5,1e-6]
-                 [--write FOLDER] [--page docs/hunt.md] [--only SCENE] [--limits FILE]
+                 [--write FOLDER] [--page docs/hunt.md] [--rows 10] [--only SCENE] [--limits FILE]
     renders random scenes of every family to all tolerances, counts pixels that are over them without
     saying so, and pixels that are over what they say, and tells the medians of true over claimed errors;
     every scene is rendered again with a radius an ulp larger: pixels that move by more than they claim are broken;
-    the scenes of the family \"together\" go through the rows of an array of features, any three of which occur together;
+    the scenes of the family \"together\" go through the rows of an array of features, any three of which occur together:
+    --rows tells how many scenes each row has;
     --write reduces scenes of such pixels and writes them, --page writes the tables into a page,
     --only takes a single scene of each family, --limits refuses to give up more pixels than a file allows
 cargo truth whole [SCENE ...] [--size own|WIDTHxHEIGHT] [--tolerances 1e-2,1e-3,1e-4,5e-5,1e-5]

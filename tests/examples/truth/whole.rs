@@ -17,6 +17,9 @@ const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 5e-5, 1e-5];
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-7;
 
+/// What the mean of parts is off by through rounding, in units of light.
+const ROUNDING: f64 = 1e-13;
+
 /// What is asked.
 struct Options {
     scenes: Vec<PathBuf>,
@@ -113,12 +116,16 @@ pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
     let _ = write!(io::stderr(), "{table}");
     let mut broken = 0;
     for path in &options.scenes {
-        let scene = Scene::load(path).map_err(|error| error.to_string())?;
+        let (scene, with_thick_lines) = load(path)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         let frame = scene.frames().map_or(1, |frames| *frames.start());
         let view = scene.view(frame).map_err(|error| error.to_string())?;
         let world = scene.world_at(frame).map_err(|error| error.to_string())?;
         let renderer = Renderer::new(&world);
+        let finer_world = with_thick_lines
+            .world_at(frame)
+            .map_err(|error| error.to_string())?;
+        let finer_renderer = Renderer::new(&finer_world);
         for (width, height) in options.sizes(&view) {
             let view = View {
                 width,
@@ -130,7 +137,7 @@ pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
                 height: height * FINER,
                 ..view
             };
-            let Some(finer) = picture(&renderer, &scene, &finer, FINEST) else {
+            let Some(finer) = picture(&finer_renderer, &with_thick_lines, &finer, FINEST) else {
                 continue;
             };
             for &tolerance in &options.tolerances {
@@ -167,6 +174,24 @@ pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
             "{broken} pixels are over a tolerance and do not say so\n{table}"
         )),
     }
+}
+
+/// A scene, and the same with lines along outlines so many times as wide as its pixels are many: lines whose width is
+/// in pixels are as wide in the finer picture.
+fn load(path: &Path) -> Result<(Scene, Scene), String> {
+    const LINE: &str = "outline: (width: ";
+    let at = |error| format!("{}: {error}", path.display());
+    let text = std::fs::read_to_string(path).map_err(at)?;
+    let parts = text.split(LINE).enumerate().map(|(index, part)| {
+        let end = part.find([',', ')']).unwrap_or(0);
+        match part[..end].parse::<f64>() {
+            Ok(width) if index > 0 => format!("{}{}", width * f64::from(FINER), &part[end..]),
+            _ => part.to_owned(),
+        }
+    });
+    let thick = parts.collect::<Vec<_>>().join(LINE);
+    let parse = |text: &str| Scene::parse(text, path).map_err(|error| error.to_string());
+    Ok((parse(&text)?, parse(&thick)?))
 }
 
 /// The first places of a list.
@@ -235,11 +260,10 @@ impl Count {
                 self.places.push((col, row));
             }
         }
-        if error > claimed + uncertain {
+        if error > claimed + uncertain + ROUNDING {
             self.beyond += 1;
             self.beyond_places.push((col, row));
-            // A claim of 0 counts as rounding.
-            let ratio = (error - uncertain) / claimed.max(f64::EPSILON);
+            let ratio = (error - uncertain) / claimed.max(ROUNDING);
             self.worst_of_claim = self.worst_of_claim.max(ratio);
         }
     }

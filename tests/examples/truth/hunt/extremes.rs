@@ -184,7 +184,8 @@ pub(super) fn far_parallel_lenses(numbers: &mut Numbers) -> Draft {
         let center = [half, half, 60.0].map(|most| numbers.between(-most, most));
         draft.sphere(pose.place(center.into()), numbers.between(2.0, 14.0));
     }
-    if numbers.below(3) == 0 {
+    // The plane in which the rays of judges begin would cut a floor.
+    if draft.near_camera.is_none() && numbers.below(2) == 0 {
         let radius = power_of_ten(numbers, 3.0, 8.0);
         draft.sphere([x, y - radius - 20.0, z], radius);
     }

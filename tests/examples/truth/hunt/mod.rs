@@ -39,6 +39,7 @@ use self::families::{FAMILIES, Family, Maker};
 use self::options::Options;
 use self::report::Report;
 use self::subject::Subject;
+use marbles_tests::features;
 use marbles_tests::numbers::Numbers;
 
 /// A pixel that fell short.
@@ -149,7 +150,10 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let mut report = Report::new(&options.tolerances);
     let mut examples = String::new();
     for family in families {
-        let each = most.div_ceil(family.rarity);
+        let each = match (family.draft, options.rows) {
+            (Maker::Row(_), Some(scenes)) => scenes * features::count(),
+            _ => most.div_ceil(family.rarity),
+        };
         let start = Instant::now();
         let found = search(family, each, &options)?;
         let mut sum = Found::new(&options.tolerances);
@@ -227,6 +231,9 @@ fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>,
             Maker::Row(draft) => draft(&mut numbers, options.seed.wrapping_mul(scenes) + index),
         };
         let subject = Subject::of(&draft).map_err(|error| format!("{}: {error}", family.name))?;
+        if options.only.is_some() {
+            let _ = writeln!(io::stderr(), "{} {index}: {}", family.name, draft.kind);
+        }
         let start = Instant::now();
         let mut found = pixels::judge(&subject, &options.tolerances);
         let judging = start.elapsed().as_secs_f64();

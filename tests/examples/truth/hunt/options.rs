@@ -12,6 +12,8 @@ pub(super) struct Options {
     pub(super) tolerances: Vec<f64>,
     pub(super) folder: Option<String>,
     pub(super) page: Option<String>,
+    /// Scenes of each row of an array of features, where that is told.
+    pub(super) rows: Option<u64>,
     /// The only scene of a family.
     pub(super) only: Option<u64>,
     /// The file of what may be given up.
@@ -29,6 +31,7 @@ impl Options {
             page: None,
             limits: None,
             only: None,
+            rows: None,
         };
         for pair in arguments.chunks(2) {
             let [name, value] = pair else {
@@ -45,6 +48,7 @@ impl Options {
                 "--family" => options.family = (*value).to_owned(),
                 "--tolerances" => options.tolerances = tolerances(value)?,
                 "--write" => options.folder = Some((*value).to_owned()),
+                "--rows" => options.rows = Some(number()?),
                 "--only" => options.only = Some(number()?),
                 "--limits" => options.limits = Some((*value).to_owned()),
                 "--page" => options.page = Some((*value).to_owned()),
