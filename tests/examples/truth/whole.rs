@@ -67,8 +67,8 @@ impl Options {
             None if self.is_own_size => vec![own],
             // One wider than the scene's own, with pixels nearly as large; one as high, with larger ones.
             None => {
-                let wide = (view.width * 6 / 7 | 1, view.height * 3 / 7 | 1);
-                let small = (view.width / 4 | 1, view.height / 3 | 1);
+                let wide = ((view.width * 6 / 7) | 1, (view.height * 3 / 7) | 1);
+                let small = ((view.width / 4) | 1, (view.height / 3) | 1);
                 vec![own, wide, small]
             }
         }

@@ -212,6 +212,6 @@ pub(super) const FAMILIES: [Family; 37] = [
     Family {
         name: "together",
         draft: Maker::Row(together),
-        rarity: 1,
+        rarity: 2,
     },
 ];

@@ -12,8 +12,9 @@ use marbles_tests::numbers::Numbers;
 /// the surface.
 const FAR: f64 = 100.0;
 
-/// Columns and rows of pictures with bumps or an open shutter.
-const SIDE_OF_SLOW: u32 = 10;
+/// Columns and rows of pictures with bumps, and of those with an open shutter.
+const SIDE_OF_BUMPS: u32 = 10;
+const SIDE_OVER_TIME: u32 = 5;
 
 /// A scene of a row, by random numbers.
 pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
@@ -79,8 +80,13 @@ impl Sight {
         let wall = row.has(Feature::Eye, "near").then_some([height, radius]);
         let near = wall.map_or(1.0, |_| 10.0 * height / FAR);
         let ordinary = 50.0 * numbers.between(0.5, 2.0);
-        let is_slow = !row.has(Feature::Surface, "smooth") || row.has(Feature::Shutter, "open");
-        let side = if is_slow { SIDE_OF_SLOW } else { SIDE };
+        let side = if row.has(Feature::Shutter, "open") {
+            SIDE_OVER_TIME
+        } else if row.has(Feature::Surface, "smooth") {
+            SIDE
+        } else {
+            SIDE_OF_BUMPS
+        };
         let half_angle = numbers.between(60.0, 87.5_f64).to_radians();
         let wide = 0.5 * f64::from(side) / libm::tan(half_angle);
         let shift = [(); 2].map(|()| numbers.between(-40.0, 40.0));
