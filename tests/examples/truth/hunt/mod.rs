@@ -37,6 +37,7 @@ use rayon::prelude::*;
 use self::draft::Draft;
 use self::families::{FAMILIES, Family, Maker};
 use self::options::Options;
+use self::reduce::Fault;
 use self::report::Report;
 use self::subject::Subject;
 use marbles_tests::features;
@@ -91,6 +92,8 @@ struct Found {
     false_claims: Vec<Broken>,
     /// Pixels that an ulp of a radius moves by more than they claim.
     moved: Vec<Broken>,
+    /// The first pixel that says that it is over a tolerance, of the first that has one.
+    unmet: Option<Broken>,
     /// For each tolerance, how far pixels are off whose claims are not negligible.
     honesty: Vec<Honesty>,
 }
@@ -105,6 +108,7 @@ impl Found {
             broken: Vec::new(),
             false_claims: Vec::new(),
             moved: Vec::new(),
+            unmet: None,
             honesty: vec![Honesty::default(); tolerances.len()],
         }
     }
@@ -173,17 +177,17 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
         } in &found
         {
             let seed = scene_seed(&options, *index);
-            for (worst, is_moved) in worst_of(found) {
-                let kind = if is_moved { " an ulp" } else { "" };
-                let example = format!("{} {index}:{kind} {worst} {}", family.name, draft.kind);
-                let _ = writeln!(io::stderr(), "{example}");
-                examples += &format!("{example}\n");
+            for (worst, fault) in worst_of(found, seed) {
+                if fault != Fault::GivenUp {
+                    let kind = if fault == Fault::Short { "" } else { " an ulp" };
+                    let example = format!("{} {index}:{kind} {worst} {}", family.name, draft.kind);
+                    let _ = writeln!(io::stderr(), "{example}");
+                    examples += &format!("{example}\n");
+                }
                 if let Some(folder) = &options.folder {
-                    let kind = if is_moved { "-ulp" } else { "" };
                     let name = family.name.replace(' ', "_");
-                    let name = format!("{name}-{}-{index}{kind}", options.seed);
-                    let folder = Path::new(folder);
-                    reduce::write(folder, &name, draft, &worst, is_moved.then_some(seed))?;
+                    let name = format!("{name}-{}-{index}", options.seed);
+                    reduce::write(Path::new(folder), &name, draft, &worst, fault)?;
                 }
             }
         }
@@ -203,16 +207,18 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     }
 }
 
-/// The worst pixel that fell short, and the worst that an ulp moves too far.
-fn worst_of(found: &Found) -> impl Iterator<Item = (Broken, bool)> {
+/// The worst pixel that fell short, the worst that an ulp moves too far, and one that is given up.
+fn worst_of(found: &Found, seed: u64) -> impl Iterator<Item = (Broken, Fault)> {
     let ratio = |broken: &&Broken| broken.error / broken.tolerance;
     let worst = |list: &mut dyn Iterator<Item = &Broken>| {
         list.max_by(|a, b| ratio(a).total_cmp(&ratio(b))).copied()
     };
     let short = worst(&mut found.broken.iter().chain(&found.false_claims));
     let moved = worst(&mut found.moved.iter());
-    let short = short.map(|broken| (broken, false));
-    short.into_iter().chain(moved.map(|broken| (broken, true)))
+    let short = short.map(|broken| (broken, Fault::Short));
+    let moved = moved.map(|broken| (broken, Fault::Moved(seed)));
+    let unmet = found.unmet.map(|broken| (broken, Fault::GivenUp));
+    short.into_iter().chain(moved).chain(unmet)
 }
 
 /// The number from which a scene is made.

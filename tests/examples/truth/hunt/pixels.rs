@@ -54,6 +54,9 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
             found.pixels += 1;
             found.rendered += 1;
             found.given_up[index] += u64::from(pixel.is_confessed);
+            if pixel.is_confessed && found.unmet.is_none() {
+                found.unmet = Some(pixel.broken(pixel.apart));
+            }
             if pixel.is_suspect() || sampled.as_ref().is_some_and(|it| pixel.is_unlike(it)) {
                 found.broken.extend(pixel.shortfall(subject));
             } else if pixel.has_false_claim() {

@@ -7,13 +7,41 @@ use super::draft::Draft;
 use super::subject::Subject;
 use super::ulp;
 
-/// Leaves out what is not needed for a pixel to fall short, or to move too far when the sphere grows that a seed tells.
-fn reduced(draft: &Draft, broken: &Broken, moved: Option<u64>) -> (Draft, Option<usize>) {
+/// The fault of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Fault {
+    /// It is over its tolerance without saying so, or claims too little.
+    Short,
+    /// It moves too far when the sphere grows that a seed tells.
+    Moved(u64),
+    /// It says that it is over its tolerance.
+    GivenUp,
+}
+
+impl Fault {
+    /// The end of the names of files.
+    fn ending(self) -> &'static str {
+        match self {
+            Self::Short => "",
+            Self::Moved(_) => "-ulp",
+            Self::GivenUp => "-given-up",
+        }
+    }
+}
+
+/// Leaves out what is not needed for a pixel to have its fault; with the sphere that grows.
+fn reduced(draft: &Draft, broken: &Broken, fault: Fault) -> (Draft, Option<usize>) {
     let mut draft = draft.clone();
-    let mut grown = moved.and_then(|seed| Some(ulp::grown(&draft, seed)?.0));
+    let mut grown = match fault {
+        Fault::Moved(seed) => ulp::grown(&draft, seed).map(|(index, _)| index),
+        Fault::Short | Fault::GivenUp => None,
+    };
     let falls_short = |draft: &Draft, grown: Option<usize>| match grown {
         Some(grown) => ulp::still_moves(draft, grown, broken),
-        None => Subject::of(draft).is_ok_and(|subject| subject.shortfall(broken).is_some()),
+        None => Subject::of(draft).is_ok_and(|subject| match fault {
+            Fault::GivenUp => subject.gives_up(broken),
+            _ => subject.shortfall(broken).is_some(),
+        }),
     };
     if let Some(less) = draft.without_doubles()
         && falls_short(&less, grown)
@@ -34,16 +62,15 @@ fn reduced(draft: &Draft, broken: &Broken, moved: Option<u64>) -> (Draft, Option
     (draft, grown)
 }
 
-/// Writes the reduced scene of a broken pixel into a folder; of one that moves when a sphere grows with the seed that
-/// tells which.
+/// Writes the reduced scene of a pixel with a fault into a folder.
 pub(super) fn write(
     folder: &Path,
     name: &str,
     draft: &Draft,
     broken: &Broken,
-    moved: Option<u64>,
+    fault: Fault,
 ) -> Result<(), String> {
-    let (reduced, grown) = reduced(draft, broken, moved);
+    let (reduced, grown) = reduced(draft, broken, fault);
     let mut head = format!("// {broken}");
     if let Some(grown) = grown {
         head += &format!("; when spheres[{grown}] grows by an ulp");
@@ -56,7 +83,7 @@ pub(super) fn write(
         head += &format!("; all in units of {:e} of light", draft.light);
     }
     let text = format!("{head}\n{}", reduced.text());
-    let path = folder.join(name).with_extension("ron");
+    let path = folder.join(format!("{name}{}.ron", fault.ending()));
     std::fs::create_dir_all(folder)
         .and_then(|()| std::fs::write(&path, text))
         .map_err(|error| format!("{}: {error}", path.display()))

@@ -151,6 +151,12 @@ impl Subject {
         Some((error(parts), uncertain))
     }
 
+    /// True if a pixel says that it is over its tolerance.
+    pub(super) fn gives_up(&self, broken: &Broken) -> bool {
+        let picture = self.picture(broken.tolerance);
+        picture.is_some_and(|picture| picture.is_over(broken.col, broken.row))
+    }
+
     /// The error of one pixel at a tolerance, where it is over it without saying so, or over its claim.
     pub(super) fn shortfall(&self, broken: &Broken) -> Option<f64> {
         let (col, row) = (broken.col, broken.row);

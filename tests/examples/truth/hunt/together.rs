@@ -194,15 +194,13 @@ fn add_lights(draft: &mut Draft, row: &Row<'_>, sight: &Sight, numbers: &mut Num
                 draft.point_light(pose.place(place), intensity, reference);
             }
             "attached" => {
-                let DVec3 { x, y, z } = match numbers.below(2) {
-                    0 => toward,
-                    _ => toward * (0.3 * far),
-                };
-                draft.lights.push(match numbers.below(2) {
-                    0 => format!(
+                let is_sun = numbers.below(2) == 0;
+                let DVec3 { x, y, z } = toward * if is_sun { 1.0 } else { 0.3 * far };
+                draft.lights.push(match is_sun {
+                    true => format!(
                         "Directional(toward: ({x}, {y}, {z}), intensity: {intensity}, attached: Camera)"
                     ),
-                    _ => format!(
+                    false => format!(
                         "Point(position: ({x}, {y}, {z}), intensity: {intensity}, reference: {far}, \
                          attached: Camera)"
                     ),
