@@ -212,7 +212,7 @@ pub(super) fn nearly_coincident(numbers: &mut Numbers) -> Draft {
         let depth = numbers.between(80.0, 120.0);
         let ([x, y, z], radius) = (place(numbers, depth), numbers.between(5.0, 20.0));
         let apart = power_of_ten(numbers, -16.0, -3.0);
-        let count = power_of_ten(numbers, 0.3, 1.8) as usize;
+        let count = power_of_ten(numbers, 0.3, 1.2) as usize;
         draft.sphere([x, y, z], radius);
         for _ in 1..count {
             let [u, v, w, grown] = [(); 4].map(|()| radius * apart * numbers.between(-1.0, 1.0));
