@@ -37,6 +37,8 @@ pub(crate) struct Budget {
     /// The error by rounding when the work was looked at last, and when it is looked at next.
     rounding: Option<f64>,
     next: u64,
+    /// The tests that told what parts see; of those of which little is to be hoped several times.
+    looking: u64,
 }
 
 /// What a pixel may be off by so far.
@@ -112,6 +114,21 @@ pub(crate) fn is_beyond_a_part(pairs: u64) -> bool {
     pairs > MOST / OF_PART
 }
 
+/// The share of the budget that finding out what a part of a pixel sees may take.
+const OF_CROWD: u64 = 32;
+
+/// Returns whether so many pairs of spheres, or tests, are more than what a part of a pixel sees may be found out with:
+/// its quarters see fewer spheres each.
+pub(crate) fn is_beyond_a_crowd(pairs: u64) -> bool {
+    pairs > MOST / OF_CROWD
+}
+
+/// The spheres that a pixel may see of which more are not told apart: each of its parts would ask all of them.
+pub(crate) const MOST_SPHERES: usize = 2048;
+
+/// The share of the budget that goes to finding out what parts of a pixel see.
+const OF_LOOKING: u64 = 4;
+
 /// The units at which rounding is looked at for the first time; every doubling after that it is looked at
 /// again.
 const FIRST_LOOK: u64 = 512;
@@ -148,6 +165,7 @@ impl Budget {
             most: (most as f64 * (share * share).max(least)) as u64,
             rounding: None,
             next: FIRST_LOOK,
+            looking: 0,
         }
     }
 
@@ -168,6 +186,16 @@ impl Budget {
         self.spent += work.units();
     }
 
+    /// Counts the tests that told what a part sees, and whether its quarters may see as much.
+    ///
+    /// Of spheres side by side a quarter sees fewer. Of those whose outlines nearly coincide it sees as many, and half of
+    /// the quarters do: these are what more work is in vain for, and they count more. An estimate, which a crowd that
+    /// thins out late fools: then a pixel is given up that might be known.
+    pub(crate) fn count_looking(&mut self, tests: u64, is_in_vain: bool) {
+        const IN_VAIN: u64 = 4;
+        self.looking += tests * if is_in_vain { IN_VAIN } else { 1 };
+    }
+
     /// The units that the next part may take.
     pub(crate) fn of_part(&self) -> u64 {
         (self.most / OF_PART).min(self.most.saturating_sub(self.spent))
@@ -178,7 +206,7 @@ impl Budget {
     pub(crate) fn is_over(&mut self, now: Doubt, tolerance: f64) -> bool {
         /// What falls by less than this while the work doubles stays.
         const SAME: f64 = 0.9;
-        if self.spent >= self.most {
+        if self.spent >= self.most || self.looking > MOST / OF_LOOKING {
             return true;
         }
         if self.spent < self.next {

@@ -4,7 +4,8 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
-use super::budget::Allowance;
+use super::budget::{Allowance, MOST_SPHERES};
+use super::classify::behind::leave_out_hidden;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::scene::{InCamera, MOST_LIGHTS};
@@ -51,6 +52,10 @@ pub(crate) struct Exact<'scene> {
 /// Samples on a side of a pixel that no other rung answers for.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(8).unwrap();
 const FEW_SAMPLES: NonZeroU32 = NonZeroU32::new(1).unwrap();
+
+/// The spheres that a tile may see of which more have few samples: where these nearly coincide, each of them is held
+/// against all in more than doubles, and against all their shadows.
+const MOST_OF_SAMPLES: usize = 256;
 
 /// The light, in units, that an error of the covered area counts as without an alpha channel. Not tuned.
 const OF_COVERAGE: f64 = 0.25;
@@ -198,32 +203,38 @@ impl<'scene> Exact<'scene> {
         }
 
         // The last rung: samples, which see exactly but miss what lies between them.
-        if !candidates.is_empty() {
+        if !candidates.is_empty() && *unknown != 0 {
+            let range = self.range_of_light(candidates);
             for place in set_bits(*unknown).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
                     col: tile.col + place as u32 % tile.width,
                     row: tile.row + place as u32 / tile.width,
                     frame: self.groups[0].view.frame,
                 };
-                pixels[place] = self.sampled(key, candidates);
+                pixels[place] = self.sampled(key, candidates, range);
             }
         }
         pixels
     }
 
-    /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them.
-    fn sampled(&self, key: PixelKey, candidates: &[usize]) -> Pixel {
+    /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them; in the middle
+    /// of that where each ray would have to be held against very many spheres.
+    fn sampled(&self, key: PixelKey, candidates: &[usize], [least, most]: [Color; 2]) -> Pixel {
         let is_far = |&sphere: &usize| {
             let (center, radius) = self.groups[0].scene.center(sphere);
             center.length() > FAR * radius
         };
-        let samples = if candidates.iter().any(is_far) {
-            &self.few_samples
+        let mut pixel = if candidates.len() > MOST_SPHERES {
+            Pixel {
+                value: 0.5 * (least + most),
+                alpha: 0.5,
+                ..self.empty_pixel()
+            }
+        } else if candidates.len() > MOST_OF_SAMPLES || candidates.iter().any(is_far) {
+            self.few_samples.pixel(key)
         } else {
-            &self.samples
+            self.samples.pixel(key)
         };
-        let mut pixel = samples.pixel(key);
-        let [least, most] = self.range_of_light(candidates);
         let above = (most - pixel.value).max_element();
         let below = (pixel.value - least).max_element();
         pixel.error = above.max(below) * WIDER;
@@ -321,7 +332,15 @@ fn integrate_each(
     let contexts: Vec<&Context<'_>> = contexts.collect();
     scratch.prepare(contexts[0], candidates);
     scratch.begin(&contexts, tile);
-    if first.is_moderate && scratch.are_balls_moderate() {
+    let is_moderate = first.is_moderate && scratch.are_balls_moderate();
+    let mut seen = Vec::new();
+    let mut candidates = candidates;
+    if is_moderate && candidates.len() > MOST_SPHERES {
+        seen.extend_from_slice(candidates);
+        leave_out_hidden(&contexts[0].cell(tile), &mut seen, &mut scratch.balls);
+        candidates = &seen;
+    }
+    if is_moderate {
         dispatch!(first.level, simd => tile_pixels(simd, &contexts, tile, candidates, scratch));
     } else {
         for lit in &mut scratch.lit {

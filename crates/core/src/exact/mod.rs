@@ -37,7 +37,7 @@ pub(crate) mod unit;
 
 use fearless_simd::Simd;
 
-use self::budget::{FILLED, TileCosts};
+use self::budget::{FILLED, MOST_SPHERES, TileCosts};
 use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::seen::SeenRow;
@@ -276,6 +276,10 @@ fn edged_pixel<S: Simd>(
         key: context.key(pixel, 0),
         spheres,
     };
+    if spheres.len() > MOST_SPHERES {
+        workspace.leave_crowd(&edged);
+        return Err(GiveUp::Unknown);
+    }
     // Along the edges of the whole pixel.
     let whole = workspace.along_edges(simd, &edged, cache);
     // Highlights are narrow, or the claim is too large: parts of the pixel.

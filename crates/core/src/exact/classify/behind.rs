@@ -27,9 +27,14 @@ impl Cover {
         if spheres.len() < FEWEST {
             return None;
         }
+        Self::among(cell, spheres.iter().map(|(_, ball)| ball))
+    }
+
+    /// The one of some balls that covers a cell and is the nearest in its middle.
+    fn among<'ball>(cell: &Cell, balls: impl Iterator<Item = &'ball Ball>) -> Option<Self> {
         let longest_sq = longest_ray_sq(cell);
         let (mut nearest, mut cover) = (f64::INFINITY, None);
-        for (_, ball) in spheres {
+        for ball in balls {
             if ball.outside <= 0.0 {
                 continue;
             }
@@ -85,6 +90,31 @@ impl Cover {
         let margin = least_of(&between) + squares / roots;
         // What is not a number hides nothing.
         margin > GEOMETRY_SLACK * longest_sq.sqrt() * lengths
+    }
+}
+
+/// Leaves out of the balls of a tile, and of their numbers, those behind one that covers the tile: each pixel would find
+/// that out anew.
+///
+/// Some of them hide most of the others. The nearest of the rest hides most of the rest.
+pub(crate) fn leave_out_hidden(tile: &Cell, numbers: &mut Vec<usize>, balls: &mut Vec<Ball>) {
+    /// Balls among which the first cover is sought.
+    const SOME: usize = 64;
+    for count in [SOME, usize::MAX] {
+        let Some(cover) = Cover::among(tile, balls.iter().take(count)) else {
+            continue;
+        };
+        let mut kept = 0;
+        for place in 0..balls.len() {
+            let ball = balls[place];
+            if !cover.hides(&ball, &silhouette(tile, &ball), &tile.along(ball.center)) {
+                balls[kept] = ball;
+                numbers[kept] = numbers[place];
+                kept += 1;
+            }
+        }
+        balls.truncate(kept);
+        numbers.truncate(kept);
     }
 }
 

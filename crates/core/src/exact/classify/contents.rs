@@ -13,11 +13,11 @@ use crate::edges::seam::SeamPlane;
 use crate::edges::shadow::Caster;
 use crate::edges::silhouette::silhouette;
 use crate::edges::terminator::terminator;
-use crate::exact::budget::is_beyond_a_part;
+use crate::exact::budget::{is_beyond_a_crowd, is_beyond_a_part};
 use crate::exact::scene::InCamera;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
-use crate::numeric::polynomial::Quadratic;
+use crate::numeric::polynomial::{Linear, Quadratic};
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 
 /// A curve on which light may change abruptly.
@@ -80,6 +80,8 @@ const ROOT_OF_ROUNDING: f64 = 1e-7;
 /// Pairs of spheres, or of what is seen and an occluder, that are compared in the time of a test, and the tests in the
 /// time of a seam: what the budget counts, about.
 pub(super) const PAIRS_OF_A_TEST: usize = 8;
+/// Occluders that are held against the ways of a point light, of which more is computed, in the time of a test.
+pub(super) const WAYS_OF_A_TEST: usize = 2;
 const TESTS_OF_A_SEAM: u64 = 4;
 
 impl Contents {
@@ -104,6 +106,7 @@ impl Contents {
         self.is_crowded = false;
         let cover = Cover::of(cell, spheres);
         let mut unresolved = 0.0;
+        let mut all_pairs = 0;
         for &(sphere, mut ball) in spheres {
             if ball.is_cut() && !self.take_cut(scene, cell, (sphere, &mut ball)) {
                 continue;
@@ -131,6 +134,15 @@ impl Contents {
             let is_outside = ball.outside > 0.0;
             let is_behind = along.one + half <= 0.0;
             if is_outside && (discriminant.one + spread + slack < 0.0 || is_behind) {
+                continue;
+            }
+            let pairs = self.active.len();
+            self.tests += (pairs / PAIRS_OF_A_TEST) as u64;
+            all_pairs += pairs as u64;
+            if is_beyond_a_crowd(all_pairs) {
+                // All that may be seen is listed, and no more compared.
+                self.is_crowded = true;
+                self.push(scene, (sphere, ball), discriminant, along);
                 continue;
             }
             // Of spheres that coincide the first is seen.
@@ -165,17 +177,16 @@ impl Contents {
                 }
                 continue;
             }
-            self.tests += (self.active.len() / PAIRS_OF_A_TEST) as u64;
-            self.active.push(Active {
-                sphere,
-                ball,
-                discriminant,
-                along,
-                terminators: Terminators::of(scene, sphere, self.pixel),
-                is_dark: false,
-            });
+            self.push(scene, (sphere, ball), discriminant, along);
         }
         self.add_caps(scene, cell);
+        if self.is_crowded {
+            let count = self.active.len() * scene.lights.len();
+            self.reach.resize(count, Reach::Past(0..0));
+            self.faces.clear();
+            self.rounding += unresolved;
+            return;
+        }
         let reaching = self.lights_that_reach(scene, cell);
         self.hidden.remove(cache.level, &mut self.active);
         for position in 0..self.active.len() {
@@ -188,7 +199,7 @@ impl Contents {
             if !self.is_mixed && !self.is_crowded {
                 self.add_seams(cell, position);
             }
-            self.is_crowded |= self.has_too_many_curves();
+            self.is_crowded |= self.has_too_many_curves() || is_beyond_a_crowd(self.tests);
             let may_be_lit = is_outside && !active.is_dark;
             let may_be_shaded = may_be_lit && reaching != 0 && scene.world.shadows;
             let patch = may_be_shaded.then(|| {
@@ -228,8 +239,27 @@ impl Contents {
                 self.reach.push(reach);
             }
         }
+        self.count_edges(cache);
         self.rounding += unresolved;
         self.add_strokes(scene, cell);
+    }
+
+    /// Adds a sphere that the cell may see.
+    fn push(
+        &mut self,
+        scene: &InCamera<'_>,
+        (sphere, ball): (usize, Ball),
+        discriminant: Quadratic,
+        along: Linear,
+    ) {
+        self.active.push(Active {
+            sphere,
+            ball,
+            discriminant,
+            along,
+            terminators: Terminators::of(scene, sphere, self.pixel),
+            is_dark: false,
+        });
     }
 
     /// The same for the scene whose light is its normals: nothing shades them.

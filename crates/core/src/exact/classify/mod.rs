@@ -1,7 +1,7 @@
 //! The spheres, edges and lights that pixels and their parts may see.
 
 pub(crate) mod active;
-mod behind;
+pub(crate) mod behind;
 pub(crate) mod coincidence;
 pub(crate) mod contents;
 mod cut;

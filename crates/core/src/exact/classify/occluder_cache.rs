@@ -34,6 +34,8 @@ pub(crate) struct OccluderCache {
     spheres: Vec<u32>,
     /// Memory of [`Self::shade`]: indices of occluders, and then the numbers of their spheres.
     edges: Vec<u32>,
+    /// The shadow edges that [`Self::shade`] has held against each other since they were counted.
+    pub(super) compared: u64,
     /// The number of spheres that were asked whether they matter.
     pub(crate) tests: u64,
 }
@@ -53,7 +55,12 @@ pub(crate) enum Shade<'a> {
     /// The numbers of the spheres whose shadows have edges there.
     Edges(&'a [u32]),
     Everything,
+    /// Of more spheres than are held against each other.
+    Crowd,
 }
+
+/// The shadow edges on a patch of which more are not held against each other. Not tuned: a pixel has no use for as many.
+const MOST_EDGES: usize = 1 << 14;
 
 impl OccluderCache {
     /// Nothing is known yet of the tile that covers this cell, with pixels of this side.
@@ -66,6 +73,7 @@ impl OccluderCache {
             occluders: Occluders::default(),
             spheres: Vec::new(),
             edges: Vec::new(),
+            compared: 0,
             tests: 0,
         }
     }
@@ -223,6 +231,10 @@ impl OccluderCache {
         if is_dark {
             return Shade::Everything;
         }
+        if self.edges.len() > MOST_EDGES {
+            return Shade::Crowd;
+        }
+        self.compared += self.edges.len() as u64;
         // Pixels do not depend on what else is in their tile.
         self.edges
             .sort_unstable_by_key(|&edge| self.spheres[edge as usize]);

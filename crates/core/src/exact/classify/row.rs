@@ -6,6 +6,7 @@ use super::discriminant::{Discriminant, bend};
 use super::patch::{Patch, Side};
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
+use crate::exact::budget::MOST_SPHERES;
 use crate::exact::context::Context;
 use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
@@ -282,9 +283,13 @@ fn visible_spheres(
     spheres.extend(all.map(|coverage| (coverage.sphere, coverage.ball)));
     let mut is_hidden = vec![false; spheres.len()];
     let mut pairs = 0;
+    let nearest = nearest_cover(lane, coverages, spheres.len());
     for (place, one) in coverages.iter().filter(here).enumerate() {
         let ball = &one.ball;
         if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || is_hidden[place] {
+            continue;
+        }
+        if nearest.is_some_and(|nearest| one.sphere != nearest) {
             continue;
         }
         pairs += spheres.len();
@@ -314,6 +319,18 @@ fn visible_spheres(
     }
     let mut is_hidden = is_hidden.into_iter();
     spheres.retain(|_| is_hidden.next() == Some(false));
+}
+
+/// The sphere that fills the pixel with this number and begins nearest, where it may see so many that they are held
+/// against this one alone.
+fn nearest_cover(lane: usize, coverages: &[Coverage], count: usize) -> Option<usize> {
+    if count <= MOST_SPHERES {
+        return None;
+    }
+    let is_cover = |one: &&Coverage| one.covered >> lane & 1 == 1 && one.ball.outside > 0.0;
+    let covers = coverages.iter().filter(is_cover);
+    let nearest = covers.min_by(|one, other| one.nearest[lane].total_cmp(&other.nearest[lane]));
+    nearest.map(|one| one.sphere)
 }
 
 /// The least distance of the middle of a sphere's chord along rays of a cell, in multiples of these.

@@ -120,6 +120,7 @@ fn shadows_on_a_patch_are_never_claimed_too_large() {
             Shade::Nothing => 0,
             Shade::Edges(_) => 1,
             Shade::Everything => 2,
+            Shade::Crowd => 3,
         };
         counts[kind] += 1;
         let (mut dark, mut alone) = (true, false);
@@ -138,6 +139,7 @@ fn shadows_on_a_patch_are_never_claimed_too_large() {
             let is_dark = casters.iter().any(hides);
             match shade {
                 Shade::Everything => assert!(is_dark, "{patch:?} {casters:?}"),
+                Shade::Crowd => unreachable!("few edges"),
                 Shade::Nothing => assert!(!is_dark, "{patch:?} {casters:?}"),
                 Shade::Edges(found) => {
                     let mut spheres = found.iter().map(|&index| &casters[index as usize]);

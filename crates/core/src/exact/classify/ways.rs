@@ -4,18 +4,22 @@ use glam::DVec3;
 
 use super::active::Active;
 use super::coincidence::{FARTHER, hides_all, is_at_eye, nesting};
-use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS};
+use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS, WAYS_OF_A_TEST};
 use super::cut::begins_inside;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
 use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::shadow::Cone;
+use crate::exact::budget::is_beyond_a_crowd;
 use crate::exact::scene::InCamera;
 use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 use crate::search::point_occluders::Beam;
+
+/// The time in which a shadow edge is held against the others of its patch, in that of a test.
+const TESTS_OF_AN_EDGE: u64 = 2;
 
 impl Contents {
     /// The way of a light to a sphere that the eye is outside of, past others where there is a patch of it that they
@@ -39,10 +43,19 @@ impl Contents {
             };
             cache.tests += range.len() as u64;
             self.tests += (range.len() / PAIRS_OF_A_TEST) as u64;
+            self.count_edges(cache);
+            if is_beyond_a_crowd(self.tests) {
+                self.is_crowded = true;
+                return Reach::Past(first..first);
+            }
             let found = match cache.shade(patch, in_camera, range) {
                 Shade::Everything => return Reach::Nowhere,
                 Shade::Nothing => &[],
                 Shade::Edges(found) => found,
+                Shade::Crowd => {
+                    self.is_crowded = true;
+                    return Reach::Past(first..first);
+                }
             };
             let extent = |center: DVec3, radius: f64| center.length() + radius;
             let ends = ends(cell, &active.ball, patch);
@@ -74,6 +87,11 @@ impl Contents {
         Reach::Past(first..self.occluders.len())
     }
 
+    /// Counts the shadow edges that were held against each other.
+    pub(super) fn count_edges(&mut self, cache: &mut OccluderCache) {
+        self.tests += TESTS_OF_AN_EDGE * std::mem::take(&mut cache.compared);
+    }
+
     /// The way of a point light to a sphere that the eye is outside of; to none that the light is inside of.
     fn reach_of_near(
         &mut self,
@@ -95,7 +113,14 @@ impl Contents {
             let beam = Beam::new(near.position, middle, around);
             let range = cache.occluders_of_near(scene, active.sphere, light);
             cache.tests += range.len() as u64;
-            self.tests += (range.len() / PAIRS_OF_A_TEST) as u64;
+            let tests = (range.len() / WAYS_OF_A_TEST) as u64;
+            // As if there were as many for each of the spheres.
+            if is_beyond_a_crowd(self.tests + tests * self.active.len() as u64) {
+                self.is_crowded = true;
+                return Reach::Past(first..first);
+            }
+            self.tests += tests;
+            let is_many = range.len() > MANY;
             for index in range {
                 if self.has_too_many_curves() {
                     self.is_crowded = true;
@@ -116,6 +141,9 @@ impl Contents {
                 }
                 if begins_inside(cell, &scene.ball(sphere)) {
                     return Reach::Nowhere;
+                }
+                if is_many && is_behind(center, near.position, (middle, around)) {
+                    continue;
                 }
                 let caster = in_camera.caster(center, radius);
                 let Some(cone) = caster.cone else { continue };
@@ -141,6 +169,22 @@ impl Contents {
         }
         Reach::Past(first..self.occluders.len())
     }
+}
+
+/// Occluders from which on it is asked whether they lie behind what they may shade: fewer have few edges.
+const MANY: usize = 64;
+
+/// Returns whether a sphere lies behind all that is within `around` of a point and outside of the sphere, seen from a
+/// point light: it shades nothing of that.
+///
+/// # Source
+/// Outside of the sphere a way p + t (a − p) to the light at a meets it only where (c − p) · (a − p) > 0, as it comes
+/// nearer to the center at first. By Thales that is where p lies in the ball whose diameter goes from a to c.
+fn is_behind(center: DVec3, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
+    let radius = 0.5 * (light - center).length();
+    let distance = (middle - 0.5 * (light + center)).length();
+    let slack = GEOMETRY_SLACK * (light.length() + center.length() + middle.length());
+    distance > radius + around + slack
 }
 
 /// Returns whether no way from a point light to what lies within `around` of a point and outside of a large ball passes

@@ -61,6 +61,9 @@ pub(super) const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 /// 2⁻¹² of the contrast.
 const DEEPEST: i32 = 12;
 
+/// From which depth on the quarters of a crowded part are thought to be crowded, too.
+const CROWDED: i32 = 4;
+
 /// Powers that no rule along a chord overlooks.
 const BROAD: f64 = 60.0;
 
@@ -92,6 +95,14 @@ impl EdgedPixel<'_, '_> {
 }
 
 impl Workspace {
+    /// Begins with a pixel whose spheres are too many to be told apart.
+    pub(crate) fn leave_crowd(&mut self, pixel: &EdgedPixel<'_, '_>) {
+        let tests = pixel.spheres.len() as u64;
+        self.work.candidate_tests += tests;
+        self.budget = Budget::default();
+        self.budget.spend(CellWork { samples: 0, tests });
+    }
+
     /// The average along the edges of the whole pixel.
     pub(crate) fn along_edges<S: Simd>(
         &mut self,
@@ -250,6 +261,9 @@ impl Workspace {
         let contents = &self.contents;
         let tests = pixel.spheres.len() as u64 + contents.tests;
         let mut work = CellWork { samples: 0, tests };
+        let is_as_full = depth > 0 && 2 * contents.active.len() > pixel.spheres.len();
+        let is_in_vain = contents.is_crowded && (is_as_full || depth >= CROWDED);
+        self.budget.count_looking(contents.tests, is_in_vain);
         if contents.is_mixed || contents.is_crowded {
             self.budget.spend(work);
             return Err(GiveUp::Unknown);

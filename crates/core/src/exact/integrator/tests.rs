@@ -4,9 +4,10 @@ use fearless_simd::Level;
 use glam::{DVec2, DVec3};
 
 use super::*;
+use crate::exact::budget::MOST;
 use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
-use crate::model::light::Light;
+use crate::model::light::{Light, LightFalloff, PointLight};
 use crate::model::material::{Grain, Highlight, Material, Roughness};
 use crate::model::sphere::Sphere;
 use crate::model::stroke::{Stroke, StrokeWidth};
@@ -209,4 +210,76 @@ fn crowds_meet_their_tolerance() {
     assert!(mean < 5e-4, "{mean:e}");
     // About a quarter more than was counted.
     assert!(work.samples < 130_000 && work.lines < 19_500, "{work:?}");
+}
+
+/// Spheres, light and dark in turn, under a light.
+fn crowd(spheres: impl Iterator<Item = Sphere>, light: Option<Light>) -> World {
+    let mut world = World::new();
+    let materials = [0.9, 0.3].map(|albedo| {
+        world.add_material(Material {
+            albedo: Color::splat(albedo),
+            ..Material::MATTE_WHITE
+        })
+    });
+    for (index, sphere) in spheres.enumerate() {
+        world.add_sphere(sphere, materials[index % 2]);
+    }
+    world.lights.extend(light);
+    world
+}
+
+/// What cannot be told apart is given up after a part of what a pixel may cost: each part would be looked at as well, and
+/// pairs of spheres, and of their shadows, cost more than the spheres.
+#[test]
+fn pixels_of_spheres_that_nearly_coincide_end_soon() {
+    let sun = || Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::ONE);
+    let lamp = || {
+        let position = DVec3::new(-3.0, 4.0, 0.0);
+        PointLight::new(position, Color::ONE, LightFalloff::None, 1.0).map(Light::Point)
+    };
+    for count in [1500, 3000] {
+        for (case, light, spread, step) in [
+            ("close", sun(), 1e-3, 0.0),
+            ("closer", sun(), 1e-9, 0.0),
+            ("under a lamp", lamp(), 1e-3, 0.0),
+            ("toward the sun", sun(), 0.0, 2e-3),
+        ] {
+            let mut random = Random(count);
+            let sphere = |index| {
+                let moved = random.point() * spread;
+                let along = DVec3::new(-1.0, 1.5, -1.0) * (step * index as f64);
+                Sphere::new(DVec3::Z * 8.0 + moved + along, 1.2).unwrap()
+            };
+            let world = crowd((0..count).map(sphere), light);
+            let view = View {
+                width: 16,
+                height: 8,
+                ..view()
+            };
+            let visibility = Visibility::new(&world);
+            let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
+            let exact = Exact::new(&world, &view, &seen, 1e-3, false);
+            let mut room = GroupScratch::default();
+            let (mut costliest, mut over) = (0, 0);
+            for col in [0, 8] {
+                let tile = Tile {
+                    col,
+                    row: 0,
+                    width: 8,
+                    height: 8,
+                };
+                let mut pixels = Vec::new();
+                exact.integrate(tile, &mut room, &mut pixels);
+                for (place, pixel) in pixels.iter().enumerate() {
+                    costliest = costliest.max(room.cost_of(place));
+                    over += u32::from(pixel.status != Status::Met);
+                    // No more than between white and black.
+                    assert!(pixel.error <= 0.901, "{case}: {pixel:?}");
+                }
+            }
+            assert!(costliest <= MOST / 2, "{case} {count}: {costliest}");
+            // Of 128 pixels, most of which see them.
+            assert!(over < 100, "{case} {count}: {over}");
+        }
+    }
 }
