@@ -41,7 +41,12 @@ impl<S: Simd> Filled<'_, S> {
             || {
                 let zero = f64x8::splat(simd, 0.0);
                 let lit = self.lit_in_parts(lane);
-                let key = hash(self.middle.x[lane].to_bits(), self.middle.y[lane].to_bits());
+                let mut place = [self.middle.x[lane], self.middle.y[lane]];
+                if self.ball.is_parallel() {
+                    // In sides, so that it has no unit of length.
+                    place = [place[0] / self.size[0], place[1] / self.size[1]];
+                }
+                let key = hash(place[0].to_bits(), place[1].to_bits());
                 let step = 1.0 / f64::from(side);
                 let mut value = Color::ZERO;
                 let mut squares = Color::ZERO;
