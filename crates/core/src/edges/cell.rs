@@ -53,6 +53,15 @@ impl Ball {
         self.radius * self.radius <= self.power
     }
 
+    /// Whether directions toward the eye turn across a cell by more than nothing beside the normals that are seen in it. Of
+    /// a sphere that is many radii away normals turn that many times as far, at least.
+    #[inline(always)]
+    pub(crate) fn is_near_eye(&self) -> bool {
+        /// The square of the distance in radii from which on they count as still. Claims have room for the rest.
+        const FAR_SQ: f64 = 100.0;
+        !self.is_parallel() && self.power < FAR_SQ * self.radius * self.radius
+    }
+
     /// K of a point: the square of its distance from the center less that of the radius.
     #[inline(always)]
     pub(crate) fn power_of(&self, point: DVec3) -> f64 {

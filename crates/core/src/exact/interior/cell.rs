@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::filled::Filled;
+use super::half_turns::{nearness_of_silhouette, view_turn};
 use super::parts::{ALL, Average};
 use super::reached::SHARPEST;
 use super::terminators::SMALL;
@@ -179,6 +180,9 @@ pub(crate) fn of_filled_cell<S: Simd>(
             });
             let turn = (ends[0].max(ends[1]) + patch.around) / ball.radius;
             let grazing = -points.normal.dot(&points.ray)[0] / length;
+            let [width, height] = cell.size;
+            let half_diagonal = 0.5 * (width * width + height * height).sqrt();
+            let view_turn = view_turn(ball, zero + length, half_diagonal);
             let filled = Filled {
                 scene,
                 ball,
@@ -187,7 +191,8 @@ pub(crate) fn of_filled_cell<S: Simd>(
                 size: cell.size,
                 lit: &lit,
                 turn: zero + turn,
-                nearness: zero + 2.0 * turn / grazing.max(0.0),
+                view_turn,
+                nearness: nearness_of_silhouette(zero + turn, view_turn, zero + grazing.max(0.0)),
                 which: 1,
                 tolerance,
                 allowance,

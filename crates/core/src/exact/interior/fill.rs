@@ -137,6 +137,7 @@ fn fill_lit<S: Simd>(
         size: [size; 2],
         lit: &lit,
         turn: reached.turn,
+        view_turn: reached.view_turn,
         nearness: reached.nearness,
         which,
         tolerance: context.tolerance,

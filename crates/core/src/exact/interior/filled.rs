@@ -46,6 +46,8 @@ pub(crate) struct Filled<'a, S: Simd> {
     pub(super) lit: &'a [u64; MOST_LIGHTS],
     /// A bound of how far normals turn from the middles to the corners.
     pub(super) turn: f64x8<S>,
+    /// A bound of how far directions toward the eye do.
+    pub(super) view_turn: f64x8<S>,
     /// The extent of the pixels over the distance to the nearest singularity of the light: to the
     /// silhouette, or to a terminator where the exponent is not whole.
     pub(super) nearness: f64x8<S>,

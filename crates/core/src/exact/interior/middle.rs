@@ -16,11 +16,18 @@ const LOOSE_ON_BUMPS: f64 = 5e-4;
 /// The average of squares over a pixel, with the distance of its corners as the unit.
 const OF_SQUARES: f64 = 1.0 / 3.0;
 
+/// What the square of the turn of half vectors is multiplied by for what it adds to their second derivatives, where
+/// |l + v| changes with it.
+const OF_LENGTH: f64 = 1.5;
+
+/// The least cosine that a highlight's derivatives are divided by.
+const LEAST_COSINE: f64 = 1e-3;
+
 /// The share of the range on either side of 0 that clamping at 0 adds at most to the average of something linear: that
 /// of a ramp along one axis.
 const OF_CLAMPING: f64 = 0.25;
 
-/// How far normals move from that of the middle.
+/// How far normals move from that of the middle, alone or beside half vectors.
 #[derive(Clone, Copy, Debug)]
 struct Moves<S: Simd> {
     /// To the corners, where they turn as fast as they do as a rule; and where they turn as fast as they may.
@@ -62,7 +69,8 @@ impl<S: Simd> Filled<'_, S> {
             let mut of_light = self.of_diffuse(simd, light, cosine, &moves);
             if self.finish.reflectance.highlight.is_some() {
                 let half_cosine = cosines.halves.lowest[index];
-                of_light += self.of_highlight(simd, light, [cosine, half_cosine], &moves);
+                let beside = self.beside_half_vectors(simd, light, &moves);
+                of_light += self.of_highlight(simd, light, [cosine, half_cosine], &moves, &beside);
             }
             let may_be_lit = cosine.simd_gt(-moves.farthest) & lit;
             error += may_be_lit.select(of_light, zero);
@@ -72,6 +80,19 @@ impl<S: Simd> Filled<'_, S> {
             error,
             is_known,
             is_met: is_known & error.simd_le(self.tolerance),
+        }
+    }
+
+    /// How far normals move from half vectors, which move with the view.
+    #[inline(always)]
+    fn beside_half_vectors(&self, simd: S, light: &Light, moves: &Moves<S>) -> Moves<S> {
+        let aside = self.half_turn(simd, light);
+        // 2 |n'| |h'| + |h''|, where |v''| is 2 |v'|² at most, and |l + v| changes with v.
+        let bend = (moves.reach + self.view_turn) * 2.0 + aside * OF_LENGTH;
+        Moves {
+            reach: moves.reach + aside,
+            farthest: moves.farthest + aside,
+            bend: moves.bend + aside * bend * (0.5 * OF_SQUARES),
         }
     }
 
@@ -110,17 +131,20 @@ impl<S: Simd> Filled<'_, S> {
         light: &Light,
         [cosine, half_cosine]: [f64x8<S>; 2],
         moves: &Moves<S>,
+        beside: &Moves<S>,
     ) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let [_, brightest] = self.finish.reflectance.brightest(light.intensity);
         let [_, shininess] = self.finish.reflectance.exponents();
-        let nearest = highest_cosine(simd, half_cosine, moves.farthest);
+        let nearest = highest_cosine(simd, half_cosine, beside.farthest);
         let most = self.finish.highlight_of(nearest);
-        let reach_sq = moves.reach * moves.reach;
+        let reach_sq = beside.reach * beside.reach;
         let sine_sq = (one - half_cosine * half_cosine).max(zero) + reach_sq;
+        let by_cosine = one / nearest.max(zero + LEAST_COSINE);
         let of_square = reach_sq * sine_sq * (shininess * shininess * 0.5 * OF_SQUARES);
-        let smooth = (moves.bend * shininess + of_square).min(one);
+        let smooth = (beside.bend * shininess + of_square * by_cosine) * by_cosine;
+        let smooth = smooth.min(one);
         let is_cut = cosine.simd_lt(moves.farthest);
         most * is_cut.select(one, smooth) * brightest
     }

@@ -6,6 +6,7 @@ mod domain;
 mod estimate;
 pub(crate) mod fill;
 pub(crate) mod filled;
+mod half_turns;
 mod kinks;
 mod light_cosines;
 pub(crate) mod mean_normals;

@@ -7,6 +7,7 @@ use fearless_simd::Simd;
 
 use super::estimate::CAUTION;
 use super::filled::Filled;
+use super::half_turns::{nearness_of_silhouette, view_turn};
 use super::light_cosines::LightCosines;
 use super::samples::{GAUSS_SAMPLES, POINTS, Rule, STAR_SAMPLES};
 use crate::exact::points::Points;
@@ -200,12 +201,13 @@ impl<S: Simd> Filled<'_, S> {
                 middle.y = f64x8::from_array(simd, v);
                 let first = pieces[0];
                 let size = [first.size[0] * self.size[0], first.size[1] * self.size[1]];
-                let (turn, nearness) = self.turn_of_parts(simd, middle, size);
+                let (turn, view_turn, nearness) = self.turn_of_parts(simd, middle, size);
                 let parts = Filled {
                     middle,
                     size,
                     lit: &self.lit_in_parts(lane),
                     turn,
+                    view_turn,
                     nearness,
                     which: ALL,
                     ..*self
@@ -243,12 +245,12 @@ impl<S: Simd> Filled<'_, S> {
         )
     }
 
-    /// How far normals turn from the middles of parts to their corners, and how near the outline is, as
-    /// [`Filled`] has it.
+    /// How far normals and directions toward the eye turn from the middles of parts to their corners, and how near the
+    /// outline is, as [`Filled`] has it.
     ///
     /// Where the ray d moves by e, the point p = t d moves by t (e − d (n·e) / (n·d)), along the surface. With
     /// the cosine g = |n·d| / |d| this is at most t (|e| + |n·e| / g). Toward the outline g falls, like a root: to
-    /// g √(1 − ν), with ν twice the turn over g, so that normals turn by g (1 − √(1 − ν)) instead of
+    /// g √(1 − ν), with ν twice the turn over g, that of the view included, so that normals turn by g (1 − √(1 − ν)) instead of
     /// g ν / 2; for ν up to ½ that is less than 1 + ν / 2 times as far.
     #[inline(always)]
     fn turn_of_parts(
@@ -256,7 +258,7 @@ impl<S: Simd> Filled<'_, S> {
         simd: S,
         middle: Vectors<S>,
         [width, height]: [f64; 2],
-    ) -> (f64x8<S>, f64x8<S>) {
+    ) -> (f64x8<S>, f64x8<S>, f64x8<S>) {
         let points = Points::new(simd, self.ball, middle);
         let zero = f64x8::splat(simd, 0.0);
         let half_diagonal = 0.5 * (width * width + height * height).sqrt();
@@ -270,8 +272,9 @@ impl<S: Simd> Filled<'_, S> {
             points.t
         };
         let turn = scale * (along / grazing + half_diagonal) * (1.0 / self.ball.radius);
-        let nearness = turn * 2.0 / grazing;
-        (turn * (nearness * 0.5 + 1.0), nearness)
+        let view_turn = view_turn(self.ball, points.ray_sq.sqrt(), half_diagonal);
+        let nearness = nearness_of_silhouette(turn, view_turn, grazing);
+        (turn * (nearness * 0.5 + 1.0), view_turn, nearness)
     }
 
     /// The places of eight parts of a part: halves along one axis, quarters along the one along which it is

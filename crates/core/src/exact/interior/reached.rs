@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use super::domain::{Domain, TowardEye};
 use super::filled::FilledRow;
+use super::half_turns::{nearness_of_silhouette, view_turn};
 use crate::edges::cell::Ball;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::classify::occluders::Occluder;
@@ -30,6 +31,7 @@ pub(super) struct Reached<S: Simd> {
     /// Pixels in which the terminator of a plain surface's only light may be, and nothing else.
     pub(super) turning: u64,
     pub(super) turn: f64x8<S>,
+    pub(super) view_turn: f64x8<S>,
     pub(super) nearness: f64x8<S>,
 }
 
@@ -51,8 +53,10 @@ pub(crate) struct Extents<'a, S: Simd> {
     /// The least and the largest distance, in multiples of the rays, and how far other points lie from the rays.
     depths: [f64x8<S>; 2],
     around: f64x8<S>,
-    /// How far normals turn in a pixel, and how near its light is to a singularity at the silhouette.
+    /// How far normals and directions toward the eye turn in a pixel, and how near its light is to a singularity at the
+    /// silhouette.
     turn: f64x8<S>,
+    view_turn: f64x8<S>,
     nearness: f64x8<S>,
     /// Where normals are analytic, if lights may have them in common.
     pub(super) analytic: Option<Analytic<'a, S>>,
@@ -84,6 +88,7 @@ impl<'a, S: Simd> Extents<'a, S> {
         }
         let turn = (away + around) * (1.0 / ball.radius);
         let grazing = (points.normal.dot(&points.ray) * (-one / length)).max(zero);
+        let view_turn = view_turn(ball, length, half_diagonal);
         Self {
             ray,
             size,
@@ -91,8 +96,8 @@ impl<'a, S: Simd> Extents<'a, S> {
             depths: [nearest, farthest],
             around,
             turn,
-            // A root of what vanishes at the silhouette, with the square of this.
-            nearness: turn * 2.0 / grazing,
+            view_turn,
+            nearness: nearness_of_silhouette(turn, view_turn, grazing),
             analytic: if is_analytic {
                 let domain = Domain::new(simd, ball, &ray, size);
                 Some(Analytic {
@@ -125,6 +130,7 @@ impl<S: Simd> Reached<S> {
             hard: 0,
             turning: 0,
             turn: f64x8::splat(simd, 0.0),
+            view_turn: f64x8::splat(simd, 0.0),
             nearness: f64x8::splat(simd, 0.0),
         }
     }
@@ -149,6 +155,7 @@ impl<S: Simd> Reached<S> {
             depths: [nearest, farthest],
             around,
             turn,
+            view_turn,
             mut nearness,
             ..
         } = *extents;
@@ -214,6 +221,7 @@ impl<S: Simd> Reached<S> {
             hard,
             turning,
             turn,
+            view_turn,
             nearness,
         }
     }

@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::eight_boxes::{Eight, EightBoxes};
+use super::half_vectors::Views;
 use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
@@ -351,11 +352,22 @@ impl Setting<'_, '_> {
         let around = Surroundings::new(simd, self.cell, boxes, &active.ball, visible);
         let normals = Normals::new(simd, scene, finish, (&around, visible), noise);
         light.samples = 8 * normals.samples;
+        let has_highlight = finish.reflectance.highlight.is_some();
+        let views = if has_highlight && active.ball.is_near_eye() {
+            Some(Views::new(simd, &around, &normals))
+        } else {
+            None
+        };
         for (of_light, reach) in scene.lights.iter().zip(reaches) {
             if let Reach::Past(casters) = reach {
                 let casters = &self.contents.occluders[casters.start..casters.end];
                 let of = (finish, of_light, scene.channels);
-                light.add(simd, of, (&around, &normals, visible), casters);
+                light.add(
+                    simd,
+                    of,
+                    (&around, &normals, views.as_ref(), visible),
+                    casters,
+                );
             }
         }
         light

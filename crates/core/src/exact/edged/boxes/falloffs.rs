@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 use glam::DVec3;
 
 use super::half_plane::{HalfPlane, ramp};
+use super::half_vectors::HalfCosines;
 use super::normals::Normals;
 use super::surroundings::OF_SECOND;
 use crate::exact::surface::Finish;
@@ -139,13 +140,13 @@ impl<S: Simd> Faced<S> {
     }
 
     /// The falloff of the highlight, which ends where the surface turns from the light; for these cosines of the half
-    /// vector and their changes across boxes.
+    /// vector.
     #[inline(always)]
     pub(super) fn shine(
         &self,
         simd: S,
         finish: &Finish,
-        (half_cosine, half_across): (f64x8<S>, [f64x8<S>; 2]),
+        halves: &HalfCosines<S>,
         normals: &Normals<S>,
     ) -> Power<S> {
         let zero = f64x8::splat(simd, 0.0);
@@ -161,13 +162,21 @@ impl<S: Simd> Faced<S> {
             return nothing;
         };
         let shininess = falloff.exponent;
-        // The highest cosine in the box, by half of what normals turn across it, and a little more as rays turn.
-        let turn = normals.turn_sq.sqrt() * HALF_TURN;
+        // The highest cosine in the box, by half of what normals and half vectors turn across it.
+        let half_cosine = halves.cosine;
+        let turn = halves.turn * HALF_TURN;
         let sine = (one - half_cosine * half_cosine).max(zero).sqrt();
         let nearest = (half_cosine + turn * sine + turn * turn).min(one);
         let most = falloff.of(nearest);
-        let bends = normals.second * shininess
-            + normals.turn_sq * sine * sine * (shininess * shininess * OF_SECOND);
+        // s cˢ⁻¹ c'' + s² cˢ⁻² c'², where c is highest, over cˢ.
+        let mut turned = halves.turn * sine * shininess;
+        let mut bent = halves.second * shininess;
+        if shininess < NARROW {
+            let by_cosine = one / nearest.max(f64x8::splat(simd, LEAST_COSINE));
+            turned *= by_cosine;
+            bent *= by_cosine;
+        }
+        let bends = bent + turned * turned * OF_SECOND;
         let doubt = (most * bends * CAUTION).min(most);
         let power = falloff.of(half_cosine);
         let is_cut = self.is_cut();
@@ -192,7 +201,7 @@ impl<S: Simd> Faced<S> {
         // That of the middle of the part that faces the light, which a highlight ends in unevenly.
         let by_share = one / facing.share.max(f64x8::splat(simd, LEAST_FACING));
         let [to_x, to_y] = facing.moments;
-        let further = (half_across[0] * to_x + half_across[1] * to_y) * by_share;
+        let further = (halves.across[0] * to_x + halves.across[1] * to_y) * by_share;
         let power = falloff.of((half_cosine + further).min(one));
         Power {
             value: power * facing.share,
@@ -215,9 +224,14 @@ const OF_HIGHEST: f64 = 4.0;
 /// The least share of a box that its own middle is found of.
 const LEAST_FACING: f64 = 1e-6;
 
-/// What the error of highlights is multiplied by, as half vectors turn with the view, too: one pixel in millions was off
-/// by more without it.
+/// What the error of highlights is multiplied by: one pixel in millions was off by more without it.
 const CAUTION: f64 = 1.5;
 
-/// Half of the turn across a box, and a quarter more for the turn of rays.
+/// The shininess from which on highlights are nothing where cosines are not near 1.
+const NARROW: f64 = 20.0;
+
+/// The least cosine that a highlight's derivatives are divided by.
+const LEAST_COSINE: f64 = 1e-3;
+
+/// Half of the turn across a box, and a quarter more, as both axes may turn the same way.
 const HALF_TURN: f64 = 0.625;

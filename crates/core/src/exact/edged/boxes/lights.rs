@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::falloffs::{Faced, Power};
+use super::half_vectors::{HalfCosines, Views};
 use super::normals::Normals;
 use super::outlines::Visible;
 use super::region::OF_AMBIGUITY;
@@ -50,7 +51,12 @@ impl<S: Simd> Lit<S> {
         &mut self,
         simd: S,
         of: (&Finish, &Light, usize),
-        (around, normals, visible): (&Surroundings<S>, &Normals<S>, &Visible<S>),
+        (around, normals, views, visible): (
+            &Surroundings<S>,
+            &Normals<S>,
+            Option<&Views<S>>,
+            &Visible<S>,
+        ),
         casters: &[Caster],
     ) {
         let (finish, light, _) = of;
@@ -87,16 +93,15 @@ impl<S: Simd> Lit<S> {
         let of_lit = [offset, middle, visible.inward];
         let (faced, aside) = Faced::new(simd, normals, toward, of_point, of_lit);
         let diffuse = faced.diffuse(simd, finish, normals);
-        let viewed = finish.viewed(&around.points, &normals.normal);
-        let (mut half_cosine, mut half_across) = (zero, [zero; 2]);
-        if finish.reflectance.highlight.is_some() {
-            half_cosine = viewed.half_cosine(toward, cosine);
-            for axis in 0..2 {
-                half_across[axis] = viewed.change_of_half_cosine(toward, &normals.across[axis]);
-                half_cosine += half_across[axis] * aside[axis];
+        let halves = match views {
+            Some(views) => HalfCosines::of_views(simd, (views, normals), toward, cosine, aside),
+            None if finish.reflectance.highlight.is_some() => {
+                let viewed = finish.viewed(&around.points, &normals.normal);
+                HalfCosines::of_still_views((&viewed, normals), toward, cosine, aside)
             }
-        }
-        let shine = faced.shine(simd, finish, (half_cosine, half_across), normals);
+            None => HalfCosines::nothing(simd),
+        };
+        let shine = faced.shine(simd, finish, &halves, normals);
         let weights = finish.reflectance.brightest(light.intensity);
         // Light that ends in a part of the box may end in what is hidden of it.
         let cut = left.region.most.min(one - lit.area);

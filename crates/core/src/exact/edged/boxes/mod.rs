@@ -19,6 +19,7 @@ mod division;
 mod eight_boxes;
 mod falloffs;
 pub(crate) mod half_plane;
+mod half_vectors;
 mod lights;
 mod normals;
 mod orders;

@@ -19,6 +19,8 @@ pub(super) struct Surroundings<S: Simd> {
     /// From the middles of boxes to the points, in sides.
     pub(super) offset: [f64x8<S>; 2],
     pub(super) radius: f64,
+    /// The sides of boxes on the retina at distance 1.
+    pub(super) sides: [f64; 2],
     /// The square of the angle by which normals turn across a box, and the cosine toward the eye.
     pub(super) turn_sq: f64x8<S>,
     pub(super) grazing: f64x8<S>,
@@ -113,6 +115,7 @@ impl<S: Simd> Surroundings<S> {
             across,
             offset,
             radius: ball.radius,
+            sides,
             turn_sq,
             grazing,
             second,
