@@ -44,6 +44,14 @@ fn free(position: DVec3, pan: f64, tilt: f64, roll: f64) -> Camera {
     Camera::free(position, angle(pan), angle(tilt), angle(roll))
 }
 
+/// The same camera, whose axis is measured from its target.
+fn toward(target: DVec3, camera: Camera) -> Camera {
+    Camera {
+        on_axis: target,
+        ..camera
+    }
+}
+
 #[test]
 fn what_is_left_out_has_its_default() {
     let scene = scene("");
@@ -213,7 +221,10 @@ fn a_look_at_camera_looks_at_its_target() {
     );
     assert_eq!(
         camera(&scene, 1),
-        free(DVec3::new(1.0, 2.0, 3.0), 0.0, 0.0, 90.0)
+        toward(
+            DVec3::new(1.0, 2.0, 7.0),
+            free(DVec3::new(1.0, 2.0, 3.0), 0.0, 0.0, 90.0)
+        )
     );
     assert_eq!(scene.description().camera, "LookAt");
     for (target, direction, tilt) in [
@@ -225,7 +236,8 @@ fn a_look_at_camera_looks_at_its_target() {
             "",
         );
         assert_eq!(camera(&scene, 1).forward(), direction);
-        assert_eq!(camera(&scene, 1), free(DVec3::ZERO, 0.0, tilt, 0.0));
+        let expected = free(DVec3::ZERO, 0.0, tilt, 0.0);
+        assert_eq!(camera(&scene, 1), toward(9.0 * direction, expected));
     }
     let far = filmed(
         "LookAt(position: (-1e308, 0, 0), target: (1e308, 0, 0))",
@@ -241,10 +253,15 @@ fn an_orbit_is_the_free_camera_behind_its_target() {
         "",
     );
     let turned = free(DVec3::ZERO, 40.0, -15.0, 5.0);
-    let position = DVec3::new(10.0, 20.0, 30.0) - 900.0 * turned.forward();
-    assert_eq!(camera(&scene, 1), free(position, 40.0, -15.0, 5.0));
+    let target = DVec3::new(10.0, 20.0, 30.0);
+    let position = target - 900.0 * turned.forward();
+    assert_eq!(
+        camera(&scene, 1),
+        toward(target, free(position, 40.0, -15.0, 5.0))
+    );
     let plain = filmed("Orbit(target: (0, 0, 4), radius: 4)", "");
-    assert_eq!(camera(&plain, 1), free(DVec3::ZERO, 0.0, 0.0, 0.0));
+    let behind = free(DVec3::ZERO, 0.0, 0.0, 0.0);
+    assert_eq!(camera(&plain, 1), toward(DVec3::new(0.0, 0.0, 4.0), behind));
     assert_eq!(plain.description().camera, "Orbit");
 }
 
@@ -281,7 +298,8 @@ fn keys_move_the_other_cameras_too() {
     );
     assert_eq!(camera(&orbit, 5), {
         let turned = free(DVec3::ZERO, 90.0, 0.0, 7.0);
-        free(DVec3::Z - 3.0 * turned.forward(), 90.0, 0.0, 7.0)
+        let position = DVec3::Z - 3.0 * turned.forward();
+        toward(DVec3::Z, free(position, 90.0, 0.0, 7.0))
     });
     let look_at = filmed(
         "LookAt(position: (0, 0, 0), target: (0, 0, 9))",

@@ -365,7 +365,8 @@ impl Setting<'_, '_> {
                 light.add(
                     simd,
                     of,
-                    (&around, &normals, views.as_ref(), visible),
+                    (&around, &normals, visible),
+                    views.as_ref(),
                     casters,
                 );
             }

@@ -51,12 +51,8 @@ impl<S: Simd> Lit<S> {
         &mut self,
         simd: S,
         of: (&Finish, &Light, usize),
-        (around, normals, views, visible): (
-            &Surroundings<S>,
-            &Normals<S>,
-            Option<&Views<S>>,
-            &Visible<S>,
-        ),
+        (around, normals, visible): (&Surroundings<S>, &Normals<S>, &Visible<S>),
+        views: Option<&Views<S>>,
         casters: &[Caster],
     ) {
         let (finish, light, _) = of;
