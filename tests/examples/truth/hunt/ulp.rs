@@ -100,7 +100,8 @@ pub(super) fn still_moves(draft: &Draft, grown: usize, broken: &Broken) -> bool 
     pictures() == Some(true)
 }
 
-/// How many pixels edges move by where a sphere grows to that of another scene.
+/// How many pixels edges move by where a sphere grows to that of another scene; none where the picture may be another
+/// one.
 fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let world = subject.plain().world();
     let sphere = world.spheres().get(index)?;
@@ -110,6 +111,13 @@ fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let lens = &view.lens;
     let pixels = f64::from(view.width) * view.zoom / lens.width;
     if lens.is_parallel() {
+        /// More than rounding, in ulps.
+        const TOUCHES: f64 = 8.0;
+        let ahead = (sphere.center() - view.camera.position).dot(view.camera.forward());
+        if (ahead - sphere.radius()).abs() <= TOUCHES * ulp {
+            // The plane that rays begin on touches the sphere, and cuts the grown one: that is seen from inside.
+            return None;
+        }
         return Some(ulp * pixels * grazing(subject, index, f64::INFINITY));
     }
     // Beside the axis a retina shows things larger.
