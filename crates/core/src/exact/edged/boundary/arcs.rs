@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use super::strokes::strokes;

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::arcs::{Front, between, front};
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::{Function, INTERVALS, Stretch, in_disc, is_beyond, polynomial, value};
 use super::setting::{Boundary, Edge, NONE, Setting};
 use crate::exact::classify::contents::Kind;

@@ -2,7 +2,9 @@
 
 use glam::{DVec2, DVec3};
 
-use super::curve::{Circle, NearShadow, Piece, Shape};
+use super::circle::Circle;
+use super::curve::{Piece, Shape};
+use super::near_shadow::NearShadow;
 use crate::edges::cell::Cell;
 
 /// The parts of a circle in front of the eye that lie in a cell, each no more than a quarter of it.

@@ -2,7 +2,8 @@
 
 use fearless_simd::Simd;
 
-use super::curve::{Piece, Trace, trace};
+use super::circle::Trace;
+use super::curve::{Piece, trace};
 use super::dips::{around, dips, may_dip};
 use super::primitive::ray;
 use super::setting::{Curve, Setting};

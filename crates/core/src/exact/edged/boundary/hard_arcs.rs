@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 use glam::DVec3;
 
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::polynomial;
 use super::primitive::ray;
 use super::setting::{Arc, Curve, Edge, NONE, Setting};

@@ -4,8 +4,9 @@ use fearless_simd::Simd;
 use glam::DVec2;
 
 use super::chord::Reference;
+use super::circle::Circle;
 use super::clip;
-use super::curve::{Circle, Piece, Shape};
+use super::curve::{Piece, Shape};
 use super::events::Stretch;
 use super::power_rules::PowerRules;
 use super::quadrature::total;

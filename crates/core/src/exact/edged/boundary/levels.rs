@@ -13,7 +13,7 @@ use fearless_simd::Simd;
 
 use super::arcs::Lanes;
 use super::chord::Reference;
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::{Function, INTERVALS, Stretch, value};
 use super::setting::{Arc, Boundary, Edge, Setting};
 use crate::numeric::lanes::f64x8;

@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::arcs::{Lanes, add, between};
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};

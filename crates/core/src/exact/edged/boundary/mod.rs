@@ -7,6 +7,7 @@
 mod arcs;
 mod breaks;
 mod chord;
+mod circle;
 mod clip;
 mod curve;
 mod dips;
@@ -18,6 +19,7 @@ mod jumps;
 mod kinks;
 mod levels;
 mod lit;
+mod near_shadow;
 mod plain;
 mod power_rules;
 mod primitive;

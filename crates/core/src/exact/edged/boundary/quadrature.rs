@@ -3,7 +3,8 @@
 use fearless_simd::Simd;
 use glam::DVec3;
 
-use super::curve::{Shape, Trace, trace, warped};
+use super::circle::Trace;
+use super::curve::{Shape, trace, warped};
 use super::hard_arcs::{roots_at_ends, spans_bumps};
 use super::primitive::{Lines, Sender, greatest};
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Path, Region, Setting, Sum};

@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::curve::Trace;
+use super::circle::Trace;
 use super::events::{Function, Stretch, value};
 use super::setting::{Boundary, Curve, Edge, NONE, Setting};
 use crate::exact::classify::face::Face;
