@@ -57,7 +57,8 @@ impl Ball {
     /// a sphere that is many radii away normals turn that many times as far, at least.
     #[inline(always)]
     pub(crate) fn is_near_eye(&self) -> bool {
-        /// The square of the distance in radii from which on they count as still. Claims have room for the rest.
+        /// The square of the distance in radii from which on they count as still. Chosen by what it costs, not derived: a
+        /// highlight that is narrow beside a tenth of what normals turn could fool it.
         const FAR_SQ: f64 = 100.0;
         !self.is_parallel() && self.power < FAR_SQ * self.radius * self.radius
     }

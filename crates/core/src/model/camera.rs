@@ -130,8 +130,8 @@ impl Camera {
 /// double's precision.
 const MOST_ASIDE: f64 = 16.0 * f64::EPSILON;
 
-/// The point on the axis of view that is nearest to the world's origin, or the position itself where that is nearer to
-/// the origin than rounding moves it.
+/// The point on the axis of view that is nearest to the world's origin; the position where numbers are too large for
+/// that.
 ///
 /// # Accuracy
 /// It is rounded as doubles are: the way to it is computed with twice their precision.

@@ -10,8 +10,8 @@ use crate::numeric::lanes::f64x8;
 /// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
-/// A bound of how far directions toward the eye turn from the middles of pixels, whose rays have this length, to the
-/// corners; none where they count as still.
+/// How far directions toward the eye turn at most from the middles of pixels, whose rays have this length, to the corners; 0
+/// where they count as still, so that it is no bound.
 ///
 /// Rays on the retina at distance 1 are at least 1 long, and at least as long as that of the middle less half of the
 /// diagonal.
@@ -36,8 +36,8 @@ pub(super) fn nearness_of_silhouette<S: Simd>(
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// A bound of how far the half vectors of a light far away turn from the middles of pixels to the corners: as far as
-    /// the view, over the least length of l + v.
+    /// How far the half vectors of a light far away turn from the middles of pixels to the corners: as far as the view, over
+    /// the least length of l + v. An estimate, as the turn of the view is.
     #[inline(always)]
     pub(super) fn half_turn(&self, simd: S, light: &Light) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
