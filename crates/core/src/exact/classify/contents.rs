@@ -17,7 +17,7 @@ use crate::exact::budget::{is_beyond_a_crowd, is_beyond_a_part};
 use crate::exact::scene::InCamera;
 use crate::model::camera::Projection;
 use crate::model::roughness::PixelKey;
-use crate::numeric::polynomial::{Linear, Quadratic};
+use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 
 /// A curve on which light may change abruptly.
@@ -136,13 +136,21 @@ impl Contents {
             if is_outside && (discriminant.one + spread + slack < 0.0 || is_behind) {
                 continue;
             }
+            let active = Active {
+                sphere,
+                ball,
+                discriminant,
+                along,
+                terminators: Terminators::of(scene, sphere, self.pixel),
+                is_dark: false,
+            };
             let pairs = self.active.len();
             self.tests += (pairs / PAIRS_OF_A_TEST) as u64;
             all_pairs += pairs as u64;
             if is_beyond_a_crowd(all_pairs) {
                 // All that may be seen is listed, and no more compared.
                 self.is_crowded = true;
-                self.push(scene, (sphere, ball), discriminant, along);
+                self.active.push(active);
                 continue;
             }
             // Of spheres that coincide the first is seen.
@@ -166,18 +174,11 @@ impl Contents {
                     None => ball.outside < other.ball.outside,
                 };
                 if is_before {
-                    *other = Active {
-                        sphere,
-                        ball,
-                        discriminant,
-                        along,
-                        terminators: Terminators::of(scene, sphere, self.pixel),
-                        is_dark: false,
-                    };
+                    *other = active;
                 }
                 continue;
             }
-            self.push(scene, (sphere, ball), discriminant, along);
+            self.active.push(active);
         }
         self.add_caps(scene, cell);
         if self.is_crowded {
@@ -242,24 +243,6 @@ impl Contents {
         self.count_edges(cache);
         self.rounding += unresolved;
         self.add_strokes(scene, cell);
-    }
-
-    /// Adds a sphere that the cell may see.
-    fn push(
-        &mut self,
-        scene: &InCamera<'_>,
-        (sphere, ball): (usize, Ball),
-        discriminant: Quadratic,
-        along: Linear,
-    ) {
-        self.active.push(Active {
-            sphere,
-            ball,
-            discriminant,
-            along,
-            terminators: Terminators::of(scene, sphere, self.pixel),
-            is_dark: false,
-        });
     }
 
     /// The same for the scene whose light is its normals: nothing shades them.
