@@ -53,8 +53,10 @@ pub(crate) fn classify_row<S: Simd>(
     let mut end = f64x8::splat(simd, f64::INFINITY);
     for (&sphere, ball) in candidates.iter().zip(balls) {
         let extent = extent(simd, &ray, size, ball);
+        // What begins behind what fills a pixel is not seen there.
+        let is_open = !extent.nearest.simd_gt(end);
         let touched = extent.touched.to_bitmask() & all;
-        if touched == 0 {
+        if touched & is_open.to_bitmask() == 0 {
             continue;
         }
         end = extent.covered.select(end.min(extent.farthest), end);
@@ -266,6 +268,9 @@ pub(crate) fn sight(
 /// Pairs of spheres of a pixel that are compared at most: of what is not compared nothing is left out.
 const MOST_PAIRS: usize = 200_000;
 
+/// What stands in place of the number of a sphere that others hide.
+const HIDDEN: usize = usize::MAX;
+
 /// Adds the spheres that the pixel with this number may see to `spheres`, which must be empty: without
 /// those that are hidden by one that fills it.
 ///
@@ -281,12 +286,11 @@ fn visible_spheres(
     let here = |coverage: &&Coverage| coverage.touched >> lane & 1 == 1;
     let all = coverages.iter().filter(here);
     spheres.extend(all.map(|coverage| (coverage.sphere, coverage.ball)));
-    let mut is_hidden = vec![false; spheres.len()];
     let mut pairs = 0;
     let nearest = nearest_cover(lane, coverages, spheres.len());
     for (place, one) in coverages.iter().filter(here).enumerate() {
         let ball = &one.ball;
-        if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || is_hidden[place] {
+        if one.covered >> lane & 1 == 0 || ball.outside <= 0.0 || spheres[place].0 == HIDDEN {
             continue;
         }
         if nearest.is_some_and(|nearest| one.sphere != nearest) {
@@ -299,26 +303,25 @@ fn visible_spheres(
         let (outline, along) = (silhouette(cell, ball), cell.along(ball.center));
         let patch = Patch::new(cell, ball, &outline, &along);
         for (other_place, other) in coverages.iter().filter(here).enumerate() {
-            if other_place == place || is_hidden[other_place] {
+            if other_place == place || spheres[other_place].0 == HIDDEN {
                 continue;
             }
             let is_outside = other.ball.outside > 0.0;
             match patch.side_of(ball, &other.ball) {
                 Some(Side::Outside) => {
                     if is_outside && nearest_middle(cell, &other.ball) > one.farthest[lane] {
-                        is_hidden[other_place] = true;
+                        spheres[other_place].0 = HIDDEN;
                     }
                 }
                 Some(Side::Inside) if other.covered >> lane & 1 == 1 && is_outside => {
-                    is_hidden[place] = true;
+                    spheres[place].0 = HIDDEN;
                     break;
                 }
                 Some(Side::Inside) | None => {}
             }
         }
     }
-    let mut is_hidden = is_hidden.into_iter();
-    spheres.retain(|_| is_hidden.next() == Some(false));
+    spheres.retain(|&(sphere, _)| sphere != HIDDEN);
 }
 
 /// The sphere that fills the pixel with this number and begins nearest, where it may see so many that they are held
