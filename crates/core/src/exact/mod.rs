@@ -180,14 +180,13 @@ fn tile_pixels<S: Simd>(
                     which,
                     coverage,
                 };
-                let extents = if coverage.ball.outside > 0.0 {
-                    Some(simd.vectorize(
+                let mut extents = None;
+                if coverage.ball.outside > 0.0 {
+                    simd.vectorize(
                         #[inline(always)]
-                        || Extents::new(simd, first, &row, is_analytic),
-                    ))
-                } else {
-                    None
-                };
+                        || extents = Some(Extents::new(simd, first, &row, is_analytic)),
+                    );
+                }
                 for (context, lit) in contexts.iter().zip(&mut *lit) {
                     let of_row = (&row, extents.as_ref());
                     lit.fill(simd, context, of_row, (start, place), edged);
