@@ -5,13 +5,13 @@ use fearless_simd::Simd;
 use super::average::Setting;
 use super::division::{FIRST, FIRST_SIZE, HALVES, SHARE};
 use super::eight_boxes::Eight;
-use super::outlines::Outline;
+use super::outlines::Outlines;
 
 /// Shares of a cell, and estimates of their errors, for each of its active spheres.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shares {
     pub(crate) of_spheres: Vec<[f64; 2]>,
-    outlines: Vec<Outline>,
+    outlines: Outlines,
     /// The middles of boxes of one size, and those that are left of them.
     boxes: Vec<[f64; 2]>,
     left: Vec<[f64; 2]>,

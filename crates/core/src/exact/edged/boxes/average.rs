@@ -7,7 +7,7 @@ use super::half_vectors::Views;
 use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
-use super::outlines::{Outline, Visible};
+use super::outlines::{Outlines, Visible};
 use super::region::{OF_AMBIGUITY, Region, Share};
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
@@ -35,7 +35,7 @@ pub(super) struct Setting<'a, 'scene> {
 }
 
 /// The averages of eight boxes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Averages {
     pub(super) value: [Eight; 3],
     pub(super) covered: Eight,
@@ -46,13 +46,6 @@ pub(super) struct Averages {
 }
 
 impl Averages {
-    const NOTHING: Self = Self {
-        value: [[0.0; 8]; 3],
-        covered: [0.0; 8],
-        error: [0.0; 8],
-        samples: 0,
-    };
-
     /// The integral over all boxes, which have this area.
     pub(super) fn total(&self, area: f64) -> Part {
         let sum = |lanes: &Eight| lanes.iter().sum::<f64>() * area;
@@ -187,23 +180,22 @@ enum Wanted<'a> {
 }
 
 impl Setting<'_, '_> {
-    /// The averages, with memory to work in.
+    /// Writes the averages of eight boxes, with memory to work in.
     #[inline(always)]
     pub(super) fn averages<S: Simd>(
         &self,
         simd: S,
         boxes: [Eight; 2],
         size: [f64; 2],
-        (outlines, noise): (&mut Vec<Outline>, &mut Option<Box<NoiseCells>>),
-    ) -> Averages {
-        let mut averages = Averages::NOTHING;
+        (outlines, noise): (&mut Outlines, &mut Option<Box<NoiseCells>>),
+        averages: &mut Averages,
+    ) {
         self.find(
             simd,
             (boxes, size),
             outlines,
-            Wanted::Light(&mut averages, noise),
+            Wanted::Light(averages, noise),
         );
-        averages
     }
 
     /// Writes the shares of eight boxes in which each active sphere is seen, and their errors.
@@ -213,7 +205,7 @@ impl Setting<'_, '_> {
         simd: S,
         boxes: [Eight; 2],
         size: [f64; 2],
-        outlines: &mut Vec<Outline>,
+        outlines: &mut Outlines,
         found: &mut Vec<[Eight; 2]>,
     ) {
         found.clear();
@@ -227,7 +219,7 @@ impl Setting<'_, '_> {
         &self,
         simd: S,
         ([x, y], size): ([Eight; 2], [f64; 2]),
-        outlines: &mut Vec<Outline>,
+        outlines: &mut Outlines,
         mut wanted: Wanted<'_>,
     ) {
         simd.vectorize(
@@ -240,7 +232,7 @@ impl Setting<'_, '_> {
                 };
                 let outside = self.outlines(simd, &boxes, outlines);
                 let mut sum = Sum::nothing(simd, self.scene.channels);
-                for outline in outlines.iter() {
+                for outline in &outlines.spheres {
                     let Some(visible) = outline.visible(simd, outlines, self.orders) else {
                         continue;
                     };
@@ -307,20 +299,18 @@ impl Setting<'_, '_> {
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
-        outlines: &mut Vec<Outline>,
+        outlines: &mut Outlines,
     ) -> Region<S> {
-        let one = f64x8::splat(simd, 1.0);
         outlines.clear();
         let mut outside = Region::whole(simd);
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
-            if !self.has_silhouette[position] {
-                outside.darken(simd, one.simd_gt(0.0));
-                outlines.push(Outline::filling(simd, boxes, of, has_depth));
-            } else if let Some(outline) = Outline::new(simd, boxes, of, has_depth) {
-                outside.cut(simd, &outline.outside(simd));
-                outlines.push(outline);
+            if self.has_silhouette[position] {
+                outlines.add(simd, boxes, of, has_depth, &mut outside);
+            } else {
+                outside.darken(simd, f64x8::splat(simd, 1.0).simd_gt(0.0));
+                outlines.add_filling(simd, boxes, of, has_depth);
             }
         }
         outside

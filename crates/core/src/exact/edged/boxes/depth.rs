@@ -51,14 +51,6 @@ pub(super) struct Depth {
 }
 
 impl Depth {
-    pub(super) const NONE: Self = Self {
-        middle: [0.0; 8],
-        across: [[0.0; 8]; 2],
-        bends: [[0.0; 8]; 3],
-        rest: [0.0; 8],
-        range: [[0.0; 8]; 2],
-    };
-
     /// 1 / t = (B + √Q) / K, where rays miss as if they grazed; −t for parallel rays.
     #[inline(always)]
     pub(super) fn new<S: Simd>(

@@ -2,16 +2,18 @@
 
 use fearless_simd::Simd;
 
-use super::average::Setting;
+use super::average::{Averages, Setting};
 use super::eight_boxes::Eight;
-use super::outlines::Outline;
+use super::outlines::Outlines;
 use crate::exact::part::Part;
 use crate::model::roughness::noise::NoiseCells;
 
 /// Memory to divide cells in.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Division {
-    outlines: Vec<Outline>,
+    outlines: Outlines,
+    /// Those of the eight boxes that were done last.
+    averages: Averages,
     /// The middles of boxes that are left to do, and their size.
     left: Vec<[f64; 2]>,
     /// Those that are being divided.
@@ -54,7 +56,8 @@ impl Division {
         noise: &mut Option<Box<NoiseCells>>,
     ) -> Option<Part> {
         self.size = FIRST_SIZE;
-        let first = setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise));
+        let first = &mut self.averages;
+        setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise), first);
         self.samples += first.samples;
         let whole = first.total(self.size[0] * self.size[1]);
         if whole.error <= tolerance {
@@ -152,7 +155,8 @@ impl Division {
                 middles[0][lane] = x;
                 middles[1][lane] = y;
             }
-            let found = setting.averages(simd, middles, self.size, (&mut self.outlines, noise));
+            let found = &mut self.averages;
+            setting.averages(simd, middles, self.size, (&mut self.outlines, noise), found);
             self.samples += found.samples;
             for (lane, &middle) in group.iter().enumerate() {
                 self.known.push((middle, found.lane(lane)));

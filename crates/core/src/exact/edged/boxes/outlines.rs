@@ -16,12 +16,23 @@ use crate::numeric::lanes::{f64x8, mask64x8};
 pub(super) struct Outline {
     /// Its position among the active spheres.
     pub(super) position: usize,
+    /// Whether it fills all boxes.
+    fills: bool,
     /// What is inside of its silhouette.
     inside: StoredHalfPlane,
     /// How far a point must be moved along both axes, in sides, from the middle of what is seen to where the root of
     /// the discriminant is the average.
     inward: [Eight; 2],
-    depth: Depth,
+    /// The position of its depth among those that are known, if it intersects another sphere.
+    depth: usize,
+}
+
+/// The spheres that eight boxes see.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Outlines {
+    pub(super) spheres: Vec<Outline>,
+    /// The depths of those that intersect others.
+    depths: Vec<Depth>,
 }
 
 /// What is seen of a sphere in eight boxes.
@@ -52,38 +63,45 @@ impl<S: Simd> Visible<S> {
 /// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
 const OF_ROOT: f64 = 8.0 / 9.0;
 
-impl Outline {
-    /// A sphere that fills all boxes.
-    #[inline(always)]
-    pub(super) fn filling<S: Simd>(
-        simd: S,
-        boxes: &EightBoxes<S>,
-        (position, active): (usize, &Active),
-        has_depth: bool,
-    ) -> Self {
-        let none = [0.0; 8];
-        let depth = if has_depth {
-            let function = Function::new(simd, boxes, &active.discriminant);
-            Depth::new(simd, boxes, active, &function)
-        } else {
-            Depth::NONE
-        };
-        Self {
-            position,
-            inside: StoredHalfPlane::new(&HalfPlane::whole(simd)),
-            inward: [none; 2],
-            depth,
-        }
+impl Outlines {
+    pub(super) fn clear(&mut self) {
+        self.spheres.clear();
+        self.depths.clear();
     }
 
-    /// The sphere, if any of the boxes see it.
+    /// Adds a sphere that fills all boxes.
     #[inline(always)]
-    pub(super) fn new<S: Simd>(
+    pub(super) fn add_filling<S: Simd>(
+        &mut self,
         simd: S,
         boxes: &EightBoxes<S>,
         (position, active): (usize, &Active),
         has_depth: bool,
-    ) -> Option<Self> {
+    ) {
+        let depth = self.depths.len();
+        if has_depth {
+            let function = Function::new(simd, boxes, &active.discriminant);
+            self.depths.push(Depth::new(simd, boxes, active, &function));
+        }
+        self.spheres.push(Outline {
+            position,
+            fills: true,
+            inside: StoredHalfPlane::new(&HalfPlane::whole(simd)),
+            inward: [[0.0; 8]; 2],
+            depth,
+        });
+    }
+
+    /// Adds a sphere if any of the boxes see it, and takes it from what is outside of all of them.
+    #[inline(always)]
+    pub(super) fn add<S: Simd>(
+        &mut self,
+        simd: S,
+        boxes: &EightBoxes<S>,
+        (position, active): (usize, &Active),
+        has_depth: bool,
+        outside: &mut Region<S>,
+    ) {
         let zero = f64x8::splat(simd, 0.0);
         let one = f64x8::splat(simd, 1.0);
         let function = Function::new(simd, boxes, &active.discriminant);
@@ -95,41 +113,46 @@ impl Outline {
         // Most boxes of a crowd are far from most silhouettes.
         let most = (across[0].abs() + across[1].abs()) * 0.5 + bends.most();
         if (value + most).simd_gt(zero).to_bitmask() == 0 {
-            return None;
+            return;
         }
         if (value - most).simd_lt(zero).to_bitmask() == 0 {
-            return Some(Self::filling(simd, boxes, (position, active), has_depth));
+            outside.darken(simd, one.simd_gt(zero));
+            self.add_filling(simd, boxes, (position, active), has_depth);
+            return;
         }
         let part = HalfPlane::of_second_degree(simd, value, across, &bends, None);
         if part.share.simd_gt(zero).to_bitmask() == 0 && part.doubt.simd_gt(zero).to_bitmask() == 0
         {
-            return None;
+            return;
         }
+        outside.cut(simd, &part.other_side(simd));
         let inner = part.share * value + part.moments[0] * across[0] + part.moments[1] * across[1];
         let is_cut = part.share.simd_lt(one) & part.share.simd_gt(zero);
         let steepness = across[0] * across[0] + across[1] * across[1];
         let whole = (part.share * steepness).max(f64x8::splat(simd, f64::MIN_POSITIVE));
         let back = is_cut.select(inner * (OF_ROOT - 1.0) / whole, zero);
         let inward = [back * across[0], back * across[1]];
-        let depth = if has_depth {
-            Depth::new(simd, boxes, active, &function)
-        } else {
-            Depth::NONE
-        };
-        Some(Self {
+        let depth = self.depths.len();
+        if has_depth {
+            self.depths.push(Depth::new(simd, boxes, active, &function));
+        }
+        self.spheres.push(Outline {
             position,
+            fills: false,
             inside: StoredHalfPlane::new(&part),
             inward: [inward[0].into(), inward[1].into()],
             depth,
-        })
+        });
     }
+}
 
+impl Outline {
     /// What is seen of it behind others; `None` where they hide it in all boxes.
     #[inline(always)]
     pub(super) fn visible<S: Simd>(
         &self,
         simd: S,
-        all: &[Self],
+        all: &Outlines,
         orders: &Orders,
     ) -> Option<Visible<S>> {
         let zero = f64x8::splat(simd, 0.0);
@@ -138,15 +161,18 @@ impl Outline {
         let mut region = Region::whole(simd);
         let mut in_doubt = zero;
         let mut open = one;
-        for other in all {
+        for other in &all.spheres {
             if other.position == self.position {
                 continue;
             }
             match orders.of(self.position, other.position) {
                 Order::Front => {}
+                Order::Behind if other.fills => return None,
                 Order::Behind => {
                     let outside = other.outside(simd);
-                    open = open.min(open_edge(simd, &inside, &outside));
+                    if !self.fills {
+                        open = open.min(open_edge(simd, &inside, &outside));
+                    }
                     region.cut(simd, &outside);
                     if region.most.simd_gt(zero).to_bitmask() == 0 {
                         return None;
@@ -154,8 +180,9 @@ impl Outline {
                 }
                 Order::ByDepth => {
                     let theirs = other.inside.load(simd);
+                    let depth = &all.depths[self.depth];
                     let both = inside.share.min(theirs.share) + inside.doubt + theirs.doubt;
-                    let before = self.depth.behind(simd, &other.depth, both.simd_gt(zero));
+                    let before = depth.behind(simd, &all.depths[other.depth], both.simd_gt(zero));
                     in_doubt += before.doubt * inside.share * theirs.share;
                     region.cut_by_both(simd, &theirs, &before);
                 }
@@ -163,20 +190,24 @@ impl Outline {
         }
         // Both spheres of a seam are in doubt there: each counts half.
         let doubt = (inside.doubt * open + in_doubt * region.product() * 0.5).min(region.most);
-        region.cut(simd, &inside);
+        if !self.fills {
+            region.cut(simd, &inside);
+        }
         let share = region.share(simd);
         let middle = share.middle(simd);
-        // Where others hide what lies deep inside, what is left lies nearer to the silhouette.
-        let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
-        let [x, y] = inside.across;
-        let all = (inside.value * inside.share + x * inside.moments[0] + y * inside.moments[1])
-            / inside.share.max(tiny);
-        let left = inside.value + x * middle[0] + y * middle[1];
-        let nearer = (left / all.max(tiny)).max(zero).min(one);
-        let inward: [f64x8<S>; 2] = [
-            f64x8::from_array(simd, self.inward[0]),
-            f64x8::from_array(simd, self.inward[1]),
-        ];
+        let mut inward = [zero; 2];
+        if !self.fills {
+            // Where others hide what lies deep inside, what is left lies nearer to the silhouette.
+            let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
+            let [x, y] = inside.across;
+            let all = (inside.value * inside.share + x * inside.moments[0] + y * inside.moments[1])
+                / inside.share.max(tiny);
+            let left = inside.value + x * middle[0] + y * middle[1];
+            let nearer = (left / all.max(tiny)).max(zero).min(one);
+            inward = self
+                .inward
+                .map(|eight| f64x8::from_array(simd, eight) * nearer);
+        }
         let is_possible = region.most.simd_gt(zero);
         (is_possible.to_bitmask() != 0).then_some(Visible {
             position: self.position,
@@ -184,7 +215,7 @@ impl Outline {
             share,
             middle,
             doubt,
-            inward: [inward[0] * nearer, inward[1] * nearer],
+            inward,
             is_cut: inside.share.simd_lt(one),
             is_possible,
         })
@@ -192,7 +223,7 @@ impl Outline {
 
     /// The boxes outside of the sphere.
     #[inline(always)]
-    pub(super) fn outside<S: Simd>(&self, simd: S) -> HalfPlane<S> {
+    fn outside<S: Simd>(&self, simd: S) -> HalfPlane<S> {
         self.inside.load(simd).other_side(simd)
     }
 }

@@ -53,6 +53,11 @@ impl<S: Simd> Surroundings<S> {
             let is_inside = middle.simd_gt(zero);
             let top = caster.center.dot(light.toward);
             let above = is_inside.select(seen.height, at_foot).simd_lt(top);
+            // What is above elsewhere in the box may be dark.
+            let may_be = (seen.height - seen.of_box).simd_lt(top);
+            if (above | may_be).to_bitmask() == 0 {
+                continue;
+            }
             let width = across[0].abs() + across[1].abs();
             let rest = seen.rest * (2.0 * caster.radius);
             let most = width * 0.5 + (bend * 2.0).max(bend + rest);
@@ -70,9 +75,7 @@ impl<S: Simd> Surroundings<S> {
                 &bends,
                 Some(bend * seen.third * CAUTION),
             );
-            // What is above elsewhere in the box may be dark.
             let hidden = above.select(zero, part.share);
-            let may_be = (seen.height - seen.of_box).simd_lt(top);
             // An edge that second derivatives do not see in the box may cross it beside the silhouette.
             let is_one = part.share.simd_le(zero) | part.share.simd_ge(one);
             let within = (most - middle.abs()).max(zero) / (seen.depth * (2.0 * caster.radius));
