@@ -2,13 +2,14 @@
 
 use glam::DVec3;
 
-use crate::edges::cell::Ball;
+use crate::edges::cell::{Ball, Cell};
 use crate::edges::terminator::Plane;
 use crate::exact::scene::InCamera;
+use crate::model::camera::Projection;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
-pub(super) const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
 /// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
@@ -25,6 +26,20 @@ pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
     let slack = ALIKE * far[0] * far[1];
     (one.radius * far[1] - other.radius * far[0]).abs() <= slack
         && (one.center * far[1] - other.center * far[0]).length() <= slack
+}
+
+/// How far apart in a cell, on the retina at distance 1 or across parallel rays, the outline of a ball and another may be that
+/// count as the same.
+///
+/// The sine of the angle of an outline, r / |c|, changes the angle by 1 / cos = |c| / √K times as much, and an angle moves a
+/// ray that is |d| long by |d|² times as much at distance 1.
+pub(super) fn outlines_apart(cell: &Cell, ball: &Ball) -> f64 {
+    let (extent, distance) = (cell.extent(), ball.center.length());
+    ALIKE
+        * match cell.projection {
+            Projection::Central => extent * extent * (1.0 + distance / ball.outside.sqrt()),
+            Projection::Parallel => extent + distance,
+        }
 }
 
 /// Returns whether a sphere lies inside another one, or around it; none where neither holds.

@@ -2,7 +2,7 @@
 
 use super::active::{Active, Terminators};
 use super::behind::Cover;
-use super::coincidence::{ALIKE, has_same_outline, is_outline, nesting};
+use super::coincidence::{has_same_outline, is_outline, nesting, outlines_apart};
 use super::face::Face;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
@@ -167,8 +167,8 @@ impl Contents {
             // Of spheres with one outline the nearest hides the others, or that around them.
             let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
             if let Some(other) = self.active.iter_mut().find(is_alike) {
-                let moved = ALIKE * (cell.extent() + ball.center.length()) / size;
-                self.rounding = self.rounding.max(moved);
+                let moved = outlines_apart(cell, &ball);
+                self.rounding = self.rounding.max(moved / size);
                 let is_before = match nesting(scene, sphere, other.sphere) {
                     Some(is_inside) => !is_inside,
                     None => ball.outside < other.ball.outside,
