@@ -29,7 +29,8 @@ const EMPTY: Entry = Entry {
 };
 
 /// Spheres whose radii differ by a factor of more than 2 to the power of this are kept apart: one
-/// floor among a million grains would make every box above it as large as itself.
+/// floor among a million grains would make every box above it as large as itself. They are counted from the largest
+/// radius down, so that the order does not depend on the unit of length.
 const OCTAVES: i32 = 3;
 
 /// Fewer are not worth another thread.
@@ -46,7 +47,8 @@ pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
         .with_min_len(FEWEST_TO_SHARE)
         .map(|(index, sphere)| Entry::new(index as u32, sphere))
         .collect();
-    let classes = classes(&entries);
+    let largest = largest_exponent(spheres);
+    let classes = classes(&entries, largest);
     if classes.len() <= 1 {
         split(&mut entries, spheres);
         entries.resize(entries.len().next_multiple_of(WIDTH), EMPTY);
@@ -55,7 +57,11 @@ pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
     let mut order = Vec::with_capacity(entries.len() + WIDTH * classes.len());
     for &(wanted, _) in &classes {
         let first = order.len();
-        order.extend(entries.iter().filter(|entry| entry.class() == wanted));
+        order.extend(
+            entries
+                .iter()
+                .filter(|entry| entry.class(largest) == wanted),
+        );
         split(&mut order[first..], spheres);
         order.resize(order.len().next_multiple_of(WIDTH), EMPTY);
     }
@@ -77,18 +83,22 @@ impl Entry {
         }
     }
 
-    fn class(&self) -> i32 {
-        libm::ilogbf(self.radius).div_euclid(OCTAVES)
+    /// The class of its radius, where this is the exponent of the largest one.
+    fn class(&self, largest: i32) -> i32 {
+        (largest - self.exponent()) / OCTAVES
+    }
+
+    /// That of its radius; one that is beyond single precision has the next.
+    fn exponent(&self) -> i32 {
+        libm::ilogbf(self.radius).min(f32::MAX_EXP)
     }
 }
 
 /// The most bytes that the order of some spheres takes while it is made.
 pub(super) fn most_bytes(spheres: &[Sphere]) -> u64 {
-    let class = |sphere: &Sphere| {
-        // What is beyond single precision is one class more.
-        let class = Entry::new(0, sphere).class() - LOWEST_CLASS;
-        1_u128 << class.clamp(0, 127)
-    };
+    let largest = largest_exponent(spheres);
+    // Single precision has no more than 93 classes.
+    let class = |sphere: &Sphere| 1_u128 << Entry::new(0, sphere).class(largest);
     let classes = spheres.par_iter().with_min_len(FEWEST_TO_SHARE).map(class);
     let classes = classes.reduce(|| 0, |one, other| one | other).count_ones();
     // Spheres of several classes are copied class by class.
@@ -97,14 +107,18 @@ pub(super) fn most_bytes(spheres: &[Sphere]) -> u64 {
     copies * places as u64 * size_of::<Entry>() as u64
 }
 
-/// The class of the least numbers of single precision.
-const LOWEST_CLASS: i32 = (f32::MIN_EXP - f32::MANTISSA_DIGITS as i32).div_euclid(OCTAVES);
+/// The exponent of the largest radius.
+fn largest_exponent(spheres: &[Sphere]) -> i32 {
+    let exponents = spheres.par_iter().with_min_len(FEWEST_TO_SHARE);
+    let exponents = exponents.map(|sphere| Entry::new(0, sphere).exponent());
+    exponents.max().unwrap_or(0)
+}
 
 /// The classes of sizes, the largest class first: its groups are those of powers of eight.
-fn classes(entries: &[Entry]) -> Vec<(i32, usize)> {
+fn classes(entries: &[Entry], largest: i32) -> Vec<(i32, usize)> {
     let mut classes: Vec<(i32, usize)> = Vec::new();
     for entry in entries {
-        let class = entry.class();
+        let class = entry.class(largest);
         match classes.iter_mut().find(|(known, _)| *known == class) {
             Some((_, count)) => *count += 1,
             None => classes.push((class, 1)),
