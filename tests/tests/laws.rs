@@ -1,4 +1,5 @@
-//! Light has no unit: random scenes of many kinds, with all light and the tolerance a power of two times as bright.
+//! Light and lengths have no unit: random scenes of many kinds, with all light and the tolerance a power of two times as
+//! bright, or with all lengths a power of two times as long.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -12,15 +13,31 @@ use crate::studio::pixels;
 
 const SCENES: u64 = 24;
 
-/// Text of a scene, all light of which is so many times as bright.
+/// The units of a scene: its light is so many times as bright, its lengths are so many times as long.
+#[derive(Clone, Copy)]
+struct Units {
+    light: f64,
+    length: f64,
+}
+
+const OWN: Units = Units {
+    light: 1.0,
+    length: 1.0,
+};
+
+/// Text of a scene in some units.
 struct Writer {
     random: Numbers,
-    factor: f64,
+    /// Numbers for choices that leave all others as they are.
+    aside: Numbers,
+    units: Units,
+    /// Columns and rows.
+    size: [u32; 2],
 }
 
 impl Writer {
     fn length(&self, length: f64) -> String {
-        format!("{length:e}")
+        format!("{:e}", length * self.units.length)
     }
 
     fn point(&self, [x, y, z]: [f64; 3]) -> String {
@@ -43,7 +60,7 @@ impl Writer {
     fn light(&mut self, brightness: f64) -> String {
         let channels = [(); 3].map(|()| {
             let share = self.random.either(&[1.0, 0.75, 0.5, 0.3]);
-            format!("{:e}", brightness * share * self.factor)
+            format!("{:e}", brightness * share * self.units.light)
         });
         format!("({})", channels.join(", "))
     }
@@ -104,8 +121,15 @@ impl Writer {
             text.push_str(", rough: (amplitude: 0.3, grain: Pixel, seed: 2)");
         }
         if self.is(0.25) {
-            let color = self.light(0.5);
-            let _ = write!(text, ", outline: (width: 1.5, color: {color})");
+            let color = match self.light(0.5) {
+                _ if self.aside.below(2) == 0 => "0".to_owned(),
+                color => color,
+            };
+            let width = match self.aside.below(3) {
+                0 => format!("Units({})", self.length(0.3)),
+                _ => "1.5".to_owned(),
+            };
+            let _ = write!(text, ", outline: (width: {width}, color: {color})");
         }
         text.push(')');
         text
@@ -155,7 +179,18 @@ impl Writer {
         } else if self.is(0.7) {
             let place = self.between([-1.0; 3], [1.0; 3]);
             let place = self.point(place);
-            camera = format!("Free(position: {place}, pan: 3.1, tilt: -2, roll: 13)");
+            camera = match self.aside.below(4) {
+                0 => {
+                    let target = self.point([0.3, -0.2, 31.0]);
+                    format!("LookAt(position: {place}, target: {target}, roll: 7)")
+                }
+                1 => format!(
+                    "Orbit(target: {}, radius: {}, azimuth: -4, elevation: 3)",
+                    self.point([0.3, -0.2, 31.0]),
+                    self.length(30.7)
+                ),
+                _ => format!("Free(position: {place}, pan: 3.1, tilt: -2, roll: 13)"),
+            };
         }
         let lights = [(); 2].map(|()| self.source()).join(", ");
         let materials: String = (0..3)
@@ -164,8 +199,9 @@ impl Writer {
         let shadows = self.is(0.7);
         let [ambient, background] = [0.0625, 0.375].map(|light| self.light(light));
         let spheres = self.spheres();
+        let [width, height] = self.size;
         let text = format!(
-            "(image: (width: 18, height: 14), lens: {lens}, camera: {camera}, shadows: {shadows},
+            "(image: (width: {width}, height: {height}), lens: {lens}, camera: {camera}, shadows: {shadows},
             ambient: {ambient}, background: {background}, lights: [{lights}],
             materials: {{ {materials} }}, spheres: [{spheres}]{motion})"
         );
@@ -173,9 +209,15 @@ impl Writer {
     }
 }
 
-fn image(seed: u64, factor: f64, method: Method, alpha: bool) -> Image {
-    let random = Numbers(seed);
-    let scene = Writer { random, factor }.scene();
+fn image(seed: u64, units: Units, size: [u32; 2], method: Method) -> Image {
+    let writer = Writer {
+        random: Numbers(seed),
+        aside: Numbers(!seed),
+        units,
+        size,
+    };
+    let scene = writer.scene();
+    let alpha = seed % 3 == 0;
     let view = scene.view(1).unwrap();
     let go_on = |_| ControlFlow::Continue(());
     let settings = Settings { method, alpha };
@@ -186,6 +228,7 @@ fn image(seed: u64, factor: f64, method: Method, alpha: bool) -> Image {
 
 #[test]
 fn light_of_random_scenes_has_no_unit() {
+    const SIZE: [u32; 2] = [18, 14];
     let samples = Method::Samples(2.try_into().unwrap());
     for seed in 0..SCENES {
         for tolerance in [Some(1e-2), Some(1e-4), None] {
@@ -193,11 +236,11 @@ fn light_of_random_scenes_has_no_unit() {
                 Some(tolerance) => Method::Tolerance(tolerance * light),
                 None => samples,
             };
-            let alpha = seed % 3 == 0;
-            let expected = image(seed, 1.0, method(1.0), alpha);
+            let expected = image(seed, OWN, SIZE, method(1.0));
             for exponent in [-40, 1, 34] {
                 let light = libm::scalbn(1.0, exponent);
-                let found = image(seed, light, method(light), alpha);
+                let units = Units { light, ..OWN };
+                let found = image(seed, units, SIZE, method(light));
                 let place = format!("scene {seed} at {tolerance:?}, 2^{exponent}");
                 assert_eq!(found.work(), expected.work(), "{place}");
                 for (col, row) in pixels(&found) {
@@ -209,6 +252,45 @@ fn light_of_random_scenes_has_no_unit() {
                         assert_eq!(found.error(col, row), claimed, "{place} ({col}, {row})");
                     }
                 }
+            }
+        }
+    }
+}
+
+/// A picture, the same in other units of length.
+fn check_lengths(seed: u64, method: Method) -> Image {
+    const SIZE: [u32; 2] = [10, 8];
+    let expected = image(seed, OWN, SIZE, method);
+    // Fine bumps, and averages over time, cost as much as all others.
+    let exponents: &[i32] = match expected.work().samples {
+        1_000_000.. => &[-40],
+        _ => &[-40, -17, 3, 40],
+    };
+    for &exponent in exponents {
+        let length = libm::scalbn(1.0, exponent);
+        let found = image(seed, Units { length, ..OWN }, SIZE, method);
+        let place = format!("scene {seed} at {method:?}, 2^{exponent}");
+        assert_eq!(found.work(), expected.work(), "{place}");
+        for (col, row) in pixels(&found) {
+            let place = format!("{place} ({col}, {row})");
+            assert_eq!(found.rgba(col, row), expected.rgba(col, row), "{place}");
+            let [claimed, expected] = [&found, &expected].map(|it| it.error(col, row));
+            assert_eq!(claimed, expected, "{place}");
+        }
+    }
+    expected
+}
+
+#[test]
+fn lengths_of_random_scenes_have_no_unit() {
+    /// Scenes that need more are not rendered to smaller tolerances.
+    const MOST_SAMPLES: u64 = 100_000;
+    for seed in 0..SCENES {
+        check_lengths(seed, Method::Samples(2.try_into().unwrap()));
+        for tolerance in [1e-2, 1e-3, 1e-5] {
+            let image = check_lengths(seed, Method::Tolerance(tolerance));
+            if image.work().samples > MOST_SAMPLES {
+                break;
             }
         }
     }
