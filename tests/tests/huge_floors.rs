@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use glam::DVec3;
-use marbles_core::{Color, Image, LightFalloff, PointLight, Sphere, World};
+use marbles_core::{Color, Evidence, Image, LightFalloff, PointLight, Sphere, World};
 use marbles_scene::Scene;
 
 use crate::studio::{exact_picture, looking_forward, matte, picture, pixels, world_of};
@@ -48,6 +48,25 @@ fn floors_of_any_radius_are_known_under_any_light() {
                 assert_eq!(over, 0, "{light} {radius:e} {tolerance:e}");
             }
         }
+    }
+}
+
+/// Smooth light is proved to be within its claims as often on floors of any radius.
+#[test]
+fn claims_on_floors_of_any_radius_are_bounds_as_often() {
+    let bounds = |radius| {
+        let image = image(&scene(radius, SUN, PINHOLE), 1e-3);
+        let is_bound = |&(col, row): &(u32, u32)| image.evidence(col, row) == Evidence::Bound;
+        pixels(&image).filter(is_bound).count()
+    };
+    let of_moderate = bounds(1e4);
+    assert!(of_moderate > 75 * 50 / 2, "{of_moderate}");
+    for radius in [1e7, 1e9, 1e12] {
+        let found = bounds(radius);
+        assert!(
+            10 * found >= 9 * of_moderate,
+            "{radius:e}: {found} of {of_moderate}"
+        );
     }
 }
 

@@ -59,11 +59,16 @@ const CHANGE_OF_ROOT: f64 = 0.7;
 const BEND_OF_ROOT: f64 = 0.245;
 const HALF_KAPPA: f64 = 0.455;
 
-/// The least Q₀ over A r (r + |c|): Q₀ is off by 16 roundoffs of that, which is 0.2 % of this.
+/// The least Q₀ over A r (r + |c|): Q₀ is off by 40 roundoffs of that or less, which is 0.5 % of this.
 const SOUND: f64 = 1e-12;
 
-/// The least K over |c|²: so B₀, which is √(A K) or more, is known to 1e-12.
-const LEAST_OUTSIDE: f64 = 1e-6;
+/// The least B₀ over (√A + h) |c|. The center in the camera's frame is off by 10 roundoffs of |c|: so B₀ is known to 1.2e-10,
+/// and so is b, beside it. Of spheres that the eye is not near, K is r² or more, and B₀, which is √(A K) or more, is
+/// more than that.
+const LEAST_ALONG: f64 = 1e-5;
+
+/// What is wrong in G and S by that may take this share of Q₀: a fifth of what κ leaves.
+const OF_TERMS: f64 = 0.002;
 
 /// 1 / √(1 − z) − 1 ≤ 0.83 z for z ≤ ½, and √2 or less.
 const OF_ROOT: f64 = 0.83;
@@ -140,7 +145,6 @@ impl<'a, S: Simd> Domain<'a, S> {
         let Discriminant { value, along, .. } = discriminant;
         let [by_u, by_v] = discriminant.half_slopes;
         let is_sound = value.simd_gt(ray_sq * (r * (r + far) * SOUND));
-        let is_far = mask64x8::splat(simd, k > LEAST_OUTSIDE * far * far);
         let root = value.sqrt();
 
         // The root of S h² + G h = κ Q₀, or b = B₀ / 2.
@@ -149,6 +153,14 @@ impl<'a, S: Simd> Domain<'a, S> {
         let most = value * KAPPA;
         let steep = slope + (slope * slope + most * (4.0 * bend(ball))).sqrt();
         let reach = (most * 2.0 / steep).min(along * (0.5 / aside));
+        let mut is_known = is_sound & along.simd_gt(0.0);
+        if !ball.is_apart() {
+            // The derivatives of Q are off by 12 roundoffs of |c|² √A and 44 of |c|².
+            let length = ray_sq.sqrt();
+            let terms = reach * (length * 12.0 + reach * 44.0);
+            let is_steady = value.simd_gt(terms * (far * far * (UNIT_ROUNDOFF / OF_TERMS)));
+            is_known &= is_steady & along.simd_gt((length + reach) * (far * LEAST_ALONG));
+        }
 
         let sum = along + root;
         let slack = reach * aside;
@@ -163,7 +175,7 @@ impl<'a, S: Simd> Domain<'a, S> {
             ball,
             ray: *ray,
             ray_sq,
-            is_known: is_sound & is_far & along.simd_gt(0.0),
+            is_known,
             share: f64x8::splat(simd, 0.5 * size) / reach,
             reach,
             along,
