@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use fearless_simd::{Level, Simd, dispatch};
+use glam::DVec3;
 
 use super::occluders::{Occluder, Occluders, eight};
-use super::patch::Patch;
+use super::patch::{Patch, distance_from_cone};
 use super::shade_mask::ShadeMask;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
@@ -280,6 +281,9 @@ impl OccluderCache {
         let way_sq = dx * dx + dy * dy;
         let scale = if way_sq > 0.0 { -1.0 / way_sq } else { 0.0 };
         let all = &self.occluders;
+        // Across the light.
+        let widths = patch.widths_of_cone();
+        let across = [DVec3::new(ax, ay, 0.0), DVec3::new(bx, by, 0.0)];
         let mut first = range.start;
         while first < range.end {
             let count = (range.end - first).min(8);
@@ -306,7 +310,15 @@ impl OccluderCache {
                 return true;
             }
             for lane in set_bits(is_near.to_bitmask() & valid) {
-                self.edges.push((first + lane) as u32);
+                let index = first + lane;
+                let is_near = widths.is_none_or(|widths| {
+                    let center = DVec3::new(all.x[index], all.y[index], 0.0);
+                    let distance = distance_from_cone(across, widths, center);
+                    distance <= all.radius[index] + all.slack[index]
+                });
+                if is_near {
+                    self.edges.push(index as u32);
+                }
             }
             first += count;
         }

@@ -16,6 +16,36 @@ pub(crate) struct Patch {
     pub(super) is_parallel: bool,
 }
 
+/// The distance from a point, at least, of all that lies within widths of the way between two ends, which grow along it.
+///
+/// # Source
+/// At w along a way of the length L a part is as wide as `start` + b w. From a point x beside the way and l along it
+/// the least of √(x² + (w − l)²) − b w lies at w − l = b x / √(1 − b²).
+pub(super) fn distance_from_cone(
+    [start, end]: [DVec3; 2],
+    [around, around_end]: [f64; 2],
+    point: DVec3,
+) -> f64 {
+    let way = end - start;
+    let length = way.length();
+    if !(length > 0.0 && length.is_finite()) {
+        return ((start - point).length() - around_end).max(0.0);
+    }
+    let unit = way / length;
+    let along = (point - start).dot(unit);
+    let aside = (point - start - unit * along).length();
+    let wider = (around_end - around) / length;
+    let share = if wider < 1.0 {
+        let rest = ((1.0 - wider) * (1.0 + wider)).sqrt();
+        (along + aside * wider / rest).clamp(0.0, length)
+    } else {
+        length
+    };
+    let further = share - along;
+    let distance = (aside * aside + further * further).sqrt();
+    (distance - around - wider * share).max(0.0)
+}
+
 /// The side of another sphere's surface on which all of a patch lies.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Side {
@@ -77,30 +107,16 @@ impl Patch {
     }
 
     /// The distance of all of it from a point, at least.
-    ///
-    /// # Source
-    /// At w along a way of the length L a part is as wide as `start` + b w. From a point x beside the way and l along it
-    /// the least of √(x² + (w − l)²) − b w lies at w − l = b x / √(1 − b²).
     pub(crate) fn distance_from(&self, point: DVec3) -> f64 {
-        let [start, end] = self.ends;
-        let way = end - start;
-        let length = way.length();
-        let around = self.width_at_start();
-        if !(length > 0.0 && length.is_finite()) {
-            return ((start - point).length() - self.around).max(0.0);
-        }
-        let unit = way / length;
-        let along = (point - start).dot(unit);
-        let aside = (point - start - unit * along).length();
-        let wider = (self.around - around) / length;
-        let share = if wider < 1.0 {
-            let rest = ((1.0 - wider) * (1.0 + wider)).sqrt();
-            (along + aside * wider / rest).clamp(0.0, length)
-        } else {
-            length
-        };
-        let distance = aside.hypot(share - along);
-        (distance - around - wider * share).max(0.0)
+        distance_from_cone(self.ends, [self.width_at_start(), self.around], point)
+    }
+
+    /// How wide it is where it begins and where it ends, if it is far wider there: seen from afar, such as the row of a
+    /// floor at the horizon.
+    pub(super) fn widths_of_cone(&self) -> Option<[f64; 2]> {
+        const FAR: f64 = 2.0;
+        let start = self.width_at_start();
+        (FAR * start < self.around).then_some([start, self.around])
     }
 
     /// How wide it is where it begins: of an eye's rays the width grows with the distance.
