@@ -193,10 +193,15 @@ impl<'scene> Exact<'scene> {
                 add(pixel, more);
             }
         }
+        let mut range = None;
         // What one group is over its share, another may be below.
         for pixel in &mut *pixels {
             pixel.value *= self.unit;
             pixel.error *= self.unit;
+            if pixel.error > self.tolerance {
+                let range = range.get_or_insert_with(|| self.range_of_light(candidates));
+                self.limit(pixel, *range);
+            }
             if pixel.error <= self.tolerance {
                 pixel.status = Status::Met;
             }
@@ -204,7 +209,7 @@ impl<'scene> Exact<'scene> {
 
         // The last rung: samples, which see exactly but miss what lies between them.
         if !candidates.is_empty() && *unknown != 0 {
-            let range = self.range_of_light(candidates);
+            let range = range.unwrap_or_else(|| self.range_of_light(candidates));
             for place in set_bits(*unknown).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
                     col: tile.col + place as u32 % tile.width,
@@ -219,14 +224,14 @@ impl<'scene> Exact<'scene> {
 
     /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them; in the middle
     /// of that where each ray would have to be held against very many spheres.
-    fn sampled(&self, key: PixelKey, candidates: &[usize], [least, most]: [Color; 2]) -> Pixel {
+    fn sampled(&self, key: PixelKey, candidates: &[usize], range: [Color; 2]) -> Pixel {
         let is_far = |&sphere: &usize| {
             let (center, radius) = self.groups[0].scene.center(sphere);
             center.length() > FAR * radius
         };
         let mut pixel = if candidates.len() > MOST_SPHERES {
             Pixel {
-                value: 0.5 * (least + most),
+                value: 0.5 * (range[0] + range[1]),
                 alpha: 0.5,
                 ..self.empty_pixel()
             }
@@ -235,13 +240,7 @@ impl<'scene> Exact<'scene> {
         } else {
             self.samples.pixel(key)
         };
-        let above = (most - pixel.value).max_element();
-        let below = (pixel.value - least).max_element();
-        pixel.error = above.max(below) * WIDER;
-        if self.alpha {
-            let of_alpha = pixel.alpha.max(1.0 - pixel.alpha);
-            pixel.error = pixel.error.max(self.unit * of_alpha);
-        }
+        pixel.error = self.farthest(&pixel, range);
         pixel.evidence = Evidence::Bound;
         pixel.status = if pixel.error <= self.tolerance {
             Status::Met
@@ -249,6 +248,35 @@ impl<'scene> Exact<'scene> {
             Status::OutOfBudget
         };
         pixel
+    }
+
+    /// How far a pixel is at most from any mixture of light in a range.
+    fn farthest(&self, pixel: &Pixel, [least, most]: [Color; 2]) -> f64 {
+        let above = (most - pixel.value).max_element();
+        let below = (pixel.value - least).max_element();
+        let of_light = above.max(below) * WIDER;
+        if self.alpha {
+            let of_alpha = pixel.alpha.max(1.0 - pixel.alpha);
+            of_light.max(self.unit * of_alpha)
+        } else {
+            of_light
+        }
+    }
+
+    /// Claims no more of a pixel than that it lies among what its tile may show.
+    fn limit(&self, pixel: &mut Pixel, [least, most]: [Color; 2]) {
+        let within = Pixel {
+            value: pixel.value.clamp(least, most),
+            ..*pixel
+        };
+        let error = self.farthest(&within, [least, most]);
+        if error < pixel.error {
+            *pixel = Pixel {
+                error,
+                evidence: Evidence::Bound,
+                ..within
+            };
+        }
     }
 
     /// A pixel that sees no sphere. Only the first group of lights has a background.

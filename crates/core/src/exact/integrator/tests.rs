@@ -282,3 +282,40 @@ fn pixels_of_spheres_that_nearly_coincide_end_soon() {
         assert!(over < 100, "{case}: {over}");
     }
 }
+
+/// No pixel lies farther from its value than all that its tile may show; one that does is among it, and says so.
+#[test]
+fn claims_are_no_larger_than_what_a_tile_may_show() {
+    let world = world(3);
+    let visibility = Visibility::new(&world);
+    let view = view();
+    let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
+    let range = [Color::splat(0.1), Color::new(0.6, 0.5, 0.4)];
+    for alpha in [false, true] {
+        let exact = Exact::new(&world, &view, &seen, 1e-3, alpha);
+        let known = Pixel {
+            value: Color::new(7.0, 0.3, -1.0),
+            alpha: 0.75,
+            error: 17.9,
+            evidence: Evidence::Estimate,
+            status: Status::OutOfBudget,
+            ..exact.empty_pixel()
+        };
+        let mut pixel = known;
+        exact.limit(&mut pixel, range);
+        assert_eq!(pixel.value, Color::new(0.6, 0.3, 0.1));
+        assert_eq!(pixel.evidence, Evidence::Bound);
+        let of_alpha = if alpha { 0.75 * exact.unit } else { 0.0 };
+        let expected = of_alpha.max(0.5);
+        assert!((pixel.error - expected).abs() < 1e-8, "{pixel:?}");
+        // What is known better stays as it is.
+        let better = Pixel {
+            error: 0.2,
+            ..known
+        };
+        let mut pixel = better;
+        exact.limit(&mut pixel, range);
+        assert_eq!((pixel.value, pixel.error), (better.value, 0.2));
+        assert_eq!(pixel.evidence, Evidence::Estimate);
+    }
+}
