@@ -12,6 +12,7 @@ pub(crate) mod frustum;
 pub(crate) mod grid;
 mod hierarchy;
 mod mask;
+mod nested;
 mod occluders;
 pub(crate) mod point_occluders;
 mod screen_bounds;

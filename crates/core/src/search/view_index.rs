@@ -71,6 +71,7 @@ impl<'index> Iterator for Balls<'index> {
 impl<'world> ViewIndex<'world> {
     /// The index of a view, for rays that go through such points.
     pub(crate) fn new(visibility: &Visibility<'world>, view: &View, points: RayPoints) -> Self {
+        let visibility = visibility.of_view(view);
         Self::with_hierarchy(visibility, view, points, visibility.hierarchy_of_crowd())
     }
 
@@ -91,7 +92,7 @@ impl<'world> ViewIndex<'world> {
                 let search = BlockSearch::new(view, points, spheres, hierarchy, length_exponent);
                 Lists::Many(Blocks::new(&search))
             }
-            _ => Lists::few(spheres, view, length_exponent),
+            _ => Lists::few(visibility, view, length_exponent),
         };
         Self {
             visibility: visibility.clone(),
@@ -103,7 +104,7 @@ impl<'world> ViewIndex<'world> {
     /// The same of another visibility of the same spheres: what was found out is shared.
     pub(crate) fn of<'other>(&self, visibility: &Visibility<'other>) -> ViewIndex<'other> {
         ViewIndex {
-            visibility: visibility.clone(),
+            visibility: visibility.as_in(&self.visibility).clone(),
             length_exponent: self.length_exponent,
             lists: Arc::clone(&self.lists),
         }
@@ -192,12 +193,16 @@ impl<'world> ViewIndex<'world> {
 }
 
 impl Lists {
-    fn few(spheres: &[Sphere], view: &View, length_exponent: i32) -> Self {
+    fn few(visibility: &Visibility<'_>, view: &View, length_exponent: i32) -> Self {
+        let spheres = visibility.spheres();
         let viewpoint = view.camera.position;
         let scale = libm::scalbn(1.0, -length_exponent);
         let frustum = Frustum::new(view, scale);
         let projection = view.lens.projection();
         let visible = |(index, sphere): (usize, &Sphere)| {
+            if visibility.leaves_out(index) {
+                return None;
+            }
             let to_center = (sphere.center() - viewpoint) * scale;
             let radius = sphere.radius() * scale;
             let in_camera = CameraSphere::of_view(to_center, radius, view, scale);

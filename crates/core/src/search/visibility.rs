@@ -7,11 +7,13 @@ use glam::DVec3;
 
 use super::discs::DiscCache;
 use super::hierarchy::Hierarchy;
+use super::nested::Nested;
 use super::occluders::Occluders;
 use super::point_occluders::PointOccluders;
 use crate::model::light::Light;
 use crate::model::ray::Ray;
 use crate::model::sphere::Sphere;
+use crate::model::view::View;
 use crate::model::world::{LightPart, World};
 
 /// Lengths whose squares are far from over- and underflow.
@@ -36,6 +38,17 @@ pub(crate) struct Visibility<'world> {
     /// True where squares of all lengths are far from over- and underflow.
     is_moderate: bool,
     extent: Extent,
+    /// The same world without nested spheres, where it has many.
+    outer: Option<Arc<OuterSpheres<'world>>>,
+    /// Those of the spheres that are left out in it.
+    left_out: Option<Arc<Nested>>,
+}
+
+/// A world without the spheres that lie inside of others.
+#[derive(Clone, Debug)]
+struct OuterSpheres<'world> {
+    nested: Arc<Nested>,
+    visibility: Visibility<'world>,
 }
 
 /// What may keep a light from points.
@@ -101,15 +114,53 @@ impl<'world> Visibility<'world> {
         let spheres = world.spheres();
         let is_asked = has_hierarchy(world);
         let extent = Extent::new(spheres);
-        let unlit = Self {
+        let mut unlit = Self {
             spheres,
             hierarchy: is_asked.then(|| Arc::new(Hierarchy::new(spheres))),
             lights: Arc::new([]),
             occluders: Arc::new([]),
             is_moderate: spheres.is_empty() || extent.is_moderate(),
             extent,
+            outer: None,
+            left_out: None,
         };
+        unlit.outer = unlit.outer_spheres().map(Arc::new);
         unlit.with_lights(world, world.lights.as_slice().into())
+    }
+
+    /// The same world without nested spheres, if it has many.
+    fn outer_spheres(&self) -> Option<OuterSpheres<'world>> {
+        let hierarchy = self.hierarchy.as_deref().filter(|_| self.is_moderate)?;
+        let nested = Arc::new(Nested::find(self.spheres, hierarchy)?);
+        let hierarchy = Hierarchy::without(self.spheres, Some(&nested.is_nested));
+        let visibility = Self {
+            hierarchy: Some(Arc::new(hierarchy)),
+            left_out: Some(Arc::clone(&nested)),
+            ..self.clone()
+        };
+        Some(OuterSpheres { nested, visibility })
+    }
+
+    /// What a view is to be found out with: without nested spheres, where nothing of them is seen.
+    pub(super) fn of_view(&self, view: &View) -> &Self {
+        match &self.outer {
+            Some(outer) if outer.nested.are_hidden_from(view) => &outer.visibility,
+            _ => self,
+        }
+    }
+
+    /// The same that another visibility of these spheres leaves out is left out.
+    pub(super) fn as_in(&self, other: &Visibility<'_>) -> &Self {
+        match &self.outer {
+            Some(outer) if other.left_out.is_some() => &outer.visibility,
+            _ => self,
+        }
+    }
+
+    /// Returns whether a sphere is seen by no view.
+    pub(super) fn leaves_out(&self, sphere: usize) -> bool {
+        let nested = self.left_out.as_deref();
+        nested.is_some_and(|nested| nested.is_nested[sphere])
     }
 
     /// The same world under other lights, as many as it has.
@@ -128,9 +179,14 @@ impl<'world> Visibility<'world> {
                 }
             })
         };
+        let outer = self.outer.as_deref().map(|outer| OuterSpheres {
+            visibility: outer.visibility.with_lights(world, Arc::clone(&lights)),
+            ..outer.clone()
+        });
         Self {
             occluders: casting.iter().filter_map(of_light).collect(),
             lights,
+            outer: outer.map(Arc::new),
             ..self.clone()
         }
     }
@@ -144,9 +200,14 @@ impl<'world> Visibility<'world> {
         let light = index.map(|index| self.lights[index]);
         // There is none in a world without shadows.
         let occluders = index.and_then(|index| self.occluders.get(index));
+        let outer = self.outer.as_deref().map(|outer| OuterSpheres {
+            visibility: outer.visibility.under(part),
+            ..outer.clone()
+        });
         Self {
             lights: light.into_iter().collect(),
             occluders: occluders.cloned().into_iter().collect(),
+            outer: outer.map(Arc::new),
             ..self.clone()
         }
     }

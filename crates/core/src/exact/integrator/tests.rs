@@ -319,3 +319,34 @@ fn claims_are_no_larger_than_what_a_tile_may_show() {
         assert_eq!(pixel.evidence, Evidence::Estimate);
     }
 }
+
+/// Nested spheres change no bit of a picture, nor what it costs, where the eye is outside of those around them.
+#[test]
+fn nested_spheres_change_nothing() {
+    let mut random = Random(7);
+    let outer: Vec<Sphere> = (0..30)
+        .map(|_| Sphere::new(random.point() + DVec3::Z * 4.0, 0.2 + 0.2 * random.number()))
+        .collect::<Result<_, _>>()
+        .unwrap();
+    let inner: Vec<Sphere> = (0..600)
+        .map(|index| {
+            let around = &outer[index % outer.len()];
+            let radius = around.radius() * (0.1 + 0.5 * random.number());
+            let moved = random.point() * (0.5 * (around.radius() - radius));
+            Sphere::new(around.center() + moved, radius)
+        })
+        .collect::<Result<_, _>>()
+        .unwrap();
+    for position in [DVec3::new(-3.0, 4.0, 0.0), outer[3].center()] {
+        let light = Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::splat(0.5));
+        let mut alone = crowd(outer.iter().copied(), light);
+        let mut with_nested = crowd(outer.iter().chain(&inner).copied(), light);
+        for world in [&mut alone, &mut with_nested] {
+            let lamp = PointLight::new(position, Color::splat(0.3), LightFalloff::None, 1.0);
+            world.lights.extend(lamp.map(Light::Point));
+        }
+        let [expected, found] =
+            [&alone, &with_nested].map(|world| pixels(world, Level::new(), 1e-3, Tile::SIDE));
+        assert!(expected == found, "a lamp at {position}");
+    }
+}

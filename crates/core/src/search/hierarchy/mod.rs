@@ -45,9 +45,14 @@ pub(crate) struct Node {
 impl Hierarchy {
     /// The hierarchy of some spheres, on the threads of the current rayon pool.
     pub(crate) fn new(spheres: &[Sphere]) -> Self {
+        Self::without(spheres, None)
+    }
+
+    /// The same without the spheres that are marked.
+    pub(crate) fn without(spheres: &[Sphere], left_out: Option<&[bool]>) -> Self {
         /// Enough for a thread to begin with: some 10 µs. Not tuned.
         const NODES_A_TASK: usize = 256;
-        let entries = order::order(spheres);
+        let entries = order::order(spheres, left_out);
         let mut levels = Vec::new();
         let leaves: Vec<Boxes> = entries
             .par_chunks(WIDTH * WIDTH)
@@ -127,6 +132,11 @@ impl Hierarchy {
             Some(near) => near.group(),
             None => Group::new(self.indices(index), spheres),
         }
+    }
+
+    /// The number of groups, the empty ones included.
+    pub(crate) fn group_count(&self) -> u32 {
+        (self.order.len() / WIDTH) as u32
     }
 
     /// The indices of its spheres; [`is_sphere`] tells the places that hold one.

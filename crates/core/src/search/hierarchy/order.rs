@@ -40,13 +40,17 @@ const FEWEST_TO_SHARE: usize = 1 << 13;
 /// close together. Some places are left over.
 ///
 /// Of more than eight equal spheres, most are left out, but never the first: the others are not seen.
-pub(super) fn order(spheres: &[Sphere]) -> Vec<Entry> {
+/// The spheres that are marked as `left_out` are, too.
+pub(super) fn order(spheres: &[Sphere], left_out: Option<&[bool]>) -> Vec<Entry> {
     let mut entries: Vec<Entry> = spheres
         .par_iter()
         .enumerate()
         .with_min_len(FEWEST_TO_SHARE)
         .map(|(index, sphere)| Entry::new(index as u32, sphere))
         .collect();
+    if let Some(left_out) = left_out {
+        entries.retain(|entry| !left_out[entry.index as usize]);
+    }
     let largest = largest_exponent(spheres);
     let classes = classes(&entries, largest);
     if classes.len() <= 1 {
@@ -161,7 +165,8 @@ fn split(entries: &mut [Entry], spheres: &[Sphere]) {
 }
 
 /// Leaves out all but the first of equal spheres: their places, the last ones, become empty. The others, whose centers
-/// are the same in single precision, so that no order brings them closer, are left in that of the file.
+/// are the same in single precision, so that no order brings them closer, are left in that of their radii, the largest
+/// first: others lie inside of these.
 fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) {
     let key = |entry: &Entry| {
         let sphere = &spheres[entry.index as usize];
@@ -183,7 +188,11 @@ fn leave_out_equals(entries: &mut [Entry], spheres: &[Sphere]) {
             kept += 1;
         }
     }
-    entries[..kept].par_sort_unstable_by_key(|entry| entry.index);
+    entries[..kept].par_sort_unstable_by(|one, other| {
+        let radius = |entry: &Entry| spheres[entry.index as usize].radius();
+        let by_radius = radius(other).total_cmp(&radius(one));
+        by_radius.then(one.index.cmp(&other.index))
+    });
     entries[kept..].fill(EMPTY);
 }
 
