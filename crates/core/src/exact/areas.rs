@@ -11,6 +11,7 @@ use super::classify::magnitude::{is_ball_moderate, is_view_moderate};
 use super::classify::occluder_cache::OccluderCache;
 use super::classify::row::{Coverage, Sight, classify_row, sight};
 use super::context::Context;
+use super::crowd::{CrowdWork, UnitsOfTile};
 use super::edged::boxes::Boxes;
 use super::edged::boxes::areas::Shares;
 use super::scene::InCamera;
@@ -89,6 +90,7 @@ impl<'scene> Areas<'scene> {
                 background: Color::ZERO,
                 contrast: 1.0,
                 allowance: Allowance::still(1),
+                of_crowds: UnitsOfTile::ALL,
             },
             level: Level::new(),
         }
@@ -189,6 +191,7 @@ impl<'scene> Areas<'scene> {
         };
         let side = context.cell(pixel(0, 0)).size[0];
         let mut cache = OccluderCache::new(context.cell(tile), side);
+        let mut crowds = CrowdWork::new(u64::MAX);
         for row in 0..tile.height {
             for left in (0..tile.width).step_by(8) {
                 let start = Tile {
@@ -208,7 +211,13 @@ impl<'scene> Areas<'scene> {
                     let place = (row * tile.width + left + lane) as usize;
                     let coverages = &scratch.coverages;
                     let spheres = &mut scratch.spheres;
-                    match sight(context, pixel, lane as usize, coverages, spheres) {
+                    match sight(
+                        context,
+                        pixel,
+                        lane as usize,
+                        coverages,
+                        (spheres, &mut crowds),
+                    ) {
                         Sight::Nothing => {}
                         Sight::Filled(sphere) => found.add(place, sphere, [1.0, 0.0]),
                         Sight::Edges => {

@@ -39,6 +39,9 @@ pub(crate) struct Budget {
     next: u64,
     /// The tests that told what parts see; of those of which little is to be hoped several times.
     looking: u64,
+    most_looking: u64,
+    /// The same tests, each of them once.
+    looked: u64,
 }
 
 /// What a pixel may be off by so far.
@@ -53,7 +56,7 @@ pub(crate) struct Doubt {
 pub(crate) const MOST: u64 = 1_500_000;
 
 /// The units that a pixel may cost at each of the moments of an open shutter, which are seven at least.
-const MOST_AT_A_MOMENT: u64 = MOST / 24;
+pub(crate) const MOST_AT_A_MOMENT: u64 = MOST / 24;
 
 /// The units that a pixel may cost over all moments together, before it ends: the last panels are finished.
 pub(crate) const MOST_OVER_TIME: u64 = MOST / 24;
@@ -143,6 +146,7 @@ impl Budget {
             return Self {
                 most: allowance.ordinary,
                 next: FIRST_LOOK,
+                most_looking: MOST / OF_LOOKING,
                 ..Self::default()
             };
         }
@@ -166,12 +170,33 @@ impl Budget {
             rounding: None,
             next: FIRST_LOOK,
             looking: 0,
+            most_looking: MOST / OF_LOOKING,
+            looked: 0,
+        }
+    }
+
+    /// The same where the pixel's tile leaves no more units than this: to finding out what parts see, and to all of the
+    /// work on a crowd.
+    pub(crate) fn within(self, units: u64, is_crowd: bool) -> Self {
+        Self {
+            most: if is_crowd {
+                self.most.min(units)
+            } else {
+                self.most
+            },
+            most_looking: self.most_looking.min(units),
+            ..self
         }
     }
 
     /// The units that the pixel has cost.
     pub(crate) fn spent(&self) -> u64 {
         self.spent
+    }
+
+    /// The tests that told what parts of the pixel see.
+    pub(crate) fn looked(&self) -> u64 {
+        self.looked
     }
 
     /// Returns whether the budget does not suffice for anything: bumps divide lines so often that even the whole
@@ -193,6 +218,7 @@ impl Budget {
     /// thins out late fools: then a pixel is given up that might be known.
     pub(crate) fn count_looking(&mut self, tests: u64, is_in_vain: bool) {
         const IN_VAIN: u64 = 4;
+        self.looked += tests;
         self.looking += tests * if is_in_vain { IN_VAIN } else { 1 };
     }
 
@@ -206,7 +232,7 @@ impl Budget {
     pub(crate) fn is_over(&mut self, now: Doubt, tolerance: f64) -> bool {
         /// What falls by less than this while the work doubles stays.
         const SAME: f64 = 0.9;
-        if self.spent >= self.most || self.looking > MOST / OF_LOOKING {
+        if self.spent >= self.most || self.looking > self.most_looking {
             return true;
         }
         if self.spent < self.next {

@@ -3,6 +3,7 @@
 use fearless_simd::Simd;
 
 use super::budget::Allowance;
+use super::crowd::UnitsOfTile;
 use super::part::Part;
 use super::scene::{InCamera, Light};
 use super::surface::Finish;
@@ -38,6 +39,8 @@ pub(crate) struct Context<'scene> {
     /// About the largest difference of light that an edge may make, highlights left out.
     pub(crate) contrast: f64,
     pub(crate) allowance: Allowance,
+    /// The units that the crowds of a tile may cost.
+    pub(crate) of_crowds: UnitsOfTile,
     /// The scene whose light is its normals, if this one has a single light, which is directional. Plain surfaces send the
     /// product of their mean normal and its direction: pictures of the same view under other lights share the former.
     pub(crate) normals: Option<InCamera<'scene>>,

@@ -4,10 +4,12 @@ use std::num::NonZeroU32;
 
 use fearless_simd::{Level, dispatch};
 
-use super::budget::{Allowance, MOST_SPHERES};
+use super::budget::{Allowance, MOST, MOST_AT_A_MOMENT, MOST_SPHERES};
 use super::classify::behind::leave_out_hidden;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
+use super::crowd::{CrowdWork, UnitsOfTile};
+use super::crowd_blocks::CrowdBlocks;
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::unit::LightUnit;
 use super::{LitTile, Scratch, tile_pixels};
@@ -46,6 +48,7 @@ pub(crate) struct Exact<'scene> {
     /// costs thousands of others.
     samples: Supersampling<'scene>,
     few_samples: Supersampling<'scene>,
+    blocks: CrowdBlocks,
     level: Level,
 }
 
@@ -87,6 +90,7 @@ impl<'scene> Exact<'scene> {
         let LightUnit { contrast, unit } = LightUnit::new(world, index.visibility.lights());
         let contrast = if alpha { contrast.max(1.0) } else { contrast };
         let channels = Channels::of(world, alpha);
+        let of_crowds = UnitsOfTile::new(world, view, index);
         let context = |group| {
             let scene = InCamera::new(world, &index.visibility, view, channels, group);
             let scene = scene.in_units_of(unit);
@@ -106,6 +110,7 @@ impl<'scene> Exact<'scene> {
                 },
                 contrast,
                 allowance: Allowance::still(count),
+                of_crowds,
             }
         };
         Self {
@@ -117,6 +122,7 @@ impl<'scene> Exact<'scene> {
             alpha,
             samples: Supersampling::new(world, view, index, SAMPLES, alpha),
             few_samples: Supersampling::new(world, view, index, FEW_SAMPLES, alpha),
+            blocks: CrowdBlocks::new(view.width, view.height),
             index: index.clone(),
             level: Level::new(),
         }
@@ -126,6 +132,7 @@ impl<'scene> Exact<'scene> {
     pub(crate) fn at_a_moment(mut self, level: u32) -> Self {
         for context in &mut self.groups {
             context.allowance = context.allowance.at_a_moment(level);
+            context.of_crowds = context.of_crowds.divided_by(MOST / MOST_AT_A_MOMENT);
             context.normals = None;
         }
         self
@@ -180,7 +187,11 @@ impl<'scene> Exact<'scene> {
     ) -> &'lit [Pixel] {
         let Some((
             LitTile {
-                pixels, unknown, ..
+                pixels,
+                unknown,
+                crowds,
+                cache,
+                ..
             },
             others,
         )) = lit.split_first_mut()
@@ -210,32 +221,47 @@ impl<'scene> Exact<'scene> {
         // The last rung: samples, which see exactly but miss what lies between them.
         if !candidates.is_empty() && *unknown != 0 {
             let range = range.unwrap_or_else(|| self.range_of_light(candidates));
+            let most_occluders = cache.most_occluders();
             for place in set_bits(*unknown).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
                     col: tile.col + place as u32 % tile.width,
                     row: tile.row + place as u32 / tile.width,
                     frame: self.groups[0].view.frame,
                 };
-                pixels[place] = self.sampled(key, candidates, range);
+                pixels[place] = self.sampled(key, candidates, range, (crowds, most_occluders));
             }
         }
         pixels
     }
 
     /// A pixel by samples, whose error is how far any mixture of what its tile may show lies from them; in the middle
-    /// of that where each ray would have to be held against very many spheres.
-    fn sampled(&self, key: PixelKey, candidates: &[usize], range: [Color; 2]) -> Pixel {
+    /// of that where each ray would have to be held against very many spheres, or the tile's crowds have cost all that
+    /// they may.
+    fn sampled(
+        &self,
+        key: PixelKey,
+        candidates: &[usize],
+        range: [Color; 2],
+        (crowds, most_occluders): (&mut CrowdWork, usize),
+    ) -> Pixel {
+        /// The units in which a ray is held against a sphere in more than doubles.
+        const OF_SPHERE: u64 = 8;
         let is_far = |&sphere: &usize| {
             let (center, radius) = self.groups[0].scene.center(sphere);
             center.length() > FAR * radius
         };
-        let mut pixel = if candidates.len() > MOST_SPHERES {
+        let is_few = candidates.len() > MOST_OF_SAMPLES || candidates.iter().any(is_far);
+        let rays = if is_few { FEW_SAMPLES } else { SAMPLES };
+        let rays = u64::from(rays.get().pow(2));
+        let count = candidates.len();
+        let of_ray = OF_SPHERE * count as u64 + most_occluders as u64;
+        let mut pixel = if count > MOST_SPHERES || !crowds.affords(rays * of_ray) {
             Pixel {
                 value: 0.5 * (range[0] + range[1]),
                 alpha: 0.5,
                 ..self.empty_pixel()
             }
-        } else if candidates.len() > MOST_OF_SAMPLES || candidates.iter().any(is_far) {
+        } else if is_few {
             self.few_samples.pixel(key)
         } else {
             self.samples.pixel(key)
@@ -294,7 +320,17 @@ impl<'scene> Exact<'scene> {
         let world = self.world;
         let background = self.empty_pixel().value;
         let [mut least, mut most] = [background; 2];
+        let are_near = self.groups.iter().any(|group| group.scene.has_near_lights);
+        let mut last = None;
         for &sphere in candidates {
+            // Parallel light is as bright everywhere.
+            let looks = (
+                world.albedo(sphere),
+                std::ptr::from_ref(world.material(sphere)),
+            );
+            if !are_near && last.replace(looks) == Some(looks) {
+                continue;
+            }
             let lights = self.index.visibility.lights().iter();
             let lights = lights.map(|light| light.brightest_on(&world.spheres()[sphere]));
             let lights = lights.fold(Color::ZERO, |sum, light| sum + light);
@@ -358,16 +394,20 @@ fn integrate_each(
     };
     let contexts = integrators.iter().flat_map(|exact| &exact.groups);
     let contexts: Vec<&Context<'_>> = contexts.collect();
-    scratch.prepare(contexts[0], candidates);
-    scratch.begin(&contexts, tile);
-    let is_moderate = first.is_moderate && scratch.are_balls_moderate();
     let mut seen = Vec::new();
-    let mut candidates = candidates;
-    if is_moderate && candidates.len() > MOST_SPHERES {
+    let is_crowd = first.is_moderate && candidates.len() > MOST_SPHERES;
+    if is_crowd {
         seen.extend_from_slice(candidates);
-        leave_out_hidden(&contexts[0].cell(tile), &mut seen, &mut scratch.balls);
-        candidates = &seen;
+        let blocks = &first.blocks;
+        blocks.leave_out_hidden(contexts[0], &first.index, tile, &mut seen);
     }
+    scratch.prepare(contexts[0], if is_crowd { &seen } else { candidates });
+    scratch.begin(&contexts, tile, candidates.len());
+    let is_moderate = first.is_moderate && scratch.are_balls_moderate();
+    if is_moderate && seen.len() > MOST_SPHERES {
+        leave_out_hidden(&contexts[0].cell(tile), &mut seen, &mut scratch.balls);
+    }
+    let candidates = if is_crowd { &seen } else { candidates };
     if is_moderate {
         dispatch!(first.level, simd => tile_pixels(simd, &contexts, tile, candidates, scratch));
     } else {

@@ -24,6 +24,8 @@ pub(crate) mod budget;
 mod classify;
 mod context;
 mod costs;
+mod crowd;
+mod crowd_blocks;
 mod edged;
 pub(crate) mod integrator;
 mod interior;
@@ -42,6 +44,7 @@ use self::classify::magnitude::is_ball_moderate;
 use self::classify::occluder_cache::OccluderCache;
 use self::classify::seen::SeenRow;
 use self::context::Context;
+use self::crowd::{CrowdWork, FEWEST, Looks};
 use self::edged::cell::{EdgedPixel, Workspace};
 use self::interior::fill::fill;
 use self::interior::filled::FilledRow;
@@ -70,6 +73,7 @@ struct LitTile {
     /// In the order of [`Tile::pixels`].
     pixels: Vec<Pixel>,
     costs: TileCosts,
+    crowds: CrowdWork,
     /// The pixels of which nothing is known, bit by bit.
     unknown: u64,
 }
@@ -82,15 +86,15 @@ impl Scratch {
         self.balls.extend(balls);
     }
 
-    /// Begins with a tile under some groups of lights: with empty pixels, in the memory of the last tile.
-    fn begin(&mut self, contexts: &[&Context<'_>], tile: Tile) {
+    /// Begins with a tile that may see so many spheres under some groups of lights: with empty pixels, in the memory of the last tile.
+    fn begin(&mut self, contexts: &[&Context<'_>], tile: Tile, candidates: usize) {
         self.lit.truncate(contexts.len());
         for (lit, context) in self.lit.iter_mut().zip(contexts) {
-            lit.begin(context, tile);
+            lit.begin(context, tile, candidates);
         }
         let others = contexts[self.lit.len()..].iter();
         self.lit
-            .extend(others.map(|context| LitTile::new(context, tile)));
+            .extend(others.map(|context| LitTile::new(context, tile, candidates)));
     }
 
     /// Whether the numbers of all candidates are moderate enough for edges in doubles.
@@ -105,30 +109,33 @@ impl Scratch {
 }
 
 impl LitTile {
-    fn new(context: &Context<'_>, tile: Tile) -> Self {
+    fn new(context: &Context<'_>, tile: Tile, candidates: usize) -> Self {
         let mut lit = Self {
             cache: OccluderCache::new(context.cell(tile), 0.0),
             pixels: Vec::new(),
             costs: TileCosts::default(),
+            crowds: CrowdWork::default(),
             unknown: 0,
         };
-        lit.begin(context, tile);
+        lit.begin(context, tile, candidates);
         lit
     }
 
-    /// Begins with the empty pixels of a tile.
-    fn begin(&mut self, context: &Context<'_>, tile: Tile) {
+    /// Begins with the empty pixels of a tile that may see so many spheres.
+    fn begin(&mut self, context: &Context<'_>, tile: Tile, candidates: usize) {
         let one = Tile {
             width: 1,
             height: 1,
             ..tile
         };
-        self.cache
-            .begin(context.cell(tile), context.cell(one).size[0]);
+        let side = context.cell(one).size[0];
+        let of_crowds = context.of_crowds.of(candidates);
+        self.cache.begin(context.cell(tile), side, of_crowds);
         self.pixels.clear();
         self.pixels
             .resize(tile.count() as usize, context.empty_pixel());
         self.costs.clear(tile.count());
+        self.crowds = CrowdWork::new(of_crowds);
         self.unknown = 0;
     }
 }
@@ -149,13 +156,15 @@ fn tile_pixels<S: Simd>(
         edged,
         lit,
     } = scratch;
-    let Some(first) = contexts.first() else {
+    let (Some(first), Some(first_lit)) = (contexts.first(), lit.first()) else {
         return;
     };
     if candidates.is_empty() {
         return;
     }
+    let of_crowds = first_lit.crowds.left();
     let is_analytic = contexts.iter().any(|context| context.normals.is_some());
+    seen.crowds = CrowdWork::new(of_crowds);
     for row in 0..tile.height {
         for left in (0..tile.width).step_by(8) {
             let start = Tile {
@@ -164,11 +173,20 @@ fn tile_pixels<S: Simd>(
                 width: (tile.width - left).min(8),
                 height: 1,
             };
-            edged.work.candidate_tests += candidates.len() as u64 * u64::from(start.width);
-            seen.see(simd, first, start, (candidates, balls));
-            edged.normals.clear();
             let place = (row * tile.width + left) as usize;
+            if candidates.len() > MOST_SPHERES && seen.crowds.left() == 0 {
+                for lit in &mut *lit {
+                    lit.unknown |= ((1 << start.width) - 1) << place;
+                }
+                continue;
+            }
+            edged.work.candidate_tests += candidates.len() as u64 * u64::from(start.width);
+            let before = seen.crowds.left();
+            seen.see(simd, first, start, (candidates, balls));
+            let looking = before - seen.crowds.left();
+            edged.normals.clear();
             for (context, lit) in contexts.iter().zip(&mut *lit) {
+                lit.crowds.spend(looking);
                 // Pixels that see no sphere are empty already; those with edges climb alone.
                 for (lane, spheres) in seen.edged() {
                     lit.climb(simd, context, (start, place), (lane, spheres), edged);
@@ -214,10 +232,18 @@ impl LitTile {
             width: 1,
             ..row
         };
+        edged.left_by_tile = self.crowds.of_pixel();
+        let (asked, units) = (edged.work.candidate_tests, self.cache.units);
         match edged_pixel(simd, context, pixel, spheres, &mut self.cache, edged) {
             Ok(known) => self.pixels[place + lane] = known,
             Err(_) => self.unknown |= 1 << (place + lane),
         }
+        let looks = Looks {
+            asked: edged.work.candidate_tests - asked,
+            units: self.cache.units - units,
+            is_crowd: spheres.len() > FEWEST,
+        };
+        self.crowds.spend_on_pixel(&edged.budget, looks);
         self.costs.add(place + lane, edged.budget.spent());
     }
 
@@ -246,7 +272,9 @@ impl LitTile {
         let memory = (&mut edged.noise, &mut edged.normals.filled);
         let pixels = &mut self.pixels[place..][..row.width as usize];
         let of_row = (of_sphere, extents);
+        let units = self.cache.units;
         let done = fill(simd, context, of_row, &mut self.cache, memory, pixels);
+        self.crowds.spend(self.cache.units - units);
         edged.work.samples += done.samples;
         let material = context.scene.world.material(coverage.sphere);
         let is_rough = material.roughness.is_some();
@@ -275,7 +303,8 @@ fn edged_pixel<S: Simd>(
         key: context.key(pixel, 0),
         spheres,
     };
-    if spheres.len() > MOST_SPHERES {
+    let is_exhausted = workspace.left_by_tile == 0 && spheres.len() > 1 || cache.is_exhausted();
+    if spheres.len() > MOST_SPHERES || is_exhausted {
         workspace.leave_crowd(&edged);
         return Err(GiveUp::Unknown);
     }

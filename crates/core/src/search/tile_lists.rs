@@ -91,6 +91,14 @@ pub(super) struct Places<'lists> {
     wide: &'lists [(u32, TileRange)],
 }
 
+impl Places<'_> {
+    /// Returns whether they are more than so many.
+    pub(super) fn are_more_than(&self, most: usize) -> bool {
+        let has_wide = !self.wide.is_empty();
+        self.listed.len() > most || has_wide && self.clone().nth(most).is_some()
+    }
+}
+
 impl Iterator for Places<'_> {
     type Item = u32;
 

@@ -55,6 +55,16 @@ enum Listed<'index> {
     Many(slice::Iter<'index, u32>),
 }
 
+impl Balls<'_> {
+    /// Returns whether they are more than so many.
+    fn is_more_than(&self, most: usize) -> bool {
+        match &self.places {
+            Listed::Few(places) => places.are_more_than(most),
+            Listed::Many(places) => places.len() > most,
+        }
+    }
+}
+
 impl<'index> Iterator for Balls<'index> {
     type Item = &'index Ball;
 
@@ -143,6 +153,23 @@ impl<'world> ViewIndex<'world> {
             }
         };
         Balls { balls, places }
+    }
+
+    /// The number of a view's tiles in which more than so many balls may be seen.
+    pub(crate) fn tiles_of_more(&self, view: &View, most: usize) -> u64 {
+        let corners = |length: u32| (0..length).step_by(Tile::SIDE as usize);
+        let is_more = |&(col, row): &(u32, u32)| {
+            let corner = Tile {
+                col,
+                row,
+                width: 1,
+                height: 1,
+            };
+            self.balls(corner).is_more_than(most)
+        };
+        let tiles =
+            corners(view.height).flat_map(|row| corners(view.width).map(move |col| (col, row)));
+        tiles.filter(is_more).count() as u64
     }
 
     /// The indices of the spheres that may be seen in a tile.

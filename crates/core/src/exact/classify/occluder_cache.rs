@@ -37,6 +37,10 @@ pub(crate) struct OccluderCache {
     edges: Vec<u32>,
     /// The shadow edges that [`Self::shade`] has held against each other since they were counted.
     pub(super) compared: u64,
+    /// The work in which the tile's occluders are sought and held against what they may shade, in the units of crowds, and
+    /// the most of it.
+    pub(crate) units: u64,
+    most_units: u64,
     /// The number of spheres that were asked whether they matter.
     pub(crate) tests: u64,
 }
@@ -63,6 +67,15 @@ pub(crate) enum Shade<'a> {
 /// The shadow edges on a patch of which more are not held against each other. Not tuned: a pixel has no use for as many.
 const MOST_EDGES: usize = 1 << 14;
 
+/// The shadow edges that others leave on a patch of which more are not told apart: half as many are more than a part of a
+/// pixel may have.
+const MOST_KEPT: usize = 1 << 10;
+
+/// The units of crowds in which a sphere is asked whether it is an occluder, and in which a shadow edge is held against
+/// those before it.
+const UNITS_OF_OCCLUDER: u64 = 2;
+const UNITS_OF_EDGE: u64 = 6;
+
 impl OccluderCache {
     /// Nothing is known yet of the tile that covers this cell, with pixels of this side.
     pub(crate) fn new(tile: Cell, pixel: f64) -> Self {
@@ -75,18 +88,34 @@ impl OccluderCache {
             spheres: Vec::new(),
             edges: Vec::new(),
             compared: 0,
+            units: 0,
+            most_units: u64::MAX,
             tests: 0,
         }
     }
 
-    /// Forgets a tile, and begins with the one that covers this cell, with pixels of this side.
-    pub(crate) fn begin(&mut self, tile: Cell, pixel: f64) {
+    /// Forgets a tile, and begins with the one that covers this cell, with pixels of this side, where occluders may cost so
+    /// many units.
+    pub(crate) fn begin(&mut self, tile: Cell, pixel: f64, most_units: u64) {
         self.tile = tile;
         self.pixel = pixel;
         self.known.clear();
         self.occluders.clear();
         self.spheres.clear();
+        self.units = 0;
+        self.most_units = most_units;
         self.tests = 0;
+    }
+
+    /// Returns whether the tile's occluders have cost all that they may: nothing more is known of its shadows.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.units > self.most_units
+    }
+
+    /// The most occluders that a sphere of the tile was found to have.
+    pub(crate) fn most_occluders(&self) -> usize {
+        let ranges = self.known.iter().filter_map(|known| known.range.as_ref());
+        ranges.map(|range| range.len()).max().unwrap_or(0)
     }
 
     /// One of the occluders of a range.
@@ -153,6 +182,7 @@ impl OccluderCache {
             let beam = Beam::new(apex, scene.in_world(middle), around * WIDER);
             occluders.any_in(&beam, |candidate| {
                 self.tests += 1;
+                self.units += UNITS_OF_OCCLUDER;
                 if candidate != sphere && spheres[candidate] != own {
                     self.spheres.push(candidate as u32);
                 }
@@ -208,6 +238,7 @@ impl OccluderCache {
             .visibility
             .any_occluder(of_light.index, &points, around, |candidate| {
                 self.tests += 1;
+                self.units += UNITS_OF_OCCLUDER;
                 if candidate == sphere || spheres[candidate] == own {
                     return false;
                 }
@@ -241,17 +272,25 @@ impl OccluderCache {
             .sort_unstable_by_key(|&edge| self.spheres[edge as usize]);
         if self.edges.len() > 1 {
             let mut mask = ShadeMask::new(self.level, patch, light);
-            self.edges.retain(|&edge| {
+            let mut kept = 0;
+            for place in 0..self.edges.len() {
+                let edge = self.edges[place];
                 let occluder = self.occluders.get(edge as usize);
-                let matters = !mask.hides(&occluder);
-                if matters {
-                    mask.add(&occluder);
+                self.units += UNITS_OF_EDGE;
+                if mask.hides(&occluder) {
+                    continue;
                 }
-                matters
-            });
-            if mask.is_full() {
-                return Shade::Everything;
+                mask.add(&occluder);
+                if mask.is_full() {
+                    return Shade::Everything;
+                }
+                self.edges[kept] = edge;
+                kept += 1;
+                if kept > MOST_KEPT {
+                    return Shade::Crowd;
+                }
             }
+            self.edges.truncate(kept);
         }
         if self.edges.is_empty() {
             return Shade::Nothing;

@@ -8,6 +8,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::budget::MOST_SPHERES;
 use crate::exact::context::Context;
+use crate::exact::crowd::{CrowdWork, FEWEST};
 use crate::numeric::lanes::{f64x8, mask64x8};
 use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 use crate::numeric::vectors::Vectors;
@@ -235,14 +236,14 @@ pub(crate) enum Sight {
 }
 
 /// Finds out what the pixel with the number `lane` in its row may see: the spheres are written to
-/// `spheres`.
+/// `spheres`. Crowds are compared as far as the work on those of their tile allows.
 #[inline]
 pub(crate) fn sight(
     context: &Context<'_>,
     pixel: Tile,
     lane: usize,
     coverages: &[Coverage],
-    spheres: &mut Vec<(usize, Ball)>,
+    (spheres, crowds): (&mut Vec<(usize, Ball)>, &mut CrowdWork),
 ) -> Sight {
     let is_here = |lanes: u64| lanes >> lane & 1 == 1;
     let mut touching = coverages.iter().filter(|one| is_here(one.touched));
@@ -253,7 +254,7 @@ pub(crate) fn sight(
         return Sight::Filled(one.sphere);
     }
     spheres.clear();
-    visible_spheres(&context.cell(pixel), lane, coverages, spheres);
+    visible_spheres(&context.cell(pixel), lane, coverages, (spheres, crowds));
     let covers = |sphere| {
         coverages
             .iter()
@@ -281,12 +282,19 @@ fn visible_spheres(
     cell: &Cell,
     lane: usize,
     coverages: &[Coverage],
-    spheres: &mut Vec<(usize, Ball)>,
+    (spheres, crowds): (&mut Vec<(usize, Ball)>, &mut CrowdWork),
 ) {
     let here = |coverage: &&Coverage| coverage.touched >> lane & 1 == 1;
     let all = coverages.iter().filter(here);
     spheres.extend(all.map(|coverage| (coverage.sphere, coverage.ball)));
     let mut pairs = 0;
+    let is_crowd = spheres.len() > FEWEST;
+    let most_pairs = if is_crowd {
+        crowds.spend(spheres.len() as u64);
+        MOST_PAIRS.min(crowds.of_pixel() as usize)
+    } else {
+        MOST_PAIRS
+    };
     let nearest = nearest_cover(lane, coverages, spheres.len());
     for (place, one) in coverages.iter().filter(here).enumerate() {
         let ball = &one.ball;
@@ -297,7 +305,7 @@ fn visible_spheres(
             continue;
         }
         pairs += spheres.len();
-        if pairs > MOST_PAIRS {
+        if pairs > most_pairs {
             break;
         }
         let (outline, along) = (silhouette(cell, ball), cell.along(ball.center));
@@ -320,6 +328,9 @@ fn visible_spheres(
                 Some(Side::Inside) | None => {}
             }
         }
+    }
+    if is_crowd {
+        crowds.spend(pairs as u64);
     }
     spheres.retain(|&(sphere, _)| sphere != HIDDEN);
 }

@@ -7,6 +7,7 @@ use fearless_simd::Simd;
 use super::row::{Coverage, Sight, classify_row, sight};
 use crate::edges::cell::Ball;
 use crate::exact::context::Context;
+use crate::exact::crowd::{CrowdWork, FEWEST};
 use crate::picture::tile::Tile;
 
 /// What up to eight pixels of a row see: the same under all lights.
@@ -20,6 +21,8 @@ pub(crate) struct SeenRow {
     spheres: Vec<(usize, Ball)>,
     /// The spheres that a pixel may see.
     of_pixel: Vec<(usize, Ball)>,
+    /// The work on the tile's crowds that is the same under all lights.
+    pub(crate) crowds: CrowdWork,
 }
 
 impl SeenRow {
@@ -38,12 +41,18 @@ impl SeenRow {
             edged,
             spheres,
             of_pixel,
+            crowds,
         } = self;
         coverages.clear();
         simd.vectorize(
             #[inline(always)]
             || classify_row(simd, context, row, (candidates, balls), coverages),
         );
+        if candidates.len() > FEWEST {
+            /// Spheres that a row asks whether it sees them in the time of a unit.
+            const A_UNIT: usize = 2;
+            crowds.spend((candidates.len() / A_UNIT) as u64);
+        }
         filled.clear();
         edged.clear();
         spheres.clear();
@@ -53,7 +62,7 @@ impl SeenRow {
                 width: 1,
                 ..row
             };
-            match sight(context, pixel, lane, coverages, of_pixel) {
+            match sight(context, pixel, lane, coverages, (of_pixel, crowds)) {
                 Sight::Nothing => {}
                 Sight::Filled(sphere) => {
                     let Some(place) = coverages.iter().position(|one| one.sphere == sphere) else {

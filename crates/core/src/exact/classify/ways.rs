@@ -38,6 +38,10 @@ impl Contents {
         }
         if let Some(patch) = patch {
             let in_camera = &scene.lights[light];
+            if cache.is_exhausted() {
+                self.is_crowded = true;
+                return Reach::Past(first..first);
+            }
             let Some(range) = cache.occluders(scene, active.sphere, light) else {
                 return Reach::Nowhere;
             };
@@ -111,6 +115,10 @@ impl Contents {
             let ends = ends(cell, &active.ball, patch);
             let (middle, around) = patch.ball();
             let beam = Beam::new(near.position, middle, around);
+            if cache.is_exhausted() {
+                self.is_crowded = true;
+                return Reach::Past(first..first);
+            }
             let range = cache.occluders_of_near(scene, active.sphere, light);
             cache.tests += range.len() as u64;
             let tests = (range.len() / WAYS_OF_A_TEST) as u64;

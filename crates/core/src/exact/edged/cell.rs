@@ -14,6 +14,7 @@ use crate::exact::budget::{Budget, CellWork, Doubt};
 use crate::exact::classify::contents::Contents;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
+use crate::exact::crowd::FEWEST;
 use crate::exact::interior::cell::of_filled_cell;
 use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::PixelKey;
@@ -32,6 +33,8 @@ pub(crate) struct Workspace {
     pub(super) contrast: f64,
     /// What the pixel has cost so far.
     pub(crate) budget: Budget,
+    /// The units that its tile leaves to it.
+    pub(crate) left_by_tile: u64,
     /// Whether parts of the pixel are known by random samples.
     is_random: bool,
     /// What the lights of a row of pixels have in common.
@@ -122,7 +125,8 @@ impl Workspace {
         self.work.candidate_tests += pixel.spheres.len() as u64;
         let contents = &self.contents;
         self.contrast = pixel.context.contrast + contents.excess(simd, scene, &cell);
-        self.budget = Budget::new(*allowance, contents.grains_across(scene, &cell), *tolerance);
+        self.budget = Budget::new(*allowance, contents.grains_across(scene, &cell), *tolerance)
+            .within(self.left_by_tile, pixel.spheres.len() > FEWEST);
         self.is_random = false;
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);

@@ -320,6 +320,61 @@ fn claims_are_no_larger_than_what_a_tile_may_show() {
     }
 }
 
+/// Where all of a picture sees crowds that nearly coincide, the work on a tile ends soon after what is its share.
+#[test]
+fn pictures_of_crowds_end() {
+    const COUNT: u64 = 1500;
+    for (case, spread, step) in [
+        ("close", 1e-3, 0.0),
+        ("closer", 1e-9, 0.0),
+        ("toward the sun", 0.0, 2e-3),
+    ] {
+        let mut random = Random(COUNT);
+        let toward = DVec3::new(-1.0, 1.5, -1.0);
+        let sphere = |index| {
+            let moved = random.point() * spread + toward * (step * index as f64);
+            Sphere::new(DVec3::Z * 8.0 + moved, 2.0).unwrap()
+        };
+        let world = crowd(
+            (0..COUNT).map(sphere),
+            Light::directional(toward, Color::ONE),
+        );
+        let view = View {
+            width: 600,
+            height: 400,
+            ..view()
+        };
+        let visibility = Visibility::new(&world);
+        let seen = ViewIndex::new(&visibility, &view, RayPoints::All);
+        let exact = Exact::new(&world, &view, &seen, 1e-3, false);
+        let of_tile = exact.groups[0].of_crowds.of(COUNT as usize);
+        // About 3000 of 3750 tiles see them.
+        assert!((100_000..400_000).contains(&of_tile), "{case}: {of_tile}");
+        let mut room = GroupScratch::default();
+        let mut most = 0;
+        for row in (96..304).step_by(16) {
+            let tile = Tile {
+                col: 304,
+                row,
+                width: 8,
+                height: 8,
+            };
+            let mut pixels = Vec::new();
+            exact.integrate(tile, &mut room, &mut pixels);
+            most = most.max(room.0.lit[0].crowds.spent());
+            for pixel in pixels {
+                // No more than between white and black, no less than a mixture of both may be off.
+                assert!(pixel.error <= 0.901, "{case}: {pixel:?}");
+                assert!(
+                    pixel.status == Status::Met || pixel.error > 1e-3,
+                    "{case}: {pixel:?}"
+                );
+            }
+        }
+        assert!(most <= 4 * of_tile, "{case}: {most} of {of_tile}");
+    }
+}
+
 /// Nested spheres change no bit of a picture, nor what it costs, where the eye is outside of those around them.
 #[test]
 fn nested_spheres_change_nothing() {

@@ -183,11 +183,18 @@ impl<S: Simd> Reached<S> {
                 }
             }
             // Shadows.
+            if scene.world.shadows && reached != 0 && cache.is_exhausted() {
+                hard |= reached;
+                reached = 0;
+            }
             if scene.world.shadows && reached != 0 {
                 match cache.occluders(scene, row.coverage.sphere, index) {
                     None => reached = 0,
                     Some(range) => {
+                        /// Occluders that a row of pixels is held against in a unit of the work on crowds.
+                        const A_UNIT: usize = 4;
                         cache.tests += range.len() as u64 * u64::from(reached.count_ones());
+                        cache.units += (range.len() / A_UNIT) as u64;
                         let ends = Ends::new(ball, ray, [nearest, farthest], light);
                         for occluder in range {
                             let occluder = cache.occluder(occluder);
