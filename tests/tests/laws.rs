@@ -217,7 +217,7 @@ fn image(seed: u64, units: Units, size: [u32; 2], method: Method) -> Image {
         size,
     };
     let scene = writer.scene();
-    let alpha = seed % 3 == 0;
+    let alpha = seed.is_multiple_of(3);
     let view = scene.view(1).unwrap();
     let go_on = |_| ControlFlow::Continue(());
     let settings = Settings { method, alpha };
