@@ -299,7 +299,6 @@ fn claims_are_no_larger_than_what_a_tile_may_show() {
             error: 17.9,
             evidence: Evidence::Estimate,
             status: Status::OutOfBudget,
-            ..exact.empty_pixel()
         };
         let mut pixel = known;
         exact.limit(&mut pixel, range);
