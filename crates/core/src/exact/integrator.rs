@@ -20,7 +20,7 @@ use crate::model::world::World;
 use crate::numeric::bits::set_bits;
 use crate::picture::band::Band;
 use crate::picture::image::Channels;
-use crate::picture::pixel::{Evidence, Pixel, Status, Work};
+use crate::picture::pixel::{Pixel, Status, Work};
 use crate::picture::tile::Tile;
 use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;

@@ -13,7 +13,7 @@ use crate::model::sphere::Sphere;
 use crate::model::stroke::{Stroke, StrokeWidth};
 use crate::numeric::angle::Angle;
 use crate::numeric::lanes::tests::levels;
-use crate::picture::pixel::Status;
+use crate::picture::pixel::Evidence;
 use crate::search::grid::RayPoints;
 use crate::search::tests::Random;
 use crate::search::visibility::Visibility;
