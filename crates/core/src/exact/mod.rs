@@ -86,7 +86,8 @@ impl Scratch {
         self.balls.extend(balls);
     }
 
-    /// Begins with a tile that may see so many spheres under some groups of lights: with empty pixels, in the memory of the last tile.
+    /// Begins with a tile that may see so many spheres under some groups of lights: with empty pixels, in the memory of
+    /// the last tile.
     fn begin(&mut self, contexts: &[&Context<'_>], tile: Tile, candidates: usize) {
         self.lit.truncate(contexts.len());
         for (lit, context) in self.lit.iter_mut().zip(contexts) {

@@ -67,7 +67,7 @@ const SOUND: f64 = 1e-12;
 /// more than that.
 const LEAST_ALONG: f64 = 1e-5;
 
-/// What is wrong in G and S by that may take this share of Q₀: a fifth of what κ leaves.
+/// What rounding makes wrong in G h + S h² may be this share of Q₀: a fifth of what κ leaves.
 const OF_TERMS: f64 = 0.002;
 
 /// 1 / √(1 − z) − 1 ≤ 0.83 z for z ≤ ½, and √2 or less.
@@ -155,9 +155,10 @@ impl<'a, S: Simd> Domain<'a, S> {
         let reach = (most * 2.0 / steep).min(along * (0.5 / aside));
         let mut is_known = is_sound & along.simd_gt(0.0);
         if !ball.is_apart() {
-            // The derivatives of Q are off by 12 roundoffs of |c|² √A and 44 of |c|².
+            // B and c are off by 10 roundoffs of |c|, so that G = 2 Σ |B cⱼ − dⱼ K| is off by 80 of |c|² √A, and S by 44
+            // of |c|².
             let length = ray_sq.sqrt();
-            let terms = reach * (length * 12.0 + reach * 44.0);
+            let terms = reach * (length * 80.0 + reach * 44.0);
             let is_steady = value.simd_gt(terms * (far * far * (UNIT_ROUNDOFF / OF_TERMS)));
             is_known &= is_steady & along.simd_gt((length + reach) * (far * LEAST_ALONG));
         }
