@@ -3,6 +3,7 @@
 use super::active::{Active, Terminators};
 use super::behind::Cover;
 use super::coincidence::{has_same_outline, is_outline, nesting, outlines_apart};
+use super::cut_side::CutSide;
 use super::face::Face;
 use super::hidden::HiddenSpheres;
 use super::occluder_cache::OccluderCache;
@@ -53,6 +54,8 @@ pub(crate) struct Contents {
     pub(super) is_enclosed: bool,
     /// Spheres of which some parallel rays of the cell begin inside, and others not.
     pub(super) cut: Vec<(usize, Ball)>,
+    /// That of which one side alone is asked for.
+    pub(super) side: Option<(usize, CutSide)>,
     /// Whether edges of the cell are not known because of these.
     pub(crate) is_mixed: bool,
     /// The work on pairs of spheres, in the unit of tests.
@@ -93,6 +96,19 @@ impl Contents {
         spheres: &[(usize, Ball)],
         cache: &mut OccluderCache,
     ) {
+        self.see_side(scene, cell, spheres, cache, None);
+    }
+
+    /// The same of one side of a sphere that some rays begin inside of.
+    pub(crate) fn see_side(
+        &mut self,
+        scene: &InCamera<'_>,
+        cell: &Cell,
+        spheres: &[(usize, Ball)],
+        cache: &mut OccluderCache,
+        side: Option<(usize, CutSide)>,
+    ) {
+        self.side = side;
         self.active.clear();
         self.conics.clear();
         self.reach.clear();
@@ -197,7 +213,7 @@ impl Contents {
                 let kind = Kind::Silhouette(position);
                 self.conics.push((kind, active.discriminant));
             }
-            if !self.is_mixed && !self.is_crowded {
+            if !self.is_mixed && !self.is_crowded && !active.is_dark {
                 self.add_seams(cell, position);
             }
             self.is_crowded |= self.has_too_many_curves() || is_beyond_a_crowd(self.tests);
@@ -294,6 +310,9 @@ impl Contents {
         let ball = self.active[position].ball;
         self.tests += (position / PAIRS_OF_A_TEST) as u64;
         for (index, other) in self.active[..position].iter().enumerate() {
+            if other.is_dark {
+                continue;
+            }
             let apart_sq = (ball.center - other.ball.center).length_squared();
             let sum = ball.radius + other.ball.radius;
             // Most are far apart.

@@ -2,9 +2,11 @@
 
 use super::active::{Active, Terminators};
 use super::contents::{Contents, NARROWEST, ROUNDINGS};
+use super::cut_side::CutSide;
 use crate::edges::cell::{Ball, Cell};
 use crate::edges::silhouette::silhouette;
 use crate::exact::scene::{InCamera, Light};
+use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
 /// Where the parallel rays of a cell begin, as a sphere sees it that the plane of their beginnings cuts.
@@ -35,23 +37,74 @@ impl Begin {
     }
 }
 
-/// Returns whether all parallel rays of a cell begin inside of a sphere: of other spheres they see what is inside of it too,
-/// where no light gets that is outside.
-pub(super) fn begins_inside(cell: &Cell, ball: &Ball) -> bool {
-    ball.is_cut() && Begin::of(cell, ball) == Begin::Inside
+/// The part of a cell's plane that a sphere cuts out of it, as a dark ball before all else.
+struct Cap {
+    ball: Ball,
+    discriminant: Quadratic,
+    /// What rounding moves its outline by, times the radius.
+    moved: f64,
 }
 
-/// Returns whether all rays of a cell that see an outer side begin inside of all spheres around a point light.
-fn is_inside_with(scene: &InCamera<'_>, cell: &Cell, light: &Light) -> bool {
-    let around = scene.visibility.point_light(light.index);
-    let around = around.map_or(&[][..], |occluders| occluders.enclosing());
-    around.iter().all(|&sphere| {
-        // Where some rays begin outside, those that begin inside see the inner side alone.
-        begins_inside(cell, &scene.ball(sphere))
-    })
+impl Cap {
+    fn of(cell: &Cell, ball: &Ball) -> Self {
+        let z = ball.center.z;
+        let radius = ((ball.radius - z) * (ball.radius + z)).max(0.0).sqrt();
+        // All of its near side lies before the plane, and so before all that is seen; no farther than lengths beside which
+        // K is known anyway.
+        let ahead = z.abs() + cell.extent() + cell.size[0] + cell.size[1];
+        let ball = Ball {
+            center: ball.center.with_z(-ahead),
+            radius,
+            outside: f64::MIN_POSITIVE,
+            power: ball.power + ahead * ahead,
+            projection: ball.projection,
+        };
+        Self {
+            ball,
+            discriminant: silhouette(cell, &ball),
+            moved: ROUNDINGS * ball.outline_scale(cell) * radius,
+        }
+    }
+
+    /// Whether the cell may see a ball with this discriminant and the cap as well.
+    fn may_be_beside(&self, discriminant: &Quadratic) -> bool {
+        let may_be = |discriminant: &Quadratic| {
+            let most = discriminant.one + discriminant.spread();
+            let slack = GEOMETRY_SLACK * (discriminant.spread() + discriminant.one.abs());
+            most + slack + 2.0 * self.moved > 0.0
+        };
+        may_be(discriminant) && may_be(&self.discriminant)
+    }
 }
 
 impl Contents {
+    /// Returns whether all parallel rays of a cell begin inside of a sphere: of other spheres they see what is inside of it
+    /// too, where no light gets that is outside.
+    pub(super) fn begins_inside(&self, cell: &Cell, (sphere, ball): (usize, &Ball)) -> bool {
+        match self.side {
+            Some((cut, side)) if cut == sphere => side.is_inner(),
+            _ => ball.is_cut() && Begin::of(cell, ball) == Begin::Inside,
+        }
+    }
+
+    /// Returns whether all rays of a cell begin outside of a sphere, or those that the cell is seen by.
+    pub(super) fn begins_outside(&self, cell: &Cell, (sphere, ball): (usize, &Ball)) -> bool {
+        match self.side {
+            Some((cut, side)) if cut == sphere => !side.is_inner(),
+            _ => ball.outside > 0.0 || ball.is_cut() && Begin::of(cell, ball) == Begin::Outside,
+        }
+    }
+
+    /// Returns whether all rays of a cell that see an outer side begin inside of all spheres around a point light.
+    fn is_inside_with(&self, scene: &InCamera<'_>, cell: &Cell, light: &Light) -> bool {
+        let around = scene.visibility.point_light(light.index);
+        let around = around.map_or(&[][..], |occluders| occluders.enclosing());
+        around.iter().all(|&sphere| {
+            // Where some rays begin outside, those that begin inside see the inner side alone.
+            self.begins_inside(cell, (sphere, &scene.ball(sphere)))
+        })
+    }
+
     /// Takes in a sphere that the plane cuts. As the cell sees it the ball is then one that all rays begin outside of, or
     /// inside; returns false where it is not seen, or not known yet.
     pub(super) fn take_cut(
@@ -60,7 +113,19 @@ impl Contents {
         cell: &Cell,
         (sphere, ball): (usize, &mut Ball),
     ) -> bool {
-        match Begin::of(cell, ball) {
+        let begin = match self.side {
+            Some((cut, side)) if cut == sphere => {
+                if side != CutSide::Inner {
+                    self.cut.push((sphere, *ball));
+                }
+                match side.is_inner() {
+                    true => Begin::Inside,
+                    false => Begin::Outside,
+                }
+            }
+            _ => Begin::of(cell, ball),
+        };
+        match begin {
             // Rays meet its outer side, or pass it.
             Begin::Outside => {
                 ball.outside = ball.center.z;
@@ -83,7 +148,7 @@ impl Contents {
         let reaches = |light: &Light| match light.near {
             None => !light.is_shut_off && !self.is_enclosed,
             Some(_) if !light.is_shut_off => true,
-            Some(_) => cell.is_parallel() && is_inside_with(scene, cell, light),
+            Some(_) => cell.is_parallel() && self.is_inside_with(scene, cell, light),
         };
         let lights = scene.lights.iter().enumerate();
         lights.fold(0, |bits, (index, light)| {
@@ -98,50 +163,64 @@ impl Contents {
             self.is_mixed = !self.cut.is_empty();
             return;
         };
-        let reaches_in = |active: &Active| {
-            let apart = (active.ball.center - ball.center).length();
-            apart < (active.ball.radius + ball.radius) * (1.0 + GEOMETRY_SLACK)
-        };
-        if self.active.iter().any(reaches_in) || self.is_enclosed {
-            self.is_mixed = true;
-            return;
-        }
-        let z = ball.center.z;
-        let radius = ((ball.radius - z) * (ball.radius + z)).max(0.0).sqrt();
-        let size = cell.size[0].min(cell.size[1]);
-        // Rounding moves the outline of a thin cap by more than the plane.
-        let moved = ROUNDINGS * (ball.center.length() + ball.radius) * ball.radius;
-        self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
-        let outer = Ball { outside: z, ..ball };
-        let center = ball.center.with_z(-(2.0 * ball.radius + radius));
-        let cap = Ball {
-            center,
-            radius,
-            outside: f64::MIN_POSITIVE,
-            power: center.length_squared() - radius * radius,
-            ..ball
-        };
-        let width = 2.0 * radius / size;
-        let is_resolved = width > NARROWEST;
-        if !is_resolved {
-            self.rounding += width * width;
-        }
-        for (ball, is_dark) in [(outer, false), (cap, true)] {
-            let is_seen = if is_dark { is_resolved } else { z > 0.0 };
-            if is_seen {
+        let cap = Cap::of(cell, &ball);
+        if self.side.is_none() {
+            let reaches_in = |active: &Active| {
+                let apart = (active.ball.center - ball.center).length();
+                apart < (active.ball.radius + ball.radius) * (1.0 + GEOMETRY_SLACK)
+                    && cap.may_be_beside(&active.discriminant)
+            };
+            if self.active.iter().any(reaches_in) || self.is_enclosed {
+                self.is_mixed = true;
+                return;
+            }
+            let z = ball.center.z;
+            if z > 0.0 {
+                let outer = Ball { outside: z, ..ball };
                 self.active.push(Active {
                     sphere,
-                    ball,
-                    discriminant: silhouette(cell, &ball),
+                    ball: outer,
+                    discriminant: silhouette(cell, &outer),
                     along: cell.along(ball.center),
-                    terminators: if is_dark {
-                        Terminators::Plain
-                    } else {
-                        Terminators::of(scene, sphere, self.pixel)
-                    },
-                    is_dark,
+                    terminators: Terminators::of(scene, sphere, self.pixel),
+                    is_dark: false,
                 });
             }
         }
+        self.add_cap(cell, sphere, &cap);
+    }
+
+    fn add_cap(&mut self, cell: &Cell, sphere: usize, cap: &Cap) {
+        let size = cell.size[0].min(cell.size[1]);
+        let (radius, moved) = (cap.ball.radius, cap.moved);
+        // Rounding moves the outline of a thin cap by more than the plane.
+        self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
+        let width = 2.0 * radius / size;
+        if width <= NARROWEST {
+            self.rounding += width * width;
+            return;
+        }
+        self.active.push(Active {
+            sphere,
+            ball: cap.ball,
+            discriminant: cap.discriminant,
+            along: cell.along(cap.ball.center),
+            terminators: Terminators::Plain,
+            is_dark: true,
+        });
+    }
+
+    /// The one sphere that some rays of the cell begin inside of, and others not, if all of them meet it: then the cell is
+    /// known by its [`CutSide`]s.
+    pub(crate) fn divided_by(&self, cell: &Cell) -> Option<usize> {
+        let [(sphere, ball)] = self.cut[..] else {
+            return None;
+        };
+        let discriminant = silhouette(cell, &ball);
+        let (one, spread) = (discriminant.one, discriminant.spread());
+        let moved = ROUNDINGS * ball.outline_scale(cell) * ball.radius;
+        let slack = GEOMETRY_SLACK * (spread + one.abs()) + 4.0 * moved;
+        let is_known = self.is_mixed && !self.is_crowded && self.side.is_none();
+        (is_known && one - spread - slack > 0.0).then_some(sphere)
     }
 }

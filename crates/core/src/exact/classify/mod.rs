@@ -5,6 +5,7 @@ pub(crate) mod behind;
 pub(crate) mod coincidence;
 pub(crate) mod contents;
 mod cut;
+pub(super) mod cut_side;
 pub(crate) mod discriminant;
 pub(crate) mod face;
 mod hardness;

@@ -93,6 +93,8 @@ impl Patch {
             let around = [-spread, spread].map(|spread| power + spread);
             [0, 1].map(|end| around[end] / (z + roots[end]))
         };
+        // Nothing is seen behind the plane, and no near side behind the center.
+        let [nearest, farthest] = [nearest, farthest].map(|place| place.min(z).max(0.0));
         let half_diagonal = 0.5 * DVec2::from_array(cell.size).length();
         let size = if ball.is_apart() {
             cell.extent() + ball.center.length() + ball.radius

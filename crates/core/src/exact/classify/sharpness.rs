@@ -68,7 +68,7 @@ impl Contents {
     ) -> bool {
         let lights = scene.lights.len();
         for (position, active) in self.active.iter().enumerate() {
-            if active.ball.outside <= 0.0 {
+            if active.ball.outside <= 0.0 || active.is_dark {
                 continue;
             }
             // The patch is no longer than this.

@@ -5,7 +5,6 @@ use glam::DVec3;
 use super::active::Active;
 use super::coincidence::{FARTHER, hides_all, is_at_eye, nesting};
 use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS, WAYS_OF_A_TEST};
-use super::cut::begins_inside;
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
 use super::reach::Reach;
@@ -140,14 +139,18 @@ impl Contents {
                 if !beam.is_reached_by(center, radius) || is_inside() {
                     continue;
                 }
-                if is_above(&scene.ball(sphere), near.position, (middle, around)) {
+                let ball = scene.ball(sphere);
+                // What rays that begin inside of it see lies inside, too.
+                if self.begins_outside(cell, (sphere, &ball))
+                    && is_above(&ball, near.position, (middle, around))
+                {
                     continue;
                 }
                 let mut known = self.occluders[first..].iter();
                 if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
                     continue;
                 }
-                if begins_inside(cell, &scene.ball(sphere)) {
+                if self.begins_inside(cell, (sphere, &ball)) {
                     return Reach::Nowhere;
                 }
                 if is_many && is_behind(center, near.position, (middle, around)) {
@@ -202,8 +205,7 @@ fn is_behind(center: DVec3, light: DVec3, (middle, around): (DVec3, f64)) -> boo
 /// The height F = K' / 2r of points above the ball, to first order, is convex along a way. So it nowhere falls below that
 /// of an end from which it rises, and nowhere farther below that of both ends than L² / 8r, with the length L.
 fn is_above(ball: &Ball, light: DVec3, (middle, around): (DVec3, f64)) -> bool {
-    // What rays that begin inside of it see lies inside, too.
-    if ball.is_apart() || ball.outside <= 0.0 {
+    if ball.is_apart() {
         return false;
     }
     let height = |point: DVec3| ball.power_of(point) / (2.0 * ball.radius);

@@ -1,8 +1,4 @@
-//! The integral over a pixel with edges: along all of them, or by its quarters where that is hard, and by
-//! theirs.
-
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+//! The integral over a pixel with edges, or a part of one: by boxes, or along all of its edges.
 
 use fearless_simd::Simd;
 
@@ -10,8 +6,9 @@ use super::boundary::{Boundary, Goal};
 use super::boxes::{self, Boxes};
 use super::normals::Normals;
 use crate::edges::cell::{Ball, Cell};
-use crate::exact::budget::{Budget, CellWork, Doubt};
+use crate::exact::budget::{Budget, CellWork};
 use crate::exact::classify::contents::Contents;
+use crate::exact::classify::cut_side::CutSide;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
 use crate::exact::crowd::FEWEST;
@@ -51,10 +48,8 @@ pub(crate) struct EdgedPixel<'a, 'scene> {
     pub(crate) spheres: &'a [(usize, Ball)],
 }
 
-/// What parts of a pixel that were given up may cost before samples know more, and rounding, which moves edges
-/// but hides none.
-const LOST: f64 = 0.01;
-const LOST_TO_ROUNDING: f64 = 0.25;
+/// What boxes claim at least, of the contrast: one pixel in some ten thousand was off by so much that claimed less.
+const LEAST_OF_BOXES: f64 = 5e-5;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
 /// pixel and in parts of it: into more where something does not fit.
@@ -62,7 +57,7 @@ pub(super) const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 
 /// How deep pixels are quartered: what is left of an edge in cells of the last depth is less than
 /// 2⁻¹² of the contrast.
-const DEEPEST: i32 = 12;
+pub(super) const DEEPEST: i32 = 12;
 
 /// From which depth on the quarters of a crowded part are thought to be crowded, too.
 const CROWDED: i32 = 4;
@@ -84,7 +79,7 @@ const ASIDE: [f64; 2] = [1.3e-10, -0.9e-10];
 
 impl EdgedPixel<'_, '_> {
     /// The pixel, moved aside.
-    fn whole(&self) -> Cell {
+    pub(super) fn whole(&self) -> Cell {
         let mut cell = self.cell;
         cell.middle.x += ASIDE[0] * cell.size[0];
         cell.middle.y += ASIDE[1] * cell.size[1];
@@ -144,7 +139,7 @@ impl Workspace {
         if let Some(part) = self.by_mean_normals(simd, pixel, &cell) {
             return Ok(part);
         }
-        let mut part = self.part(simd, pixel, &cell, 0)?;
+        let mut part = self.part(simd, pixel, &cell, (0, cache))?;
         part.error += pixel.moved(self.contrast);
         if part.error <= pixel.context.tolerance || self.is_random {
             Ok(part)
@@ -181,75 +176,49 @@ impl Workspace {
         self.budget.spend(work);
         let mut part = found?;
         part.error += known;
+        part.error = part
+            .error
+            .max(tolerance.min(LEAST_OF_BOXES * self.contrast));
         Some(part)
     }
 
-    /// The average by parts, each the quarter of another that claims too much, those first that cost most,
-    /// until the budget is over. `why` tells what is known of the whole.
-    pub(crate) fn by_parts<S: Simd>(
+    /// The average over a part of a pixel, at a depth, whose contents have been seen.
+    pub(super) fn part<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
-        why: GiveUp,
-        cache: &mut OccluderCache,
+        cell: &Cell,
+        (depth, cache): (i32, &mut OccluderCache),
     ) -> Result<Part, GiveUp> {
-        let context = pixel.context;
-        let moved = pixel.moved(self.contrast);
-        let unknown = Part {
-            error: self.contrast,
-            ..Part::NOTHING
+        let Some(cut) = self.contents.divided_by(cell) else {
+            return self.undivided_part(simd, pixel, cell, depth);
         };
-        let whole = match why {
-            GiveUp::Claims(part) => part,
-            _ => unknown,
-        };
-        let mut doubt = Doubt {
-            error: whole.error + moved,
-            rounding: whole.rounding,
-        };
-        let mut best = Part {
-            error: moved,
-            ..Part::NOTHING
-        };
-        // However small its parts are, all of the pixel is moved.
-        let mut is_over = moved > context.tolerance;
-        let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
-        while let Some(worst) = left.pop() {
-            is_over = is_over || self.budget.is_over(doubt, context.tolerance);
-            if doubt.error <= context.tolerance || is_over || worst.depth == DEEPEST {
-                best.add(&worst.part, worst.share());
-                continue;
-            }
-            doubt.add(&worst, -1.0);
-            let depth = worst.depth + 1;
-            for [x, y] in QUARTERS {
-                let cell = worst.cell.part(x, y);
-                self.contents
-                    .see(&context.scene, &cell, pixel.spheres, cache);
-                self.work.candidate_tests += pixel.spheres.len() as u64;
-                let part = self.part(simd, pixel, &cell, depth);
-                let quarter = Quarter::new(cell, depth, part.unwrap_or(unknown));
-                doubt.add(&quarter, 1.0);
-                left.push(quarter);
-            }
+        self.budget.count_looking(self.contents.tests, false);
+        let mut sum = Part::NOTHING;
+        for (side, sign) in [
+            (CutSide::OuterBehindCap, 1.0),
+            (CutSide::Inner, 1.0),
+            (CutSide::InnerBehindCap, -1.0),
+        ] {
+            self.contents.see_side(
+                &pixel.context.scene,
+                cell,
+                pixel.spheres,
+                cache,
+                Some((cut, side)),
+            );
+            self.work.candidate_tests += pixel.spheres.len() as u64;
+            let part = self.undivided_part(simd, pixel, cell, depth)?;
+            sum.value += part.value * sign;
+            sum.covered += part.covered * sign;
+            sum.error += part.error;
+            sum.rounding += part.rounding;
         }
-        if whole.error < best.error {
-            best = whole;
-        }
-        // Samples at least see exactly.
-        let lost = best.error - best.rounding;
-        let is_known = best.value.is_finite()
-            && lost <= context.tolerance.max(LOST)
-            && best.rounding <= context.tolerance.max(LOST_TO_ROUNDING);
-        if is_known {
-            Ok(best)
-        } else {
-            Err(GiveUp::Unknown)
-        }
+        Ok(sum)
     }
 
-    /// The average over a part of a pixel, at a depth, whose contents have been seen.
-    fn part<S: Simd>(
+    /// The same where no rays begin inside of a sphere that others begin outside of.
+    fn undivided_part<S: Simd>(
         &mut self,
         simd: S,
         pixel: &EdgedPixel<'_, '_>,
@@ -349,69 +318,5 @@ impl Workspace {
         }
         self.budget.spend(work);
         best
-    }
-}
-
-/// Between which x and y the quarters of a cell lie.
-const QUARTERS: [[[f64; 2]; 2]; 4] = [
-    [[-0.5, 0.0], [-0.5, 0.0]],
-    [[0.0, 0.5], [-0.5, 0.0]],
-    [[-0.5, 0.0], [0.0, 0.5]],
-    [[0.0, 0.5], [0.0, 0.5]],
-];
-
-/// A part of a pixel that has been integrated, in the order of what it costs.
-#[derive(Clone, Copy, Debug)]
-struct Quarter {
-    cell: Cell,
-    depth: i32,
-    part: Part,
-    /// What it adds to the pixel's error.
-    cost: f64,
-}
-
-impl Quarter {
-    fn new(cell: Cell, depth: i32, part: Part) -> Self {
-        let mut quarter = Self {
-            cell,
-            depth,
-            part,
-            cost: 0.0,
-        };
-        quarter.cost = part.error * quarter.share();
-        quarter
-    }
-
-    /// Its share of the pixel.
-    fn share(&self) -> f64 {
-        0.25_f64.powi(self.depth)
-    }
-}
-
-impl Doubt {
-    /// Adds what a part adds to the pixel's error, or its opposite.
-    fn add(&mut self, quarter: &Quarter, sign: f64) {
-        self.error += sign * quarter.cost;
-        self.rounding += sign * quarter.part.rounding * quarter.share();
-    }
-}
-
-impl PartialEq for Quarter {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Quarter {}
-
-impl PartialOrd for Quarter {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for Quarter {
-    fn cmp(&self, other: &Self) -> Ordering {
-        self.cost.total_cmp(&other.cost)
     }
 }

@@ -5,4 +5,5 @@ pub(crate) mod boxes;
 pub(crate) mod cell;
 mod mean_normals;
 pub(crate) mod normals;
+mod parts;
 pub(crate) mod rule;

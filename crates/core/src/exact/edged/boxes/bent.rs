@@ -3,7 +3,7 @@
 use fearless_simd::Simd;
 
 use super::half_plane::{HalfPlane, Slopes};
-use crate::numeric::lanes::f64x8;
+use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// The terms of second degree of functions on boxes, in sides from their middles: of x², x y and y².
 #[derive(Clone, Copy, Debug)]
@@ -50,6 +50,17 @@ impl<S: Simd> Bends<S> {
         )
     }
 
+    /// Where a function with these values and changes in the middles falls below 0 on both sides of the middle: a narrow
+    /// strip may run through the box there, whose own gradient leads along it.
+    #[inline(always)]
+    fn fall_on_both_sides(&self, value: f64x8<S>, [x, y]: [f64x8<S>; 2]) -> mask64x8<S> {
+        let sum = self.xx + self.yy;
+        let along_sides = falls_aside(value, self.xx, x) | falls_aside(value, self.yy, y);
+        let across_corners =
+            falls_aside(value, sum + self.xy, x + y) | falls_aside(value, sum - self.xy, x - y);
+        value.simd_ge(0.0) & (along_sides | across_corners)
+    }
+
     /// The terms at a place.
     #[inline(always)]
     fn at(&self, [x, y]: [f64x8<S>; 2]) -> f64x8<S> {
@@ -64,6 +75,14 @@ impl<S: Simd> Bends<S> {
             self.xy * x + self.yy * y * 2.0,
         ]
     }
+}
+
+/// Where a function with this value, change and term of the second degree along some direction is below 0 a little more
+/// than half a side away, both ways.
+#[inline(always)]
+fn falls_aside<S: Simd>(value: f64x8<S>, term: f64x8<S>, change: f64x8<S>) -> mask64x8<S> {
+    const FAR: f64 = 0.6;
+    (value + term * (FAR * FAR) + change.abs() * FAR).simd_lt(0.0)
 }
 
 /// Where a tangent crosses a box.
@@ -179,11 +198,18 @@ impl<S: Simd> HalfPlane<S> {
             let is_narrow = (slope * size).simd_lt(along.abs() * to_end);
             part.doubt = is_narrow.select(part.doubt.max(OF_NARROW), part.doubt);
         }
+        let is_strip = bends.fall_on_both_sides(value, across);
+        if is_strip.to_bitmask() != 0 {
+            part.doubt = is_strip.select(part.doubt.max(OF_NARROW), part.doubt);
+        }
         let bend = bends.most() + rest.unwrap_or(zero);
-        // Without a root along the gradient there is no line.
+        // Without a root along the gradient there is no line: the function may have one sign in all of the box.
         let is_lost = slope_sq.simd_le(tiny);
         if is_lost.to_bitmask() != 0 {
-            part = part.or(is_lost, &Self::new(simd, value, across, bend));
+            let mut linear = Self::new(simd, value, across, bend);
+            let other_sign = value.simd_gt(zero).select(one - linear.share, linear.share);
+            linear.doubt = linear.doubt.max(other_sign);
+            part = part.or(is_lost, &linear);
         }
         let is_decided = value.abs().simd_gt((x.abs() + y.abs()) * 0.5 + bend);
         if is_decided.to_bitmask() != 0 {

@@ -1,0 +1,147 @@
+//! The integral over a pixel by its quarters, where it is hard along all of its edges, and by theirs.
+
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+use fearless_simd::Simd;
+
+use super::cell::{DEEPEST, EdgedPixel, Workspace};
+use crate::edges::cell::Cell;
+use crate::exact::budget::Doubt;
+use crate::exact::classify::occluder_cache::OccluderCache;
+use crate::exact::part::{GiveUp, Part};
+
+/// What parts of a pixel that were given up may cost before samples know more, and rounding, which moves edges
+/// but hides none.
+const LOST: f64 = 0.01;
+const LOST_TO_ROUNDING: f64 = 0.25;
+
+impl Workspace {
+    /// The average by parts, each the quarter of another that claims too much, those first that cost most,
+    /// until the budget is over. `why` tells what is known of the whole.
+    pub(crate) fn by_parts<S: Simd>(
+        &mut self,
+        simd: S,
+        pixel: &EdgedPixel<'_, '_>,
+        why: GiveUp,
+        cache: &mut OccluderCache,
+    ) -> Result<Part, GiveUp> {
+        let context = pixel.context;
+        let moved = pixel.moved(self.contrast);
+        let unknown = Part {
+            error: self.contrast,
+            ..Part::NOTHING
+        };
+        let whole = match why {
+            GiveUp::Claims(part) => part,
+            _ => unknown,
+        };
+        let mut doubt = Doubt {
+            error: whole.error + moved,
+            rounding: whole.rounding,
+        };
+        let mut best = Part {
+            error: moved,
+            ..Part::NOTHING
+        };
+        // However small its parts are, all of the pixel is moved.
+        let mut is_over = moved > context.tolerance;
+        let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
+        while let Some(worst) = left.pop() {
+            is_over = is_over || self.budget.is_over(doubt, context.tolerance);
+            if doubt.error <= context.tolerance || is_over || worst.depth == DEEPEST {
+                best.add(&worst.part, worst.share());
+                continue;
+            }
+            doubt.add(&worst, -1.0);
+            let depth = worst.depth + 1;
+            for [x, y] in QUARTERS {
+                let cell = worst.cell.part(x, y);
+                self.contents
+                    .see(&context.scene, &cell, pixel.spheres, cache);
+                self.work.candidate_tests += pixel.spheres.len() as u64;
+                let part = self.part(simd, pixel, &cell, (depth, cache));
+                let quarter = Quarter::new(cell, depth, part.unwrap_or(unknown));
+                doubt.add(&quarter, 1.0);
+                left.push(quarter);
+            }
+        }
+        if whole.error < best.error {
+            best = whole;
+        }
+        // Samples at least see exactly.
+        let lost = best.error - best.rounding;
+        let is_known = best.value.is_finite()
+            && lost <= context.tolerance.max(LOST)
+            && best.rounding <= context.tolerance.max(LOST_TO_ROUNDING);
+        if is_known {
+            Ok(best)
+        } else {
+            Err(GiveUp::Unknown)
+        }
+    }
+}
+
+/// Between which x and y the quarters of a cell lie.
+const QUARTERS: [[[f64; 2]; 2]; 4] = [
+    [[-0.5, 0.0], [-0.5, 0.0]],
+    [[0.0, 0.5], [-0.5, 0.0]],
+    [[-0.5, 0.0], [0.0, 0.5]],
+    [[0.0, 0.5], [0.0, 0.5]],
+];
+
+/// A part of a pixel that has been integrated, in the order of what it costs.
+#[derive(Clone, Copy, Debug)]
+struct Quarter {
+    cell: Cell,
+    depth: i32,
+    part: Part,
+    /// What it adds to the pixel's error.
+    cost: f64,
+}
+
+impl Quarter {
+    fn new(cell: Cell, depth: i32, part: Part) -> Self {
+        let mut quarter = Self {
+            cell,
+            depth,
+            part,
+            cost: 0.0,
+        };
+        quarter.cost = part.error * quarter.share();
+        quarter
+    }
+
+    /// Its share of the pixel.
+    fn share(&self) -> f64 {
+        0.25_f64.powi(self.depth)
+    }
+}
+
+impl Doubt {
+    /// Adds what a part adds to the pixel's error, or its opposite.
+    fn add(&mut self, quarter: &Quarter, sign: f64) {
+        self.error += sign * quarter.cost;
+        self.rounding += sign * quarter.part.rounding * quarter.share();
+    }
+}
+
+impl PartialEq for Quarter {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Quarter {}
+
+impl PartialOrd for Quarter {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Quarter {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.cost.total_cmp(&other.cost)
+    }
+}
