@@ -41,6 +41,15 @@ impl Ball {
         self.projection == Projection::Parallel
     }
 
+    /// How far from the eye, or from the plane of parallel rays, it begins.
+    pub(crate) fn begin(&self) -> f64 {
+        if self.is_parallel() {
+            self.center.z - self.radius
+        } else {
+            self.power / (self.center.length() + self.radius)
+        }
+    }
+
     /// Returns whether parallel rays begin inside of it, some of them.
     pub(crate) fn is_cut(&self) -> bool {
         self.is_parallel() && self.outside <= 0.0

@@ -194,6 +194,11 @@ impl Budget {
         self.spent
     }
 
+    /// The units that it may still cost.
+    pub(crate) fn left(&self) -> u64 {
+        self.most.saturating_sub(self.spent)
+    }
+
     /// The tests that told what parts of the pixel see.
     pub(crate) fn looked(&self) -> u64 {
         self.looked
@@ -224,7 +229,7 @@ impl Budget {
 
     /// The units that the next part may take.
     pub(crate) fn of_part(&self) -> u64 {
-        (self.most / OF_PART).min(self.most.saturating_sub(self.spent))
+        (self.most / OF_PART).min(self.left())
     }
 
     /// Returns whether the work ends: it has cost all that it may, or rounding alone exceeds the tolerance and

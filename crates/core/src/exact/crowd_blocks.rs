@@ -1,4 +1,4 @@
-//! Spheres that no tile of a block sees, in pictures of very many that nearly coincide.
+//! The spheres that the tiles of a block may see, in pictures of very many that nearly coincide.
 //!
 //! One that covers a block of tiles hides most of the others from all of it. Each tile would have to find that out of
 //! every sphere anew. Where a block is covered by none, such as along an outline that they share, its quarters are asked.
@@ -9,6 +9,7 @@ use super::budget::MOST_SPHERES;
 use super::classify::behind::leave_out_hidden;
 use super::classify::magnitude::is_ball_moderate;
 use super::context::Context;
+use crate::edges::cell::Ball;
 use crate::numeric::bits::set_bits;
 use crate::picture::tile::Tile;
 use crate::search::view_index::ViewIndex;
@@ -25,7 +26,23 @@ pub(crate) struct CrowdBlocks([Level; SIDES.len()]);
 struct Level {
     side: u32,
     columns: u32,
-    hidden: Arc<[OnceLock<SphereSet>]>,
+    seen: Arc<[OnceLock<Seen>]>,
+}
+
+/// What a block may see.
+#[derive(Clone, Debug, Default)]
+struct Seen {
+    /// The spheres, about from front to back, if they are fewer than those of the block around it.
+    fewer: Option<Vec<u32>>,
+    /// Whether one of them covers it.
+    is_covered: bool,
+}
+
+/// The spheres that a tile may see.
+pub(crate) struct OfTile {
+    pub(crate) spheres: Vec<usize>,
+    /// Whether they are too many in each of its pixels, as far as larger blocks tell.
+    pub(crate) is_hopeless: bool,
 }
 
 impl CrowdBlocks {
@@ -37,43 +54,67 @@ impl CrowdBlocks {
             Level {
                 side,
                 columns,
-                hidden: (0..count).map(|_| OnceLock::new()).collect(),
+                seen: (0..count).map(|_| OnceLock::new()).collect(),
             }
         }))
     }
 
-    /// Leaves out of the spheres that a tile may see those that are hidden from all of a block around it.
-    pub(crate) fn leave_out_hidden(
+    /// The spheres that a tile may see, but for those that are hidden from all of a block around it.
+    pub(crate) fn of_tile(
         &self,
         context: &Context<'_>,
         index: &ViewIndex<'_>,
         tile: Tile,
-        spheres: &mut Vec<usize>,
-    ) {
+    ) -> OfTile {
+        /// How many times more than a pixel's most the spheres are that are left of a block if those of its tiles are too
+        /// many. Half as large a tile sees about a quarter of them.
+        const HOPELESS: usize = 8;
+        let (mut around, mut is_covered) = (None, false);
         for level in &self.0 {
-            if spheres.len() <= MOST_SPHERES {
-                return;
+            if around.is_some_and(|spheres: &[u32]| spheres.len() <= MOST_SPHERES) {
+                break;
             }
-            let Some(hidden) = level.hidden_around(context, index, tile) else {
-                return;
-            };
-            spheres.retain(|&sphere| !hidden.contains(sphere));
+            if let Some(seen) = level.seen_around(context, index, tile, around) {
+                around = seen.fewer.as_deref().or(around);
+                is_covered = seen.is_covered;
+            }
+        }
+        let spheres = without_hidden(index, tile, around);
+        OfTile {
+            is_hopeless: is_covered && spheres.len() > HOPELESS * MOST_SPHERES,
+            spheres,
         }
     }
 }
 
+/// The spheres that a tile may see, out of those that are left of a block around it.
+fn without_hidden(index: &ViewIndex<'_>, tile: Tile, around: Option<&[u32]>) -> Vec<usize> {
+    let Some(around) = around else {
+        return index.indices(tile);
+    };
+    if index.sees_more_than(tile, around.len()) {
+        return around.iter().map(|&sphere| sphere as usize).collect();
+    }
+    let mut sorted = around.to_vec();
+    sorted.sort_unstable();
+    let mut own = index.indices(tile);
+    own.retain(|&sphere| sorted.binary_search(&(sphere as u32)).is_ok());
+    own
+}
+
 impl Level {
-    /// The spheres that are hidden from all of the block around a tile.
-    fn hidden_around(
+    /// The spheres that the block around a tile may see, out of those that a larger block does.
+    fn seen_around(
         &self,
         context: &Context<'_>,
         index: &ViewIndex<'_>,
         tile: Tile,
-    ) -> Option<&SphereSet> {
+        around: Option<&[u32]>,
+    ) -> Option<&Seen> {
         let (column, row) = (tile.col / self.side, tile.row / self.side);
         let place = row as usize * self.columns as usize + column as usize;
-        let hidden = self.hidden.get(place)?;
-        Some(hidden.get_or_init(|| {
+        let seen = self.seen.get(place)?;
+        Some(seen.get_or_init(|| {
             let view = &context.view;
             let (col, row) = (column * self.side, row * self.side);
             let block = Tile {
@@ -82,16 +123,60 @@ impl Level {
                 width: self.side.min(view.width - col),
                 height: self.side.min(view.height - row),
             };
-            hidden_from(context, index, block)
+            seen_in(context, index, block, around)
         }))
     }
 }
 
-/// The spheres out of those that the tiles of a block may see that lie behind one that covers it; none if they are a small
-/// share, which is not worth its memory.
-fn hidden_from(context: &Context<'_>, index: &ViewIndex<'_>, block: Tile) -> SphereSet {
-    const LEAST_SHARE: usize = 8;
-    let mut hidden = SphereSet::default();
+/// The spheres that the tiles of a block may see, without those behind one that covers it; not if most of them are seen in
+/// few of its tiles, or hardly any is hidden: that is not worth its time, or its memory.
+fn seen_in(
+    context: &Context<'_>,
+    index: &ViewIndex<'_>,
+    block: Tile,
+    around: Option<&[u32]>,
+) -> Seen {
+    /// The share of a block's spheres that a tile sees, at least, and of those that are hidden. Not tuned.
+    const OF_TILE: usize = 4;
+    const LEAST_HIDDEN: usize = 8;
+    let of_tiles = match around {
+        Some(_) => None,
+        None => Some(of_tiles(index, block)),
+    };
+    let Some(all) = around.or(of_tiles.as_deref()) else {
+        return Seen::default();
+    };
+    if !index.sees_more_than(block, all.len() / OF_TILE) {
+        return Seen::default();
+    }
+    let mut spheres: Vec<usize> = all.iter().map(|&sphere| sphere as usize).collect();
+    let balls = spheres.iter().map(|&sphere| context.scene.ball(sphere));
+    let mut balls: Vec<_> = balls.collect();
+    let is_covered = balls.iter().all(is_ball_moderate)
+        && leave_out_hidden(&context.cell(block), &mut spheres, &mut balls);
+    let hidden = all.len() - spheres.len();
+    if hidden * LEAST_HIDDEN < all.len() {
+        return Seen {
+            fewer: None,
+            is_covered,
+        };
+    }
+    let mut by_distance: Vec<(f64, u32)> = balls
+        .iter()
+        .map(Ball::begin)
+        .zip(spheres.iter().map(|&sphere| sphere as u32))
+        .collect();
+    by_distance.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    let by_distance = by_distance.into_iter();
+    Seen {
+        fewer: Some(by_distance.map(|(_, sphere)| sphere).collect()),
+        is_covered,
+    }
+}
+
+/// The spheres that the tiles of a block may see, in their order.
+fn of_tiles(index: &ViewIndex<'_>, block: Tile) -> Vec<u32> {
+    let mut words: Vec<u64> = Vec::new();
     for row in (block.row..block.row + block.height).step_by(Tile::SIDE as usize) {
         for col in (block.col..block.col + block.width).step_by(Tile::SIDE as usize) {
             let corner = Tile {
@@ -101,54 +186,17 @@ fn hidden_from(context: &Context<'_>, index: &ViewIndex<'_>, block: Tile) -> Sph
                 height: 1,
             };
             for ball in index.balls(corner) {
-                hidden.insert(ball.index as usize);
+                let word = (ball.index / u64::BITS) as usize;
+                if word >= words.len() {
+                    words.resize(word + 1, 0);
+                }
+                words[word] |= 1 << (ball.index % u64::BITS);
             }
         }
     }
-    let mut spheres: Vec<usize> = hidden.iter().collect();
-    let count = spheres.len();
-    let balls = spheres.iter().map(|&sphere| context.scene.ball(sphere));
-    let mut balls: Vec<_> = balls.collect();
-    if balls.iter().all(is_ball_moderate) {
-        leave_out_hidden(&context.cell(block), &mut spheres, &mut balls);
-    }
-    if (count - spheres.len()) * LEAST_SHARE < count {
-        return SphereSet::default();
-    }
-    for sphere in spheres {
-        hidden.remove(sphere);
-    }
-    hidden
-}
-
-/// A set of spheres: a bit each.
-#[derive(Debug, Default)]
-struct SphereSet {
-    words: Vec<u64>,
-}
-
-impl SphereSet {
-    fn insert(&mut self, sphere: usize) {
-        let word = sphere / u64::BITS as usize;
-        if word >= self.words.len() {
-            self.words.resize(word + 1, 0);
-        }
-        self.words[word] |= 1 << (sphere % u64::BITS as usize);
-    }
-
-    fn remove(&mut self, sphere: usize) {
-        self.words[sphere / u64::BITS as usize] &= !(1 << (sphere % u64::BITS as usize));
-    }
-
-    fn contains(&self, sphere: usize) -> bool {
-        let word = self.words.get(sphere / u64::BITS as usize);
-        word.is_some_and(|word| word >> (sphere % u64::BITS as usize) & 1 == 1)
-    }
-
-    fn iter(&self) -> impl Iterator<Item = usize> {
-        let words = self.words.iter().enumerate();
-        words.flat_map(|(word, &bits)| {
-            set_bits(bits).map(move |bit| word * u64::BITS as usize + bit)
-        })
-    }
+    let words = words.iter().zip(0..);
+    let spheres = words.flat_map(|(&bits, word): (&u64, u32)| {
+        set_bits(bits).map(move |bit| word * u64::BITS + bit as u32)
+    });
+    spheres.collect()
 }

@@ -9,7 +9,7 @@ use super::classify::behind::leave_out_hidden;
 use super::classify::magnitude::is_view_moderate;
 use super::context::Context;
 use super::crowd::UnitsOfTile;
-use super::crowd_blocks::CrowdBlocks;
+use super::crowd_blocks::{CrowdBlocks, OfTile};
 use super::scene::{InCamera, MOST_LIGHTS};
 use super::unit::LightUnit;
 use super::{LitTile, Scratch, tile_pixels};
@@ -51,6 +51,15 @@ pub(crate) struct Exact<'scene> {
     few_samples: Supersampling<'scene>,
     blocks: CrowdBlocks,
     level: Level,
+}
+
+/// The spheres that a tile may see.
+struct Candidates {
+    spheres: Vec<usize>,
+    /// At least how many they were before those were left out that are hidden.
+    count: usize,
+    /// Whether they are too many to be told apart.
+    is_hopeless: bool,
 }
 
 /// Samples on a side of a pixel that no other rung answers for.
@@ -147,8 +156,8 @@ impl<'scene> Exact<'scene> {
         scratch: &mut GroupScratch,
         pixels: &mut Vec<Pixel>,
     ) -> Work {
-        let candidates = self.index.indices(tile);
-        integrate_each(&[self], tile, &candidates, scratch, |_, found| {
+        let candidates = self.candidates(tile);
+        integrate_each(&[self], tile, candidates, scratch, |_, found| {
             pixels.extend_from_slice(found);
         })
     }
@@ -162,13 +171,35 @@ impl<'scene> Exact<'scene> {
         write: impl FnMut(usize, &[Pixel]),
     ) -> Work {
         let candidates = match integrators.first() {
-            Some(first) => first.index.indices(tile),
+            Some(first) => first.candidates(tile),
             None => return Work::default(),
         };
-        if candidates.is_empty() {
+        if candidates.spheres.is_empty() {
             return Work::default();
         }
-        integrate_each(integrators, tile, &candidates, scratch, write)
+        integrate_each(integrators, tile, candidates, scratch, write)
+    }
+
+    fn candidates(&self, tile: Tile) -> Candidates {
+        let is_crowd = self.is_moderate && self.index.sees_more_than(tile, MOST_SPHERES);
+        let OfTile {
+            spheres,
+            is_hopeless,
+        } = if is_crowd {
+            self.blocks.of_tile(&self.groups[0], &self.index, tile)
+        } else {
+            OfTile {
+                spheres: self.index.indices(tile),
+                is_hopeless: false,
+            }
+        };
+        Candidates {
+            count: spheres
+                .len()
+                .max(if is_crowd { MOST_SPHERES + 1 } else { 0 }),
+            spheres,
+            is_hopeless,
+        }
     }
 
     /// The sum of a tile's pixels under all groups of lights.
@@ -253,8 +284,8 @@ pub(crate) fn paint_each(
     let Some((first, _)) = pictures.first() else {
         return Work::default();
     };
-    let candidates = first.index.indices(tile);
-    if candidates.is_empty() {
+    let candidates = first.candidates(tile);
+    if candidates.spheres.is_empty() {
         // Most pictures have empty tiles.
         for (exact, band) in pictures {
             band.write_same(tile, &exact.empty_pixel());
@@ -262,7 +293,7 @@ pub(crate) fn paint_each(
         return Work::default();
     }
     let integrators: Vec<&Exact<'_>> = pictures.iter().map(|(exact, _)| *exact).collect();
-    integrate_each(&integrators, tile, &candidates, scratch, |index, pixels| {
+    integrate_each(&integrators, tile, candidates, scratch, |index, pixels| {
         pictures[index].1.write(tile, pixels);
     })
 }
@@ -273,7 +304,7 @@ pub(crate) fn paint_each(
 fn integrate_each(
     integrators: &[&Exact<'_>],
     tile: Tile,
-    candidates: &[usize],
+    candidates: Candidates,
     GroupScratch(scratch): &mut GroupScratch,
     mut write: impl FnMut(usize, &[Pixel]),
 ) -> Work {
@@ -282,20 +313,20 @@ fn integrate_each(
     };
     let contexts = integrators.iter().flat_map(|exact| &exact.groups);
     let contexts: Vec<&Context<'_>> = contexts.collect();
-    let mut seen = Vec::new();
-    let is_crowd = first.is_moderate && candidates.len() > MOST_SPHERES;
-    if is_crowd {
-        seen.extend_from_slice(candidates);
-        let blocks = &first.blocks;
-        blocks.leave_out_hidden(contexts[0], &first.index, tile, &mut seen);
+    let Candidates {
+        mut spheres,
+        count,
+        is_hopeless,
+    } = candidates;
+    if !is_hopeless {
+        scratch.prepare(contexts[0], &spheres);
     }
-    scratch.prepare(contexts[0], if is_crowd { &seen } else { candidates });
-    scratch.begin(&contexts, tile, candidates.len());
-    let is_moderate = first.is_moderate && scratch.are_balls_moderate();
-    if is_moderate && seen.len() > MOST_SPHERES {
-        leave_out_hidden(&contexts[0].cell(tile), &mut seen, &mut scratch.balls);
+    scratch.begin(&contexts, tile, count);
+    let is_moderate = !is_hopeless && first.is_moderate && scratch.are_balls_moderate();
+    if is_moderate && spheres.len() > MOST_SPHERES {
+        leave_out_hidden(&contexts[0].cell(tile), &mut spheres, &mut scratch.balls);
     }
-    let candidates = if is_crowd { &seen } else { candidates };
+    let candidates = &spheres[..];
     if is_moderate {
         dispatch!(first.level, simd => tile_pixels(simd, &contexts, tile, candidates, scratch));
     } else {

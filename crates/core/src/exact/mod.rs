@@ -74,6 +74,8 @@ struct LitTile {
     pixels: Vec<Pixel>,
     costs: TileCosts,
     crowds: CrowdWork,
+    /// Whether it may see so many spheres that those of each pixel are a crowd, however few.
+    is_dense: bool,
     /// The pixels of which nothing is known, bit by bit.
     unknown: u64,
 }
@@ -116,6 +118,7 @@ impl LitTile {
             pixels: Vec::new(),
             costs: TileCosts::default(),
             crowds: CrowdWork::default(),
+            is_dense: false,
             unknown: 0,
         };
         lit.begin(context, tile, candidates);
@@ -131,6 +134,7 @@ impl LitTile {
         };
         let side = context.cell(one).size[0];
         let of_crowds = context.of_crowds.of(candidates);
+        self.is_dense = candidates > MOST_SPHERES;
         self.cache.begin(context.cell(tile), side, of_crowds);
         self.pixels.clear();
         self.pixels
@@ -234,6 +238,7 @@ impl LitTile {
             ..row
         };
         edged.left_by_tile = self.crowds.of_pixel();
+        edged.is_crowd = spheres.len() > if self.is_dense { 1 } else { FEWEST };
         let (asked, units) = (edged.work.candidate_tests, self.cache.units);
         match edged_pixel(simd, context, pixel, spheres, &mut self.cache, edged) {
             Ok(known) => self.pixels[place + lane] = known,
@@ -242,7 +247,7 @@ impl LitTile {
         let looks = Looks {
             asked: edged.work.candidate_tests - asked,
             units: self.cache.units - units,
-            is_crowd: spheres.len() > FEWEST,
+            is_crowd: edged.is_crowd,
         };
         self.crowds.spend_on_pixel(&edged.budget, looks);
         self.costs.add(place + lane, edged.budget.spent());
@@ -304,7 +309,13 @@ fn edged_pixel<S: Simd>(
         key: context.key(pixel, 0),
         spheres,
     };
-    let is_exhausted = workspace.left_by_tile == 0 && spheres.len() > 1 || cache.is_exhausted();
+    // Of a crowd all are asked before anything is known.
+    let least = if workspace.is_crowd {
+        spheres.len() as u64
+    } else {
+        1
+    };
+    let is_exhausted = workspace.left_by_tile < least && spheres.len() > 1 || cache.is_exhausted();
     if spheres.len() > MOST_SPHERES || is_exhausted {
         workspace.leave_crowd(&edged);
         return Err(GiveUp::Unknown);

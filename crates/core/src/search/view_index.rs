@@ -165,11 +165,16 @@ impl<'world> ViewIndex<'world> {
                 width: 1,
                 height: 1,
             };
-            self.balls(corner).is_more_than(most)
+            self.sees_more_than(corner, most)
         };
         let tiles =
             corners(view.height).flat_map(|row| corners(view.width).map(move |col| (col, row)));
         tiles.filter(is_more).count() as u64
+    }
+
+    /// Whether a tile, or the one in the first corner of a block, may see more than so many spheres.
+    pub(crate) fn sees_more_than(&self, tile: Tile, count: usize) -> bool {
+        self.balls(tile).is_more_than(count)
     }
 
     /// The indices of the spheres that may be seen in a tile.

@@ -94,16 +94,22 @@ impl Cover {
 }
 
 /// Leaves out of the balls of a tile, and of their numbers, those behind one that covers the tile: each pixel would find
-/// that out anew.
+/// that out anew. Returns whether one does.
 ///
 /// Some of them hide most of the others. The nearest of the rest hides most of the rest.
-pub(crate) fn leave_out_hidden(tile: &Cell, numbers: &mut Vec<usize>, balls: &mut Vec<Ball>) {
+pub(crate) fn leave_out_hidden(
+    tile: &Cell,
+    numbers: &mut Vec<usize>,
+    balls: &mut Vec<Ball>,
+) -> bool {
     /// Balls among which the first cover is sought.
     const SOME: usize = 64;
+    let mut is_covered = false;
     for count in [SOME, usize::MAX] {
         let Some(cover) = Cover::among(tile, balls.iter().take(count)) else {
             continue;
         };
+        is_covered = true;
         let mut kept = 0;
         for place in 0..balls.len() {
             let ball = balls[place];
@@ -116,6 +122,7 @@ pub(crate) fn leave_out_hidden(tile: &Cell, numbers: &mut Vec<usize>, balls: &mu
         balls.truncate(kept);
         numbers.truncate(kept);
     }
+    is_covered
 }
 
 /// The least and the largest value of a discriminant in a cell.

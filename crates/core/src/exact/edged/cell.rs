@@ -11,7 +11,6 @@ use crate::exact::classify::contents::Contents;
 use crate::exact::classify::cut_side::CutSide;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::context::Context;
-use crate::exact::crowd::FEWEST;
 use crate::exact::interior::cell::of_filled_cell;
 use crate::exact::part::{GiveUp, Part};
 use crate::model::roughness::PixelKey;
@@ -30,6 +29,8 @@ pub(crate) struct Workspace {
     pub(super) contrast: f64,
     /// What the pixel has cost so far.
     pub(crate) budget: Budget,
+    /// Whether what its tile leaves to it limits all of its work.
+    pub(crate) is_crowd: bool,
     /// The units that its tile leaves to it.
     pub(crate) left_by_tile: u64,
     /// Whether parts of the pixel are known by random samples.
@@ -121,7 +122,7 @@ impl Workspace {
         let contents = &self.contents;
         self.contrast = pixel.context.contrast + contents.excess(simd, scene, &cell);
         self.budget = Budget::new(*allowance, contents.grains_across(scene, &cell), *tolerance)
-            .within(self.left_by_tile, pixel.spheres.len() > FEWEST);
+            .within(self.left_by_tile, self.is_crowd);
         self.is_random = false;
         if self.budget.is_nothing() {
             return Err(GiveUp::Unknown);

@@ -46,9 +46,17 @@ impl Workspace {
         };
         // However small its parts are, all of the pixel is moved.
         let mut is_over = moved > context.tolerance;
+        // In each quarter of a crowd all are asked again.
+        let of_quarters = if self.is_crowd {
+            (QUARTERS.len() * pixel.spheres.len()) as u64
+        } else {
+            0
+        };
         let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
         while let Some(worst) = left.pop() {
-            is_over = is_over || self.budget.is_over(doubt, context.tolerance);
+            is_over = is_over
+                || self.budget.is_over(doubt, context.tolerance)
+                || self.budget.left() < of_quarters;
             if doubt.error <= context.tolerance || is_over || worst.depth == DEEPEST {
                 best.add(&worst.part, worst.share());
                 continue;
