@@ -75,12 +75,12 @@ const GATES: [[&str; 3]; 15] = [
         "cost: how many boxes",
     ],
     [
-        "edged/cell.rs",
+        "edged/parts.rs",
         "context.tolerance.max ( LOST )",
         "cost: when samples take over, a share of the contrast",
     ],
     [
-        "edged/cell.rs",
+        "edged/parts.rs",
         "context.tolerance.max ( LOST_TO_ROUNDING )",
         "cost: the same",
     ],

@@ -52,17 +52,22 @@ impl Cap {
         // All of its near side lies before the plane, and so before all that is seen; no farther than lengths beside which
         // K is known anyway.
         let ahead = z.abs() + cell.extent() + cell.size[0] + cell.size[1];
-        let ball = Ball {
+        let cap = Ball {
             center: ball.center.with_z(-ahead),
             radius,
             outside: f64::MIN_POSITIVE,
             power: ball.power + ahead * ahead,
             projection: ball.projection,
         };
+        let terms = if cap.is_apart() {
+            (ball.center.length() + ball.radius) * ball.radius
+        } else {
+            cap.outline_scale(cell) * radius
+        };
         Self {
-            ball,
-            discriminant: silhouette(cell, &ball),
-            moved: ROUNDINGS * ball.outline_scale(cell) * radius,
+            ball: cap,
+            discriminant: silhouette(cell, &cap),
+            moved: ROUNDINGS * terms,
         }
     }
 

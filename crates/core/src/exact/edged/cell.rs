@@ -177,9 +177,11 @@ impl Workspace {
         self.budget.spend(work);
         let mut part = found?;
         part.error += known;
-        part.error = part
-            .error
-            .max(tolerance.min(LEAST_OF_BOXES * self.contrast));
+        let has_curves = !self.contents.conics.is_empty() || !self.contents.occluders.is_empty();
+        if has_curves {
+            let least = LEAST_OF_BOXES * self.contrast;
+            part.error = part.error.max(least.min(*tolerance));
+        }
         Some(part)
     }
 
