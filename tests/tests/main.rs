@@ -7,6 +7,7 @@ mod budget;
 mod claims;
 mod closed_forms;
 mod crowds;
+mod cut_planes;
 mod examples;
 mod far_cameras;
 mod floors;
