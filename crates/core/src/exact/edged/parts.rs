@@ -16,6 +16,10 @@ use crate::exact::part::{GiveUp, Part};
 const LOST: f64 = 0.01;
 const LOST_TO_ROUNDING: f64 = 0.25;
 
+/// The share of the tolerance that parts under point lights may claim together before no more of them are divided: one
+/// pixel in a million, along a terminator beside an outline, was off by 7 % more than its parts claimed.
+const ENOUGH_UNDER_POINTS: f64 = 0.8;
+
 impl Workspace {
     /// The average by parts, each the quarter of another that claims too much, those first that cost most,
     /// until the budget is over. `why` tells what is known of the whole.
@@ -46,6 +50,11 @@ impl Workspace {
         };
         // However small its parts are, all of the pixel is moved.
         let mut is_over = moved > context.tolerance;
+        let enough = if context.scene.has_near_lights {
+            ENOUGH_UNDER_POINTS * context.tolerance
+        } else {
+            context.tolerance
+        };
         // In each quarter of a crowd all are asked again.
         let of_quarters = if self.is_crowd {
             (QUARTERS.len() * pixel.spheres.len()) as u64
@@ -57,7 +66,8 @@ impl Workspace {
             is_over = is_over
                 || self.budget.is_over(doubt, context.tolerance)
                 || self.budget.left() < of_quarters;
-            if doubt.error <= context.tolerance || is_over || worst.depth == DEEPEST {
+            let is_met = doubt.error <= enough;
+            if is_met || is_over || worst.depth == DEEPEST {
                 best.add(&worst.part, worst.share());
                 continue;
             }
