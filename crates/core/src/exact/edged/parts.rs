@@ -62,6 +62,8 @@ impl Workspace {
             0
         };
         let mut left = BinaryHeap::from([Quarter::new(pixel.whole(), 0, whole)]);
+        // What met the tolerance first, should more parts claim more.
+        let mut met: Option<Part> = None;
         while let Some(worst) = left.pop() {
             is_over = is_over
                 || self.budget.is_over(doubt, context.tolerance)
@@ -70,6 +72,13 @@ impl Workspace {
             if is_met || is_over || worst.depth == DEEPEST {
                 best.add(&worst.part, worst.share());
                 continue;
+            }
+            if met.is_none() && doubt.error <= context.tolerance {
+                let mut part = best;
+                for quarter in left.iter().chain([&worst]) {
+                    part.add(&quarter.part, quarter.share());
+                }
+                met = Some(part);
             }
             doubt.add(&worst, -1.0);
             let depth = worst.depth + 1;
@@ -86,6 +95,11 @@ impl Workspace {
         }
         if whole.error < best.error {
             best = whole;
+        }
+        if let Some(part) = met
+            && best.error > context.tolerance
+        {
+            best = part;
         }
         // Samples at least see exactly.
         let lost = best.error - best.rounding;
