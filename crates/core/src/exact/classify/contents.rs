@@ -329,10 +329,8 @@ impl Contents {
                 if seam.may_vanish() {
                     self.conics.push((Kind::Seam(index, position), seam));
                     // It lies on both spheres, no nearer to the eye than either begins.
-                    let begin =
-                        |ball: &Ball| ball.power.abs() / (ball.center.length() + ball.radius);
                     let distance = match cell.projection {
-                        Projection::Central => begin(&ball).max(begin(&other.ball)),
+                        Projection::Central => ball.begin().abs().max(other.ball.begin().abs()),
                         Projection::Parallel => 1.0,
                     };
                     let size = cell.size[0].min(cell.size[1]) * distance.max(f64::MIN_POSITIVE);
