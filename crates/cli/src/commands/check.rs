@@ -181,6 +181,11 @@ fn cloud(
     let file = cloud.file.shown();
     let mut rows = vec![("cloud", format!("{file}: {}", spheres(all)))];
     rows.extend(bounds(all));
+    let hands = match cloud.is_right_handed {
+        true => "right-handed",
+        false => "left-handed, as the scene's",
+    };
+    rows.push(("  axes", hands.to_owned()));
     if let Some(steps) = cloud.steps {
         rows.push(("  steps", steps.to_string()));
     }

@@ -2,12 +2,12 @@
 
 use serde::Deserialize;
 
-use super::table::{Keep, Palette};
-use crate::table::{Coloring, Colormap, ColumnRef, Missing, Radii, Value, ValueRange};
+use super::table::{ElementRadii, Keep, Palette};
+use crate::table::{Coloring, Colormap, ColumnRef, Missing, Value, ValueRange};
 use crate::text::{Placed, present};
 use crate::values::{
-    Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale, Scale,
-    Speed,
+    Color, Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale, Scale,
+    Speed, from_srgb,
 };
 
 /// Spheres of a table; matte white without a material, and where the table puts them.
@@ -34,7 +34,9 @@ pub(crate) struct Cloud {
     #[serde(default, deserialize_with = "present")]
     pub(crate) radius: Option<Placed<Radius>>,
     #[serde(default)]
-    pub(crate) radii: Placed<Radii>,
+    pub(crate) radii: Placed<ElementRadii>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) others: Option<Placed<Others>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) color: Option<Placed<Coloring>>,
     #[serde(default, deserialize_with = "present")]
@@ -53,8 +55,10 @@ pub(crate) struct Cloud {
     pub(crate) palette: Option<Placed<Palette>>,
     #[serde(default = "no")]
     pub(crate) center: Placed<Flag>,
-    #[serde(default = "no")]
-    pub(crate) right_handed: Placed<Flag>,
+    #[serde(default, deserialize_with = "present")]
+    pub(crate) right_handed: Option<Placed<Flag>>,
+    #[serde(default)]
+    pub(crate) up: Placed<Up>,
     #[serde(default)]
     pub(crate) scale: Placed<Scale>,
     #[serde(default)]
@@ -71,6 +75,26 @@ pub(crate) enum TakenFrames {
     First,
     /// All of them, one after another.
     All,
+}
+
+/// What rows have whose element is unknown.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Others {
+    #[serde(default = "one")]
+    pub(crate) radius: Placed<Radius>,
+    #[serde(default = "pink")]
+    pub(crate) color: Placed<Color>,
+}
+
+/// The axis of a table that points up.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
+pub(crate) enum Up {
+    /// As in the scene.
+    #[default]
+    Y,
+    /// As in maps and most simulations.
+    Z,
 }
 
 /// What a cloud shows behind its last step.
@@ -116,6 +140,17 @@ pub(crate) enum ColorScale {
     /// This number has the middle color, and both sides have one scale.
     Diverging(Placed<Coordinate>),
 }
+
+fn one() -> Placed<Radius> {
+    Radius(1.0).into()
+}
+
+fn pink() -> Placed<Color> {
+    Color(from_srgb(OTHERS_COLOR)).into()
+}
+
+/// The color of what is no element, which none has.
+pub(crate) const OTHERS_COLOR: u32 = 0xff80c0;
 
 fn no() -> Placed<Flag> {
     Flag(false).into()

@@ -13,9 +13,11 @@ use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
 pub(crate) use self::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
-pub(crate) use self::cloud::{Cloud, ColorScale, Columns, End, TakenFrames};
+pub(crate) use self::cloud::{
+    Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, TakenFrames, Up,
+};
 pub(crate) use self::outline::{Outline, Width};
-pub(crate) use self::table::{Keep, Palette, Test, Wanted};
+pub(crate) use self::table::{ElementRadii, Keep, Named, Palette, Test, Wanted};
 use crate::text::{Placed, present};
 use crate::values::{
     Amplitude, Color, Coordinate, Exponent, FieldOfView, Flag, FocalLength, GrainSize, ImageSide,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 use super::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 use super::{
     Attached, Cloud, ColorScale, Columns, End, Falloff, File, Grain, Highlight, Image, Keep, Lens,
-    Light, Material, Outline, Palette, Rough, Sphere, TakenFrames, Test,
+    Light, Material, Others, Outline, Palette, Rough, Sphere, TakenFrames, Test, Up,
 };
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
@@ -42,15 +42,17 @@ structures! {
     Outline: "outline", "an outline `(width: …, color: …)`";
     Sphere: "sphere", "a sphere `(center: …, radius: …)`";
     Cloud: "cloud", "a cloud `(file: …)`";
-    Radii: "kind of radii", "a kind of radii: `VanDerWaals` or `Covalent`";
+    Radii: "kind of radii", "a kind of radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name";
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element`, `Value` or `Category`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     ColorScale: "scale of colors", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
     Palette: "palette", "a palette `{\"…\": …}` of colors by name";
+    Others: "choice for others", "what others have `(radius: …, color: …)`";
     Columns: "choice of columns", "columns `(x: …, y: …, z: …)`";
     Keep: "condition", "a condition `(column, Is(…))`, with `Is`, `Between` or `Every`";
     Test: "condition", "a condition: `Is(…)`, `Between(…, …)` or `Every(…)`";
     TakenFrames: "choice of frames", "a choice of frames: `First` or `All`";
+    Up: "axis", "an axis that points up: `Y` or `Z`";
     End: "end", "an end: `Hold`, `Loop` or `Hide`";
     FrameOver: "choice of what is framed", "what is framed: `Series` or `Step`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";

@@ -1,13 +1,15 @@
 //! The values of a cloud that are of several forms: columns, conditions, ranges, palettes.
 
+use std::marker::PhantomData;
+
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::table::{ColumnRef, Missing, Value, ValueRange};
+use crate::table::{ColumnRef, Missing, Radii, Value, ValueRange};
 use crate::text::{
     Names, Placed, Read, Slice, note_failure, read_simple, read_structure, read_tuple,
 };
-use crate::values::{Color, Coordinate, Percent, Step};
+use crate::values::{Color, Coordinate, Percent, Radius, Step};
 
 /// A condition on the rows of a table that are kept: a column, and what it has to be.
 #[derive(Debug, Deserialize)]
@@ -29,9 +31,25 @@ pub(crate) enum Wanted {
     Text(String),
 }
 
-/// The colors of categories by their names, in the file's order.
-#[derive(Debug, Default)]
-pub(crate) struct Palette(pub(crate) Vec<(String, Placed<Color>)>);
+/// Values by names, in the file's order.
+#[derive(Debug)]
+pub(crate) struct Named<T>(pub(crate) Vec<(String, Placed<T>)>);
+
+/// The colors of categories or elements by their names.
+pub(crate) type Palette = Named<Color>;
+
+/// The radii of elements: all of a kind, or some by their names.
+#[derive(Debug)]
+pub(crate) enum ElementRadii {
+    Kind(Radii),
+    Own(Named<Radius>),
+}
+
+impl Default for ElementRadii {
+    fn default() -> Self {
+        Self::Kind(Radii::default())
+    }
+}
 
 const COLUMN: &str = "the name of a column in quotation marks, or its number from 1";
 
@@ -56,12 +74,25 @@ macro_rules! forms {
 forms! {
     ColumnRef: "column", COLUMN, column;
     Value: "value", "a column in quotation marks, or `Length(…, …, …)` of three", value;
+    ElementRadii: "radii", "radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name", radii;
     Wanted: "wanted value", "a number, or a text in quotation marks", wanted;
     ValueRange: "range", "a range: two numbers `(low, high)`, or `Percentile(low, high)`", range;
     Missing: "treatment of missing values", "what becomes of missing values: `Refuse`, `Hide` or a color", missing;
 }
 
 fn column(slice: Slice<'_>) -> Option<ColumnRef> {
+    #[derive(Deserialize)]
+    enum Form {
+        Constant(Placed<Coordinate>),
+    }
+    if slice.text.starts_with('C') {
+        let names = Names {
+            noun: "column",
+            form: "a column in quotation marks, its number from 1, or `Constant(…)` for a position",
+        };
+        let Form::Constant(number) = read_structure(slice, names)?;
+        return number.get().map(|Coordinate(number)| ColumnRef::Constant(number));
+    }
     if slice.text.starts_with(|c: char| c.is_ascii_digit()) {
         let number: u32 = read_simple(slice, COLUMN)?;
         return match number {
@@ -86,6 +117,17 @@ fn value(slice: Slice<'_>) -> Option<Value> {
     };
     let Form::Length(x, y, z) = read_structure(slice, names)?;
     Some(Value::Length([x.value?, y.value?, z.value?]))
+}
+
+fn radii(slice: Slice<'_>) -> Option<ElementRadii> {
+    if slice.text.starts_with('{') {
+        let names = Names {
+            noun: "radii",
+            form: "radii `{\"…\": …}` of elements by name",
+        };
+        return read_structure(slice, names).map(ElementRadii::Own);
+    }
+    Radii::read(slice).map(ElementRadii::Kind)
 }
 
 fn wanted(slice: Slice<'_>) -> Option<Wanted> {
@@ -132,26 +174,26 @@ fn missing(slice: Slice<'_>) -> Option<Missing> {
     }
 }
 
-impl<'de> Deserialize<'de> for Palette {
+impl<'de, T: Read<'de>> Deserialize<'de> for Named<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Pairs;
+        struct Pairs<T>(PhantomData<T>);
 
-        impl<'de> Visitor<'de> for Pairs {
-            type Value = Palette;
+        impl<'de, T: Read<'de>> Visitor<'de> for Pairs<T> {
+            type Value = Named<T>;
 
             fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                formatter.write_str("colors by name")
+                formatter.write_str("values by name")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Palette, A::Error> {
-                let mut palette = Palette::default();
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<T>, A::Error> {
+                let mut named = Named(Vec::new());
                 while let Some(pair) = map.next_entry()? {
-                    palette.0.push(pair);
+                    named.0.push(pair);
                 }
-                Ok(palette)
+                Ok(named)
             }
         }
 
-        deserializer.deserialize_map(Pairs)
+        deserializer.deserialize_map(Pairs(PhantomData))
     }
 }

@@ -40,32 +40,36 @@ impl SceneFault {
 
 /// The message about a fault in the file at `path`: its place, the fault, and the line.
 pub(super) fn message(path: &Path, fault: &LocatedFault, style: Style, window: Window) -> String {
-    let SceneFault {
-        line,
-        column,
-        message,
-    } = SceneFault::new(fault);
-    let path = harmless(&path.to_string_lossy());
-    let (place, snippet) = match &fault.place {
-        Place::Text { text, span, .. } => (
-            format!("{path}:{line}:{column}:"),
-            snippet(text, span.clone(), line, style, window),
-        ),
-        Place::Row { byte, .. } => (
-            format!("{path}: row {line}, column {column}, byte {byte}:"),
-            None,
-        ),
-        Place::File => (format!("{path}:"), None),
+    let SceneFault { line, message, .. } = SceneFault::new(fault);
+    let snippet = match &fault.place {
+        Place::Text { text, span, .. } => snippet(text, span.clone(), line, style, window),
+        Place::Row { .. } | Place::File => None,
     };
-    let header = format!("{} {message}", bold(&place, style));
+    let header = format!("{} {message}", bold(&place(path, fault), style));
     match snippet {
         Some(snippet) => format!("{header}\n{snippet}"),
         None => header,
     }
 }
 
+/// The place of a fault in the file at `path`, and its message.
+pub(crate) fn in_a_line(path: &Path, fault: &LocatedFault) -> String {
+    format!("{} {}", place(path, fault), fault.message)
+}
+
+/// The place of a fault in the file at `path`, with a colon behind it.
+fn place(path: &Path, fault: &LocatedFault) -> String {
+    let SceneFault { line, column, .. } = SceneFault::new(fault);
+    let path = harmless(&path.to_string_lossy());
+    match &fault.place {
+        Place::Text { .. } => format!("{path}:{line}:{column}:"),
+        Place::Row { byte, .. } => format!("{path}: row {line}, column {column}, byte {byte}:"),
+        Place::File => format!("{path}:"),
+    }
+}
+
 /// A fault of the text of a scene file at its line.
-pub(super) fn locate(text: &str, fault: Fault) -> LocatedFault {
+pub(crate) fn locate(text: &str, fault: Fault) -> LocatedFault {
     let (place, message) = match fault.found_is_open {
         true => with_found(text, fault),
         false => (fault.place, fault.message),

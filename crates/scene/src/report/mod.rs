@@ -6,3 +6,4 @@ mod snippet;
 
 pub use error::SceneError;
 pub use located::SceneFault;
+pub(crate) use located::{in_a_line, locate};

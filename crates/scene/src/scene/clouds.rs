@@ -1,7 +1,7 @@
 //! The clouds of a scene: what they add to it, and the camera that frames them.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use marbles_core::Lens;
 
@@ -10,10 +10,10 @@ use super::{CloudDescription, ColorDescription, ColorMeaning, Scene};
 use crate::bounds::Bounds;
 use crate::file::FrameOver;
 use crate::motion::Framed;
-use crate::report::SceneError;
+use crate::report::{SceneError, in_a_line, locate};
 use crate::table;
 use crate::text::{Fault, harmless};
-use crate::world::{CloudError, Learned, OpenCloud, Progress, Scale, Step};
+use crate::world::{CloudError, Learned, OpenCloud, Oversight, Progress, Scale, Step};
 
 /// The most frames whose steps are framed one by one.
 const MOST_FRAMES: i64 = 100_000;
@@ -24,6 +24,7 @@ impl Scene {
         &mut self,
         cloud: &mut OpenCloud,
         count: &mut usize,
+        (path, text): (&Path, &str),
         watch: &(dyn Fn(Progress<'_>) + Sync),
     ) -> Result<Step, CloudError> {
         if cloud.has_to_learn() {
@@ -37,11 +38,17 @@ impl Scene {
                 harmless(&cloud.cloud.name)
             ));
         }
+        let told = cloud.oversights(&step).into_iter();
+        self.warnings.extend(told.map(|oversight| match oversight {
+            Oversight::Scene(fault) => in_a_line(path, &locate(text, fault)),
+            Oversight::Table(table, fault) => in_a_line(&table, &fault),
+        }));
         let end = *count + step.spheres.len();
         self.clouds.push(CloudDescription {
             file,
             spheres: *count..end,
             rows: step.rows,
+            is_right_handed: step.is_right_handed,
             steps: cloud.steps(),
             colors: colors(cloud.scale(), &step),
         });

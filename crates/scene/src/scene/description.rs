@@ -16,6 +16,9 @@ pub struct CloudDescription {
     pub spheres: Range<usize>,
     /// The rows of the table, those that were not kept among them, in the first frame.
     pub rows: u64,
+    /// The axes of the table are right-handed: the scene file says so, or else its format is one of those that have
+    /// such axes.
+    pub is_right_handed: bool,
     /// The number of its steps, where it changes over time.
     pub steps: Option<usize>,
     /// The column that colors stand for, where one does.

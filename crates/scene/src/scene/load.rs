@@ -228,7 +228,7 @@ impl Draft {
         let mut count = scene.world.spheres().len();
         for mut cloud in clouds {
             let place = cloud.cloud.place.clone();
-            let added = scene.add_cloud(&mut cloud, &mut count, watch);
+            let added = scene.add_cloud(&mut cloud, &mut count, (path, text), watch);
             let step = added.map_err(|error| refused(path, text, (place, error)))?;
             let material = cloud.cloud.material;
             let cloud = Arc::new(cloud);

@@ -5,13 +5,14 @@ use std::io::{ErrorKind, Read};
 
 use rayon::prelude::*;
 
-use super::columns::{Nature, Plan, Slot};
+use super::columns::{Nature, Plan, Slot, Test};
 use super::element;
+use super::elements::Atom;
 use super::error::TableError;
 use super::input::Input;
 use super::kind::Kind;
 use super::request::{Coloring, Request};
-use super::rows::{Numbers, Row, Rows};
+use super::rows::{Numbers, Pushed, Row, Rows};
 use crate::text::{LocatedFault, Place, show};
 
 /// The arrangement of the values of a table.
@@ -243,6 +244,23 @@ struct Value<'a> {
     place: u64,
 }
 
+impl Value<'_> {
+    /// The bytes that begin with this value of a row.
+    #[inline(always)]
+    fn at(&self, row: usize) -> &[u8] {
+        let bytes = self.bytes.get(self.offset + row * self.step..);
+        bytes.unwrap_or_default()
+    }
+}
+
+/// The atom with this label.
+fn atom(label: &[u8]) -> Atom<'_> {
+    Atom {
+        number: element::of_label(label).unwrap_or(0),
+        label,
+    }
+}
+
 /// The values that are needed of the `count` rows of a block that begins with the row `first`.
 fn values<'a>(
     layout: &Layout,
@@ -304,32 +322,29 @@ impl Block<'_> {
         let end = self.count.min(start + PIECE);
         let mut rows = Rows::new(plan);
         rows.reserve((end - start) as u64)?;
-        let mut numbers: Numbers = [0.0; Slot::COUNT];
+        let mut numbers: Numbers = plan.constants;
         for row in start..end {
-            let mut element = 0;
+            if !self.filters().all(|(value, test)| self.meets(row, value, test)) {
+                rows.read += 1;
+                continue;
+            }
+            let mut label = Cow::Borrowed(&[][..]);
             let mut category = Cow::Borrowed(&[][..]);
+            let mut of_element = None;
             for value in &self.values {
-                let bytes = value.bytes.get(value.offset + row * value.step..);
-                let bytes = bytes.unwrap_or_default();
-                if let Slot::Filter(filter) = value.slot
-                    && let Some(wanted) = plan.filters[usize::from(filter)].text()
-                {
-                    let is_wanted = *value.kind.text(bytes) == *wanted.as_bytes();
-                    numbers[value.slot.index()] = f64::from(u8::from(is_wanted));
-                    continue;
-                }
-                if value.slot == Slot::Value && plan.coloring == Coloring::Category {
-                    category = value.kind.text(bytes);
-                    continue;
-                }
-                if value.slot == Slot::Element && value.kind.is_text() {
-                    let text = value.kind.text(bytes);
-                    let number = element::of_label(&text);
-                    element = number.ok_or_else(|| {
-                        let found = show(&String::from_utf8_lossy(&text));
-                        self.fault(row, value, "the symbol of an element", found)
-                    })?;
-                    continue;
+                let bytes = value.at(row);
+                match value.slot {
+                    Slot::Filter(_) => continue,
+                    Slot::Value if plan.coloring == Coloring::Category => {
+                        category = value.kind.text(bytes);
+                        continue;
+                    }
+                    Slot::Element => {
+                        label = value.kind.text(bytes);
+                        of_element = Some(value);
+                        continue;
+                    }
+                    _ => {}
                 }
                 let number = value.kind.decode(bytes).unwrap_or(f64::NAN);
                 if let Some(expected) = value.slot.refusal(number, plan.allowed) {
@@ -337,43 +352,73 @@ impl Block<'_> {
                     return Err(self.fault(row, value, &expected, number.to_string()).into());
                 }
                 numbers[value.slot.index()] = number;
-                if value.slot == Slot::Element {
-                    element = number as u8;
-                }
+            }
+            let atom = atom(&label);
+            if plan.has_element_categories {
+                category = Cow::Borrowed(plan.elements.name(atom));
             }
             let pushed = rows.push(
                 plan,
                 Row {
                     numbers: &numbers,
-                    element,
+                    atom,
                     category: &category,
                 },
             );
-            if let Err(expected) = pushed {
-                let mut values = self.values.iter();
-                let of_element = values.find(|value| value.slot == Slot::Element);
-                let value = of_element.or(self.values.first());
-                let found = element.to_string();
-                return Err(match value {
-                    Some(value) => self.fault(row, value, expected, found),
-                    None => LocatedFault::of_file(format!("expected {expected}, found {found}")),
+            match (pushed, of_element.or(self.values.first())) {
+                (Ok(Pushed::AsItIs), _) | (Ok(_), None) => {}
+                (Ok(Pushed::OfUnknown), Some(value)) => {
+                    let place = || self.place(row, value);
+                    rows.remarks.add_unknown(atom.label, place);
                 }
-                .into());
+                (Err(expected), Some(value)) => {
+                    let found = show(&String::from_utf8_lossy(&label));
+                    return Err(self.fault(row, value, expected, found).into());
+                }
+                (Err(expected), None) => {
+                    let message = format!("expected {expected}, found others");
+                    return Err(LocatedFault::of_file(message).into());
+                }
             }
         }
         Ok(rows)
     }
 
+    /// The values that conditions are on.
+    fn filters(&self) -> impl Iterator<Item = (&Value<'_>, &Test)> {
+        self.values.iter().filter_map(|value| match value.slot {
+            Slot::Filter(filter) => Some((value, &self.plan.filters[usize::from(filter)])),
+            _ => None,
+        })
+    }
+
+    /// Says whether a row meets a condition on a value.
+    fn meets(&self, row: usize, value: &Value<'_>, test: &Test) -> bool {
+        let bytes = value.at(row);
+        match test {
+            Test::IsText(wanted) if self.plan.element_column == Some(value.column) => {
+                let label = value.kind.text(bytes);
+                self.plan.elements.is_called(atom(&label), wanted)
+            }
+            Test::IsText(wanted) => *value.kind.text(bytes) == *wanted.as_bytes(),
+            test => test.holds(value.kind.decode(bytes).unwrap_or(f64::NAN)),
+        }
+    }
+
+    /// The place of a value of a row.
+    fn place(&self, row: usize, value: &Value<'_>) -> Place {
+        Place::Row {
+            row: self.first + row as u64 + 1,
+            column: value.column + 1,
+            byte: value.place + (value.offset + row * value.step) as u64,
+        }
+    }
+
     /// Something else was expected than what this row has there.
     #[cold]
     fn fault(&self, row: usize, value: &Value<'_>, expected: &str, found: String) -> LocatedFault {
-        let byte = value.place + (value.offset + row * value.step) as u64;
         LocatedFault {
-            place: Place::Row {
-                row: self.first + row as u64 + 1,
-                column: value.column + 1,
-                byte,
-            },
+            place: self.place(row, value),
             message: format!("expected {expected}, found {found}"),
         }
     }

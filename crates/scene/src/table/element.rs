@@ -57,8 +57,17 @@ static NUMBERS: LazyLock<[[u8; LETTERS]; LETTERS]> = LazyLock::new(|| {
             numbers[first][second] = number;
         }
     }
+    for isotope in ISOTOPES {
+        if let Some((first, second)) = letters(isotope) {
+            numbers[first][second] = HYDROGEN;
+        }
+    }
     numbers
 });
+
+/// The symbols of deuterium and tritium, which are hydrogen.
+const ISOTOPES: [&[u8]; 2] = [b"D", b"T"];
+const HYDROGEN: u8 = 1;
 
 /// The letters of the alphabet, and none.
 const LETTERS: usize = 27;
@@ -83,46 +92,39 @@ pub(crate) fn number(text: &[u8]) -> Option<u8> {
         let is_element = (1..=ELEMENTS.len()).contains(&usize::from(number));
         return is_element.then_some(number);
     }
+    of_symbol(text)
+}
+
+/// The atomic number of a symbol, in upper or lower case; of an isotope of hydrogen that of hydrogen.
+pub(crate) fn of_symbol(text: &[u8]) -> Option<u8> {
     let (first, second) = letters(text)?;
     let number = NUMBERS[first][second];
     (number > 0).then_some(number)
 }
 
-/// The atomic number of a label that begins with a symbol: `C12`, `Fe2+`; or of a symbol or a number.
-pub(crate) fn of_label(text: &[u8]) -> Option<u8> {
-    number(text).or_else(|| {
-        let count = text
-            .iter()
-            .take_while(|byte| byte.is_ascii_alphabetic())
-            .count();
-        let (symbol, rest) = text.split_at(count);
-        let is_rest = |byte: &u8| byte.is_ascii_digit() || b"+-_*'".contains(byte);
-        (count > 0 && rest.iter().all(is_rest)).then(|| number(symbol))?
-    })
+/// The atomic number of a symbol that stands for an element, and not for one of its isotopes.
+pub(crate) fn of_plain_symbol(text: &[u8]) -> Option<u8> {
+    let is_isotope = |isotope: &&[u8]| text.eq_ignore_ascii_case(isotope);
+    let number = of_symbol(text)?;
+    (!ISOTOPES.iter().any(is_isotope)).then_some(number)
 }
 
-/// The atomic number that the name of an atom in a residue tells, as force fields write it: the symbol first, and
-/// what distinguishes it from others behind, so that `CA` is carbon unless the residue is called so, too.
-pub(crate) fn of_atom(name: &[u8], residue: &[u8]) -> Option<u8> {
-    /// Symbols of two letters that no usual name of hydrogen, carbon, nitrogen and the like begins with.
-    const LONG: [&[u8]; 10] = [
-        b"CL", b"BR", b"SI", b"FE", b"ZN", b"MG", b"MN", b"LI", b"CU", b"RB",
-    ];
-    let name = name.trim_ascii();
-    let digits = name.iter().take_while(|byte| byte.is_ascii_digit()).count();
-    let name = &name[digits..];
-    let letters = |text: &[u8]| {
-        let letters = text.iter().take_while(|byte| byte.is_ascii_alphabetic());
-        letters.map(u8::to_ascii_uppercase).collect::<Vec<u8>>()
-    };
-    let (name, residue) = (letters(name), letters(residue.trim_ascii()));
-    let start = name.get(..2).unwrap_or(&name);
-    if name == residue && name.len() <= 2 || LONG.contains(&start) {
-        return number(start);
-    }
-    // Beads of coarse models begin with other letters, too.
-    let first = name.first().filter(|letter| b"HCNOSPFI".contains(letter))?;
-    number(&[*first])
+/// The atomic number of a label that begins with a symbol: `C12`, `Fe2+`, `2H`; or of a symbol or a number.
+pub(crate) fn of_label(text: &[u8]) -> Option<u8> {
+    number(text).or_else(|| of_lettered_label(text))
+}
+
+/// The atomic number of a label that has letters: digits alone are the number of something else.
+pub(crate) fn of_lettered_label(text: &[u8]) -> Option<u8> {
+    let mass = text.iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let text = &text[mass..];
+    let count = text
+        .iter()
+        .take_while(|byte| byte.is_ascii_alphabetic())
+        .count();
+    let (symbol, rest) = text.split_at(count);
+    let is_rest = |byte: &u8| byte.is_ascii_digit() || b"+-_*'".contains(byte);
+    (count > 0 && rest.iter().all(is_rest)).then(|| of_symbol(symbol))?
 }
 
 /// The symbol that a misspelled one probably stands for.
@@ -157,6 +159,12 @@ pub(crate) fn radius(number: u8, radii: Radii) -> Option<f64> {
         Radii::Covalent => element.covalent_radius,
     };
     (picometers > 0).then(|| f64::from(picometers) / 100.0)
+}
+
+/// The symbol of an atomic number.
+pub(crate) fn symbol(number: u8) -> Option<&'static str> {
+    let element = ELEMENTS.get(usize::from(number).checked_sub(1)?)?;
+    Some(element.symbol)
 }
 
 /// The linear colors of atomic numbers; 0, which none has, is black.

@@ -14,6 +14,9 @@ pub(crate) enum Division {
     Between(u8),
     /// In these columns of characters.
     Fixed(Arc<[Range<usize>]>),
+    /// Between spaces, where a chain may be left out before the number of the residue; the name comes once more at the
+    /// end, as that of PQR tells the element.
+    Pqr,
 }
 
 /// The fields of a line, one after another.
@@ -46,6 +49,7 @@ impl<'line> Fields<'line> {
             Division::Between(separator) => self.next_between(*separator),
             Division::QuotedWords => self.next_quoted_word(),
             Division::Fixed(places) => self.next_place(places),
+            Division::Pqr => self.next_of_pqr(),
         }
     }
 
@@ -99,6 +103,44 @@ impl<'line> Fields<'line> {
         Some(start + 1..end)
     }
 
+    fn next_of_pqr(&mut self) -> Option<Range<usize>> {
+        let mut words = Fields::new(self.line, &Division::Words);
+        let mut words: Vec<Range<usize>> = std::iter::from_fn(|| words.next()).collect();
+        // Long numbers leave no space behind the record.
+        if let Some(first) = words.first_mut()
+            && first.len() > HETATM.len()
+            && self.line[first.clone()].starts_with(HETATM)
+        {
+            let id = first.start + HETATM.len()..first.end;
+            first.end = id.start;
+            words.insert(1, id);
+        }
+        let place = self.count;
+        self.count += 1;
+        let behind = words.len().checked_sub(PQR_NUMBERS);
+        let Some(behind) = behind.filter(|behind| *behind > PQR_BEFORE) else {
+            return words.get(place).cloned();
+        };
+        let between = &words[PQR_BEFORE..behind];
+        match place {
+            0..PQR_BEFORE => Some(words[place].clone()),
+            4 => match between {
+                [_] => Some(between[0].start..between[0].start),
+                [chain, ..] => Some(chain.clone()),
+                [] => None,
+            },
+            5 => match between {
+                [.., last] if between.len() < 3 => Some(last.clone()),
+                // A letter of insertion stands behind the number.
+                [_, number, ..] => Some(number.clone()),
+                _ => None,
+            },
+            6..11 => words.get(behind + place - 6).cloned(),
+            11 => Some(words[2].clone()),
+            _ => None,
+        }
+    }
+
     fn next_place(&mut self, places: &[Range<usize>]) -> Option<Range<usize>> {
         let place = places.get(self.count)?;
         self.count += 1;
@@ -107,6 +149,11 @@ impl<'line> Fields<'line> {
         Some(trimmed(self.line, place.start.min(end)..end))
     }
 }
+
+/// The words of a line of PQR before the chain, or the number of the residue, and the numbers at its end.
+const PQR_BEFORE: usize = 4;
+const PQR_NUMBERS: usize = 5;
+const HETATM: &[u8] = b"HETATM";
 
 /// All fields of a line.
 pub(crate) fn all<'line>(line: &'line [u8], division: &Division) -> Vec<&'line [u8]> {

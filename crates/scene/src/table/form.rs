@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::element;
+use super::elements::Atom;
 use super::fields::Division;
 
 /// The form of the rows of a text.
@@ -17,6 +18,8 @@ pub(crate) struct Form {
     pub(crate) kind: fn(&[u8]) -> LineKind,
     /// The atomic number that a line tells in this field.
     pub(crate) element: fn(&[u8], Range<usize>) -> Option<u8>,
+    /// The place of what atoms are called where nothing is in the field of the element.
+    pub(crate) name: Range<usize>,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
 }
@@ -39,8 +42,23 @@ impl Form {
             may_be_longer: false,
             has_decimal_commas: false,
             kind: of_table,
-            element: |line, field| element::number(&line[field]),
+            element: |line, field| element::of_label(&line[field]),
+            name: 0..0,
             same: None,
+        }
+    }
+
+    /// The atom of a line that has its element in this field.
+    #[inline]
+    pub(crate) fn atom<'a>(&self, line: &'a [u8], field: Range<usize>) -> Atom<'a> {
+        let number = (self.element)(line, field.clone()).unwrap_or(0);
+        let label = match line[field.clone()].is_empty() {
+            true => line.get(self.name.clone()).unwrap_or_default(),
+            false => &line[field],
+        };
+        Atom {
+            number,
+            label: label.trim_ascii(),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::compression::Compression;
 use super::fields::{self, Division};
 use super::input::without_return;
 use super::number::parse;
-use super::{npy, npz, vtk};
+use super::{npy, npz, pqr, vtk};
 
 /// The format of a table.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -21,12 +21,13 @@ pub(crate) enum Format {
     Npz,
     Pdb,
     Ply,
+    Pqr,
     Vtk,
     Xyz,
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 18] = [
+pub(crate) const ENDINGS: [(&str, Format); 19] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
@@ -42,6 +43,7 @@ pub(crate) const ENDINGS: [(&str, Format); 18] = [
     ("pdb", Format::Pdb),
     ("ent", Format::Pdb),
     ("pdbqt", Format::Pdb),
+    ("pqr", Format::Pqr),
     ("cif", Format::MmCif),
     ("mmcif", Format::MmCif),
     ("vtk", Format::Vtk),
@@ -108,6 +110,22 @@ impl Format {
             .or_else(|| by_contents(head))
     }
 
+    /// Says whether tables of this format have right-handed axes, as those of other programs do. The numbers of plain
+    /// tables are the scene's own, whose axes are left-handed.
+    pub(crate) fn is_right_handed(self) -> bool {
+        match self {
+            Self::Csv | Self::Text | Self::Npy | Self::Npz => false,
+            Self::Gro
+            | Self::Lammps
+            | Self::MmCif
+            | Self::Pdb
+            | Self::Ply
+            | Self::Pqr
+            | Self::Vtk
+            | Self::Xyz => true,
+        }
+    }
+
     /// What to do with a file of this name that is no table.
     pub(crate) fn remedy(path: &Path) -> Option<&'static str> {
         let ending = ending(path);
@@ -156,7 +174,10 @@ fn by_contents(head: &[u8]) -> Option<Format> {
     let mut next = || lines.next().unwrap_or_default();
     let [first, second, third] = [next(), next(), next()];
     if RECORDS.iter().any(|record| first.starts_with(record)) {
-        return Some(Format::Pdb);
+        return Some(match pqr::is_named(head) {
+            true => Format::Pqr,
+            false => Format::Pdb,
+        });
     }
     if first.starts_with(b"data_") {
         return Some(Format::MmCif);

@@ -10,7 +10,7 @@ use super::input::Input;
 use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
-use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, vtk, xyz};
+use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, pqr, vtk, xyz};
 
 /// The frames of a table, one after another.
 pub(crate) struct Frames<'watch> {
@@ -60,7 +60,13 @@ impl<'watch> Frames<'watch> {
     pub(crate) fn may_be_several(&self) -> bool {
         matches!(
             self.format,
-            Format::Xyz | Format::Lammps | Format::Gro | Format::Pdb | Format::MmCif | Format::Npy
+            Format::Xyz
+                | Format::Lammps
+                | Format::Gro
+                | Format::Pdb
+                | Format::Pqr
+                | Format::MmCif
+                | Format::Npy
         )
     }
 
@@ -93,7 +99,9 @@ impl<'watch> Frames<'watch> {
             }
         };
         self.is_at_end = !self.may_be_several();
-        rows.map(Some)
+        let mut rows = rows?;
+        rows.is_right_handed = self.format.is_right_handed();
+        Ok(Some(rows))
     }
 
     /// Passes over the next frame; returns whether there was one.
@@ -151,6 +159,11 @@ impl<'watch> Frames<'watch> {
             // The loop names its columns once.
             self.previous = self.header().ok().flatten();
         }
+        let is_ahead = place.position > self.input.position;
+        if self.format == Format::Xyz && self.previous.is_none() && is_ahead {
+            // The first frame decides what numbers of atoms mean.
+            self.previous = self.header().ok().flatten();
+        }
         // The first table's place is that of the header before it.
         let start = self.array.as_ref().map_or(0, npy::Array::start);
         self.input.skip_to(place.position.max(start), place.lines)
@@ -165,10 +178,11 @@ impl<'watch> Frames<'watch> {
         match self.format {
             Format::Csv => delimited::header(input, true).map(Some),
             Format::Text => delimited::header(input, false).map(Some),
-            Format::Xyz => xyz::header(input),
+            Format::Xyz => xyz::header(input, self.previous.as_ref()),
             Format::Lammps => lammps::header(input),
             Format::Gro => gro::header(input),
             Format::Pdb => pdb::header(input),
+            Format::Pqr => pqr::header(input),
             Format::MmCif => mmcif::header(input, self.previous.as_ref()),
             Format::Npy | Format::Npz | Format::Ply | Format::Vtk => Ok(None),
         }

@@ -5,12 +5,12 @@
 
 use std::ops::Range;
 
-use super::element;
 use super::error::TableError;
 use super::fields::Division;
 use super::form::Form;
 use super::header::Header;
 use super::input::Input;
+use super::residue;
 use crate::text::LocatedFault;
 
 /// The columns before the numbers: number and name of the residue, name and number of the atom.
@@ -64,7 +64,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     let form = Form {
         element: |line, field| {
             let residue = line.get(5..10).unwrap_or_default();
-            element::of_atom(&line[field], residue)
+            residue::of_atom(&line[field], residue)
         },
         ..Form::new(Division::Fixed(places.into()))
     };

@@ -1,5 +1,6 @@
 //! What a text says of its rows before they come.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use glam::{DMat3, DVec3};
@@ -28,10 +29,21 @@ pub(crate) struct Header {
     pub(crate) angstrom: f64,
     /// The axes and the origin of positions that are parts of a box.
     pub(crate) scaled: Option<(DMat3, DVec3)>,
+    /// What is taken for granted of the elements, unless the scene file says which column tells them.
+    pub(crate) guess: Option<Guess>,
     /// Columns of text; `None` where the first row tells them.
     pub(crate) texts: Option<Vec<bool>>,
     /// The line that names the columns, for messages, and the part of it that does.
     pub(crate) place: (u64, Vec<u8>, Range<usize>),
+}
+
+/// A guess about the numbers in the column of elements.
+#[derive(Clone, Debug)]
+pub(crate) struct Guess {
+    /// The way in which they are read by it.
+    pub(crate) element: fn(&[u8], Range<usize>) -> Option<u8>,
+    /// Its words and its place.
+    pub(crate) told: LocatedFault,
 }
 
 impl Header {
@@ -44,6 +56,7 @@ impl Header {
             behind: 0,
             angstrom: 1.0,
             scaled: None,
+            guess: None,
             texts: None,
             place: (number, line.to_vec(), 0..line.len()),
         }
@@ -73,10 +86,22 @@ impl Header {
             .name_of(Slot::X)
             .is_some_and(|name| name.starts_with("xs"));
         plan.axes = self.scaled.filter(|_| is_scaled);
-        let rows = match self.count {
-            Some((count, noun)) => text::read_count(input, &plan, &self.form, count, noun)?,
-            None => text::read(input, &plan, &self.form, None)?,
+        let mut form = Cow::Borrowed(&self.form);
+        // Whoever names the column knows what is in it.
+        let guess = self.guess.as_ref();
+        let guess = guess.filter(|_| request.columns.element.is_none());
+        if let Some(guess) = guess {
+            form.to_mut().element = guess.element;
+        }
+        let mut rows = match self.count {
+            Some((count, noun)) => text::read_count(input, &plan, &form, count, noun)?,
+            None => text::read(input, &plan, &form, None)?,
         };
+        if let Some(guess) = guess
+            && plan.name_of(Slot::Element).is_some()
+        {
+            rows.remarks.add_guess(guess.told.clone());
+        }
         input.skip_lines(self.behind)?;
         Ok(rows)
     }

@@ -11,6 +11,7 @@ mod columns;
 mod compression;
 mod delimited;
 mod element;
+mod elements;
 mod error;
 mod fields;
 mod form;
@@ -28,8 +29,11 @@ mod number;
 mod paint;
 mod pdb;
 mod ply;
+mod pqr;
 mod python;
+mod remarks;
 mod request;
+mod residue;
 mod rows;
 mod source;
 mod text;
@@ -38,11 +42,13 @@ mod xyz;
 
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use columns::{MOST_FILTERS, Test, unit};
-pub(crate) use element::{Radii, colors as element_colors};
+pub(crate) use element::{Radii, colors as element_colors, of_plain_symbol};
+pub(crate) use elements::color_names;
 pub(crate) use error::TableError;
 pub(crate) use format::ENDINGS;
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
+pub(crate) use remarks::Remarks;
 pub(crate) use request::{
     Coloring, ColumnRef, Columns, Filter, Missing, Request, Value, ValueRange,
 };

@@ -11,6 +11,7 @@ use super::fields::Division;
 use super::form::{Form, LineKind};
 use super::header::Header;
 use super::input::Input;
+use super::residue;
 use crate::text::LocatedFault;
 
 /// The names of the columns, and their places.
@@ -47,10 +48,18 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             false => Ok(None),
         };
     };
+    // Some programs begin all names in the first column.
+    let rows = input.head().split(|byte| *byte == b'\n');
+    let mut rows = rows.filter(|line| kind(line) == LineKind::Row);
+    let is_aligned = rows.any(|line| line.get(12..14).is_some_and(|name| name[0] == b' '));
     let places: Vec<Range<usize>> = COLUMNS.iter().map(|column| column.1.clone()).collect();
     let form = Form {
         kind,
-        element: self::element,
+        element: match is_aligned {
+            true => |line, field| element(line, field, residue::of_aligned_atom),
+            false => |line, field| element(line, field, residue::of_atom),
+        },
+        name: 12..16,
         ..Form::new(Division::Fixed(places.into()))
     };
     let names = COLUMNS.iter().map(|column| column.0.to_owned()).collect();
@@ -62,7 +71,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     }))
 }
 
-fn kind(line: &[u8]) -> LineKind {
+pub(super) fn kind(line: &[u8]) -> LineKind {
     let word = line.get(..6).unwrap_or(line).trim_ascii_end();
     match word {
         b"ATOM" | b"HETATM" => LineKind::Row,
@@ -72,19 +81,14 @@ fn kind(line: &[u8]) -> LineKind {
 }
 
 /// The element, or else what the name of the atom tells of it.
-fn element(line: &[u8], field: Range<usize>) -> Option<u8> {
-    if !field.is_empty()
-        && let Some(element) = element::number(&line[field])
-    {
-        return Some(element);
-    }
-    let name = line.get(12..16)?;
-    let residue = line.get(17..20).unwrap_or_default();
-    // Symbols of one letter begin at the second place.
-    match name[0].is_ascii_alphabetic() && name[3] == b' ' {
-        true if name[1].is_ascii_alphabetic() => element::number(&name[..2]),
-        true => None,
-        false => None,
-    }
-    .or_else(|| element::of_atom(name, residue))
+fn element(
+    line: &[u8],
+    field: Range<usize>,
+    by_name: fn(&[u8], &[u8]) -> Option<u8>,
+) -> Option<u8> {
+    // Old files have numbers of lines there.
+    element::of_symbol(&line[field]).or_else(|| {
+        let residue = line.get(17..21).unwrap_or_default();
+        by_name(line.get(12..16)?, residue)
+    })
 }

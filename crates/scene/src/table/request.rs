@@ -13,6 +13,12 @@ pub(crate) struct Request {
     pub(crate) radius: Option<f64>,
     /// The kind of radii that elements have.
     pub(crate) radii: Radii,
+    /// The radii of elements, or of other names, that the scene file gives.
+    pub(crate) own_radii: Vec<(String, f64)>,
+    /// The radius of what is no element, where the scene file gives it.
+    pub(crate) other_radius: Option<f64>,
+    /// The names to which the scene file gives colors.
+    pub(crate) palette: Vec<String>,
     /// The columns that the scene file names.
     pub(crate) columns: Columns,
     /// The source of the colors; `None` for the best that the table has.
@@ -23,8 +29,6 @@ pub(crate) struct Request {
     pub(crate) missing: Missing,
     /// The conditions on rows that are kept.
     pub(crate) keep: Vec<Filter>,
-    /// The colors of elements are left out unless they are asked for.
-    pub(crate) has_material: bool,
 }
 
 /// A condition on a column.
@@ -45,11 +49,13 @@ pub(crate) struct Columns {
 }
 
 /// A column.
-#[derive(Clone, Debug, Eq, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ColumnRef {
     Name(String),
     /// By its place, from 1.
     Number(usize),
+    /// None: every row has this number.
+    Constant(f64),
 }
 
 /// The source of numbers.

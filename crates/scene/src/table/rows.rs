@@ -7,15 +7,16 @@ use glam::DVec3;
 use marbles_core::Sphere;
 
 use super::columns::{Plan, RadiusSource, Slot, ValueSource};
-use super::element;
+use super::elements::{Atom, AtomRadius};
 use super::error::TableError;
 use super::paint::{Categories, Paint};
+use super::remarks::Remarks;
 use crate::text::LocatedFault;
 
 /// A sphere for each row that was read and kept.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
-    /// The number of rows that were read.
+    /// The number of rows that were read, those that are not kept among them.
     pub(crate) read: u64,
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) paint: Paint,
@@ -23,6 +24,12 @@ pub(crate) struct Rows {
     pub(crate) value_name: Option<String>,
     /// The names of all columns.
     pub(crate) columns: Arc<Vec<String>>,
+    /// The column that tells elements, where one does.
+    pub(crate) element_column: Option<usize>,
+    /// What was left open or guessed.
+    pub(crate) remarks: Remarks,
+    /// The format has right-handed axes.
+    pub(crate) is_right_handed: bool,
 }
 
 /// The numbers of a row, by [`Slot`].
@@ -32,10 +39,18 @@ pub(crate) type Numbers = [f64; Slot::COUNT];
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row<'a> {
     pub(crate) numbers: &'a Numbers,
-    /// The atomic number, 0 where there is none.
-    pub(crate) element: u8,
+    pub(crate) atom: Atom<'a>,
     /// The category's name, where there is one.
     pub(crate) category: &'a [u8],
+}
+
+/// What became of a row.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Pushed {
+    /// It is a sphere, or was left out because its value is missing.
+    AsItIs,
+    /// It is a sphere, some of which is that of others because its element is unknown.
+    OfUnknown,
 }
 
 impl Rows {
@@ -46,7 +61,10 @@ impl Rows {
             spheres: Vec::new(),
             paint: Paint::new(plan.coloring),
             columns: Arc::clone(&plan.names.0),
-            value_name: plan.name_of(Slot::Value).map(str::to_owned),
+            value_name: plan.value_name().map(str::to_owned),
+            element_column: plan.element_column,
+            remarks: Remarks::new(plan.elements.own_radii()),
+            is_right_handed: false,
         }
     }
 
@@ -64,19 +82,14 @@ impl Rows {
         self.paint.reserve(more)
     }
 
-    /// Adds a row whose every number was found allowed, unless it is not kept.
+    /// Adds a row that is kept, and whose every number was found allowed.
     ///
     /// # Errors
-    /// Returns what was expected instead of the element, or of the category.
+    /// Returns what was expected instead of the radius, or of the category.
     #[inline(always)]
-    pub(crate) fn push(&mut self, plan: &Plan, row: Row<'_>) -> Result<(), &'static str> {
+    pub(crate) fn push(&mut self, plan: &Plan, row: Row<'_>) -> Result<Pushed, &'static str> {
         self.read += 1;
         let number = |slot: Slot| row.numbers[slot.index()];
-        for (index, test) in (0..).zip(&plan.filters) {
-            if !test.holds(number(Slot::Filter(index))) {
-                return Ok(());
-            }
-        }
         let value = match plan.value {
             ValueSource::Column => number(Slot::Value),
             ValueSource::Length => {
@@ -85,14 +98,25 @@ impl Rows {
             }
         };
         if plan.hides_missing && value.is_nan() {
-            return Ok(());
+            return Ok(Pushed::AsItIs);
         }
+        let mut pushed = Pushed::AsItIs;
         let radius = match plan.radius {
             RadiusSource::Fixed(radius) => radius,
             RadiusSource::Column(scale) => scale * number(Slot::Radius),
-            RadiusSource::Element(radii, scale) => {
-                let radius = element::radius(row.element, radii);
-                scale * radius.ok_or("an element whose radius is known")?
+            RadiusSource::Element(scale) => {
+                scale
+                    * match plan.elements.radius(row.atom) {
+                        AtomRadius::Known(radius) => radius,
+                        AtomRadius::Own(radius, name) => {
+                            self.remarks.use_radius(name);
+                            radius
+                        }
+                        AtomRadius::Other(radius) => {
+                            pushed = Pushed::OfUnknown;
+                            radius
+                        }
+                    }
             }
         };
         let mut center = DVec3::new(number(Slot::X), number(Slot::Y), number(Slot::Z));
@@ -106,7 +130,13 @@ impl Rows {
                 let color = [Slot::Red, Slot::Green, Slot::Blue].map(number);
                 colors.push(color.map(|channel| plan.channel(channel)));
             }
-            Paint::Elements(numbers) => numbers.push(row.element),
+            Paint::Elements(colors) => {
+                let color = plan.elements.color(row.atom);
+                if color == 0 {
+                    pushed = Pushed::OfUnknown;
+                }
+                colors.push(color);
+            }
             Paint::Values(values) => values.push(value),
             Paint::Categories(categories) => {
                 let index = categories.index(row.category);
@@ -115,7 +145,7 @@ impl Rows {
             }
         }
         self.spheres.push(sphere);
-        Ok(())
+        Ok(pushed)
     }
 
     /// Adds others that are read by the same plan.
@@ -132,6 +162,7 @@ impl Rows {
             enough.map_err(|_| TableError::OutOfMemory(all as u64))?;
         }
         self.read += others.read;
+        self.remarks.append(others.remarks);
         self.spheres.append(&mut others.spheres);
         if self.paint.append(others.paint) {
             let most = Categories::MOST;

@@ -43,9 +43,18 @@ impl Drop for Folder {
 fn load(name: &str, bytes: impl AsRef<[u8]>, fields: &str) -> Result<Scene, String> {
     let folder = Folder::new();
     fs::write(folder.0.join(name), bytes).unwrap();
+    // The numbers of the table, whatever the hands of its format.
+    let hands = match fields.contains("right_handed") {
+        true => "",
+        false => "right_handed: false",
+    };
+    let comma = match fields.is_empty() || hands.is_empty() {
+        true => "",
+        false => ", ",
+    };
     let text = format!(
         "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(),\nclouds: [(file: \"{name}\", \
-         {fields})])"
+         {fields}{comma}{hands})])"
     );
     let path = folder.0.join("scene.ron");
     Scene::parse(&text, &path).map_err(|error| {

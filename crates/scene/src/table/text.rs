@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::columns::{Plan, RadiusSource, Slot, Uses};
-use super::element;
+use super::columns::{Plan, Slot, Test, Uses};
+use super::elements::Atom;
 use super::error::TableError;
 use super::fields::Fields;
 use super::form::{Form, LineKind};
 use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
+use super::remarks::place_in_line;
 use super::request::Coloring;
-use super::rows::{Numbers, Row, Rows};
-use crate::text::{LocatedFault, show};
+use super::rows::{Numbers, Pushed, Row, Rows};
+use crate::text::LocatedFault;
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;
@@ -51,7 +52,8 @@ pub(crate) fn read(
             rows.reserve(more.min(wanted(&rows)))?;
         }
         let mut taken = 0;
-        for piece in pieces {
+        for mut piece in pieces {
+            piece.rows.remarks = piece.rows.remarks.lower(number);
             rows.append(piece.rows)?;
             if let Some(fault) = piece.fault {
                 return Err(fault.lower(number).into());
@@ -140,7 +142,7 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
         is_at_end: false,
         fault: None,
     };
-    let mut numbers: Numbers = [0.0; Slot::COUNT];
+    let mut numbers: Numbers = plan.constants;
     while piece.bytes < text.len() {
         let rest = &text[piece.bytes..];
         let length = memchr::memchr(b'\n', rest).unwrap_or(rest.len());
@@ -157,7 +159,14 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
         piece.lines += 1;
         piece.bytes += (length + 1).min(rest.len());
         if kind == LineKind::Row {
-            let read = read_line(line, piece.lines, plan, form, &mut numbers, &mut piece.rows);
+            let read = match is_kept(line, piece.lines, plan, form) {
+                Ok(true) => read_line(line, piece.lines, plan, form, &mut numbers, &mut piece.rows),
+                Ok(false) => {
+                    piece.rows.read += 1;
+                    Ok(())
+                }
+                Err(fault) => Err(fault),
+            };
             piece.fault = read.err();
             if piece.fault.is_some() {
                 break;
@@ -179,7 +188,50 @@ fn is_of_another(line: &[u8], form: &Form) -> bool {
     fields.next().is_some_and(|field| line[field] != same[..])
 }
 
-/// Reads the row in the line with this number.
+/// Says whether the row in the line with this number meets all conditions, by the columns that these are on alone.
+#[inline(always)]
+fn is_kept(line: &[u8], number: u64, plan: &Plan, form: &Form) -> Result<bool, LocatedFault> {
+    let mut fields = Fields::new(line, &form.division);
+    for (column, uses) in plan.uses[..plan.filter_columns].iter().enumerate() {
+        let Some(field) = fields.next() else {
+            return Err(ends_early(line, number, plan, column));
+        };
+        for slot in uses.slots() {
+            let Slot::Filter(filter) = slot else {
+                continue;
+            };
+            let text = &line[field.clone()];
+            let is_met = match &plan.filters[usize::from(*filter)] {
+                Test::IsText(wanted) if plan.element_column == Some(column) => {
+                    plan.elements.is_called(form.atom(line, field.clone()), wanted)
+                }
+                Test::IsText(wanted) => text == wanted.as_bytes(),
+                test => match parse(text, form.has_decimal_commas) {
+                    Some(number) => test.holds(number),
+                    None if is_missing(text) => false,
+                    None => {
+                        let expected = plan.expected(column, "a number");
+                        return Err(LocatedFault::expected(number, line, field, &expected));
+                    }
+                },
+            };
+            if !is_met {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
+}
+
+/// The line ends before this column.
+#[cold]
+fn ends_early(line: &[u8], number: u64, plan: &Plan, column: usize) -> LocatedFault {
+    let end = line.trim_ascii_end().len();
+    let expected = plan.expected(column, kind(&plan.uses[column]));
+    LocatedFault::expected(number, line, end..end, &expected)
+}
+
+/// Reads the row in the line with this number, which is kept.
 #[inline(always)]
 fn read_line(
     line: &[u8],
@@ -192,33 +244,24 @@ fn read_line(
     let refused = |span: Range<usize>, expected: &str| {
         Err(LocatedFault::expected(number, line, span, expected))
     };
-    let (mut atom, mut symbol, mut category) = (0, 0..0, 0..0);
+    let (mut atom, mut symbol, mut category) = (Atom::NONE, 0..0, &[][..]);
     let mut fields = Fields::new(line, &form.division);
     for (column, uses) in plan.uses.iter().enumerate() {
         let Some(field) = fields.next() else {
-            let end = line.trim_ascii_end().len();
-            return refused(end..end, &plan.expected(column, kind(uses)));
+            return Err(ends_early(line, number, plan, column));
         };
         for slot in uses.slots() {
             let text = &line[field.clone()];
             match slot {
                 Slot::Element => {
-                    atom = (form.element)(line, field.clone())
-                        .ok_or_else(|| no_element(line, number, field.clone(), plan))?;
+                    atom = form.atom(line, field.clone());
                     symbol = field.clone();
+                    if plan.has_element_categories {
+                        category = plan.elements.name(atom);
+                    }
                 }
-                Slot::Value if plan.coloring == Coloring::Category => category = field.clone(),
-                Slot::Filter(filter) => {
-                    let number = match plan.filters[usize::from(*filter)].text() {
-                        Some(wanted) => Some(f64::from(u8::from(text == wanted.as_bytes()))),
-                        None => parse(text, form.has_decimal_commas)
-                            .or_else(|| is_missing(text).then_some(f64::NAN)),
-                    };
-                    let Some(number) = number else {
-                        return refused(field, &plan.expected(column, "a number"));
-                    };
-                    numbers[slot.index()] = number;
-                }
+                Slot::Value if plan.coloring == Coloring::Category => category = text,
+                Slot::Filter(_) => {}
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);
                     let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
@@ -245,11 +288,18 @@ fn read_line(
     }
     let row = Row {
         numbers,
-        element: atom,
-        category: &line[category],
+        atom,
+        category,
     };
-    let pushed = rows.push(plan, row);
-    pushed.or_else(|expected| refused(symbol, expected))
+    match rows.push(plan, row) {
+        Ok(Pushed::AsItIs) => Ok(()),
+        Ok(Pushed::OfUnknown) => {
+            let place = || place_in_line(number, line, symbol);
+            rows.remarks.add_unknown(atom.label, place);
+            Ok(())
+        }
+        Err(expected) => refused(symbol, expected),
+    }
 }
 
 /// The contents of a column, for messages.
@@ -259,25 +309,4 @@ fn kind(uses: &Uses) -> &'static str {
         [Slot::Element, ..] => "an element",
         _ => "a number",
     }
-}
-
-/// The fault where a field is no element.
-#[cold]
-fn no_element(line: &[u8], number: u64, field: Range<usize>, plan: &Plan) -> LocatedFault {
-    let text = String::from_utf8_lossy(&line[field.clone()]).into_owned();
-    let mut fault = LocatedFault::expected(number, line, field, "the symbol of an element");
-    fault.message += &match element::suggestion(&text) {
-        Some(symbol) => format!(", did you mean {}?", show(symbol)),
-        None => {
-            let mut instead = Vec::new();
-            if matches!(plan.radius, RadiusSource::Element(..)) {
-                instead.push("`radius: …`");
-            }
-            if plan.coloring == Coloring::Element {
-                instead.push("`color: Material`");
-            }
-            format!(" (with {} none is needed)", instead.join(" and "))
-        }
-    };
-    fault
 }

@@ -3,17 +3,24 @@
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
-use super::columns::{MOST_COLUMNS, components};
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
 use super::fields::Division;
 use super::form::Form;
-use super::header::Header;
-use super::input::Input;
+use super::fields;
+use super::header::{Guess, Header};
+use super::input::{Input, without_return};
 use crate::text::{LocatedFault, show};
 
-/// The header of the next frame; `None` behind the last one.
-pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
+/// The header of the next frame, behind another one's where that is given; `None` behind the last one.
+pub(crate) fn header(
+    input: &mut Input<'_>,
+    previous: Option<&Header>,
+) -> Result<Option<Header>, TableError> {
     let is_first = input.number == 0;
     while !is_first
         && input
@@ -41,11 +48,74 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         true => "atoms, as the first line says",
         false => "atoms, as the first line of the frame says",
     };
+    let guess = match previous {
+        Some(previous) => previous.guess.clone(),
+        None => guess(input, &columns, &comment, count)?,
+    };
     let header = Header::new(columns, form, (first + 1, &comment));
     Ok(Some(Header {
         count: Some((count, noun)),
+        guess,
         ..header
     }))
+}
+
+/// What the numbers are that stand where symbols of elements should: types, as LAMMPS writes them, or atomic numbers.
+/// `None` where there are symbols.
+fn guess(
+    input: &mut Input<'_>,
+    columns: &[String],
+    comment: &[u8],
+    count: u64,
+) -> Result<Option<Guess>, TableError> {
+    const ROWS: usize = 1000;
+    let mut is_element = Slot::Element.names().iter();
+    let Some(column) = is_element.find_map(|name| {
+        let mut names = columns.iter();
+        names.position(|column| column.eq_ignore_ascii_case(name))
+    }) else {
+        return Ok(None);
+    };
+    let number = input.number + 1;
+    let Some(first) = input.peek()?.map(<[u8]>::to_vec) else {
+        return Ok(None);
+    };
+    let rows = usize::try_from(count).unwrap_or(ROWS).min(ROWS);
+    let lines = input.head().split(|byte| *byte == b'\n').take(rows);
+    let mut numbers = BTreeSet::new();
+    for line in lines {
+        let fields = fields::all(without_return(line), &Division::Words);
+        let Some(field) = fields.get(column) else {
+            break;
+        };
+        if field.is_empty() || !field.iter().all(u8::is_ascii_digit) {
+            return Ok(None);
+        }
+        numbers.extend(str::from_utf8(field).ok().and_then(|field| field.parse::<u32>().ok()));
+    }
+    // Nothing has hydrogen and helium and all that follow, and nothing else.
+    let is_by_lammps = comment.trim_ascii_start().starts_with(b"Atoms");
+    let are_types = is_by_lammps || numbers.iter().copied().eq(1..=numbers.len() as u32);
+    let column = &columns[column];
+    let (element, told): (fn(&[u8], Range<usize>) -> Option<u8>, _) = match are_types {
+        true => (
+            |line, field| element::of_lettered_label(&line[field]),
+            format!(
+                "the numbers in the column `{column}` are taken for types of atoms, not for atomic numbers; \
+                 `columns: (element: {column:?})` takes them for these, `radii: {{\"1\": …}}` and \
+                 `palette: {{\"1\": …}}` say what types are"
+            ),
+        ),
+        false => (
+            |line, field| element::of_label(&line[field]),
+            format!(
+                "the numbers in the column `{column}` are taken for atomic numbers; \
+                 `columns: (element: {column:?})` says that they are"
+            ),
+        ),
+    };
+    let told = LocatedFault::in_line(number, &first, 0..first.len(), told);
+    Ok(Some(Guess { element, told }))
 }
 
 /// The number in the first line of a frame.

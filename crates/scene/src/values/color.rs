@@ -56,6 +56,14 @@ impl<'t> Read<'t> for Color {
 /// The linear color of `#rrggbb`.
 fn from_hexadecimal(text: &str) -> Option<DVec3> {
     let digits = text.strip_prefix('#')?;
+    let doubled: String;
+    let digits = match digits.len() {
+        3 => {
+            doubled = digits.chars().flat_map(|digit| [digit, digit]).collect();
+            &doubled
+        }
+        _ => digits,
+    };
     if digits.len() != 6 || !digits.bytes().all(|byte| byte.is_ascii_hexdigit()) {
         return None;
     }

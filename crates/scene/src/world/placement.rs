@@ -5,6 +5,7 @@ use marbles_core::{Angle, Sphere};
 use rayon::prelude::*;
 
 use crate::bounds::Bounds;
+use crate::file::Up;
 
 /// The steps by which a cloud is placed.
 #[derive(Clone, Copy, Debug)]
@@ -12,15 +13,23 @@ pub(super) struct Placement {
     pub(super) is_centered: bool,
     /// The middle of all steps of a cloud that changes over time.
     pub(super) middle: Option<DVec3>,
-    pub(super) is_right_handed: bool,
+    /// The axes of the table are right-handed; `None` for those that its format has.
+    pub(super) is_right_handed: Option<bool>,
+    pub(super) up: Up,
     pub(super) scale: f64,
     pub(super) turn: Option<DMat3>,
     pub(super) position: DVec3,
 }
 
 impl Placement {
-    /// Puts spheres to their place; returns whether they are still finite and have radii.
-    pub(super) fn place(&self, spheres: &mut [Sphere]) -> bool {
+    /// True where the axes are right-handed of a table whose format has such ones by default, or not.
+    pub(super) fn is_right_handed(&self, by_default: bool) -> bool {
+        self.is_right_handed.unwrap_or(by_default)
+    }
+
+    /// Puts spheres, whose axes are right-handed or not, to their place; returns whether they are still finite and have
+    /// radii.
+    pub(super) fn place(&self, spheres: &mut [Sphere], is_right_handed: bool) -> bool {
         let middle = match self.is_centered {
             true => self
                 .middle
@@ -29,7 +38,8 @@ impl Placement {
             false => DVec3::ZERO,
         };
         let is_as_it_is = middle == DVec3::ZERO
-            && !self.is_right_handed
+            && !is_right_handed
+            && self.up == Up::Y
             && self.scale == 1.0
             && self.turn.is_none()
             && self.position == DVec3::ZERO;
@@ -37,11 +47,17 @@ impl Placement {
             return true;
         }
         let mut axes = DVec3::splat(self.scale);
-        if self.is_right_handed {
+        if is_right_handed {
             axes.z = -axes.z;
         }
         spheres.par_iter_mut().all(|sphere| {
             let mut center = (sphere.center() - middle) * axes;
+            // A quarter turn about x, by which z of the table becomes y: no picture is mirrored.
+            center = match (self.up, is_right_handed) {
+                (Up::Y, _) => center,
+                (Up::Z, false) => DVec3::new(center.x, center.z, -center.y),
+                (Up::Z, true) => DVec3::new(center.x, -center.z, center.y),
+            };
             if let Some(turn) = self.turn {
                 center = turn * center;
             }

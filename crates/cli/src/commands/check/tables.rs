@@ -56,6 +56,7 @@ pub(super) fn json(scene: &Scene) -> Result<String, Failure> {
             "spheres": cloud.spheres.len(),
             "first_id": cloud.spheres.start,
             "rows": cloud.rows,
+            "right_handed": cloud.is_right_handed,
             "steps": cloud.steps,
             "columns": columns,
             "colors": colors,

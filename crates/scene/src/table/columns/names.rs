@@ -27,6 +27,9 @@ impl Names {
                     format!("expected the number of a column, from 1 to {count}, found {number}")
                 })
             }
+            ColumnRef::Constant(number) => Err(format!(
+                "expected a column, found `Constant({number})`, which positions alone may have"
+            )),
             ColumnRef::Name(name) => {
                 let found = self.find(name).or_else(|| self.find_synonym(name));
                 let index = found.ok_or_else(|| self.missing(name))?;
@@ -129,8 +132,11 @@ impl Names {
         let known = self.0.iter().map(String::as_str);
         let meant = did_you_mean(name, known, marked);
         let (name, list) = (marked(name), self.list());
-        let hint = match self.0.iter().all(|name| name.parse::<u32>().is_ok()) {
-            true if !self.0.is_empty() => " (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
+        let are_numbers = self.0.iter().all(|name| name.parse::<u32>().is_ok());
+        let is_flat = name == "z" && ["x", "y"].iter().all(|name| self.find(name).is_some());
+        let hint = match self.0.is_empty() {
+            false if are_numbers => " (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
+            false if is_flat => " (a table of a plane has one with `columns: (z: Constant(0))`)",
             _ => "",
         };
         format!("expected a column {name}, found {list}{meant}{hint}")

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
-use super::super::element::Radii;
+use super::super::elements::Elements;
 use super::super::request::{Coloring, ColumnRef, Missing, Request, Value};
 use super::filter::Test;
 use super::names::{Names, marked};
@@ -19,7 +19,7 @@ pub(crate) enum RadiusSource {
     /// From the table, times this.
     Column(f64),
     /// From the element, times this.
-    Element(Radii, f64),
+    Element(f64),
 }
 
 /// The source of the numbers that a colormap turns into colors.
@@ -75,10 +75,19 @@ pub(crate) struct Plan {
     pub(crate) value: ValueSource,
     /// The conditions on rows that are kept.
     pub(crate) filters: Vec<Test>,
+    /// The columns up to the last that a condition is on.
+    pub(crate) filter_columns: usize,
+    pub(crate) elements: Elements,
+    /// The column that tells elements, where there is one.
+    pub(crate) element_column: Option<usize>,
+    /// The categories are those of elements.
+    pub(crate) has_element_categories: bool,
     /// What the numbers may be.
     pub(crate) allowed: Allowed,
     /// Rows whose value is missing are left out.
     pub(crate) hides_missing: bool,
+    /// The numbers of a row before anything of it is read: those of columns that are constant.
+    pub(crate) constants: [f64; Slot::COUNT],
     /// The axes and the origin of the positions, where they are not those of the table's lengths.
     pub(crate) axes: Option<(DMat3, DVec3)>,
     /// The linear values of sRGB ones.
@@ -108,36 +117,70 @@ impl Plan {
                 .iter()
                 .map(|filter| filter.test.clone())
                 .collect(),
+            filter_columns: 0,
+            elements: Elements::new(request),
+            element_column: None,
+            has_element_categories: false,
             allowed: Allowed {
                 may_miss: request.missing != Missing::Refuse,
                 is_encoded: false,
             },
             hides_missing: request.missing == Missing::Hide,
+            constants: [0.0; Slot::COUNT],
             axes: None,
             linear: (0..=255).map(|value| linear(value) as f32).collect(),
             names: Names(Arc::new(names)),
         };
         let [x, y, z] = &columns.position;
         for (slot, chosen) in [(Slot::X, x), (Slot::Y, y), (Slot::Z, z)] {
-            plan.take(slot, chosen.as_ref())?;
+            match chosen {
+                Some(ColumnRef::Constant(number)) => plan.constants[slot.index()] = *number,
+                chosen => plan.take(slot, chosen.as_ref())?,
+            }
         }
         let colors = [Slot::Red, Slot::Green, Slot::Blue];
         let has_colors = colors
             .into_iter()
             .all(|slot| plan.names.find_slot(slot).is_some());
         let element = columns.element.as_ref();
-        let has_element = element.is_some() || plan.names.find_slot(Slot::Element).is_some();
+        plan.element_column = match element {
+            Some(chosen) => Some(plan.names.chosen(chosen)?),
+            None => plan.names.find_slot(Slot::Element),
+        };
+        let has_element = plan.element_column.is_some();
+        let is_of_elements = match &request.value {
+            Some(Value::Column(name)) => {
+                has_element && Some(plan.names.chosen(name)?) == plan.element_column
+            }
+            _ => false,
+        };
         plan.coloring = match request.coloring {
             Some(coloring) => coloring,
-            None if request.value.is_some() => Coloring::Value,
+            None if is_of_elements => Coloring::Element,
+            // Whether the column has text or numbers decides further down.
+            None if request.value.is_some() && request.palette.is_empty() => Coloring::Value,
+            None if request.value.is_some() => Coloring::Category,
+            None if !request.palette.is_empty() => {
+                match has_element && plan.names.find_slot(Slot::Value).is_none() {
+                    true => Coloring::Element,
+                    false => Coloring::Category,
+                }
+            }
             None if has_colors => Coloring::Table,
-            None if has_element && !request.has_material => Coloring::Element,
+            None if has_element => Coloring::Element,
             None => Coloring::Material,
         };
         plan.radius = plan.radius(request, nature, has_colors, has_element)?;
         match plan.coloring {
             Coloring::Material => {}
-            Coloring::Element => plan.take_element(element)?,
+            Coloring::Element => {
+                plan.take_element(element)?;
+                plan.elements.check(request)?;
+            }
+            Coloring::Category if is_of_elements => {
+                plan.take_element(element)?;
+                plan.has_element_categories = true;
+            }
             Coloring::Value | Coloring::Category => plan.take_value(request, nature)?,
             Coloring::Table => {
                 for slot in colors {
@@ -157,6 +200,7 @@ impl Plan {
                 ));
             }
             plan.use_for(column, Slot::Filter(index));
+            plan.filter_columns = plan.filter_columns.max(column + 1);
         }
         Ok(plan)
     }
@@ -188,7 +232,7 @@ impl Plan {
         if has_element {
             self.take_element(request.columns.element.as_ref())?;
             let scale = scale.unwrap_or(1.0) * nature.angstrom;
-            return Ok(RadiusSource::Element(request.radii, scale));
+            return Ok(RadiusSource::Element(scale));
         }
         Err(format!(
             "expected a column `radius`, or else `radius: …` in the scene, found {}",
@@ -221,6 +265,14 @@ impl Plan {
             .iter()
             .position(|uses| uses.slots().contains(&slot));
         Some(&self.names.0[column?])
+    }
+
+    /// The name of the column that colors stand for.
+    pub(crate) fn value_name(&self) -> Option<&str> {
+        match self.has_element_categories || self.coloring == Coloring::Element {
+            true => self.name_of(Slot::Element),
+            false => self.name_of(Slot::Value),
+        }
     }
 
     /// Uses a column for this: the one that the scene file means, or else the one of its name.

@@ -31,8 +31,8 @@ pub(crate) struct Allowed {
 pub(crate) const MOST_FILTERS: usize = 16;
 
 impl Slot {
-    /// The number of purposes.
-    pub(crate) const COUNT: usize = 12 + MOST_FILTERS;
+    /// The number of purposes for which a row holds a number.
+    pub(crate) const COUNT: usize = 12;
 
     /// The place of the number among those of a row.
     #[inline(always)]
@@ -46,14 +46,14 @@ impl Slot {
             Self::Green => 5,
             Self::Blue => 6,
             Self::Value => 7,
-            Self::Element => 8,
+            // No number of these two is held.
+            Self::Element | Self::Filter(_) => 8,
             Self::Vector(component) => 9 + usize::from(component) % 3,
-            Self::Filter(filter) => 12 + usize::from(filter) % MOST_FILTERS,
         }
     }
 
     /// The name that a column for this has, or one of the others.
-    pub(super) fn names(self) -> &'static [&'static str] {
+    pub(crate) fn names(self) -> &'static [&'static str] {
         match self {
             Self::X => &["x", "xu", "xs", "xsu", "cartn_x"],
             Self::Y => &["y", "yu", "ys", "ysu", "cartn_y"],
@@ -73,12 +73,8 @@ impl Slot {
     pub(crate) fn refusal(self, number: f64, allowed: Allowed) -> Option<&'static str> {
         match self {
             Self::Value | Self::Vector(_) if allowed.may_miss && number.is_nan() => None,
-            Self::Filter(_) => None,
+            Self::Filter(_) | Self::Element => None,
             _ if !number.is_finite() => Some("a finite number"),
-            Self::Element => {
-                let is_known = (1.0..=118.0).contains(&number) && number.fract() == 0.0;
-                (!is_known).then_some("the number of an element, from 1 to 118")
-            }
             Self::Radius if number <= 0.0 => Some("a radius greater than 0"),
             Self::Red | Self::Green | Self::Blue => {
                 if allowed.is_encoded {

@@ -1,12 +1,14 @@
 //! The colors of a cloud's spheres.
 
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 use glam::DVec3;
 use marbles_core::Albedos;
 use rayon::prelude::*;
 
-use crate::file::{self, ColorScale};
+use super::settings::once;
+use crate::file::{self, ColorScale, OTHERS_COLOR};
 use crate::table::{self, Categories, Colormap, Missing, Paint, ValueRange};
 use crate::text::{optional, refuse};
 use crate::values::{Flag, from_srgb};
@@ -18,8 +20,12 @@ pub(crate) struct Scale {
     pub(crate) kind: ScaleKind,
     pub(crate) is_reversed: bool,
     range: Option<ValueRange>,
-    /// The colors of categories that the scene file gives.
-    palette: HashMap<String, DVec3>,
+    /// The colors of categories or elements that the scene file gives, in its order.
+    palette: Vec<(String, DVec3)>,
+    /// The place of the palette, in bytes of the scene file.
+    pub(super) palette_place: Range<usize>,
+    /// The color of what is no element.
+    other_color: DVec3,
 }
 
 /// The way from numbers to the places of colors on a scale.
@@ -39,6 +45,8 @@ pub(crate) struct Learned {
     pub(crate) low: f64,
     pub(crate) high: f64,
     pub(crate) categories: BTreeSet<String>,
+    /// The categories are elements.
+    pub(crate) are_elements: bool,
 }
 
 impl Default for Learned {
@@ -47,13 +55,14 @@ impl Default for Learned {
             low: f64::INFINITY,
             high: f64::NEG_INFINITY,
             categories: BTreeSet::new(),
+            are_elements: false,
         }
     }
 }
 
 impl Scale {
     /// The scale that the file describes; `None` where a fault was reported.
-    pub(super) fn new(cloud: &file::Cloud) -> Option<Self> {
+    pub(super) fn new(cloud: &file::Cloud, other_color: Option<DVec3>) -> Option<Self> {
         let kind = match &cloud.color_scale {
             None => ScaleKind::Linear,
             Some(scale) => match scale.value.as_ref()? {
@@ -75,21 +84,12 @@ impl Scale {
             ScaleKind::Diverging(_) => Colormap::CoolWarm,
             _ => Colormap::default(),
         };
-        let palette = optional(&cloud.palette, |palette| {
-            let mut colors = HashMap::new();
-            for (name, color) in &palette.0 {
-                if colors.insert(name.clone(), color.get()?.0).is_some() {
-                    let message =
-                        format!("expected every category once, found {name:?} a second time");
-                    return refuse(color.place.clone(), message);
-                }
-            }
-            Some(colors)
-        });
-        let palette = palette?.unwrap_or_default();
-        if let Some(place) = cloud.palette.as_ref().map(|palette| palette.place.clone())
-            && palette.len() > MOST_COLORS
-        {
+        let palette = optional(&cloud.palette, |palette| once(palette, "category"))?;
+        let palette = palette.unwrap_or_default().into_iter();
+        let palette: Vec<_> = palette.map(|(name, color)| (name, color.0)).collect();
+        let place = cloud.palette.as_ref().map(|palette| palette.place.clone());
+        let place = place.unwrap_or_default();
+        if palette.len() > MOST_COLORS {
             let found = palette.len();
             let message = format!("expected at most {MOST_COLORS} colors, found {found}");
             return refuse(place, message);
@@ -100,7 +100,20 @@ impl Scale {
             is_reversed: cloud.reversed.get().map(|Flag(flag)| flag)?,
             range,
             palette,
+            palette_place: place,
+            other_color: other_color.unwrap_or_else(|| from_srgb(OTHERS_COLOR)),
         })
+    }
+
+    /// The names to which the scene file gives colors.
+    pub(super) fn palette_names(&self) -> Vec<String> {
+        self.palette.iter().map(|(name, _)| name.clone()).collect()
+    }
+
+    /// The color that the scene file gives to a category.
+    fn own_color(&self, name: &str) -> Option<DVec3> {
+        let mut palette = self.palette.iter();
+        palette.find(|own| own.0 == name).map(|own| own.1)
     }
 
     /// True where the range of numbers depends on those of the table.
@@ -122,7 +135,15 @@ impl Scale {
             Paint::Categories(categories) => {
                 learned.categories.extend(categories.names.iter().cloned());
             }
-            Paint::Material | Paint::Colors(_) | Paint::Elements(_) => {}
+            Paint::Elements(colors) => {
+                let mut is_used = [false; 256];
+                colors.iter().for_each(|color| is_used[usize::from(*color)] = true);
+                let names = table::color_names(&self.palette_names()).into_iter();
+                let used = names.zip(is_used).filter(|(_, is_used)| *is_used);
+                learned.categories.extend(used.map(|(name, _)| name));
+                learned.are_elements = true;
+            }
+            Paint::Material | Paint::Colors(_) => {}
         }
     }
 
@@ -179,7 +200,7 @@ impl Scale {
             Paint::Material => None,
             Paint::Colors(colors) => Some(Albedos::Each(colors)),
             Paint::Elements(indices) => Some(Albedos::Palette {
-                colors: table::element_colors(),
+                colors: self.element_colors(),
                 indices,
             }),
             Paint::Categories(categories) => Some(self.of_categories(&categories, learned)),
@@ -236,8 +257,39 @@ impl Scale {
         colors
     }
 
+    /// The colors of elements: those of others, of the elements, and of names that the scene file has beside them.
+    fn element_colors(&self) -> Vec<DVec3> {
+        let usual = table::element_colors().into_iter().map(Some);
+        let names = table::color_names(&self.palette_names()).into_iter();
+        let usual = usual.chain(std::iter::repeat(None));
+        names
+            .zip(usual)
+            .enumerate()
+            .map(|(place, (name, usual))| match place {
+                0 => self.other_color,
+                _ => {
+                    let number = table::of_plain_symbol(name.as_bytes());
+                    let is_same = |own: &&(String, DVec3)| {
+                        own.0 == name
+                            || number.is_some()
+                                && table::of_plain_symbol(own.0.as_bytes()) == number
+                    };
+                    let own = self.palette.iter().find(is_same).map(|own| own.1);
+                    own.or(usual).unwrap_or(self.other_color)
+                }
+            })
+            .collect()
+    }
+
     /// The categories of all steps in their order, each with its color.
     pub(crate) fn categories(&self, learned: &Learned) -> Vec<(String, DVec3)> {
+        if learned.are_elements {
+            let names = table::color_names(&self.palette_names()).into_iter();
+            let all = names.zip(self.element_colors());
+            return all
+                .filter(|(name, _)| learned.categories.contains(name))
+                .collect();
+        }
         let number = |name: &String| name.parse::<f64>().ok().filter(|number| number.is_finite());
         let mut names: Vec<String> = learned.categories.iter().cloned().collect();
         if names.iter().all(|name| number(name).is_some()) {
@@ -248,7 +300,7 @@ impl Scale {
             });
         }
         let color = |(index, name): (usize, String)| {
-            let own = self.palette.get(&name).copied();
+            let own = self.own_color(&name);
             let color = own.unwrap_or_else(|| from_srgb(PALETTE[index % PALETTE.len()]));
             (name, color)
         };

@@ -2,6 +2,7 @@
 
 mod coloring;
 mod explain;
+mod oversights;
 mod open;
 mod settings;
 mod steps;
@@ -11,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
 pub(crate) use coloring::{Learned, Scale};
-pub(crate) use open::{OpenCloud, Step};
+pub(crate) use open::{OpenCloud, Oversight, Step};
 pub(crate) use settings::Cloud;
 pub use summary::{ColumnContents, ColumnSummary};
 

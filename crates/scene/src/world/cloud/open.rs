@@ -9,15 +9,16 @@ use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
 use super::explain::explain;
+use super::oversights::unused_radii;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
 use super::summary::{ColumnContents, ColumnSummary};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
 use crate::table::{
-    Coloring, ColumnRef, Frames, Missing, Paint, Request, Rows, TableError, Value, unit,
+    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Remarks, Request, Rows, TableError, Value, unit,
 };
-use crate::text::{Fault, quoted};
+use crate::text::{Fault, LocatedFault, quoted};
 
 /// A cloud whose steps are known and can be read.
 pub(crate) struct OpenCloud {
@@ -25,6 +26,8 @@ pub(crate) struct OpenCloud {
     folder: PathBuf,
     steps: Steps,
     learned: Learned,
+    /// What was left open or guessed in all steps, where all were read, and the step that has the first place.
+    remarks: (Remarks, usize),
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
 }
@@ -42,6 +45,19 @@ pub(crate) struct Step {
     pub(crate) learned: Learned,
     /// The table has frames that are not read.
     pub(crate) has_more: bool,
+    /// The axes of the table are right-handed.
+    pub(crate) is_right_handed: bool,
+    /// What was left open or guessed.
+    remarks: Remarks,
+}
+
+/// Something about a table that may be an oversight.
+#[derive(Clone, Debug)]
+pub(crate) enum Oversight {
+    /// Of the scene file.
+    Scene(Fault),
+    /// Of the table with this path.
+    Table(PathBuf, LocatedFault),
 }
 
 /// The most columns that are summed up: each is read on its own.
@@ -59,6 +75,7 @@ impl OpenCloud {
             folder: folder.to_owned(),
             steps: Steps::One,
             learned: Learned::default(),
+            remarks: (Remarks::default(), 0),
             open: Mutex::new(None),
         };
         let files = steps::files(folder, &open.cloud.name);
@@ -142,20 +159,30 @@ impl OpenCloud {
             placement,
             ..
         } = &self.cloud;
-        let is_colored = request.value.is_some() || request.coloring.is_some();
-        self.steps().is_some() && (placement.is_centered || is_colored && scale.has_open_range())
+        let is_colored = request.value.is_some()
+            || request.coloring.is_some()
+            || !request.palette.is_empty();
+        let has_own_radii = !request.own_radii.is_empty();
+        self.steps().is_some()
+            && (placement.is_centered || has_own_radii || is_colored && scale.has_open_range())
     }
 
     /// Reads all steps for what has to be the same in all of them.
     pub(crate) fn learn(&mut self) -> Result<(), CloudError> {
         let mut bounds = Bounds::NONE;
         let mut learned = Learned::default();
+        let mut remarks = (Remarks::new(self.cloud.request.own_radii.len()), 0);
         for step in 0..self.steps().unwrap_or(1) {
             let (rows, _) = self.rows(step, UNWATCHED)?;
+            if !remarks.0.has_place() {
+                remarks.1 = step;
+            }
+            remarks.0.append(rows.remarks);
             self.cloud.scale.learn(&rows.paint, &mut learned);
             bounds = bounds.around(Bounds::of(&rows.spheres));
         }
         self.learned = learned;
+        self.remarks = remarks;
         self.cloud.placement.middle = Some(bounds.middle().unwrap_or(DVec3::ZERO));
         Ok(())
     }
@@ -178,9 +205,11 @@ impl OpenCloud {
             paint,
             read: rows,
             value_name,
+            is_right_handed,
+            remarks,
             ..
         } = rows;
-        self.place(&mut spheres)?;
+        let is_right_handed = self.place(&mut spheres, is_right_handed)?;
         let mut learned = self.learned.clone();
         if !self.has_to_learn() {
             self.cloud.scale.learn(&paint, &mut learned);
@@ -193,7 +222,37 @@ impl OpenCloud {
             value_name,
             learned,
             has_more,
+            is_right_handed,
+            remarks,
         })
+    }
+
+    /// What may be an oversight about the first step, which is given, or about all that were read for it.
+    pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
+        let Cloud { request, scale, .. } = &self.cloud;
+        let (remarks, step) = match self.has_to_learn() {
+            true => (&self.remarks.0, self.remarks.1),
+            false => (&first.remarks, 0),
+        };
+        let radius = request.other_radius;
+        let told = remarks.told(radius.is_none());
+        let path = self.path(step);
+        let of_table = |fault| Oversight::Table(path.clone(), fault);
+        let mut all: Vec<Oversight> = told.into_iter().map(of_table).collect();
+        let of_scene = |place: &std::ops::Range<usize>, message| {
+            Oversight::Scene(Fault::new(place.clone(), message))
+        };
+        let of_colors = scale.oversights(&first.learned, first.value_name.as_deref());
+        let place = match request.palette.is_empty() {
+            true => &self.cloud.place,
+            false => &scale.palette_place,
+        };
+        all.extend(of_colors.into_iter().map(|told| of_scene(place, told)));
+        let unused = remarks.unused_radii();
+        let unused: Vec<String> = unused.map(|name| request.own_radii[name].0.clone()).collect();
+        let unused = unused_radii(&unused);
+        all.extend(unused.map(|told| of_scene(&self.cloud.radii_place, told)));
+        all
     }
 
     /// What is in each column of the first step.
@@ -204,6 +263,11 @@ impl OpenCloud {
             coloring: Some(coloring),
             missing: Missing::Color(DVec3::ZERO),
             keep: Vec::new(),
+            // Of other columns nothing is looked at.
+            columns: Columns {
+                position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
+                ..self.cloud.request.columns.clone()
+            },
             ..self.cloud.request.clone()
         };
         let path = self.path(0);
@@ -220,8 +284,14 @@ impl OpenCloud {
         let summary = |(column, name): (usize, &String)| {
             let unit = unit(name).map(str::to_owned);
             let name = name.clone();
-            let numbers = first(&request(column, Coloring::Value));
-            let contents = match numbers.map(|rows| rows.paint) {
+            let is_element = rows.element_column == Some(column);
+            let coloring = match is_element {
+                true => Coloring::Category,
+                false => Coloring::Value,
+            };
+            let found = first(&request(column, coloring));
+            let contents = match found.map(|rows| rows.paint) {
+                Ok(paint @ Paint::Categories(_)) => ColumnContents::of_texts(&paint),
                 Ok(Paint::Values(values)) => ColumnContents::of_numbers(&values),
                 Ok(_) => ColumnContents::Other,
                 Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
@@ -246,14 +316,19 @@ impl OpenCloud {
 
     /// The spheres of a step alone.
     pub(crate) fn spheres(&self, step: usize) -> Result<Vec<Sphere>, CloudError> {
-        let (Rows { mut spheres, .. }, _) = self.rows(step, UNWATCHED)?;
-        self.place(&mut spheres)?;
+        let (rows, _) = self.rows(step, UNWATCHED)?;
+        let mut spheres = rows.spheres;
+        self.place(&mut spheres, rows.is_right_handed)?;
         Ok(spheres)
     }
 
-    fn place(&self, spheres: &mut [Sphere]) -> Result<(), CloudError> {
-        if self.cloud.placement.place(spheres) {
-            return Ok(());
+    /// Puts spheres to their place in the world; returns whether the axes of the table are right-handed, which its
+    /// format says unless the scene does.
+    fn place(&self, spheres: &mut [Sphere], by_format: bool) -> Result<bool, CloudError> {
+        let placement = &self.cloud.placement;
+        let is_right_handed = placement.is_right_handed(by_format);
+        if placement.place(spheres, is_right_handed) {
+            return Ok(is_right_handed);
         }
         let message = "expected finite spheres with radii greater than 0 after `scale`, \
                        `rotate_degrees` and `position`, found others";

@@ -1,5 +1,6 @@
 //! What a scene file says of a cloud.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use marbles_core::MaterialId;
@@ -7,9 +8,9 @@ use marbles_core::MaterialId;
 use super::super::placement::{Placement, turn};
 use super::coloring::Scale;
 use super::steps::Timeline;
-use crate::file::{self, Keep, TakenFrames};
-use crate::table::{Coloring, Filter, MOST_FILTERS, Request, Test};
-use crate::text::{Placed, optional, refuse};
+use crate::file::{self, ElementRadii, Keep, Named, TakenFrames};
+use crate::table::{Coloring, Filter, MOST_FILTERS, Radii, Request, Test};
+use crate::text::{Placed, optional, quoted, refuse};
 use crate::values::{Every, Flag, Speed};
 
 /// A cloud of the scene file whose table is not yet read.
@@ -26,6 +27,8 @@ pub(crate) struct Cloud {
     pub(super) request: Request,
     pub(super) scale: Scale,
     pub(super) placement: Placement,
+    /// The place of `radii`, in bytes of the scene file.
+    pub(super) radii_place: Range<usize>,
 }
 
 impl Cloud {
@@ -48,22 +51,35 @@ impl Cloud {
         let of_palette = cloud.palette.as_ref().map(|palette| &palette.place);
         let of_value = cloud.value.as_ref().map(|value| &value.place);
         let of_value = of_value.or(columns.value.as_ref().map(|value| &value.place));
-        let implied = match (of_scale, of_palette) {
-            (Some(_), _) => Some(Coloring::Value),
-            (None, Some(_)) => Some(Coloring::Category),
-            // Whether the column has text or numbers decides.
-            (None, None) => None,
-        };
+        // Without a scale of numbers the table's columns decide.
+        let implied = of_scale.map(|_| Coloring::Value);
         let place = of_scale.or(of_palette).or(of_value);
         if let (Some(place), Some(coloring)) = (place, coloring) {
-            let wanted = implied.unwrap_or(Coloring::Value);
-            let is_known = matches!(coloring, Coloring::Value | Coloring::Category);
-            if implied.map_or(!is_known, |implied| implied != coloring) {
+            let (known, wanted): (&[Coloring], _) = match (of_scale, of_palette) {
+                (Some(_), _) => (&[Coloring::Value], Coloring::Value),
+                (None, Some(_)) => (
+                    &[Coloring::Category, Coloring::Element],
+                    Coloring::Category,
+                ),
+                (None, None) => (&[Coloring::Value, Coloring::Category], Coloring::Value),
+            };
+            if !known.contains(&coloring) {
                 let message =
                     format!("expected `color: {wanted:?}` with this, found `color: {coloring:?}`");
                 return refuse(place.clone(), message);
             }
         }
+        let (radii, own_radii) = match cloud.radii.value.as_ref()? {
+            ElementRadii::Kind(kind) => (*kind, Vec::new()),
+            ElementRadii::Own(own) => {
+                let own = once(own, "element")?;
+                (Radii::default(), own.into_iter().map(|(name, radius)| (name, radius.0)).collect())
+            }
+        };
+        let others = optional(&cloud.others, |others| {
+            Some((others.radius.get()?.0, others.color.get()?.0))
+        })?;
+        let scale = Scale::new(cloud, others.map(|(_, color)| color))?;
         let column =
             |column: &Option<Placed<_>>| optional(column, |column| Some(Clone::clone(column)));
         Some(Self {
@@ -79,7 +95,10 @@ impl Cloud {
             },
             request: Request {
                 radius: optional(&cloud.radius, |radius| Some(radius.0))?,
-                radii: cloud.radii.get()?,
+                radii,
+                own_radii,
+                other_radius: others.map(|(radius, _)| radius),
+                palette: scale.palette_names(),
                 columns: crate::table::Columns {
                     position: [
                         column(&columns.x)?,
@@ -94,19 +113,35 @@ impl Cloud {
                 value: own_value.or(value),
                 missing: cloud.missing.get()?,
                 keep: filters(&cloud.keep)?,
-                has_material: cloud.material.is_some(),
             },
-            scale: Scale::new(cloud)?,
+            scale,
+            radii_place: cloud.radii.place.clone(),
             placement: Placement {
                 is_centered: cloud.center.get().map(|Flag(flag)| flag)?,
                 middle: None,
-                is_right_handed: cloud.right_handed.get().map(|Flag(flag)| flag)?,
+                is_right_handed: optional(&cloud.right_handed, |Flag(flag)| Some(*flag))?,
+                up: cloud.up.get()?,
                 scale: cloud.scale.get()?.0,
                 turn: turn(cloud.rotate_degrees.get()?.0),
                 position: cloud.position.get()?.0,
             },
         })
     }
+}
+
+/// The values of names, each of which, a `noun`, is there once.
+pub(super) fn once<T: Copy>(named: &Named<T>, noun: &str) -> Option<Vec<(String, T)>> {
+    let mut all: Vec<(String, T)> = Vec::new();
+    let mut known = HashSet::new();
+    for (name, value) in &named.0 {
+        if !known.insert(name) {
+            let found = quoted(name);
+            let message = format!("expected every {noun} once, found {found} a second time");
+            return refuse(value.place.clone(), message);
+        }
+        all.push((name.clone(), value.get()?));
+    }
+    Some(all)
 }
 
 /// The conditions on rows that are kept.

@@ -1,0 +1,142 @@
+//! What reading a table left open, or had to guess.
+
+use std::ops::Range;
+
+use super::element;
+use crate::text::{LocatedFault, Place, show};
+
+/// What reading a table left open, or had to guess.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Remarks {
+    /// Names of atoms that tell no element, and how many rows have each.
+    unknown: Vec<(Box<[u8]>, u64)>,
+    /// The rows whose names are not listed.
+    others: u64,
+    /// The first of these rows.
+    first: Option<Place>,
+    /// What was guessed.
+    guesses: Vec<LocatedFault>,
+    /// The names of `radii` that a row had.
+    used_radii: Vec<bool>,
+}
+
+/// The most names that are listed.
+const MOST_NAMES: usize = 8;
+
+impl Remarks {
+    /// Nothing, of a table for which the scene gives radii to so many names.
+    pub(crate) fn new(own_radii: usize) -> Self {
+        Self {
+            used_radii: vec![false; own_radii],
+            ..Self::default()
+        }
+    }
+
+    /// Takes in a row whose label tells no element.
+    #[cold]
+    pub(crate) fn add_unknown(&mut self, label: &[u8], place: impl FnOnce() -> Place) {
+        self.count(label, 1);
+        self.first.get_or_insert_with(place);
+    }
+
+    fn count(&mut self, label: &[u8], rows: u64) {
+        let known = self.unknown.iter().position(|known| *known.0 == *label);
+        match known {
+            Some(place) => self.unknown[place].1 += rows,
+            None if self.unknown.len() < MOST_NAMES => self.unknown.push((label.into(), rows)),
+            None => self.others += rows,
+        }
+    }
+
+    /// Takes in a guess.
+    pub(crate) fn add_guess(&mut self, guess: LocatedFault) {
+        if !self.guesses.contains(&guess) {
+            self.guesses.push(guess);
+        }
+    }
+
+    /// Takes in that a row has the radius that the scene gives to a name.
+    #[inline]
+    pub(crate) fn use_radius(&mut self, name: usize) {
+        if let Some(used) = self.used_radii.get_mut(name) {
+            *used = true;
+        }
+    }
+
+    /// The names of `radii` that no row had.
+    pub(crate) fn unused_radii(&self) -> impl Iterator<Item = usize> {
+        let used = self.used_radii.iter().enumerate();
+        used.filter(|(_, is_used)| !**is_used)
+            .map(|(place, _)| place)
+    }
+
+    /// Takes in those of rows that follow.
+    pub(crate) fn append(&mut self, others: Self) {
+        for (name, rows) in &others.unknown {
+            self.count(name, *rows);
+        }
+        self.others += others.others;
+        self.first = self.first.take().or(others.first);
+        for guess in others.guesses {
+            self.add_guess(guess);
+        }
+        for (used, other) in self.used_radii.iter_mut().zip(others.used_radii) {
+            *used |= other;
+        }
+    }
+
+    /// The same so many lines further down.
+    pub(crate) fn lower(mut self, lines: u64) -> Self {
+        if let Some(Place::Text { line, .. }) = &mut self.first {
+            *line += lines;
+        }
+        self
+    }
+
+    /// True where a row tells no element.
+    pub(crate) fn has_place(&self) -> bool {
+        self.first.is_some()
+    }
+
+    /// What was guessed, and, with `unknown`, the names that tell no element; each with its place.
+    pub(crate) fn told(&self, unknown: bool) -> Vec<LocatedFault> {
+        let mut told = self.guesses.clone();
+        if let Some(place) = self.first.as_ref().filter(|_| unknown) {
+            let rows = |count: u64| match count {
+                1 => String::from("1 row"),
+                count => format!("{count} rows"),
+            };
+            let name = |(name, count): &(Box<[u8]>, u64)| {
+                let name = String::from_utf8_lossy(name);
+                let shown = match show(&name) {
+                    shown if shown.starts_with('`') => shown,
+                    shown => format!("`{shown}`"),
+                };
+                format!("{shown} ({})", rows(*count))
+            };
+            let mut names: Vec<String> = self.unknown.iter().map(name).collect();
+            if self.others > 0 {
+                names.push(format!("others ({})", rows(self.others)));
+            }
+            let meant = self.unknown.first().and_then(|(name, _)| {
+                let name = String::from_utf8_lossy(name);
+                element::suggestion(&name)
+            });
+            let meant = meant.map_or_else(String::new, |symbol| format!(", did you mean {symbol}?"));
+            told.push(LocatedFault {
+                place: place.clone(),
+                message: format!(
+                    "expected elements whose radii are known, found {}{meant} (they have the radius and the color of \
+                     `others: (radius: 1, color: \"#ff80c0\")`)",
+                    names.join(", "),
+                ),
+            });
+        }
+        told
+    }
+}
+
+/// The place of a part of a line.
+pub(crate) fn place_in_line(number: u64, line: &[u8], span: Range<usize>) -> Place {
+    LocatedFault::in_line(number, line, span, String::new()).place
+}
