@@ -241,7 +241,24 @@ fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
                 ));
             }
             ColorMeaning::Categories(categories) => {
-                text.push_str(&format!("; {} colors", categories.len()));
+                let count = |count: usize, one: &str, several: &str| match count {
+                    1 => format!("1 {one}"),
+                    count => format!("{count} {several}"),
+                };
+                let mut colors: Vec<[u64; 3]> = categories
+                    .iter()
+                    .map(|(_, color)| color.to_array().map(f64::to_bits))
+                    .collect();
+                colors.sort_unstable();
+                colors.dedup();
+                let different = count(colors.len(), "color", "colors");
+                text.push_str(&match colors.len() == categories.len() {
+                    true => format!("; {different}"),
+                    false => {
+                        let all = count(categories.len(), "category", "categories");
+                        format!("; {all}, {different}")
+                    }
+                });
             }
         }
     }

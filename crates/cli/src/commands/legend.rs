@@ -21,7 +21,7 @@ const LINE: f64 = 20.0;
 /// Between what belongs to one table and the next.
 const GAP: f64 = 14.0;
 /// The most categories that are listed.
-const MOST_CATEGORIES: usize = 100;
+const MOST_CATEGORIES: usize = 40;
 /// About the width of a digit of the marks' numbers.
 const DIGIT: f64 = 7.0;
 

@@ -6,8 +6,8 @@ use super::table::{ElementRadii, Keep, Palette};
 use crate::table::{Coloring, Colormap, ColumnRef, Missing, Value, ValueRange};
 use crate::text::{Placed, present};
 use crate::values::{
-    Color, Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale, Scale,
-    Speed, from_srgb,
+    Color, Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale,
+    Scale, Speed, from_srgb,
 };
 
 /// Spheres of a table; matte white without a material, and where the table puts them.

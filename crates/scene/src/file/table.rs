@@ -91,7 +91,9 @@ fn column(slice: Slice<'_>) -> Option<ColumnRef> {
             form: "a column in quotation marks, its number from 1, or `Constant(…)` for a position",
         };
         let Form::Constant(number) = read_structure(slice, names)?;
-        return number.get().map(|Coordinate(number)| ColumnRef::Constant(number));
+        return number
+            .get()
+            .map(|Coordinate(number)| ColumnRef::Constant(number));
     }
     if slice.text.starts_with(|c: char| c.is_ascii_digit()) {
         let number: u32 = read_simple(slice, COLUMN)?;

@@ -324,7 +324,10 @@ impl Block<'_> {
         rows.reserve((end - start) as u64)?;
         let mut numbers: Numbers = plan.constants;
         for row in start..end {
-            if !self.filters().all(|(value, test)| self.meets(row, value, test)) {
+            if !self
+                .filters()
+                .all(|(value, test)| self.meets(row, value, test))
+            {
                 rows.read += 1;
                 continue;
             }

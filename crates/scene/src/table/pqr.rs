@@ -64,7 +64,14 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         },
         ..Form::new(Division::Pqr)
     };
-    const TEXTS: [&str; 6] = ["record", "name", "residue", "chain", "residue_number", "element"];
+    const TEXTS: [&str; 6] = [
+        "record",
+        "name",
+        "residue",
+        "chain",
+        "residue_number",
+        "element",
+    ];
     let texts = NAMES.map(|name| TEXTS.contains(&name));
     Ok(Some(Header {
         texts: Some(texts.into()),

@@ -122,7 +122,8 @@ impl Remarks {
                 let name = String::from_utf8_lossy(name);
                 element::suggestion(&name)
             });
-            let meant = meant.map_or_else(String::new, |symbol| format!(", did you mean {symbol}?"));
+            let meant =
+                meant.map_or_else(String::new, |symbol| format!(", did you mean {symbol}?"));
             told.push(LocatedFault {
                 place: place.clone(),
                 message: format!(

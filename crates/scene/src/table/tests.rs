@@ -14,10 +14,14 @@ use crate::Scene;
 use crate::values::from_srgb;
 
 mod atoms;
+mod colors;
 mod csv;
+mod elements;
 mod formats;
+mod hands;
 mod npy;
 mod ply;
+mod rows;
 mod xyz;
 
 /// A folder that is gone after the test.
@@ -40,21 +44,20 @@ impl Drop for Folder {
 }
 
 /// The scene with a cloud whose table is called `name` and holds `bytes`.
+///
+/// Its numbers are those of the table, whatever the hands of the format.
 fn load(name: &str, bytes: impl AsRef<[u8]>, fields: &str) -> Result<Scene, String> {
+    let comma = if fields.is_empty() { "" } else { ", " };
+    load_as_it_is(name, bytes, &format!("{fields}{comma}right_handed: false"))
+}
+
+/// The same with the hands of the format.
+fn load_as_it_is(name: &str, bytes: impl AsRef<[u8]>, fields: &str) -> Result<Scene, String> {
     let folder = Folder::new();
     fs::write(folder.0.join(name), bytes).unwrap();
-    // The numbers of the table, whatever the hands of its format.
-    let hands = match fields.contains("right_handed") {
-        true => "",
-        false => "right_handed: false",
-    };
-    let comma = match fields.is_empty() || hands.is_empty() {
-        true => "",
-        false => ", ",
-    };
     let text = format!(
         "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(),\nclouds: [(file: \"{name}\", \
-         {fields}{comma}{hands})])"
+         {fields})])"
     );
     let path = folder.0.join("scene.ron");
     Scene::parse(&text, &path).map_err(|error| {
@@ -65,6 +68,17 @@ fn load(name: &str, bytes: impl AsRef<[u8]>, fields: &str) -> Result<Scene, Stri
 
 fn scene(name: &str, bytes: impl AsRef<[u8]>, fields: &str) -> Scene {
     load(name, bytes, fields).unwrap_or_else(|message| panic!("{message}"))
+}
+
+/// The warnings about a scene and its table, one behind another, without the folder.
+fn warnings(scene: &Scene) -> String {
+    let folder = |text: &str| {
+        let end = text.find("/marbles-tables-").map(|at| at + 1);
+        let end = end.and_then(|at| text[at..].find('/').map(|slash| at + slash + 1));
+        text[end.unwrap_or(0)..].to_owned()
+    };
+    let told: Vec<String> = scene.warnings().iter().map(|text| folder(text)).collect();
+    told.join("\n")
 }
 
 /// Centers and radii.
@@ -223,17 +237,18 @@ fn clouds_come_behind_the_spheres_in_the_order_of_the_file() {
         spheres: [(center: (0, 0, 0), radius: 1)])";
     let scene = Scene::parse(text, &folder.0.join("scene.ron")).unwrap();
     let depths: Vec<f64> = spheres(&scene).iter().map(|sphere| sphere[2]).collect();
-    assert_eq!(depths, [0.0, 1.0, 2.0, 7.0]);
+    // Atoms have right-handed axes.
+    assert_eq!(depths, [0.0, -1.0, -2.0, 7.0]);
     let clouds: Vec<_> = scene
         .clouds()
         .iter()
         .map(|cloud| cloud.spheres.clone())
         .collect();
     assert_eq!(clouds, [1..3, 3..4]);
-    let dark = DVec3::splat(0.125);
+    let argon = from_srgb(0x80d1e3);
     assert_eq!(
         albedos(&scene),
-        [Color::ONE, dark, dark, from_srgb(0x808080)]
+        [Color::ONE, argon, argon, from_srgb(0x808080)]
     );
     assert_eq!(scene.world().material(3).exponent, 2.0);
 }
@@ -284,12 +299,12 @@ fn headers_do_not_multiply() {
 
 /// Letters of two bytes are no elements, alone or beside others.
 #[test]
-fn elements_of_other_alphabets_are_refused() {
+fn elements_of_other_alphabets_are_none() {
     for name in ["\u{e9}", "\u{e9}C"] {
-        let message = refusal("a.xyz", format!("1\n\n{name} 1 2 3\n"), "");
-        assert!(message.starts_with("a.xyz:3:1: expected"), "{message}");
+        let told = warnings(&scene("a.xyz", format!("1\n\n{name} 1 2 3\n"), ""));
+        assert!(told.starts_with("a.xyz:3:1: expected"), "{told}");
         let csv = format!("element,x,y,z\n{name},1,2,3\n");
-        let message = refusal("a.csv", csv, "");
-        assert!(message.starts_with("a.csv:2:1: expected"), "{message}");
+        let told = warnings(&scene("a.csv", csv, ""));
+        assert!(told.starts_with("a.csv:2:1: expected"), "{told}");
     }
 }

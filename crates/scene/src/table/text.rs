@@ -202,9 +202,9 @@ fn is_kept(line: &[u8], number: u64, plan: &Plan, form: &Form) -> Result<bool, L
             };
             let text = &line[field.clone()];
             let is_met = match &plan.filters[usize::from(*filter)] {
-                Test::IsText(wanted) if plan.element_column == Some(column) => {
-                    plan.elements.is_called(form.atom(line, field.clone()), wanted)
-                }
+                Test::IsText(wanted) if plan.element_column == Some(column) => plan
+                    .elements
+                    .is_called(form.atom(line, field.clone()), wanted),
                 Test::IsText(wanted) => text == wanted.as_bytes(),
                 test => match parse(text, form.has_decimal_commas) {
                     Some(number) => test.holds(number),

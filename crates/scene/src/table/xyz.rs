@@ -9,9 +9,9 @@ use std::ops::Range;
 use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
+use super::fields;
 use super::fields::Division;
 use super::form::Form;
-use super::fields;
 use super::header::{Guess, Header};
 use super::input::{Input, without_return};
 use crate::text::{LocatedFault, show};
@@ -91,7 +91,11 @@ fn guess(
         if field.is_empty() || !field.iter().all(u8::is_ascii_digit) {
             return Ok(None);
         }
-        numbers.extend(str::from_utf8(field).ok().and_then(|field| field.parse::<u32>().ok()));
+        numbers.extend(
+            str::from_utf8(field)
+                .ok()
+                .and_then(|field| field.parse::<u32>().ok()),
+        );
     }
     // Nothing has hydrogen and helium and all that follow, and nothing else.
     let is_by_lammps = comment.trim_ascii_start().starts_with(b"Atoms");

@@ -131,9 +131,9 @@ impl Names {
     fn missing(&self, name: &str) -> String {
         let known = self.0.iter().map(String::as_str);
         let meant = did_you_mean(name, known, marked);
-        let (name, list) = (marked(name), self.list());
         let are_numbers = self.0.iter().all(|name| name.parse::<u32>().is_ok());
         let is_flat = name == "z" && ["x", "y"].iter().all(|name| self.find(name).is_some());
+        let (name, list) = (marked(name), self.list());
         let hint = match self.0.is_empty() {
             false if are_numbers => " (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
             false if is_flat => " (a table of a plane has one with `columns: (z: Constant(0))`)",

@@ -25,10 +25,14 @@ fn xyz_is_read() {
 }
 
 #[test]
-fn a_material_keeps_its_color_unless_elements_are_asked_for() {
+fn a_material_is_the_finish_and_elements_have_their_colors() {
     let folder = Folder::new();
     fs::write(folder.0.join("a.xyz"), "1\n\nO 1 2 3").unwrap();
-    for (fields, expected) in [("", 0x102030), (", color: Element", 0xff0d0d)] {
+    for (fields, expected) in [
+        ("", 0xff0d0d),
+        (", color: Element", 0xff0d0d),
+        (", color: Material", 0x102030),
+    ] {
         let text = format!(
             "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(), materials: {{\"m\": \
              (albedo: \"#102030\")}}, clouds: [(file: \"a.xyz\", material: \"m\"{fields})])"
@@ -91,18 +95,6 @@ fn xyz_is_refused_at_its_place() {
         (
             "1\n\nO 1 x 3\n",
             "a.xyz:3:5: expected a number for `y`, found `x`",
-        ),
-        (
-            "1\n\nCx1 1 2 3\n",
-            "a.xyz:3:1: expected the symbol of an element, found `Cx1` (with `radius: …` and `color: Material` none is needed)",
-        ),
-        (
-            "1\n\nbead 1 2 3\n",
-            "a.xyz:3:1: expected the symbol of an element, found `bead` (with `radius: …` and `color: Material` none is needed)",
-        ),
-        (
-            "1\n\nOg 1 2 3\n",
-            "a.xyz:3:1: expected an element whose radius is known, found `Og`",
         ),
         (
             "1\nProperties=species:S:1:pos:R\n",

@@ -137,7 +137,9 @@ impl Scale {
             }
             Paint::Elements(colors) => {
                 let mut is_used = [false; 256];
-                colors.iter().for_each(|color| is_used[usize::from(*color)] = true);
+                colors
+                    .iter()
+                    .for_each(|color| is_used[usize::from(*color)] = true);
                 let names = table::color_names(&self.palette_names()).into_iter();
                 let used = names.zip(is_used).filter(|(_, is_used)| *is_used);
                 learned.categories.extend(used.map(|(name, _)| name));

@@ -2,8 +2,8 @@
 
 mod coloring;
 mod explain;
-mod oversights;
 mod open;
+mod oversights;
 mod settings;
 mod steps;
 mod summary;

@@ -16,7 +16,8 @@ use super::summary::{ColumnContents, ColumnSummary};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
 use crate::table::{
-    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Remarks, Request, Rows, TableError, Value, unit,
+    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Remarks, Request, Rows, TableError,
+    Value, unit,
 };
 use crate::text::{Fault, LocatedFault, quoted};
 
@@ -159,9 +160,8 @@ impl OpenCloud {
             placement,
             ..
         } = &self.cloud;
-        let is_colored = request.value.is_some()
-            || request.coloring.is_some()
-            || !request.palette.is_empty();
+        let is_colored =
+            request.value.is_some() || request.coloring.is_some() || !request.palette.is_empty();
         let has_own_radii = !request.own_radii.is_empty();
         self.steps().is_some()
             && (placement.is_centered || has_own_radii || is_colored && scale.has_open_range())
@@ -249,7 +249,9 @@ impl OpenCloud {
         };
         all.extend(of_colors.into_iter().map(|told| of_scene(place, told)));
         let unused = remarks.unused_radii();
-        let unused: Vec<String> = unused.map(|name| request.own_radii[name].0.clone()).collect();
+        let unused: Vec<String> = unused
+            .map(|name| request.own_radii[name].0.clone())
+            .collect();
         let unused = unused_radii(&unused);
         all.extend(unused.map(|told| of_scene(&self.cloud.radii_place, told)));
         all

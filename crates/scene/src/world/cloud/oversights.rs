@@ -27,12 +27,16 @@ impl Scale {
         let unmatched: Vec<String> = unmatched.collect();
         if let Some(first) = unmatched.first() {
             let known = names.iter().map(|(name, _)| name.as_str());
-            let what = if learned.are_elements { "elements" } else { "categories" };
+            let what = if learned.are_elements {
+                "elements"
+            } else {
+                "categories"
+            };
             told.push(format!(
-                "`palette` has colors for {}, which no row of {column} is called{}; its {what} are {}",
+                "`palette` has colors for {}, which no row of {column} is called: its {what} are {}{}",
                 listed(&unmatched),
-                did_you_mean(first, known.clone(), quoted),
-                listed(&known.map(str::to_owned).collect::<Vec<_>>()),
+                listed(&known.clone().map(str::to_owned).collect::<Vec<_>>()),
+                did_you_mean(first, known, quoted),
             ));
         }
         if !learned.are_elements {
@@ -45,7 +49,9 @@ impl Scale {
     fn shared(&self, names: &[(String, glam::DVec3)], column: &str) -> Option<String> {
         let mut counts: HashMap<[u64; 3], usize> = HashMap::new();
         for (_, color) in names {
-            *counts.entry(color.to_array().map(f64::to_bits)).or_default() += 1;
+            *counts
+                .entry(color.to_array().map(f64::to_bits))
+                .or_default() += 1;
         }
         let own: Vec<String> = self.palette_names();
         let own: std::collections::HashSet<&str> = own.iter().map(String::as_str).collect();
@@ -83,7 +89,11 @@ pub(super) fn unused_radii(names: &[String]) -> Option<String> {
 
 /// Some of these names, in quotation marks.
 fn listed(names: &[String]) -> String {
-    let mut shown: Vec<String> = names.iter().take(MOST_LISTED).map(|name| quoted(name)).collect();
+    let mut shown: Vec<String> = names
+        .iter()
+        .take(MOST_LISTED)
+        .map(|name| quoted(name))
+        .collect();
     if names.len() > MOST_LISTED {
         shown.push(format!("{} more", names.len() - MOST_LISTED));
     }

@@ -57,10 +57,7 @@ impl Cloud {
         if let (Some(place), Some(coloring)) = (place, coloring) {
             let (known, wanted): (&[Coloring], _) = match (of_scale, of_palette) {
                 (Some(_), _) => (&[Coloring::Value], Coloring::Value),
-                (None, Some(_)) => (
-                    &[Coloring::Category, Coloring::Element],
-                    Coloring::Category,
-                ),
+                (None, Some(_)) => (&[Coloring::Category, Coloring::Element], Coloring::Category),
                 (None, None) => (&[Coloring::Value, Coloring::Category], Coloring::Value),
             };
             if !known.contains(&coloring) {
@@ -73,7 +70,12 @@ impl Cloud {
             ElementRadii::Kind(kind) => (*kind, Vec::new()),
             ElementRadii::Own(own) => {
                 let own = once(own, "element")?;
-                (Radii::default(), own.into_iter().map(|(name, radius)| (name, radius.0)).collect())
+                (
+                    Radii::default(),
+                    own.into_iter()
+                        .map(|(name, radius)| (name, radius.0))
+                        .collect(),
+                )
             }
         };
         let others = optional(&cloud.others, |others| {
