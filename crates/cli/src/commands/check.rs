@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{
     CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, FrameError, Scene, harmless,
+    written_time,
 };
 
 use super::args::CheckArguments;
@@ -210,12 +211,21 @@ fn cloud(
 /// A column: its kind, its range, and what it is for.
 fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
     let contents = match &column.contents {
-        ColumnContents::Numbers { low, high, missing } => {
+        ColumnContents::Numbers {
+            low,
+            high,
+            missing,
+            are_times,
+        } => {
             let missing = match missing {
                 0 => String::new(),
                 missing => format!(", {missing} missing"),
             };
             match low <= high {
+                true if *are_times => {
+                    let (low, high) = (written_time(*low), written_time(*high));
+                    format!("{low} to {high}{missing}")
+                }
                 true => format!("{}{missing}", range([*low, *high].into_iter())),
                 false => format!("no numbers{missing}"),
             }
@@ -233,11 +243,20 @@ fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
     let mut text = format!("{name}: {contents}");
     if is_color && let Some(colors) = colors {
         match &colors.meaning {
-            ColorMeaning::Scale { low, high, .. } => {
+            ColorMeaning::Scale {
+                low,
+                high,
+                are_times,
+                ..
+            } => {
+                let number = |number: &f64| match are_times {
+                    true => written_time(*number),
+                    false => short(*number),
+                };
                 text.push_str(&format!(
                     "; colors from {} to {}",
-                    short(*low),
-                    short(*high)
+                    number(low),
+                    number(high)
                 ));
             }
             ColorMeaning::Categories(categories) => {

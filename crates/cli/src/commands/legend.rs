@@ -4,7 +4,9 @@ use std::path::Path;
 
 use glam::DVec3;
 use marbles_core::Color;
-use marbles_scene::{CloudDescription, ColorDescription, ColorMeaning, ScaleKind, Scene};
+use marbles_scene::{
+    CloudDescription, ColorDescription, ColorMeaning, ScaleKind, Scene, written_time,
+};
 
 use super::svg::{Anchor, Style, Svg};
 use crate::base::failure::Failure;
@@ -61,7 +63,14 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
                 high,
                 kind,
                 colors,
-            } => draw_scale(&mut svg, top + LINE, (*low, *high), *kind, colors),
+                are_times,
+            } => {
+                let label = |number| match are_times {
+                    true => time(number, high - low),
+                    false => short(number),
+                };
+                draw_scale(&mut svg, top + LINE, (*low, *high), *kind, colors, &label);
+            }
             ColorMeaning::Categories(categories) => {
                 draw_categories(&mut svg, top + LINE, categories);
             }
@@ -89,7 +98,14 @@ fn height(meaning: &ColorMeaning) -> f64 {
     }
 }
 
-fn draw_scale(svg: &mut Svg, top: f64, (low, high): (f64, f64), kind: ScaleKind, colors: &[Color]) {
+fn draw_scale(
+    svg: &mut Svg,
+    top: f64,
+    (low, high): (f64, f64),
+    kind: ScaleKind,
+    colors: &[Color],
+    label: &dyn Fn(f64) -> String,
+) {
     let (width, height) = SCALE;
     let step = width / colors.len().max(1) as f64;
     for (index, color) in colors.iter().enumerate() {
@@ -99,7 +115,7 @@ fn draw_scale(svg: &mut Svg, top: f64, (low, high): (f64, f64), kind: ScaleKind,
     let mut taken = f64::NEG_INFINITY;
     for number in marks(low, high, kind) {
         let at = MARGIN + width * place(number, low, high, kind);
-        let label = short(number);
+        let label = label(number);
         let half = 0.5 * DIGIT * label.len() as f64;
         if at - half < taken {
             continue;
@@ -137,6 +153,16 @@ fn draw_categories(svg: &mut Svg, top: f64, categories: &[(String, Color)]) {
             &format!("and {more} more"),
         );
     }
+}
+
+/// A time on a scale of so many seconds: the date, or of less than two days the time of day.
+fn time(seconds: f64, length: f64) -> String {
+    const TWO_DAYS: f64 = 172_800.0;
+    let text = written_time(seconds);
+    let parts = text.split_once(' ');
+    let (date, time) = parts.map_or((&*text, "00:00:00"), |parts| parts);
+    let shown = if length >= TWO_DAYS { date } else { time };
+    shown.to_owned()
 }
 
 /// The place of a number on a scale, from 0 to 1.

@@ -6,8 +6,8 @@ use super::table::{ElementRadii, Keep, Palette};
 use crate::table::{Coloring, Colormap, ColumnRef, Missing, Value, ValueRange};
 use crate::text::{Placed, present};
 use crate::values::{
-    Color, Coordinate, Every, FileName, Flag, FrameRange, MaterialName, Point, Radius, RadiusScale,
-    Scale, Speed, from_srgb,
+    Color, Coordinate, Every, Exponent, FileName, Flag, FrameRange, MaterialName, Point, Radius,
+    RadiusScale, Scale, Speed, from_srgb,
 };
 
 /// Spheres of a table; matte white without a material, and where the table puts them.
@@ -123,10 +123,25 @@ pub(crate) struct Columns {
     pub(crate) radius: Option<Placed<ColumnRef>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) radius_scale: Option<Placed<RadiusScale>>,
+    #[serde(default)]
+    pub(crate) radius_law: Placed<RadiusLaw>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) element: Option<Placed<ColumnRef>>,
     #[serde(default, deserialize_with = "present")]
     pub(crate) value: Option<Placed<Value>>,
+}
+
+/// The way from the numbers of a column to radii.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) enum RadiusLaw {
+    /// They are radii.
+    #[default]
+    Linear,
+    /// Radii are this power of them.
+    Power(Placed<Exponent>),
+    /// Radii are 10 to the power of this many of them.
+    Exponential(Placed<Exponent>),
 }
 
 /// The way from numbers to the colors of a colormap.

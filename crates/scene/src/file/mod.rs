@@ -14,7 +14,7 @@ use serde::{Deserialize, Deserializer};
 
 pub(crate) use self::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 pub(crate) use self::cloud::{
-    Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, TakenFrames, Up,
+    Cloud, ColorScale, Columns, End, OTHERS_COLOR, Others, RadiusLaw, TakenFrames, Up,
 };
 pub(crate) use self::outline::{Outline, Width};
 pub(crate) use self::table::{ElementRadii, Keep, Named, Palette, Test, Wanted};

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer};
 use super::camera::{Animation, Axes, Camera, Ease, FrameOver, Key, Turned};
 use super::{
     Attached, Cloud, ColorScale, Columns, End, Falloff, File, Grain, Highlight, Image, Keep, Lens,
-    Light, Material, Others, Outline, Palette, Rough, Sphere, TakenFrames, Test, Up,
+    Light, Material, Others, Outline, Palette, RadiusLaw, Rough, Sphere, TakenFrames, Test, Up,
 };
 use crate::table::{Coloring, Colormap, Radii};
 use crate::text::{Names, Read, Slice, note_failure, read_file, read_structure};
@@ -45,6 +45,7 @@ structures! {
     Radii: "kind of radii", "a kind of radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name";
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element`, `Value` or `Category`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
+    RadiusLaw: "law of radii", "a law of radii: `Linear`, `Power(…)` or `Exponential(…)`";
     ColorScale: "scale of colors", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
     Palette: "palette", "a palette `{\"…\": …}` of colors by name";
     Others: "choice for others", "what others have `(radius: …, color: …)`";

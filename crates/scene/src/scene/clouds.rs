@@ -163,6 +163,7 @@ fn colors(scale: &Scale, step: &Step) -> Option<ColorDescription> {
             high,
             kind: scale.kind,
             colors: scale.colors(),
+            are_times: step.has_times,
         }
     } else {
         return None;

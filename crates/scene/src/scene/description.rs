@@ -49,6 +49,8 @@ pub enum ColorMeaning {
         kind: ScaleKind,
         /// The linear colors, from the low end to the high one.
         colors: Vec<DVec3>,
+        /// The numbers are times, in seconds since the start of 1970.
+        are_times: bool,
     },
     /// Categories, in their order, each with its linear color.
     Categories(Vec<(String, DVec3)>),

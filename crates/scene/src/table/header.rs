@@ -13,7 +13,7 @@ use super::input::Input;
 use super::number::{is_missing, parse};
 use super::request::Request;
 use super::rows::Rows;
-use super::text;
+use super::{text, time};
 use crate::text::LocatedFault;
 
 /// What a text says of its rows before they come.
@@ -132,7 +132,8 @@ impl Header {
             return Ok(Vec::new());
         }
         let is_text = |field: &&[u8]| {
-            parse(field, self.form.has_decimal_commas).is_none() && !is_missing(field)
+            let is_number = parse(field, self.form.has_decimal_commas).is_some();
+            !is_number && !is_missing(field) && time::parse(field).is_none()
         };
         let fields = fields::all(line, &self.form.division);
         Ok(fields.iter().map(is_text).collect())

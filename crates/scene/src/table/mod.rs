@@ -37,6 +37,7 @@ mod residue;
 mod rows;
 mod source;
 mod text;
+mod time;
 mod vtk;
 mod xyz;
 
@@ -50,9 +51,10 @@ pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
 pub(crate) use remarks::Remarks;
 pub(crate) use request::{
-    Coloring, ColumnRef, Columns, Filter, Missing, Request, Value, ValueRange,
+    Coloring, ColumnRef, Columns, Filter, Missing, RadiusLaw, Request, Value, ValueRange,
 };
 pub(crate) use rows::Rows;
+pub use time::written_time;
 
 #[cfg(test)]
 mod tests;

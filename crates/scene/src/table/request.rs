@@ -46,6 +46,32 @@ pub(crate) struct Columns {
     pub(crate) element: Option<ColumnRef>,
     /// The factor on radii.
     pub(crate) radius_scale: Option<f64>,
+    /// The way from the numbers of the column to radii.
+    pub(crate) radius_law: RadiusLaw,
+}
+
+/// The way from numbers to radii.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) enum RadiusLaw {
+    /// They are radii.
+    #[default]
+    Linear,
+    /// Radii are this power of them: 1/2 of areas, 1/3 of volumes.
+    Power(f64),
+    /// Radii are 10 to the power of this many of them, as of magnitudes.
+    Exponential(f64),
+}
+
+impl RadiusLaw {
+    /// The radius for a number.
+    #[inline(always)]
+    pub(crate) fn of(self, number: f64) -> f64 {
+        match self {
+            Self::Linear => number,
+            Self::Power(power) => libm::pow(number, power),
+            Self::Exponential(factor) => libm::pow(10.0, factor * number),
+        }
+    }
 }
 
 /// A column.

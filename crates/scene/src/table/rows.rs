@@ -30,6 +30,8 @@ pub(crate) struct Rows {
     pub(crate) remarks: Remarks,
     /// The format has right-handed axes.
     pub(crate) is_right_handed: bool,
+    /// The values are times, in seconds.
+    pub(crate) has_times: bool,
 }
 
 /// The numbers of a row, by [`Slot`].
@@ -65,6 +67,7 @@ impl Rows {
             element_column: plan.element_column,
             remarks: Remarks::new(plan.elements.own_radii()),
             is_right_handed: false,
+            has_times: false,
         }
     }
 
@@ -103,7 +106,7 @@ impl Rows {
         let mut pushed = Pushed::AsItIs;
         let radius = match plan.radius {
             RadiusSource::Fixed(radius) => radius,
-            RadiusSource::Column(scale) => scale * number(Slot::Radius),
+            RadiusSource::Column(scale, law) => scale * law.of(number(Slot::Radius)),
             RadiusSource::Element(scale) => {
                 scale
                     * match plan.elements.radius(row.atom) {
@@ -163,6 +166,7 @@ impl Rows {
         }
         self.read += others.read;
         self.remarks.append(others.remarks);
+        self.has_times |= others.has_times;
         self.spheres.append(&mut others.spheres);
         if self.paint.append(others.paint) {
             let most = Categories::MOST;

@@ -14,6 +14,7 @@ use super::number::{is_missing, parse};
 use super::remarks::place_in_line;
 use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
+use super::time;
 use crate::text::LocatedFault;
 
 /// About how many bytes of text are one piece of work.
@@ -206,7 +207,7 @@ fn is_kept(line: &[u8], number: u64, plan: &Plan, form: &Form) -> Result<bool, L
                     .elements
                     .is_called(form.atom(line, field.clone()), wanted),
                 Test::IsText(wanted) => text == wanted.as_bytes(),
-                test => match parse(text, form.has_decimal_commas) {
+                test => match parse(text, form.has_decimal_commas).or_else(|| time::parse(text)) {
                     Some(number) => test.holds(number),
                     None if is_missing(text) => false,
                     None => {
@@ -265,6 +266,10 @@ fn read_line(
                 slot => {
                     let mut value = parse(text, form.has_decimal_commas);
                     let is_value = matches!(slot, Slot::Value | Slot::Vector(_));
+                    if value.is_none() && *slot == Slot::Value {
+                        value = time::parse(text);
+                        rows.has_times |= value.is_some();
+                    }
                     if value.is_none() && is_value && plan.allowed.may_miss && is_missing(text) {
                         value = Some(f64::NAN);
                     }

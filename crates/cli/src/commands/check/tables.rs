@@ -15,8 +15,14 @@ pub(super) fn json(scene: &Scene) -> Result<String, Failure> {
             .iter()
             .map(|column| {
                 let mut object = match &column.contents {
-                    ColumnContents::Numbers { low, high, missing } => {
-                        json!({"kind": "numbers", "low": low, "high": high, "missing": missing})
+                    ColumnContents::Numbers {
+                        low,
+                        high,
+                        missing,
+                        are_times,
+                    } => {
+                        let kind = if *are_times { "times" } else { "numbers" };
+                        json!({"kind": kind, "low": low, "high": high, "missing": missing})
                     }
                     ColumnContents::Texts { count, examples } => {
                         json!({"kind": "texts", "count": count, "examples": examples})

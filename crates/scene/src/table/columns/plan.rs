@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 
 use super::super::elements::Elements;
-use super::super::request::{Coloring, ColumnRef, Missing, Request, Value};
+use super::super::request::{Coloring, ColumnRef, Missing, RadiusLaw, Request, Value};
 use super::filter::Test;
 use super::names::{Names, marked};
 use super::slot::{Allowed, Slot};
@@ -16,8 +16,8 @@ use crate::values::linear;
 pub(crate) enum RadiusSource {
     /// All are this one.
     Fixed(f64),
-    /// From the table, times this.
-    Column(f64),
+    /// From the table by a law, times this.
+    Column(f64, RadiusLaw),
     /// From the element, times this.
     Element(f64),
 }
@@ -71,6 +71,8 @@ pub(crate) struct Plan {
     /// The columns' names.
     pub(crate) names: Names,
     pub(crate) radius: RadiusSource,
+    /// The scene file names the column of radii.
+    has_chosen_radius: bool,
     pub(crate) coloring: Coloring,
     pub(crate) value: ValueSource,
     /// The conditions on rows that are kept.
@@ -109,7 +111,8 @@ impl Plan {
         let columns = &request.columns;
         let mut plan = Self {
             uses: vec![Uses::None; names.len()],
-            radius: RadiusSource::Column(1.0),
+            radius: RadiusSource::Fixed(1.0),
+            has_chosen_radius: columns.radius.is_some(),
             coloring: Coloring::Material,
             value: ValueSource::Column,
             filters: request
@@ -124,6 +127,7 @@ impl Plan {
             allowed: Allowed {
                 may_miss: request.missing != Missing::Refuse,
                 is_encoded: false,
+                has_any_radius: matches!(columns.radius_law, RadiusLaw::Exponential(_)),
             },
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
@@ -213,21 +217,22 @@ impl Plan {
         has_colors: bool,
         has_element: bool,
     ) -> Result<RadiusSource, String> {
+        let law = request.columns.radius_law;
         let scale = request.columns.radius_scale;
         if let Some(radius) = request.radius {
             return Ok(RadiusSource::Fixed(radius));
         }
         if let Some(chosen) = &request.columns.radius {
             self.take(Slot::Radius, Some(chosen))?;
-            return Ok(RadiusSource::Column(scale.unwrap_or(1.0)));
+            return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
         if let Some(column) = self.find_radius(has_colors) {
             self.use_for(column, Slot::Radius);
-            return Ok(RadiusSource::Column(scale.unwrap_or(1.0)));
+            return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
         if let Some(column) = self.names.find("diameter") {
             self.use_for(column, Slot::Radius);
-            return Ok(RadiusSource::Column(scale.unwrap_or(0.5)));
+            return Ok(RadiusSource::Column(scale.unwrap_or(0.5), law));
         }
         if has_element {
             self.take_element(request.columns.element.as_ref())?;
@@ -252,8 +257,17 @@ impl Plan {
 
     /// The expected thing in a column, for messages.
     pub(crate) fn expected(&self, column: usize, what: &str) -> String {
+        let law = match self.radius {
+            // Whoever names a column of other numbers means some law.
+            RadiusSource::Column(_, RadiusLaw::Linear)
+                if what.starts_with("a radius") && self.has_chosen_radius =>
+            {
+                " (`radius_law: Exponential(0.5)` makes radii of magnitudes)"
+            }
+            _ => "",
+        };
         match self.names.0.get(column) {
-            Some(name) => format!("{what} for {}", marked(name)),
+            Some(name) => format!("{what} for {}{law}", marked(name)),
             None => what.to_owned(),
         }
     }

@@ -25,6 +25,8 @@ pub(crate) struct Allowed {
     pub(crate) may_miss: bool,
     /// Colors are sRGB values from 0 to 255.
     pub(crate) is_encoded: bool,
+    /// Radii are made of any numbers.
+    pub(crate) has_any_radius: bool,
 }
 
 /// The most conditions on rows.
@@ -75,7 +77,9 @@ impl Slot {
             Self::Value | Self::Vector(_) if allowed.may_miss && number.is_nan() => None,
             Self::Filter(_) | Self::Element => None,
             _ if !number.is_finite() => Some("a finite number"),
-            Self::Radius if number <= 0.0 => Some("a radius greater than 0"),
+            Self::Radius if number <= 0.0 && !allowed.has_any_radius => {
+                Some("a radius greater than 0")
+            }
             Self::Red | Self::Green | Self::Blue => {
                 if allowed.is_encoded {
                     let is_byte = (0.0..=255.0).contains(&number) && number.fract() == 0.0;

@@ -35,7 +35,7 @@ fn csv_is_refused_at_its_place() {
         ),
         (
             "x,y,zz\n",
-            "a.csv:1:1: expected a column `z`, found `x`, `y`, `zz`",
+            "a.csv:1:1: expected a column `z`, found `x`, `y`, `zz` (a table of a plane has one with `columns: (z: Constant(0))`)",
         ),
         (
             "x,y,z\n",

@@ -100,13 +100,11 @@ fn tables_of_a_plane_have_a_constant() {
         [1.0, 3.0, -2.5, 0.7],
     ];
     assert_eq!(found, expected);
-    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 2)}";
-    let array = npy(header, &doubles(&[1.0, 2.0]));
-    let columns = "columns: (x: 1, y: Constant(7), z: 2), radius: 1";
-    assert_eq!(
-        spheres(&scene("a.npy", array, columns)),
-        [[1.0, 7.0, 2.0, 1.0]]
-    );
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3)}";
+    let array = npy(header, &doubles(&[1.0, 2.0, 3.0]));
+    let columns = "columns: (y: Constant(7)), radius: 1";
+    let found = spheres(&scene("a.npy", array, columns));
+    assert_eq!(found, [[1.0, 7.0, 3.0, 1.0]]);
     let message = refusal(
         "a.csv",
         flat,
@@ -115,4 +113,76 @@ fn tables_of_a_plane_have_a_constant() {
     let expected =
         "a.csv:1:1: expected a column, found `Constant(1)`, which positions alone may have";
     assert_eq!(message, expected);
+}
+
+const EVENTS: &str = "time,mag,x,y,z
+2020-02-26T20:00:29.166Z,0.4,-101,303,-211
+2020-02-12T09:56:10.713Z,1.2,12,-80,-40
+2020-03-31T10:32:39.906Z,0.0,83,878,-619
+2020-06-01T00:00:00.000Z,-1,400,-300,-500
+";
+
+#[test]
+fn magnitudes_become_radii_and_times_colors() {
+    let radii = |scene: &Scene| {
+        spheres(scene)
+            .iter()
+            .map(|sphere| sphere[3])
+            .collect::<Vec<_>>()
+    };
+    let law = "columns: (radius: \"mag\", radius_scale: 20, radius_law: Exponential(0.5)), value: \"time\"";
+    let scene = scene("a.csv", EVENTS, law);
+    let expected =
+        [0.4, 1.2, 0.0, -1.0].map(|magnitude: f64| 20.0 * libm::pow(10.0, 0.5 * magnitude));
+    assert_eq!(
+        (radii(&scene), warnings(&scene)),
+        (expected.to_vec(), String::new())
+    );
+    let colors = scene.clouds()[0].colors.as_ref().unwrap();
+    let crate::ColorMeaning::Scale {
+        low,
+        high,
+        are_times,
+        ..
+    } = colors.meaning
+    else {
+        panic!("{colors:?}")
+    };
+    let shown = [low, high].map(crate::written_time);
+    assert_eq!(
+        (are_times, shown),
+        (true, ["2020-02-12 09:56:10".into(), "2020-06-01".into()])
+    );
+    // In the order of time: the second is the first, and the last one the last.
+    let viridis = Colormap::Viridis.colors();
+    assert_eq!(
+        (albedos(&scene)[1], albedos(&scene)[3]),
+        (viridis[0], viridis[255])
+    );
+    let expected = "a.csv:4:26: expected a radius greater than 0 for `mag` (`radius_law: Exponential(0.5)` makes radii of \
+                    magnitudes), found 0.0";
+    assert_eq!(
+        refusal(
+            "a.csv",
+            EVENTS,
+            "columns: (radius: \"mag\", radius_scale: 20)"
+        ),
+        expected
+    );
+    let volumes = "x,y,z,volume\n0,0,0,8\n0,0,0,27\n";
+    let cube_root = "columns: (radius: \"volume\", radius_law: Power(0.3333333333333333))";
+    let found = radii(&self::scene("a.csv", volumes, cube_root));
+    assert!(
+        (found[0] - 2.0).abs() < 1e-12 && (found[1] - 3.0).abs() < 1e-12,
+        "{found:?}"
+    );
+    let message = refusal(
+        "a.csv",
+        EVENTS,
+        "columns: (radius: \"mag\", radius_law: Exponential(900))",
+    );
+    assert!(
+        message.contains("expected a finite center and radius"),
+        "{message}"
+    );
 }

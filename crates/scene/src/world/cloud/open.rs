@@ -50,6 +50,8 @@ pub(crate) struct Step {
     pub(crate) is_right_handed: bool,
     /// What was left open or guessed.
     remarks: Remarks,
+    /// The values are times, in seconds.
+    pub(crate) has_times: bool,
 }
 
 /// Something about a table that may be an oversight.
@@ -207,6 +209,7 @@ impl OpenCloud {
             value_name,
             is_right_handed,
             remarks,
+            has_times,
             ..
         } = rows;
         let is_right_handed = self.place(&mut spheres, is_right_handed)?;
@@ -224,6 +227,7 @@ impl OpenCloud {
             has_more,
             is_right_handed,
             remarks,
+            has_times,
         })
     }
 
@@ -292,9 +296,11 @@ impl OpenCloud {
                 false => Coloring::Value,
             };
             let found = first(&request(column, coloring));
-            let contents = match found.map(|rows| rows.paint) {
-                Ok(paint @ Paint::Categories(_)) => ColumnContents::of_texts(&paint),
-                Ok(Paint::Values(values)) => ColumnContents::of_numbers(&values),
+            let contents = match found.map(|rows| (rows.paint, rows.has_times)) {
+                Ok((paint @ Paint::Categories(_), _)) => ColumnContents::of_texts(&paint),
+                Ok((Paint::Values(values), are_times)) => {
+                    ColumnContents::of_numbers(&values, are_times)
+                }
                 Ok(_) => ColumnContents::Other,
                 Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
                     Ok(rows) => ColumnContents::of_texts(&rows.paint),

@@ -9,7 +9,7 @@ use super::super::placement::{Placement, turn};
 use super::coloring::Scale;
 use super::steps::Timeline;
 use crate::file::{self, ElementRadii, Keep, Named, TakenFrames};
-use crate::table::{Coloring, Filter, MOST_FILTERS, Radii, Request, Test};
+use crate::table::{Coloring, Filter, MOST_FILTERS, Radii, RadiusLaw, Request, Test};
 use crate::text::{Placed, optional, quoted, refuse};
 use crate::values::{Every, Flag, Speed};
 
@@ -109,6 +109,13 @@ impl Cloud {
                     ],
                     radius: column(&columns.radius)?,
                     element: column(&columns.element)?,
+                    radius_law: match columns.radius_law.value.as_ref()? {
+                        file::RadiusLaw::Linear => RadiusLaw::Linear,
+                        file::RadiusLaw::Power(power) => RadiusLaw::Power(power.get()?.0),
+                        file::RadiusLaw::Exponential(factor) => {
+                            RadiusLaw::Exponential(factor.get()?.0)
+                        }
+                    },
                     radius_scale: optional(&columns.radius_scale, |scale| Some(scale.0))?,
                 },
                 coloring: coloring.or(implied),

@@ -24,6 +24,8 @@ pub enum ColumnContents {
         high: f64,
         /// The rows without one.
         missing: usize,
+        /// They are times, in seconds since the start of 1970.
+        are_times: bool,
     },
     /// Texts.
     Texts {
@@ -37,12 +39,13 @@ pub enum ColumnContents {
 }
 
 impl ColumnContents {
-    pub(super) fn of_numbers(values: &[f64]) -> Self {
+    pub(super) fn of_numbers(values: &[f64], are_times: bool) -> Self {
         let present = || values.iter().copied().filter(|value| !value.is_nan());
         Self::Numbers {
             low: present().fold(f64::INFINITY, f64::min),
             high: present().fold(f64::NEG_INFINITY, f64::max),
             missing: values.len() - present().count(),
+            are_times,
         }
     }
 
