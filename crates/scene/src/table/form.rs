@@ -17,12 +17,15 @@ pub(crate) struct Form {
     /// What lines are, where the header does not tell how many rows follow.
     pub(crate) kind: fn(&[u8]) -> LineKind,
     /// The atomic number that a line tells in this field.
-    pub(crate) element: fn(&[u8], Range<usize>) -> Option<u8>,
+    pub(crate) element: ElementOf,
     /// The place of what atoms are called where nothing is in the field of the element.
     pub(crate) name: Range<usize>,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
 }
+
+/// The atomic number that a line tells in a field.
+pub(crate) type ElementOf = fn(&[u8], Range<usize>) -> Option<u8>;
 
 /// What a line is.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

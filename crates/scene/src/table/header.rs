@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use super::columns::{Nature, Plan, Slot};
 use super::error::TableError;
 use super::fields;
-use super::form::{Form, LineKind};
+use super::form::{ElementOf, Form, LineKind};
 use super::input::Input;
 use super::number::{is_missing, parse};
 use super::request::Request;
@@ -41,7 +41,7 @@ pub(crate) struct Header {
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
     /// The way in which they are read by it.
-    pub(crate) element: fn(&[u8], Range<usize>) -> Option<u8>,
+    pub(crate) element: ElementOf,
     /// Its words and its place.
     pub(crate) told: LocatedFault,
 }

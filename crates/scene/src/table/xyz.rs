@@ -4,14 +4,13 @@
 //! they are the element and its place, and what follows is passed over.
 
 use std::collections::BTreeSet;
-use std::ops::Range;
 
 use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
 use super::fields;
 use super::fields::Division;
-use super::form::Form;
+use super::form::{ElementOf, Form};
 use super::header::{Guess, Header};
 use super::input::{Input, without_return};
 use crate::text::{LocatedFault, show};
@@ -101,7 +100,7 @@ fn guess(
     let is_by_lammps = comment.trim_ascii_start().starts_with(b"Atoms");
     let are_types = is_by_lammps || numbers.iter().copied().eq(1..=numbers.len() as u32);
     let column = &columns[column];
-    let (element, told): (fn(&[u8], Range<usize>) -> Option<u8>, _) = match are_types {
+    let (element, told): (ElementOf, _) = match are_types {
         true => (
             |line, field| element::of_lettered_label(&line[field]),
             format!(
