@@ -147,5 +147,19 @@ pub(crate) fn wait(time: Duration) -> String {
     }
 }
 
+/// The least and the largest of some numbers, as one number where they look the same.
+pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> String {
+    let (least, largest) = numbers.fold(
+        (f64::INFINITY, f64::NEG_INFINITY),
+        |(least, largest), number| (least.min(number), largest.max(number)),
+    );
+    let (least, largest) = (short(least), short(largest));
+    if least == largest {
+        least
+    } else {
+        format!("{least} to {largest}")
+    }
+}
+
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
 
+mod columns;
 mod costs;
 mod tables;
 
@@ -7,15 +8,12 @@ use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
-use marbles_scene::{
-    CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, FrameError, Scene, harmless,
-    written_time,
-};
+use marbles_scene::{CloudDescription, FrameError, Scene};
 
 use super::args::CheckArguments;
 use super::{oversights, scene};
 use crate::base::failure::Failure;
-use crate::base::numbers::short;
+use crate::base::numbers::{range, short};
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::formats::sidecar::Sidecar;
@@ -198,7 +196,7 @@ fn cloud(
     rows.extend(
         (0..)
             .zip(&columns)
-            .map(|(place, column)| (name(place), self::column(column, cloud))),
+            .map(|(place, column)| (name(place), columns::told(column, cloud))),
     );
     if let Some((target, radius)) = scene.orbit_around(all, ELEVATION) {
         let (target, radius) = (vector(target), short(radius));
@@ -206,82 +204,6 @@ fn cloud(
         rows.push(("  seen by", camera));
     }
     rows
-}
-
-/// A column: its kind, its range, and what it is for.
-fn column(column: &ColumnSummary, cloud: &CloudDescription) -> String {
-    let contents = match &column.contents {
-        ColumnContents::Numbers {
-            low,
-            high,
-            missing,
-            are_times,
-        } => {
-            let missing = match missing {
-                0 => String::new(),
-                missing => format!(", {missing} missing"),
-            };
-            match low <= high {
-                true if *are_times => {
-                    let (low, high) = (written_time(*low), written_time(*high));
-                    format!("{low} to {high}{missing}")
-                }
-                true => format!("{}{missing}", range([*low, *high].into_iter())),
-                false => format!("no numbers{missing}"),
-            }
-        }
-        ColumnContents::Texts { count, examples } => {
-            let examples: Vec<String> = examples.iter().map(|text| format!("{text:?}")).collect();
-            let more = if *count > examples.len() { ", …" } else { "" };
-            format!("{count} texts: {}{more}", examples.join(", "))
-        }
-        ColumnContents::Other => "neither numbers nor text".to_owned(),
-    };
-    let colors = cloud.colors.as_ref();
-    let is_color = colors.is_some_and(|colors| colors.column.as_ref() == Some(&column.name));
-    let name = harmless(&column.name);
-    let mut text = format!("{name}: {contents}");
-    if is_color && let Some(colors) = colors {
-        match &colors.meaning {
-            ColorMeaning::Scale {
-                low,
-                high,
-                are_times,
-                ..
-            } => {
-                let number = |number: &f64| match are_times {
-                    true => written_time(*number),
-                    false => short(*number),
-                };
-                text.push_str(&format!(
-                    "; colors from {} to {}",
-                    number(low),
-                    number(high)
-                ));
-            }
-            ColorMeaning::Categories(categories) => {
-                let count = |count: usize, one: &str, several: &str| match count {
-                    1 => format!("1 {one}"),
-                    count => format!("{count} {several}"),
-                };
-                let mut colors: Vec<[u64; 3]> = categories
-                    .iter()
-                    .map(|(_, color)| color.to_array().map(f64::to_bits))
-                    .collect();
-                colors.sort_unstable();
-                colors.dedup();
-                let different = count(colors.len(), "color", "colors");
-                text.push_str(&match colors.len() == categories.len() {
-                    true => format!("; {different}"),
-                    false => {
-                        let all = count(categories.len(), "category", "categories");
-                        format!("; {all}, {different}")
-                    }
-                });
-            }
-        }
-    }
-    text
 }
 
 fn spheres(spheres: &[Sphere]) -> String {
@@ -387,20 +309,6 @@ fn unwound(angles: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
         before = Some(angle);
         angle
     })
-}
-
-/// The least and the largest of some numbers, as one number where they look the same.
-fn range(numbers: impl Iterator<Item = f64>) -> String {
-    let (least, largest) = numbers.fold(
-        (f64::INFINITY, f64::NEG_INFINITY),
-        |(least, largest), number| (least.min(number), largest.max(number)),
-    );
-    let (least, largest) = (short(least), short(largest));
-    if least == largest {
-        least
-    } else {
-        format!("{least} to {largest}")
-    }
 }
 
 fn vector(vector: DVec3) -> String {

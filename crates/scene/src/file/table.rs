@@ -1,5 +1,6 @@
 //! The values of a cloud that are of several forms: columns, conditions, ranges, palettes.
 
+use std::collections::HashSet;
 use std::marker::PhantomData;
 
 use serde::de::{MapAccess, Visitor};
@@ -7,7 +8,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::table::{ColumnRef, Missing, Radii, Value, ValueRange};
 use crate::text::{
-    Names, Placed, Read, Slice, note_failure, read_simple, read_structure, read_tuple,
+    Names, Placed, Read, Slice, note_failure, quoted, read_simple, read_structure, read_tuple,
+    refuse,
 };
 use crate::values::{Color, Coordinate, Percent, Radius, Step};
 
@@ -34,6 +36,23 @@ pub(crate) enum Wanted {
 /// Values by names, in the file's order.
 #[derive(Debug)]
 pub(crate) struct Named<T>(pub(crate) Vec<(String, Placed<T>)>);
+
+impl<T: Copy> Named<T> {
+    /// The values of all names, each of which, a `noun`, is there once; `None` where a fault was reported.
+    pub(crate) fn once(&self, noun: &str) -> Option<Vec<(String, T)>> {
+        let mut all: Vec<(String, T)> = Vec::new();
+        let mut known = HashSet::new();
+        for (name, value) in &self.0 {
+            if !known.insert(name) {
+                let found = quoted(name);
+                let message = format!("expected every {noun} once, found {found} a second time");
+                return refuse(value.place.clone(), message);
+            }
+            all.push((name.clone(), value.get()?));
+        }
+        Some(all)
+    }
+}
 
 /// The colors of categories or elements by their names.
 pub(crate) type Palette = Named<Color>;

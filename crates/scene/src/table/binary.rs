@@ -5,13 +5,14 @@ use std::io::{ErrorKind, Read};
 
 use rayon::prelude::*;
 
-use super::columns::{Nature, Plan, Slot, Test};
+pub(crate) use super::columns::plan_of_kinds as plan;
+use super::columns::{Plan, Slot, Test};
 use super::element;
 use super::elements::Atom;
 use super::error::TableError;
 use super::input::Input;
 use super::kind::Kind;
-use super::request::{Coloring, Request};
+use super::request::Coloring;
 use super::rows::{Numbers, Pushed, Row, Rows};
 use crate::text::{LocatedFault, Place, show};
 
@@ -39,37 +40,6 @@ pub(crate) struct Column<'a> {
     pub(crate) step: usize,
     /// The byte of the file at which the bytes start.
     pub(crate) start: u64,
-}
-
-/// The plan by which columns of these names and kinds are read.
-///
-/// # Errors
-/// Returns what is missing, and what is no number where one is needed.
-pub(crate) fn plan(names: Vec<String>, kinds: &[Kind], request: &Request) -> Result<Plan, String> {
-    let kind = |column: usize| kinds.get(column).copied().unwrap_or(Kind::Other(0));
-    let nature = Nature {
-        is_byte: &|column| kind(column).is_byte(),
-        is_text: &|column| kind(column).is_text(),
-        angstrom: 1.0,
-    };
-    let plan = Plan::new(names, request, &nature)?;
-    for (column, uses) in plan.uses.iter().enumerate() {
-        let is_number = matches!(kind(column), Kind::Number(..));
-        let may_be_text = |slot: &Slot| match slot {
-            Slot::Element => true,
-            Slot::Value => plan.coloring == Coloring::Category,
-            Slot::Filter(filter) => plan.filters[usize::from(*filter)].text().is_some(),
-            _ => false,
-        };
-        let is_good = is_number || kind(column).is_text() && uses.slots().iter().all(may_be_text);
-        if !uses.slots().is_empty() && !is_good {
-            let name = show(&plan.names.0[column]);
-            return Err(format!(
-                "expected numbers in the column {name}, found something else"
-            ));
-        }
-    }
-    Ok(plan)
 }
 
 impl Layout {

@@ -1,11 +1,13 @@
 //! The purpose of each column of a table.
 
 mod filter;
+mod kinds;
 mod names;
 mod plan;
 mod slot;
 
 pub(crate) use filter::Test;
+pub(crate) use kinds::plan_of_kinds;
 pub(crate) use names::{MOST_COLUMNS, components, unit};
 pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};

@@ -7,7 +7,6 @@ use glam::DVec3;
 use marbles_core::Albedos;
 use rayon::prelude::*;
 
-use super::settings::once;
 use crate::file::{self, ColorScale, OTHERS_COLOR};
 use crate::table::{self, Categories, Colormap, Missing, Paint, ValueRange};
 use crate::text::{optional, refuse};
@@ -84,7 +83,7 @@ impl Scale {
             ScaleKind::Diverging(_) => Colormap::CoolWarm,
             _ => Colormap::default(),
         };
-        let palette = optional(&cloud.palette, |palette| once(palette, "category"))?;
+        let palette = optional(&cloud.palette, |palette| palette.once("category"))?;
         let palette = palette.unwrap_or_default().into_iter();
         let palette: Vec<_> = palette.map(|(name, color)| (name, color.0)).collect();
         let place = cloud.palette.as_ref().map(|palette| palette.place.clone());

@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
 pub(crate) use coloring::{Learned, Scale};
-pub(crate) use open::{OpenCloud, Oversight, Step};
+pub(crate) use open::{OpenCloud, Step};
+pub(crate) use oversights::Oversight;
 pub(crate) use settings::Cloud;
 pub use summary::{ColumnContents, ColumnSummary};
 

@@ -9,26 +9,21 @@ use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
 use super::explain::explain;
-use super::oversights::unused_radii;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
-use super::summary::{ColumnContents, ColumnSummary};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
-use crate::table::{
-    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Remarks, Request, Rows, TableError,
-    Value, unit,
-};
-use crate::text::{Fault, LocatedFault, quoted};
+use crate::table::{Frames, Remarks, Rows, TableError};
+use crate::text::{Fault, quoted};
 
 /// A cloud whose steps are known and can be read.
 pub(crate) struct OpenCloud {
     pub(crate) cloud: Cloud,
     folder: PathBuf,
-    steps: Steps,
+    pub(super) steps: Steps,
     learned: Learned,
     /// What was left open or guessed in all steps, where all were read, and the step that has the first place.
-    remarks: (Remarks, usize),
+    pub(super) remarks: (Remarks, usize),
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
 }
@@ -49,25 +44,13 @@ pub(crate) struct Step {
     /// The axes of the table are right-handed.
     pub(crate) is_right_handed: bool,
     /// What was left open or guessed.
-    remarks: Remarks,
+    pub(super) remarks: Remarks,
     /// The values are times, in seconds.
     pub(crate) has_times: bool,
 }
 
-/// Something about a table that may be an oversight.
-#[derive(Clone, Debug)]
-pub(crate) enum Oversight {
-    /// Of the scene file.
-    Scene(Fault),
-    /// Of the table with this path.
-    Table(PathBuf, LocatedFault),
-}
-
-/// The most columns that are summed up: each is read on its own.
-const MOST_SUMMARIES: usize = 64;
-
 /// Progress that nobody watches.
-const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
+pub(super) const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
 
 impl OpenCloud {
     /// Finds the steps of a cloud.
@@ -231,97 +214,6 @@ impl OpenCloud {
         })
     }
 
-    /// What may be an oversight about the first step, which is given, or about all that were read for it.
-    pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
-        let Cloud { request, scale, .. } = &self.cloud;
-        let (remarks, step) = match self.has_to_learn() {
-            true => (&self.remarks.0, self.remarks.1),
-            false => (&first.remarks, 0),
-        };
-        let radius = request.other_radius;
-        let told = remarks.told(radius.is_none());
-        let path = self.path(step);
-        let of_table = |fault| Oversight::Table(path.clone(), fault);
-        let mut all: Vec<Oversight> = told.into_iter().map(of_table).collect();
-        let of_scene = |place: &std::ops::Range<usize>, message| {
-            Oversight::Scene(Fault::new(place.clone(), message))
-        };
-        let of_colors = scale.oversights(&first.learned, first.value_name.as_deref());
-        let place = match request.palette.is_empty() {
-            true => &self.cloud.place,
-            false => &scale.palette_place,
-        };
-        all.extend(of_colors.into_iter().map(|told| of_scene(place, told)));
-        let unused = remarks.unused_radii();
-        let unused: Vec<String> = unused
-            .map(|name| request.own_radii[name].0.clone())
-            .collect();
-        let unused = unused_radii(&unused);
-        all.extend(unused.map(|told| of_scene(&self.cloud.radii_place, told)));
-        all
-    }
-
-    /// What is in each column of the first step.
-    pub(crate) fn columns(&self) -> Result<Vec<ColumnSummary>, CloudError> {
-        let request = |column: usize, coloring| Request {
-            radius: Some(1.0),
-            value: Some(Value::Column(ColumnRef::Number(column + 1))),
-            coloring: Some(coloring),
-            missing: Missing::Color(DVec3::ZERO),
-            keep: Vec::new(),
-            // Of other columns nothing is looked at.
-            columns: Columns {
-                position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
-                ..self.cloud.request.columns.clone()
-            },
-            ..self.cloud.request.clone()
-        };
-        let path = self.path(0);
-        let refused = |error| self.refuse_table(&path, error);
-        let first = |request: &Request| {
-            let mut frames = Frames::open(&path, UNWATCHED)?;
-            if let Steps::Frames(places) = &self.steps {
-                frames.go_to(places[0])?;
-            }
-            frames.read(request)?.ok_or_else(gone)
-        };
-        let (rows, _) = self.rows(0, UNWATCHED)?;
-        let names = rows.columns.iter().enumerate().take(MOST_SUMMARIES);
-        let summary = |(column, name): (usize, &String)| {
-            let unit = unit(name).map(str::to_owned);
-            let name = name.clone();
-            let is_element = rows.element_column == Some(column);
-            let coloring = match is_element {
-                true => Coloring::Category,
-                false => Coloring::Value,
-            };
-            let found = first(&request(column, coloring));
-            let contents = match found.map(|rows| (rows.paint, rows.has_times)) {
-                Ok((paint @ Paint::Categories(_), _)) => ColumnContents::of_texts(&paint),
-                Ok((Paint::Values(values), are_times)) => {
-                    ColumnContents::of_numbers(&values, are_times)
-                }
-                Ok(_) => ColumnContents::Other,
-                Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
-                    Ok(rows) => ColumnContents::of_texts(&rows.paint),
-                    // Bytes that are neither.
-                    Err(TableError::Fault(_)) => ColumnContents::Other,
-                    Err(error) => return Err(error),
-                },
-                Err(error) => return Err(error),
-            };
-            Ok(ColumnSummary {
-                name,
-                unit,
-                contents,
-            })
-        };
-        names
-            .map(summary)
-            .collect::<Result<_, _>>()
-            .map_err(refused)
-    }
-
     /// The spheres of a step alone.
     pub(crate) fn spheres(&self, step: usize) -> Result<Vec<Sphere>, CloudError> {
         let (rows, _) = self.rows(step, UNWATCHED)?;
@@ -353,7 +245,7 @@ impl OpenCloud {
     }
 
     /// The file of a step.
-    fn path(&self, step: usize) -> PathBuf {
+    pub(super) fn path(&self, step: usize) -> PathBuf {
         match &self.steps {
             Steps::Files(files) => files[step].clone(),
             Steps::One | Steps::Frames(_) => self.folder.join(&self.cloud.name),
@@ -361,7 +253,7 @@ impl OpenCloud {
     }
 
     /// The rows of a step, and whether frames follow that are not read.
-    fn rows(
+    pub(super) fn rows(
         &self,
         step: usize,
         watch: &(dyn Fn(u64, u64) + Sync),
@@ -418,7 +310,7 @@ impl OpenCloud {
         CloudError::Scene(Fault::new(self.cloud.place.clone(), message))
     }
 
-    fn refuse_table(&self, path: &Path, error: TableError) -> CloudError {
+    pub(super) fn refuse_table(&self, path: &Path, error: TableError) -> CloudError {
         match error {
             TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
             error => {
@@ -433,7 +325,7 @@ impl OpenCloud {
 }
 
 /// The file became shorter since its frames were counted.
-fn gone() -> TableError {
+pub(super) fn gone() -> TableError {
     std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
 }
 

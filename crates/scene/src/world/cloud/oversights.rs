@@ -1,19 +1,63 @@
 //! What the colors and radii of a cloud leave out, or show alike.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
 
 use super::coloring::{Learned, Scale};
+use super::open::{OpenCloud, Step};
+use super::settings::Cloud;
 use crate::table;
-use crate::text::{did_you_mean, list, quoted};
+use crate::text::{Fault, LocatedFault, did_you_mean, list, quoted};
+
+/// Something about a table that may be an oversight.
+#[derive(Clone, Debug)]
+pub(crate) enum Oversight {
+    /// Of the scene file.
+    Scene(Fault),
+    /// Of the table with this path.
+    Table(PathBuf, LocatedFault),
+}
 
 /// The most names that a warning lists.
 const MOST_LISTED: usize = 6;
 /// More categories than anybody tells apart by their colors.
 const MANY: usize = 24;
 
+impl OpenCloud {
+    /// What may be an oversight about the first step, which is given, or about all that were read for it.
+    pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
+        let Cloud { request, scale, .. } = &self.cloud;
+        let (remarks, step) = match self.has_to_learn() {
+            true => (&self.remarks.0, self.remarks.1),
+            false => (&first.remarks, 0),
+        };
+        let radius = request.other_radius;
+        let told = remarks.told(radius.is_none());
+        let path = self.path(step);
+        let of_table = |fault| Oversight::Table(path.clone(), fault);
+        let mut all: Vec<Oversight> = told.into_iter().map(of_table).collect();
+        let of_scene = |place: &std::ops::Range<usize>, message| {
+            Oversight::Scene(Fault::new(place.clone(), message))
+        };
+        let of_colors = scale.oversights(&first.learned, first.value_name.as_deref());
+        let place = match request.palette.is_empty() {
+            true => &self.cloud.place,
+            false => &scale.palette_place,
+        };
+        all.extend(of_colors.into_iter().map(|told| of_scene(place, told)));
+        let unused = remarks.unused_radii();
+        let unused: Vec<String> = unused
+            .map(|name| request.own_radii[name].0.clone())
+            .collect();
+        let unused = unused_radii(&unused);
+        all.extend(unused.map(|told| of_scene(&self.cloud.radii_place, told)));
+        all
+    }
+}
+
 impl Scale {
     /// What of the palette matches nothing, and categories that share colors.
-    pub(super) fn oversights(&self, learned: &Learned, column: Option<&str>) -> Vec<String> {
+    fn oversights(&self, learned: &Learned, column: Option<&str>) -> Vec<String> {
         let column = column.map_or_else(|| String::from("the table"), quoted);
         let names = self.categories(learned);
         let mut told = Vec::new();
@@ -77,7 +121,7 @@ impl Scale {
 }
 
 /// The names of `radii` that no row has, as a warning tells them.
-pub(super) fn unused_radii(names: &[String]) -> Option<String> {
+fn unused_radii(names: &[String]) -> Option<String> {
     (!names.is_empty()).then(|| {
         format!(
             "`radii` has radii for {}, which no row has: it is called otherwise, or its radius is that of `radius` or of a \

@@ -1,6 +1,5 @@
 //! What a scene file says of a cloud.
 
-use std::collections::HashSet;
 use std::ops::Range;
 
 use marbles_core::MaterialId;
@@ -8,9 +7,9 @@ use marbles_core::MaterialId;
 use super::super::placement::{Placement, turn};
 use super::coloring::Scale;
 use super::steps::Timeline;
-use crate::file::{self, ElementRadii, Keep, Named, TakenFrames};
+use crate::file::{self, ElementRadii, Keep, TakenFrames};
 use crate::table::{Coloring, Filter, MOST_FILTERS, Radii, RadiusLaw, Request, Test};
-use crate::text::{Placed, optional, quoted, refuse};
+use crate::text::{Placed, optional, refuse};
 use crate::values::{Every, Flag, Speed};
 
 /// A cloud of the scene file whose table is not yet read.
@@ -69,7 +68,7 @@ impl Cloud {
         let (radii, own_radii) = match cloud.radii.value.as_ref()? {
             ElementRadii::Kind(kind) => (*kind, Vec::new()),
             ElementRadii::Own(own) => {
-                let own = once(own, "element")?;
+                let own = own.once("element")?;
                 (
                     Radii::default(),
                     own.into_iter()
@@ -136,21 +135,6 @@ impl Cloud {
             },
         })
     }
-}
-
-/// The values of names, each of which, a `noun`, is there once.
-pub(super) fn once<T: Copy>(named: &Named<T>, noun: &str) -> Option<Vec<(String, T)>> {
-    let mut all: Vec<(String, T)> = Vec::new();
-    let mut known = HashSet::new();
-    for (name, value) in &named.0 {
-        if !known.insert(name) {
-            let found = quoted(name);
-            let message = format!("expected every {noun} once, found {found} a second time");
-            return refuse(value.place.clone(), message);
-        }
-        all.push((name.clone(), value.get()?));
-    }
-    Some(all)
 }
 
 /// The conditions on rows that are kept.

@@ -1,6 +1,16 @@
 //! What is in the columns of a table.
 
-use crate::table::Paint;
+use glam::DVec3;
+
+use super::CloudError;
+use super::open::{OpenCloud, UNWATCHED, gone};
+use super::steps::Steps;
+use crate::table::{
+    Coloring, ColumnRef, Columns, Frames, Missing, Paint, Request, TableError, Value, unit,
+};
+
+/// The most columns that are summed up: each is read on its own.
+const MOST_SUMMARIES: usize = 64;
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +49,7 @@ pub enum ColumnContents {
 }
 
 impl ColumnContents {
-    pub(super) fn of_numbers(values: &[f64], are_times: bool) -> Self {
+    fn of_numbers(values: &[f64], are_times: bool) -> Self {
         let present = || values.iter().copied().filter(|value| !value.is_nan());
         Self::Numbers {
             low: present().fold(f64::INFINITY, f64::min),
@@ -49,7 +59,7 @@ impl ColumnContents {
         }
     }
 
-    pub(super) fn of_texts(paint: &Paint) -> Self {
+    fn of_texts(paint: &Paint) -> Self {
         const EXAMPLES: usize = 4;
         match paint {
             Paint::Categories(categories) => Self::Texts {
@@ -58,5 +68,68 @@ impl ColumnContents {
             },
             _ => Self::Other,
         }
+    }
+}
+
+impl OpenCloud {
+    /// What is in each column of the first step.
+    pub(crate) fn columns(&self) -> Result<Vec<ColumnSummary>, CloudError> {
+        let request = |column: usize, coloring| Request {
+            radius: Some(1.0),
+            value: Some(Value::Column(ColumnRef::Number(column + 1))),
+            coloring: Some(coloring),
+            missing: Missing::Color(DVec3::ZERO),
+            keep: Vec::new(),
+            // Of other columns nothing is looked at.
+            columns: Columns {
+                position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
+                ..self.cloud.request.columns.clone()
+            },
+            ..self.cloud.request.clone()
+        };
+        let path = self.path(0);
+        let refused = |error| self.refuse_table(&path, error);
+        let first = |request: &Request| {
+            let mut frames = Frames::open(&path, UNWATCHED)?;
+            if let Steps::Frames(places) = &self.steps {
+                frames.go_to(places[0])?;
+            }
+            frames.read(request)?.ok_or_else(gone)
+        };
+        let (rows, _) = self.rows(0, UNWATCHED)?;
+        let names = rows.columns.iter().enumerate().take(MOST_SUMMARIES);
+        let summary = |(column, name): (usize, &String)| {
+            let unit = unit(name).map(str::to_owned);
+            let name = name.clone();
+            let is_element = rows.element_column == Some(column);
+            let coloring = match is_element {
+                true => Coloring::Category,
+                false => Coloring::Value,
+            };
+            let found = first(&request(column, coloring));
+            let contents = match found.map(|rows| (rows.paint, rows.has_times)) {
+                Ok((paint @ Paint::Categories(_), _)) => ColumnContents::of_texts(&paint),
+                Ok((Paint::Values(values), are_times)) => {
+                    ColumnContents::of_numbers(&values, are_times)
+                }
+                Ok(_) => ColumnContents::Other,
+                Err(TableError::Fault(_)) => match first(&request(column, Coloring::Category)) {
+                    Ok(rows) => ColumnContents::of_texts(&rows.paint),
+                    // Bytes that are neither.
+                    Err(TableError::Fault(_)) => ColumnContents::Other,
+                    Err(error) => return Err(error),
+                },
+                Err(error) => return Err(error),
+            };
+            Ok(ColumnSummary {
+                name,
+                unit,
+                contents,
+            })
+        };
+        names
+            .map(summary)
+            .collect::<Result<_, _>>()
+            .map_err(refused)
     }
 }
