@@ -112,6 +112,13 @@ fn run_scene(
         }
     }
     let code = conclusion(&outcome, noun, console);
+    let late = request.scene.take_late_warnings();
+    late.iter().for_each(|warning| console.warn(warning));
+    if code == status::SUCCESS && arguments.options.strict && !late.is_empty() {
+        let why = "with --strict warnings are errors";
+        console.reason(why);
+        return Ok(status::FAILURE);
+    }
     if code == status::SUCCESS && arguments.options.strict && outcome.clipped > 0 {
         let why = "with --strict clipped pixels are an error";
         console.warn(why);

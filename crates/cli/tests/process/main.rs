@@ -6,6 +6,7 @@
 )]
 
 mod animation;
+mod atoms;
 mod channels;
 mod compare;
 #[cfg(target_os = "linux")]

@@ -39,10 +39,8 @@ impl Scene {
             ));
         }
         let told = cloud.oversights(&step).into_iter();
-        self.warnings.extend(told.map(|oversight| match oversight {
-            Oversight::Scene(fault) => in_a_line(path, &locate(text, fault)),
-            Oversight::Table(table, fault) => in_a_line(&table, &fault),
-        }));
+        let told = told.map(|oversight| told_in_a_line(oversight, path, text));
+        self.warnings.extend(told);
         let end = *count + step.spheres.len();
         self.clouds.push(CloudDescription {
             file,
@@ -54,6 +52,17 @@ impl Scene {
         });
         *count = end;
         Ok(step)
+    }
+
+    /// What may be an oversight in steps that were read after the first, one line each, and was not yet handed over.
+    pub fn take_late_warnings(&self) -> Vec<String> {
+        let Some(series) = &self.series else {
+            return Vec::new();
+        };
+        let (path, text) = &series.source;
+        let late = series.changing().flat_map(OpenCloud::take_late_oversights);
+        late.map(|oversight| told_in_a_line(oversight, path, text))
+            .collect()
     }
 
     /// Places the camera where it has spheres in its picture; `None` where there are none.
@@ -141,6 +150,14 @@ impl Scene {
             self.framed.push((key, motion, lens));
         }
         Ok(is_framed)
+    }
+}
+
+/// An oversight with its place, in the scene file at `path` or in a table.
+fn told_in_a_line(oversight: Oversight, path: &Path, text: &str) -> String {
+    match oversight {
+        Oversight::Scene(fault) => in_a_line(path, &locate(text, fault)),
+        Oversight::Table(table, fault) => in_a_line(&table, &fault),
     }
 }
 

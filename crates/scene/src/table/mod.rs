@@ -54,6 +54,7 @@ pub(crate) use request::{
     Coloring, ColumnRef, Columns, Filter, Missing, RadiusLaw, Request, Value, ValueRange,
 };
 pub(crate) use rows::Rows;
+pub(crate) use time::parse as time;
 pub use time::written_time;
 
 #[cfg(test)]

@@ -98,6 +98,11 @@ impl Remarks {
         self.first.is_some()
     }
 
+    /// Names that tell no element, the first some of them.
+    pub(crate) fn unknown(&self) -> impl Iterator<Item = &[u8]> {
+        self.unknown.iter().map(|(name, _)| &**name)
+    }
+
     /// What was guessed, and, with `unknown`, the names that tell no element; each with its place.
     pub(crate) fn told(&self, unknown: bool) -> Vec<LocatedFault> {
         let mut told = self.guesses.clone();
@@ -127,7 +132,7 @@ impl Remarks {
             told.push(LocatedFault {
                 place: place.clone(),
                 message: format!(
-                    "expected elements whose radii are known, found {}{meant} (they have the radius and the color of \
+                    "expected elements with known radii and colors, found {}{meant} (what is unknown of them is as in \
                      `others: (radius: 1, color: \"#ff80c0\")`)",
                     names.join(", "),
                 ),

@@ -105,7 +105,9 @@ pub(crate) fn of_atom(name: &[u8], residue: &[u8]) -> Option<u8> {
 fn of_standard(name: &[u8]) -> Option<u8> {
     match name {
         [b'S', b'E', ..] => of_symbol(b"SE"),
-        [first @ (b'H' | b'D' | b'C' | b'N' | b'O' | b'P' | b'S'), ..] => of_symbol(&[*first]),
+        // `SC1` is a bead of a coarse model.
+        [b'S'] | [b'S', b'D' | b'G', ..] => of_symbol(b"S"),
+        [first @ (b'H' | b'D' | b'C' | b'N' | b'O' | b'P'), ..] => of_symbol(&[*first]),
         _ => None,
     }
 }
@@ -129,6 +131,7 @@ mod tests {
             ("1HB", "NALA", Some("H")),
             ("SE", "MSE", Some("Se")),
             ("SD", "MET", Some("S")),
+            ("SC1", "LYS", None),
             ("OP1", "DA5", Some("O")),
             ("P", "DA", Some("P")),
             ("DG", "SER", Some("H")),

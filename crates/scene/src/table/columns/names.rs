@@ -28,7 +28,7 @@ impl Names {
                 })
             }
             ColumnRef::Constant(number) => Err(format!(
-                "expected a column, found `Constant({number})`, which positions alone may have"
+                "expected a column, found `Constant({number})`, which only `x`, `y` and `z` may be"
             )),
             ColumnRef::Name(name) => {
                 let found = self.find(name).or_else(|| self.find_synonym(name));

@@ -59,6 +59,16 @@ fn categories_that_share_colors_are_told() {
 
 #[test]
 fn numbers_by_the_thousand_are_no_categories() {
+    let dates = table(30, |row| format!("2020-06-{:02}", row + 1));
+    let told = warnings(&scene(
+        "a.csv",
+        &dates,
+        "radius: 1, value: \"chain\", color: Category",
+    ));
+    assert!(
+        told.contains("30 categories and 12 colors") && told.contains("`color: Value`"),
+        "{told}"
+    );
     let times = table(2000, |row| format!("{}", 1.5 * row as f64));
     let told = warnings(&scene(
         "a.csv",

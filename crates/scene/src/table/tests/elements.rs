@@ -47,7 +47,7 @@ fn what_is_no_element_is_shown_as_others_and_said() {
     assert_eq!(albedos(&scene)[3], from_srgb(0xff80c0));
     assert_eq!(
         warnings(&scene),
-        "a.gro:6:14: expected elements whose radii are known, found `MW` (2 rows) (they have the radius and the color of \
+        "a.gro:6:14: expected elements with known radii and colors, found `MW` (2 rows) (what is unknown of them is as in \
          `others: (radius: 1, color: \"#ff80c0\")`)"
     );
     assert_eq!(names(&scene), ["others", "H", "O"]);
@@ -227,6 +227,28 @@ fn all_frames_take_numbers_for_the_same() {
         clouds: [(file: \"a.xyz\", frames: All)])";
     let scene = Scene::parse(scene, &folder.0.join("scene.ron")).unwrap();
     assert_eq!(scene.world_at(2).unwrap().spheres()[0].radius(), 1.1);
+}
+
+/// What the first step does not have is told when it is read, once.
+#[test]
+fn unknown_elements_of_later_steps_are_told() {
+    let folder = Folder::new();
+    let text = "1\n\nO 0 0 0\n1\n\nMW 0 0 0\n1\n\nMW 0 0 0\n";
+    fs::write(folder.0.join("a.xyz"), text).unwrap();
+    let scene = "(image: (width: 6, height: 4), lens: Fov(90), camera: Free(),
+        clouds: [(file: \"a.xyz\", frames: All)])";
+    let scene = Scene::parse(scene, &folder.0.join("scene.ron")).unwrap();
+    assert!(scene.warnings().is_empty() && scene.take_late_warnings().is_empty());
+    for frame in 1..=3 {
+        scene.world_at(frame).unwrap();
+    }
+    let late = scene.take_late_warnings();
+    assert_eq!(late.len(), 1, "{late:?}");
+    assert!(
+        late[0].contains("a.xyz:6:1: ") && late[0].contains("`MW` (1 row)"),
+        "{late:?}"
+    );
+    assert!(scene.take_late_warnings().is_empty());
 }
 
 const PQR: &str = "REMARK   a small thing

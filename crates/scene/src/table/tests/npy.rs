@@ -67,7 +67,7 @@ fn npy_of_records_is_read() {
         let bytes = npy(&header, &row);
         let byte = bytes.len() - 4;
         let expected = format!(
-            "a.npy: row 1, column 9, byte {byte}: expected elements whose radii are known, found `{number}` (1 row)"
+            "a.npy: row 1, column 9, byte {byte}: expected elements with known radii and colors, found `{number}` (1 row)"
         );
         let scene = self::scene("a.npy", bytes, "");
         let told = warnings(&scene);

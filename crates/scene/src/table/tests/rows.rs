@@ -111,7 +111,7 @@ fn tables_of_a_plane_have_a_constant() {
         "columns: (z: Constant(0), radius: Constant(1))",
     );
     let expected =
-        "a.csv:1:1: expected a column, found `Constant(1)`, which positions alone may have";
+        "a.csv:1:1: expected a column, found `Constant(1)`, which only `x`, `y` and `z` may be";
     assert_eq!(message, expected);
 }
 

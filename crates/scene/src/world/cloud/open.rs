@@ -9,6 +9,7 @@ use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
 use super::explain::explain;
+use super::oversights::LateRemarks;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};
@@ -24,6 +25,7 @@ pub(crate) struct OpenCloud {
     learned: Learned,
     /// What was left open or guessed in all steps, where all were read, and the step that has the first place.
     pub(super) remarks: (Remarks, usize),
+    pub(super) late: Mutex<LateRemarks>,
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
 }
@@ -62,6 +64,7 @@ impl OpenCloud {
             steps: Steps::One,
             learned: Learned::default(),
             remarks: (Remarks::default(), 0),
+            late: Mutex::default(),
             open: Mutex::new(None),
         };
         let files = steps::files(folder, &open.cloud.name);
@@ -196,6 +199,7 @@ impl OpenCloud {
             ..
         } = rows;
         let is_right_handed = self.place(&mut spheres, is_right_handed)?;
+        self.note(step, &remarks);
         let mut learned = self.learned.clone();
         if !self.has_to_learn() {
             self.cloud.scale.learn(&paint, &mut learned);

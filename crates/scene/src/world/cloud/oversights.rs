@@ -1,12 +1,13 @@
 //! What the colors and radii of a cloud leave out, or show alike.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
+use std::sync::PoisonError;
 
 use super::coloring::{Learned, Scale};
 use super::open::{OpenCloud, Step};
 use super::settings::Cloud;
-use crate::table;
+use crate::table::{self, Remarks};
 use crate::text::{Fault, LocatedFault, did_you_mean, list, quoted};
 
 /// Something about a table that may be an oversight.
@@ -23,7 +24,41 @@ const MOST_LISTED: usize = 6;
 /// More categories than anybody tells apart by their colors.
 const MANY: usize = 24;
 
+/// What is left open in steps that are read after the first.
+#[derive(Debug, Default)]
+pub(super) struct LateRemarks {
+    /// The names that tell no element of the steps that were read.
+    names: HashSet<Box<[u8]>>,
+    oversights: Vec<Oversight>,
+}
+
 impl OpenCloud {
+    /// Takes in what is left open in a step, unless all were read before.
+    pub(super) fn note(&self, step: usize, remarks: &Remarks) {
+        if self.steps().is_none() || self.has_to_learn() {
+            return;
+        }
+        let mut late = self.late.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut is_new = false;
+        for name in remarks.unknown() {
+            is_new |= late.names.insert(name.into());
+        }
+        if is_new && step > 0 {
+            let told = remarks.told(self.cloud.request.other_radius.is_none());
+            let path = self.path(step);
+            let told = told
+                .into_iter()
+                .map(|fault| Oversight::Table(path.clone(), fault));
+            late.oversights.extend(told);
+        }
+    }
+
+    /// Hands over what was left open in steps that were read after the first, and not yet told.
+    pub(crate) fn take_late_oversights(&self) -> Vec<Oversight> {
+        let mut late = self.late.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut late.oversights)
+    }
+
     /// What may be an oversight about the first step, which is given, or about all that were read for it.
     pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
         let Cloud { request, scale, .. } = &self.cloud;
@@ -98,7 +133,7 @@ impl Scale {
                 .or_default() += 1;
         }
         let own: Vec<String> = self.palette_names();
-        let own: std::collections::HashSet<&str> = own.iter().map(String::as_str).collect();
+        let own: HashSet<&str> = own.iter().map(String::as_str).collect();
         let shares = |(name, color): &&(String, glam::DVec3)| {
             !own.contains(name.as_str()) && counts[&color.to_array().map(f64::to_bits)] > 1
         };
@@ -106,9 +141,11 @@ impl Scale {
         if shared == 0 {
             return None;
         }
-        let are_numbers = names.iter().all(|(name, _)| name.parse::<f64>().is_ok());
+        let are_numbers = names
+            .iter()
+            .all(|(name, _)| name.parse::<f64>().is_ok() || table::time(name.as_bytes()).is_some());
         let hint = match (are_numbers, names.len() > MANY) {
-            (true, _) => "numbers that are no categories have colors by `color: Value`",
+            (true, _) => "numbers and times have a scale of colors by `color: Value`",
             (false, true) => "`keep` or another column leaves fewer",
             (false, false) => "`palette` gives each a color of its own",
         };
