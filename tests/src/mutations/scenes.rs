@@ -73,6 +73,8 @@ pub(super) fn read_table(input: &Input<'_>) -> bool {
         ", keep: [(\"id\", Every(2))]",
         ", columns: (x: 1, y: 2, z: 3)",
         ", color: Element, radii: VanDerWaals",
+        ", radii: {\"O\": 1, \"MW\": 2}, palette: {\"H\": 0.5, \"1\": 1}, up: Z",
+        ", keep: [(\"element\", Is(\"O\"))], columns: (z: Constant(0), radius_law: Exponential(0.1))",
     ]);
     let text = format!(
         "(image: (width: 4, height: 4), lens: Fov(40), camera: Frame(), ambient: 1, \

@@ -11,6 +11,7 @@ use super::fields::Division;
 use super::form::{Form, LineKind};
 use super::header::Header;
 use super::input::Input;
+use super::number::parse;
 use super::residue;
 use crate::text::LocatedFault;
 
@@ -86,9 +87,20 @@ fn element(
     field: Range<usize>,
     by_name: fn(&[u8], &[u8]) -> Option<u8>,
 ) -> Option<u8> {
+    if let Some(kind) = docking_type(line) {
+        return residue::of_docking_type(kind);
+    }
     // Old files have numbers of lines there.
     element::of_symbol(&line[field]).or_else(|| {
         let residue = line.get(17..21).unwrap_or_default();
         by_name(line.get(12..16)?, residue)
     })
+}
+
+/// The type of an atom in PDBQT, which has a charge before it where PDB has none.
+fn docking_type(line: &[u8]) -> Option<&[u8]> {
+    let charge = line.get(70..76)?.trim_ascii();
+    let is_charge = charge.contains(&b'.') && parse(charge, false).is_some();
+    let kind = line.get(77..line.len().min(79))?.trim_ascii();
+    (is_charge && !kind.is_empty()).then_some(kind)
 }

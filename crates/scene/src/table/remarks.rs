@@ -114,6 +114,7 @@ impl Remarks {
             let name = |(name, count): &(Box<[u8]>, u64)| {
                 let name = String::from_utf8_lossy(name);
                 let shown = match show(&name) {
+                    _ if name.is_empty() => String::from("no name"),
                     shown if shown.starts_with('`') => shown,
                     shown => format!("`{shown}`"),
                 };

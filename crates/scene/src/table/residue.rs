@@ -30,6 +30,18 @@ const IONS: [(&[u8], &[u8]); 10] = [
     (b"CIO", b"CS"),
 ];
 
+/// The atomic number of a type of AutoDock's: elements, some of them with what their atoms do.
+pub(crate) fn of_docking_type(kind: &[u8]) -> Option<u8> {
+    match &*kind.to_ascii_uppercase() {
+        b"A" => of_symbol(b"C"),
+        b"HD" | b"HS" => of_symbol(b"H"),
+        b"NA" | b"NS" => of_symbol(b"N"),
+        b"OA" | b"OS" => of_symbol(b"O"),
+        b"SA" => of_symbol(b"S"),
+        kind => of_symbol(kind),
+    }
+}
+
 /// Says whether the atoms of a residue are those of proteins, nucleic acids or water.
 pub(crate) fn is_standard(residue: &[u8]) -> bool {
     let residue = residue.trim_ascii();

@@ -251,7 +251,7 @@ fn unknown_elements_of_later_steps_are_told() {
     assert!(scene.take_late_warnings().is_empty());
 }
 
-const PQR: &str = "REMARK   a small thing
+pub(super) const PQR: &str = "REMARK   a small thing
 ATOM      1  N   ALA     1      46.457  12.189  21.556  0.1414 1.8240
 ATOM      2  CA  ALA A   1      47.614  11.997  22.448  0.0962 1.9080
 HETATM10003  H   ALA A  16A     45.900  12.900  21.900  0.1997 0.6000
@@ -344,6 +344,23 @@ fn names_of_pdb_tell_elements_by_their_residues() {
         let scene = scene("a.pdb", &text, "");
         assert_eq!(radii(&scene)[0], expected, "{text}");
         assert_eq!(warnings(&scene), "", "{text}");
+    }
+    // AutoDock's types have a charge before them, and another place.
+    let docked = |kind: &str| {
+        line("HETATM", " X1", "LIG", "").trim_end().to_owned() + &format!("     0.123 {kind}\n")
+    };
+    for (kind, expected) in [
+        ("NA", 1.55),
+        ("A", 1.7),
+        ("Cl", 1.75),
+        ("Fe", 2.04),
+        ("HD", 1.1),
+        ("OA", 1.52),
+    ] {
+        let text = docked(kind);
+        let expected = (vec![expected], String::new());
+        let scene = scene("a.pdbqt", &text, "");
+        assert_eq!((radii(&scene), warnings(&scene)), expected, "{text}");
     }
     let dummy = line("HETATM", " Q1", "MEM", "");
     let told = warnings(&scene("a.pdb", dummy, ""));

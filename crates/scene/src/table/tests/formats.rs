@@ -1,6 +1,7 @@
 //! Formats of other programs, and what is common to all.
 
 use super::atoms::{LAMMPS, PDB};
+use super::elements::PQR;
 use super::*;
 
 #[test]
@@ -320,6 +321,7 @@ fn any_byte_of_other_formats_may_be_another_one() {
     for (name, good) in [
         ("a.dump", LAMMPS.as_bytes()),
         ("a.pdb", PDB.as_bytes()),
+        ("a.pqr", PQR.as_bytes()),
         ("a.cif", cif.as_bytes()),
         ("a.gro", gro.as_bytes()),
         ("a.vtk", vtk.as_bytes()),
