@@ -4,6 +4,7 @@ mod coloring;
 mod explain;
 mod open;
 mod oversights;
+mod remarked;
 mod settings;
 mod steps;
 mod summary;
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 pub use coloring::ScaleKind;
 pub(crate) use coloring::{Learned, Scale};
 pub(crate) use open::{OpenCloud, Step};
-pub(crate) use oversights::Oversight;
+pub(crate) use remarked::Oversight;
 pub(crate) use settings::Cloud;
 pub use summary::{ColumnContents, ColumnSummary};
 

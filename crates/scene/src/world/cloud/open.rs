@@ -9,7 +9,7 @@ use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
 use super::explain::explain;
-use super::oversights::LateRemarks;
+use super::remarked::LateRemarks;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};

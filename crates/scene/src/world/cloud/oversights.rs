@@ -1,36 +1,19 @@
 //! What the colors and radii of a cloud leave out, or show alike.
 
 use std::collections::{HashMap, HashSet};
-use std::path::PathBuf;
 use std::sync::PoisonError;
 
 use super::coloring::{Learned, Scale};
 use super::open::{OpenCloud, Step};
+use super::remarked::Oversight;
 use super::settings::Cloud;
 use crate::table::{self, Remarks};
-use crate::text::{Fault, LocatedFault, did_you_mean, list, quoted};
-
-/// Something about a table that may be an oversight.
-#[derive(Clone, Debug)]
-pub(crate) enum Oversight {
-    /// Of the scene file.
-    Scene(Fault),
-    /// Of the table with this path.
-    Table(PathBuf, LocatedFault),
-}
+use crate::text::{Fault, did_you_mean, list, quoted};
 
 /// The most names that a warning lists.
 const MOST_LISTED: usize = 6;
 /// More categories than anybody tells apart by their colors.
 const MANY: usize = 24;
-
-/// What is left open in steps that are read after the first.
-#[derive(Debug, Default)]
-pub(super) struct LateRemarks {
-    /// The names that tell no element of the steps that were read.
-    names: HashSet<Box<[u8]>>,
-    oversights: Vec<Oversight>,
-}
 
 impl OpenCloud {
     /// Takes in what is left open in a step, unless all were read before.
