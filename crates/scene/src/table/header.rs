@@ -9,9 +9,9 @@ use super::columns::{Nature, Plan, Slot};
 use super::error::TableError;
 use super::fields;
 use super::form::{ElementOf, Form, LineKind};
-use super::input::Input;
+use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
-use super::request::Request;
+use super::request::{Coloring, ColumnRef, Columns, Request};
 use super::rows::Rows;
 use super::{text, time};
 use crate::text::LocatedFault;
@@ -70,7 +70,7 @@ impl Header {
     ) -> Result<Rows, TableError> {
         let texts = match &self.texts {
             Some(texts) => texts.clone(),
-            None => self.texts_of_first_row(input)?,
+            None => self.texts_of_first_row(input, request)?,
         };
         let nature = Nature {
             is_byte: &|_| false,
@@ -123,19 +123,53 @@ impl Header {
         Ok(())
     }
 
-    /// The columns that are no numbers in the first row.
-    fn texts_of_first_row(&self, input: &mut Input<'_>) -> Result<Vec<bool>, TableError> {
-        let Some(line) = input.peek()? else {
+    /// The columns that are no numbers in the first row that is kept, or in the first of all where none comes soon.
+    fn texts_of_first_row(
+        &self,
+        input: &mut Input<'_>,
+        request: &Request,
+    ) -> Result<Vec<bool>, TableError> {
+        let Some(first) = input.peek()?.map(<[u8]>::to_vec) else {
             return Ok(Vec::new());
         };
-        if (self.form.kind)(line) != LineKind::Row {
+        if (self.form.kind)(&first) != LineKind::Row {
             return Ok(Vec::new());
         }
+        let line = match request.keep.is_empty() {
+            true => &first[..],
+            false => self.first_kept(input, request).unwrap_or(&first),
+        };
         let is_text = |field: &&[u8]| {
             let is_number = parse(field, self.form.has_decimal_commas).is_some();
             !is_number && !is_missing(field) && time::parse(field).is_none()
         };
         let fields = fields::all(line, &self.form.division);
         Ok(fields.iter().map(is_text).collect())
+    }
+
+    /// The first row that is kept of those that come next.
+    fn first_kept<'a>(&self, input: &'a Input<'_>, request: &Request) -> Option<&'a [u8]> {
+        let of_conditions = Request {
+            radius: Some(1.0),
+            coloring: Some(Coloring::Material),
+            columns: Columns {
+                position: [(); 3].map(|()| Some(ColumnRef::Constant(0.0))),
+                ..Columns::default()
+            },
+            keep: request.keep.clone(),
+            ..Request::default()
+        };
+        let nature = Nature {
+            is_byte: &|_| false,
+            is_text: &|_| false,
+            angstrom: self.angstrom,
+        };
+        let plan = Plan::new(self.names.clone(), &of_conditions, &nature).ok()?;
+        let lines = input
+            .head()
+            .split(|byte| *byte == b'\n')
+            .map(without_return);
+        let mut rows = lines.filter(|line| (self.form.kind)(line) == LineKind::Row);
+        rows.find(|row| text::is_kept(row, 0, &plan, &self.form).unwrap_or(false))
     }
 }

@@ -191,7 +191,12 @@ fn is_of_another(line: &[u8], form: &Form) -> bool {
 
 /// Says whether the row in the line with this number meets all conditions, by the columns that these are on alone.
 #[inline(always)]
-fn is_kept(line: &[u8], number: u64, plan: &Plan, form: &Form) -> Result<bool, LocatedFault> {
+pub(crate) fn is_kept(
+    line: &[u8],
+    number: u64,
+    plan: &Plan,
+    form: &Form,
+) -> Result<bool, LocatedFault> {
     let mut fields = Fields::new(line, &form.division);
     for (column, uses) in plan.uses[..plan.filter_columns].iter().enumerate() {
         let Some(field) = fields.next() else {

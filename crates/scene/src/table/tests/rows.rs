@@ -51,6 +51,19 @@ fn rows_that_are_not_kept_are_not_looked_at() {
     }
 }
 
+/// Whether a column has numbers or text is that of the rows that are kept.
+#[test]
+fn the_first_row_that_is_kept_tells_texts() {
+    let text = "n,x,y,z,r,v\n0,0,0,0,1,broken\n1,1,2,3,0.5,1\n1,1,2,3,0.5,2\n1,1,2,3,0.5,3\n";
+    let kept = scene("a.csv", text, "value: \"v\", keep: [(\"n\", Is(1))]");
+    let viridis = Colormap::Viridis.colors();
+    assert_eq!(albedos(&kept), [viridis[0], viridis[128], viridis[255]]);
+    let text = "n,x,y,z,r,v\n0,0,0,0,1,7\n1,1,2,3,0.5,a\n1,1,2,3,0.5,b\n";
+    let kept = scene("a.csv", text, "value: \"v\", keep: [(\"n\", Is(1))]");
+    let colors = kept.clouds()[0].colors.as_ref().unwrap();
+    assert!(matches!(&colors.meaning, crate::ColorMeaning::Categories(all) if all.len() == 2));
+}
+
 /// What is wrong in the columns of conditions is said, and in kept rows as before.
 #[test]
 fn rows_are_refused_where_they_are_looked_at() {
