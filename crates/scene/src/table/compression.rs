@@ -1,15 +1,14 @@
 //! Files compressed by gzip or Zstandard, decompressed by a thread of their own.
 
+use std::fmt;
 use std::fs::File;
-use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
 
-use flate2::bufread::MultiGzDecoder;
-use ruzstd::decoding::StreamingDecoder;
-
+use super::{gzip, zstandard};
 use crate::text::LocatedFault;
 
 /// The ways in which files are compressed.
@@ -52,17 +51,31 @@ const BLOCK: usize = 1 << 20;
 /// Blocks that wait for the reader.
 const WAITING: usize = 4;
 
+impl fmt::Display for Compression {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(match self {
+            Self::Gzip => "gzip",
+            Self::Zstandard => "Zstandard",
+        })
+    }
+}
+
 impl Compression {
     /// The way in which a file is compressed, by its first bytes; the file is at its start afterwards.
     pub(crate) fn of(file: &mut File) -> io::Result<Option<Self>> {
         let mut start = Vec::new();
         file.by_ref().take(4).read_to_end(&mut start)?;
         file.seek(SeekFrom::Start(0))?;
-        Ok(match start[..] {
+        Ok(Self::of_bytes(&start))
+    }
+
+    /// The way in which bytes that begin so are compressed.
+    pub(crate) fn of_bytes(bytes: &[u8]) -> Option<Self> {
+        match bytes {
             [0x1f, 0x8b, ..] => Some(Self::Gzip),
-            [0x28, 0xb5, 0x2f, 0xfd] => Some(Self::Zstandard),
+            _ if zstandard::is_start(bytes) => Some(Self::Zstandard),
             _ => None,
-        })
+        }
     }
 
     /// The endings of names of files that are compressed so.
@@ -84,20 +97,21 @@ impl Decoded {
     pub(crate) fn new(file: File, compression: Compression) -> io::Result<Self> {
         let (sender, blocks) = sync_channel(WAITING);
         let taken = Arc::new(AtomicU64::new(0));
-        let counted = Counted {
-            file,
+        let mut packed = Packed {
+            file: BufReader::with_capacity(1 << 16, file),
+            position: 0,
             taken: Arc::clone(&taken),
         };
+        let mut blocks_out = Blocks {
+            sender,
+            block: Vec::new(),
+        };
         let decode = move || {
-            let mut reader = BufReader::with_capacity(1 << 16, counted);
             let end = match compression {
-                Compression::Gzip => hand_over(&mut MultiGzDecoder::new(reader), &sender),
-                Compression::Zstandard => frames(&mut reader, &sender),
+                Compression::Gzip => gzip::decode(&mut packed, &mut blocks_out),
+                Compression::Zstandard => zstandard::decode(&mut packed, &mut blocks_out),
             };
-            if let Err(error) = end {
-                // Nobody waits for it where the reader has gone.
-                let _ = sender.send(Err(error));
-            }
+            blocks_out.finish(end);
         };
         thread::Builder::new().spawn(decode)?;
         Ok(Self {
@@ -131,42 +145,86 @@ impl Read for Decoded {
     }
 }
 
-/// A file that counts what was read of it.
-struct Counted {
-    file: File,
+/// The bytes of a compressed file, and how many of them were taken.
+pub(super) struct Packed {
+    file: BufReader<File>,
+    /// The place of the next byte.
+    pub(super) position: u64,
     taken: Arc<AtomicU64>,
 }
 
-impl Read for Counted {
+impl Packed {
+    /// Passes over so many bytes; returns how many there were.
+    pub(super) fn skip(&mut self, count: u64) -> io::Result<u64> {
+        io::copy(&mut self.by_ref().take(count), &mut io::sink())
+    }
+}
+
+impl Read for Packed {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.file.read(buffer)?;
-        self.taken.fetch_add(count as u64, Ordering::Relaxed);
+        self.count(count);
         Ok(count)
     }
 }
 
-/// Decompresses the frames of a Zstandard file, one after another.
-fn frames(
-    reader: &mut BufReader<Counted>,
-    sender: &SyncSender<io::Result<Vec<u8>>>,
-) -> io::Result<()> {
-    use std::io::BufRead;
-    while !reader.fill_buf()?.is_empty() {
-        let decoder = StreamingDecoder::new(&mut *reader).map_err(io::Error::other)?;
-        hand_over(&mut { decoder }, sender)?;
+impl BufRead for Packed {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.file.fill_buf()
     }
-    Ok(())
+
+    fn consume(&mut self, count: usize) {
+        self.file.consume(count);
+        self.count(count);
+    }
 }
 
-/// Sends all bytes of a decoder, until it ends or nobody wants them.
-fn hand_over(decoder: &mut dyn Read, sender: &SyncSender<io::Result<Vec<u8>>>) -> io::Result<()> {
-    loop {
-        let mut block = Vec::new();
-        let room = block.try_reserve_exact(BLOCK);
-        room.map_err(|_| io::Error::from(ErrorKind::OutOfMemory))?;
-        let count = decoder.take(BLOCK as u64).read_to_end(&mut block)?;
-        if count == 0 || sender.send(Ok(block)).is_err() {
-            return Ok(());
+impl Packed {
+    fn count(&mut self, count: usize) {
+        self.position += count as u64;
+        self.taken.store(self.position, Ordering::Relaxed);
+    }
+}
+
+/// Sends decompressed bytes in blocks, whatever parts of the file they come from.
+pub(super) struct Blocks {
+    sender: SyncSender<io::Result<Vec<u8>>>,
+    block: Vec<u8>,
+}
+
+impl Blocks {
+    /// Sends all bytes of a decoder; returns how many there were, `None` where nobody wants them any more.
+    pub(super) fn take_all(&mut self, decoder: &mut dyn Read) -> io::Result<Option<u64>> {
+        let mut all = 0;
+        loop {
+            let room = self.block.try_reserve_exact(BLOCK - self.block.len());
+            room.map_err(|_| io::Error::from(ErrorKind::OutOfMemory))?;
+            let wanted = (BLOCK - self.block.len()) as u64;
+            let count = decoder.take(wanted).read_to_end(&mut self.block)?;
+            all += count as u64;
+            if self.block.len() == BLOCK && !self.send() {
+                return Ok(None);
+            }
+            if (count as u64) < wanted {
+                return Ok(Some(all));
+            }
+        }
+    }
+
+    /// Sends the block that is begun; returns whether somebody wants more.
+    fn send(&mut self) -> bool {
+        let block = std::mem::take(&mut self.block);
+        self.sender.send(Ok(block)).is_ok()
+    }
+
+    /// Sends the last block, and what went wrong.
+    fn finish(mut self, end: io::Result<()>) {
+        if !self.block.is_empty() && !self.send() {
+            return;
+        }
+        if let Err(error) = end {
+            // Nobody waits for it where the reader has gone.
+            let _ = self.sender.send(Err(error));
         }
     }
 }

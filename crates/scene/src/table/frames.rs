@@ -3,7 +3,9 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::compression::Compression;
 use super::error::TableError;
+use super::file_state::FileState;
 use super::format::Format;
 use super::header::Header;
 use super::input::Input;
@@ -11,6 +13,7 @@ use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, vtk, xyz};
+use crate::text::LocatedFault;
 
 /// The frames of a table, one after another.
 pub(crate) struct Frames<'watch> {
@@ -43,8 +46,15 @@ impl<'watch> Frames<'watch> {
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Self, TableError> {
         let input = Input::new(Source::open(path, watch)?)?;
-        let format = Format::of(path, input.head());
-        let format = format.ok_or_else(|| TableError::UnknownFormat(Format::remedy(path)))?;
+        if let Some(outer) = input.source().compression
+            && let Some(inner) = Compression::of_bytes(input.head())
+        {
+            let message = format!(
+                "expected a table in this {outer} file, found a {inner} file within it: decompress it once"
+            );
+            return Err(LocatedFault::of_file(message).into());
+        }
+        let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
         Ok(Self {
             path: path.to_owned(),
             format,
@@ -116,6 +126,51 @@ impl<'watch> Frames<'watch> {
         Ok(true)
     }
 
+    /// The name of the format.
+    pub(crate) fn format(&self) -> &'static str {
+        self.format.name()
+    }
+
+    /// What may be wrong in the file, as far as it was read.
+    pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
+        self.input.take_doubts()
+    }
+
+    /// Doubts the last of several frames where nothing ends its last line, as it does those of the others.
+    pub(crate) fn doubt_open_end(&mut self) {
+        let input = &mut self.input;
+        if input.is_open_at_end()
+            && matches!(self.format, Format::Xyz | Format::Lammps | Format::Gro)
+        {
+            let doubt = "the file ends within this line: its last number may have been cut";
+            input.doubt(LocatedFault::in_line(
+                input.number,
+                b"",
+                0..0,
+                doubt.to_owned(),
+            ));
+        }
+    }
+
+    /// The state of the file when it was opened.
+    pub(crate) fn state(&self) -> FileState {
+        self.input.source().state
+    }
+
+    /// Reads what is left of a compressed file for its checksums, and refuses a file that changed meanwhile.
+    pub(crate) fn finish(&mut self) -> Result<(), TableError> {
+        self.input.finish()?;
+        self.check_unchanged()
+    }
+
+    /// Refuses a file that is not the one any more that was opened.
+    pub(crate) fn check_unchanged(&self) -> Result<(), TableError> {
+        match self.input.source().is_unchanged() {
+            Ok(true) => Ok(()),
+            Ok(false) | Err(_) => Err(TableError::Changed),
+        }
+    }
+
     /// Refuses more frames than a compressed file may hold.
     pub(crate) fn check_count(&self, count: usize) -> Result<(), TableError> {
         Ok(self.input.check_count(count as u64, "frames")?)
@@ -147,9 +202,13 @@ impl<'watch> Frames<'watch> {
         if self.format == Format::Npy && self.array.is_none() {
             self.array = npy::Array::new(&mut self.input).ok();
         }
-        if self.format == Format::MmCif && self.previous.is_none() {
-            // The loop names its columns once.
-            self.previous = self.header().ok().flatten();
+        if self.format == Format::MmCif {
+            // The loop names its columns once, before the first frame.
+            match place.lines {
+                0 => self.previous = None,
+                _ if self.previous.is_none() => self.previous = self.header().ok().flatten(),
+                _ => {}
+            }
         }
         // The first table's place is that of the header before it.
         let start = self.array.as_ref().map_or(0, npy::Array::start);

@@ -33,9 +33,12 @@ const COLUMNS: [(&str, Range<usize>); 13] = [
 /// The header of the next model; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
     let is_first = input.number == 0;
+    let mut is_model = false;
     while let Some(line) = input.peek()? {
-        if kind(line) == LineKind::Row {
-            break;
+        match kind(line) {
+            LineKind::Row => break,
+            LineKind::End => is_model = line.starts_with(b"MODEL"),
+            LineKind::Other => {}
         }
         input.next()?;
     }
@@ -58,8 +61,52 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     let texts = COLUMNS.iter().map(|column| TEXTS.contains(&column.0));
     Ok(Some(Header {
         texts: Some(texts.collect()),
+        close: match (is_model, is_first) {
+            (true, _) => close_model,
+            // The frame before it ended so.
+            (false, false) => close_frame,
+            (false, true) => close_file,
+        },
         ..Header::new(names, form, (number, &row))
     }))
+}
+
+/// Refuses a model that nothing ends.
+fn close_model(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+    expect_end(input, "`ENDMDL` behind the atoms of this model")
+}
+
+/// Refuses a frame that nothing ends, as others in the file end.
+fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+    expect_end(
+        input,
+        "`END` behind the atoms of this frame, as behind those before",
+    )
+}
+
+/// Doubts a file that ends with an atom.
+fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
+    if ends_with_row && input.peek()?.is_none() {
+        let doubt =
+            "the file ends with an atom, without `TER` or `END`: others may have been cut off";
+        input.doubt(LocatedFault::in_line(
+            input.number,
+            b"",
+            0..0,
+            doubt.to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+fn expect_end(input: &mut Input<'_>, expected: &str) -> Result<(), TableError> {
+    let number = input.number + 1;
+    let fault = match input.peek()? {
+        None => LocatedFault::at_end(number, expected),
+        Some(line) if line.starts_with(b"END") => return Ok(()),
+        Some(line) => LocatedFault::expected(number, line, 0..line.len(), expected),
+    };
+    Err(fault.into())
 }
 
 fn kind(line: &[u8]) -> LineKind {

@@ -12,18 +12,25 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
     let shown = quoted(name);
     let error = match error {
         TableError::Fault(fault) => return fault.message.clone(),
-        TableError::UnknownFormat(remedy) => {
+        TableError::UnknownFormat(foreign) => {
             let endings = table::ENDINGS.map(|ending| format!("`.{}`", ending.0));
             let endings = list(&endings);
-            return match remedy {
-                Some(remedy) => {
-                    format!("expected a table ({endings}), found {shown}: {remedy}")
+            return match foreign {
+                Some(foreign) => {
+                    let (kind, remedy) = (foreign.kind, foreign.remedy);
+                    format!("expected a table ({endings}), found {shown}, {kind}: {remedy}")
                 }
                 None => format!("expected a table ({endings}), found {shown}, which is none"),
             };
         }
         TableError::OutOfMemory(count) => {
             return format!("expected a table that fits into memory, found {count} rows");
+        }
+        TableError::Changed => {
+            return format!(
+                "expected the table {shown} as it was when it was read first, found that it has changed since: \
+                 start again when nothing writes to it any more"
+            );
         }
         TableError::Unreadable(error) => error,
     };

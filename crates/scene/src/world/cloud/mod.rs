@@ -3,6 +3,7 @@
 mod coloring;
 mod explain;
 mod open;
+mod pattern;
 mod settings;
 mod steps;
 mod summary;
@@ -24,13 +25,15 @@ pub(crate) enum CloudError {
     Scene(Fault),
     /// Something is wrong in the table with this path.
     Table(PathBuf, LocatedFault),
+    /// A table is not the one any more that was read before.
+    Changed(Fault),
 }
 
 impl CloudError {
     /// The message without the place.
     pub(crate) fn message(&self) -> String {
         match self {
-            Self::Scene(fault) => fault.message.clone(),
+            Self::Scene(fault) | Self::Changed(fault) => fault.message.clone(),
             Self::Table(_, fault) => fault.message.clone(),
         }
     }
