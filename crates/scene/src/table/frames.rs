@@ -171,6 +171,12 @@ impl<'watch> Frames<'watch> {
         }
     }
 
+    /// The bytes of all blocks that were handed out.
+    #[cfg(test)]
+    pub(crate) fn handed_out(&self) -> u64 {
+        self.input.handed_out()
+    }
+
     /// Refuses more frames than a compressed file may hold.
     pub(crate) fn check_count(&self, count: usize) -> Result<(), TableError> {
         Ok(self.input.check_count(count as u64, "frames")?)

@@ -45,7 +45,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     let number = input.number + 1;
     let Some(row) = input.peek()?.map(<[u8]>::to_vec) else {
         let expected = "a line `ATOM` or `HETATM`";
-        return match is_first {
+        return match is_first || is_model {
             true => Err(LocatedFault::at_end(number, expected).into()),
             false => Ok(None),
         };
@@ -86,9 +86,13 @@ fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
 
 /// Doubts a file that ends with an atom.
 fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
-    if ends_with_row && input.peek()?.is_none() {
-        let doubt =
-            "the file ends with an atom, without `TER` or `END`: others may have been cut off";
+    if (ends_with_row || input.is_open_at_end()) && input.peek()?.is_none() {
+        let doubt = match ends_with_row {
+            true => {
+                "the file ends with an atom, without `TER` or `END`: others may have been cut off"
+            }
+            false => "the file ends within this line, without `END`: atoms may have been cut off",
+        };
         input.doubt(LocatedFault::in_line(
             input.number,
             b"",

@@ -14,7 +14,10 @@ use crate::Scene;
 use crate::values::from_srgb;
 
 mod atoms;
+mod compressed;
 mod csv;
+mod cut;
+mod foreign;
 mod formats;
 mod npy;
 mod ply;

@@ -53,6 +53,14 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
     }
 }
 
+/// Why a table of this name and format has no frames to be shown one after another.
+pub(super) fn without_frames(name: &str, format: &str) -> String {
+    format!(
+        "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has none and no time: \
+         a series is a file for each time, named as `run.####.csv`"
+    )
+}
+
 /// The name of a file beside `path` that is probably meant.
 fn neighbor(name: &str, path: &Path) -> Option<String> {
     const MOST_COMPARED: usize = 10_000;

@@ -2,6 +2,7 @@
 
 mod coloring;
 mod explain;
+mod observed;
 mod open;
 mod pattern;
 mod settings;

@@ -1,6 +1,5 @@
 //! A cloud whose steps are known and can be read.
 
-use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -9,7 +8,8 @@ use glam::DVec3;
 use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
-use super::explain::explain;
+use super::explain::{explain, without_frames};
+use super::observed::Observed;
 use super::pattern;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
@@ -17,9 +17,9 @@ use super::summary::{ColumnContents, ColumnSummary};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
 use crate::table::{
-    Coloring, ColumnRef, FileState, Frames, Missing, Paint, Request, Rows, TableError, Value, unit,
+    Coloring, ColumnRef, Frames, Missing, Paint, Request, Rows, TableError, Value, unit,
 };
-use crate::text::{Fault, LocatedFault, Place, harmless, quoted};
+use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
 pub(crate) struct OpenCloud {
@@ -29,10 +29,7 @@ pub(crate) struct OpenCloud {
     learned: Learned,
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
-    /// The states of the files that were read, when they were opened first.
-    states: Mutex<HashMap<PathBuf, FileState>>,
-    /// What is left out or in doubt.
-    warnings: Mutex<Vec<String>>,
+    observed: Observed,
 }
 
 /// The spheres of a step.
@@ -66,8 +63,7 @@ impl OpenCloud {
             steps: Steps::One,
             learned: Learned::default(),
             open: Mutex::new(None),
-            states: Mutex::default(),
-            warnings: Mutex::default(),
+            observed: Observed::default(),
         };
         let numbered = pattern::files(folder, &open.cloud.name);
         let numbered = numbered.map_err(|error| open.refuse_table(&path, error.into()))?;
@@ -79,54 +75,41 @@ impl OpenCloud {
             open.steps = Steps::Files(chosen.into_iter().map(file).collect());
             let in_range: Vec<i64> = open.cloud.timeline.in_range(numbers).collect();
             let name = harmless(&open.cloud.name);
-            open.warn(numbered.warnings(&name, &in_range));
+            open.observed.warn(numbered.warnings(&name, &in_range));
         } else if open.cloud.takes_all {
             let refused = |error| open.refuse_table(&path, error);
             let mut frames = Frames::open(&path, UNWATCHED).map_err(refused)?;
             if !frames.may_be_several() {
-                let (name, format) = (quoted(&open.cloud.name), frames.format());
-                return Err(open.refused(format!(
-                    "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has none and no \
-                     time: a series is a file for each time, named as `run.####.csv`"
-                )));
+                let name = quoted(&open.cloud.name);
+                return Err(open.refused(without_frames(&name, frames.format())));
             }
-            open.check_state(&path, &frames).map_err(refused)?;
+            open.observed.check(&path, &frames).map_err(refused)?;
             let all = steps::index(&mut frames).map_err(refused)?;
             frames.finish().map_err(refused)?;
-            open.warn_of(&path, &mut frames);
+            open.note_doubts(&path, &mut frames);
             let chosen = open.choose(1..=all.len() as i64)?;
             open.steps = Steps::Frames(chosen.into_iter().map(|place| all[place]).collect());
         }
         Ok(open)
     }
 
-    /// Notes what is left out or in doubt.
-    fn warn(&self, warnings: impl IntoIterator<Item = String>) {
-        let mut known = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
-        for warning in warnings {
-            if !known.contains(&warning) {
-                known.push(warning);
-            }
-        }
+    /// Notes what is in doubt in the file at `path`.
+    fn note_doubts(&self, path: &Path, frames: &mut Frames<'_>) {
+        let doubts = frames.take_doubts();
+        self.observed.note_doubts(&self.name_of(path), doubts);
     }
 
-    /// Notes what is in doubt in the file at `path`.
-    fn warn_of(&self, path: &Path, frames: &mut Frames<'_>) {
-        let doubts = frames.take_doubts();
-        let name = match self.steps {
+    /// The name of a file in messages.
+    fn name_of(&self, path: &Path) -> String {
+        match self.steps {
             Steps::Files(_) => path.display().to_string(),
             Steps::One | Steps::Frames(_) => self.cloud.name.clone(),
-        };
-        let warning = |doubt: LocatedFault| match doubt.place {
-            Place::Text { line, .. } => format!("{}:{line}: {}", harmless(&name), doubt.message),
-            _ => format!("{}: {}", harmless(&name), doubt.message),
-        };
-        self.warn(doubts.into_iter().map(warning));
+        }
     }
 
     /// What is left out or in doubt, as far as it is known.
     pub(crate) fn take_warnings(&self) -> Vec<String> {
-        std::mem::take(&mut self.warnings.lock().unwrap_or_else(PoisonError::into_inner))
+        self.observed.take_warnings()
     }
 
     /// The steps of the cloud's timeline.
@@ -262,7 +245,7 @@ impl OpenCloud {
         let refused = |error| self.refuse_table(&path, error);
         let first = |request: &Request| {
             let mut frames = Frames::open(&path, UNWATCHED)?;
-            self.check_state(&path, &frames)?;
+            self.observed.check(&path, &frames)?;
             if let Steps::Frames(places) = &self.steps {
                 frames.go_to(places[0])?;
             }
@@ -353,25 +336,15 @@ impl OpenCloud {
         watch: &(dyn Fn(u64, u64) + Sync),
     ) -> Result<(Rows, bool), TableError> {
         let mut frames = Frames::open(path, watch)?;
-        self.check_state(path, &frames)?;
+        self.observed.check(path, &frames)?;
         let rows = frames.read(&self.cloud.request);
         frames.check_unchanged()?;
         let rows = rows?.ok_or_else(gone)?;
         // What is no frame behind the first one is passed over.
         let has_more = frames.may_be_several() && frames.has_next().unwrap_or(false);
         frames.finish()?;
-        self.warn_of(path, &mut frames);
+        self.note_doubts(path, &mut frames);
         Ok((rows, has_more))
-    }
-
-    /// Refuses a file that is not the one any more that was opened before.
-    fn check_state(&self, path: &Path, frames: &Frames<'_>) -> Result<(), TableError> {
-        let mut states = self.states.lock().unwrap_or_else(PoisonError::into_inner);
-        let first = *states.entry(path.to_owned()).or_insert(frames.state());
-        match first == frames.state() {
-            true => Ok(()),
-            false => Err(TableError::Changed),
-        }
     }
 
     fn frame(
@@ -382,8 +355,8 @@ impl OpenCloud {
     ) -> Result<Rows, TableError> {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let ready = open.take().and_then(|mut frames| {
-            let is_there = frames.go_to(places[step]).is_ok();
-            is_there.then_some(frames)
+            frames.go_to(places[step]).ok()?;
+            Some(frames)
         });
         let mut frames = match ready {
             Some(frames) => frames,
@@ -393,7 +366,7 @@ impl OpenCloud {
                 frames
             }
         };
-        self.check_state(path, &frames)?;
+        self.observed.check(path, &frames)?;
         frames.check_unchanged()?;
         let rows = frames.read(&self.cloud.request);
         // What another one looks like says nothing.
@@ -411,11 +384,8 @@ impl OpenCloud {
         match error {
             TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
             error => {
-                let name = match self.steps {
-                    Steps::Files(_) => path.display().to_string(),
-                    _ => self.cloud.name.clone(),
-                };
-                let fault = Fault::new(self.cloud.place.clone(), explain(&name, path, &error));
+                let message = explain(&self.name_of(path), path, &error);
+                let fault = Fault::new(self.cloud.place.clone(), message);
                 match error {
                     TableError::Changed => CloudError::Changed(fault),
                     _ => CloudError::Scene(fault),
