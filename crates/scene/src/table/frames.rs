@@ -1,5 +1,6 @@
 //! A table that is open, whose frames are read one after another.
 
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -37,6 +38,16 @@ pub(crate) struct FramePlace {
     position: u64,
     /// The lines before it.
     lines: u64,
+}
+
+impl fmt::Debug for Frames<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = formatter.debug_struct("Frames");
+        shown
+            .field("path", &self.path)
+            .field("place", &self.place());
+        shown.finish_non_exhaustive()
+    }
 }
 
 impl<'watch> Frames<'watch> {

@@ -1,6 +1,5 @@
 //! A cloud whose steps are known and can be read.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -22,6 +21,7 @@ use crate::table::{
 use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
+#[derive(Debug)]
 pub(crate) struct OpenCloud {
     pub(crate) cloud: Cloud,
     folder: PathBuf,
@@ -398,14 +398,4 @@ impl OpenCloud {
 /// The file became shorter since its frames were counted.
 fn gone() -> TableError {
     std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
-}
-
-impl fmt::Debug for OpenCloud {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut shown = formatter.debug_struct("OpenCloud");
-        shown
-            .field("cloud", &self.cloud)
-            .field("steps", &self.steps);
-        shown.finish_non_exhaustive()
-    }
 }
