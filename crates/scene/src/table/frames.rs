@@ -142,6 +142,15 @@ impl<'watch> Frames<'watch> {
         self.format.name()
     }
 
+    /// True of lines that are stored as they are.
+    pub(crate) fn is_plain_text(&self) -> bool {
+        let is_binary = matches!(
+            self.format,
+            Format::Npy | Format::Npz | Format::Ply | Format::Vtk
+        );
+        !is_binary && self.input.can_seek()
+    }
+
     /// What may be wrong in the file, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         self.input.take_doubts()

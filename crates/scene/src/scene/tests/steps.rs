@@ -57,6 +57,40 @@ fn files_that_are_nearly_steps_are_named() {
     );
 }
 
+/// The last file may be one that a program still writes.
+#[test]
+fn a_last_file_that_is_cut_is_in_doubt() {
+    let folder = Folder::new("last");
+    steps(&folder);
+    let of = |text: &str| {
+        folder.write("run.0020.csv", text);
+        let warnings = folder
+            .scene("(file: \"run.####.csv\")")
+            .warnings()
+            .join("; ");
+        warnings
+            .rsplit(['/', '\\'])
+            .next()
+            .unwrap_or_default()
+            .to_owned()
+    };
+    assert_eq!(of("x,y,z,r,value\n0,0,10,1,5\n"), "");
+    assert_eq!(
+        of("x,y,z,r,value\n0,0,10,1,5\n4,0,10,1,4"),
+        "run.0020.csv: the file ends within a line, and the first one does not: its last number may have been cut"
+    );
+    let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 10.00           N\n";
+    for index in 0..3 {
+        let end = if index < 2 { "END\n" } else { "" };
+        folder.write(&format!("a{index}.pdb"), &format!("{atom}{end}"));
+    }
+    let warnings = folder.scene("(file: \"a#.pdb\")").warnings().join("; ");
+    assert!(
+        warnings.contains("a2.pdb:1: the file ends with an atom"),
+        "{warnings}"
+    );
+}
+
 #[test]
 fn tables_without_frames_say_so() {
     let folder = Folder::new("frameless");

@@ -101,6 +101,34 @@ pub(super) const KINDS: &[Foreign] = &[
     of("a molecule in CML", MOLECULE, &["cml"], &[]),
     of("a cube file of Gaussian", MOLECULE, &["cube", "cub"], &[]),
     of(
+        "coordinates of Amber, CHARMM or NAMD",
+        TRAJECTORY,
+        &[
+            "crd", "inpcrd", "rst7", "ncrst", "rst", "coor", "mdcrd", "trj", "g96",
+        ],
+        &[],
+    ),
+    of(
+        "a molecule of Schrodinger or Materials Studio",
+        MOLECULE,
+        &["mae", "maegz", "car", "arc", "msi", "bgf"],
+        &[],
+    ),
+    of(
+        "an input or an output of quantum chemistry",
+        MOLECULE,
+        &[
+            "gjf", "com", "inp", "log", "out", "nwi", "nwo", "coord", "molden", "fchk", "chk",
+        ],
+        &[(0, b"$coord")],
+    ),
+    of(
+        "a structure of another program for crystals",
+        CELL,
+        &["cell", "res", "pwi", "pwo", "gen", "cfg", "castep", "cssr"],
+        &[],
+    ),
+    of(
         "an input of LAMMPS (data file)",
         "save it as a dump, with LAMMPS (`write_dump all custom a.dump id type x y z`), or as XYZ with ASE or OVITO",
         &["lmp", "data"],
@@ -138,6 +166,25 @@ pub(super) const KINDS: &[Foreign] = &[
             "vtu", "vtp", "vti", "vts", "vtr", "vtm", "pvd", "pvtu", "pvtp",
         ],
         &[],
+    ),
+    of(
+        "a grid of another program",
+        GRID,
+        &[
+            "exo", "cgns", "silo", "med", "msh", "case", "foam", "vtkhdf", "bp", "vdb",
+        ],
+        &[],
+    ),
+    of(
+        "a scene of a program for animations",
+        "save its points as PLY, with Blender or Houdini",
+        &["abc", "usd", "usda", "usdc", "usdz", "blend", "bgeo"],
+        &[
+            (0, b"Ogawa"),
+            (0, b"PXR-USDC"),
+            (0, b"#usda"),
+            (0, b"BLENDER"),
+        ],
     ),
     of(
         "data in HDF5",

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::table::{self, TableError};
@@ -51,6 +52,22 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
             format!("expected a table, found {shown}, which cannot be read: {why}")
         }
     }
+}
+
+/// Why a cloud of this name shows no steps: those that it has lie between these ends.
+pub(super) fn no_steps(
+    name: &str,
+    range: Option<&RangeInclusive<i32>>,
+    ends: Option<(i64, i64)>,
+) -> String {
+    let found = match ends {
+        Some((first, last)) => format!("those from {first} to {last}"),
+        None => String::from("none"),
+    };
+    let wanted = range.map_or(String::new(), |range| {
+        format!(" with a number from {} to {}", range.start(), range.end())
+    });
+    format!("expected steps {name}{wanted}, found {found}")
 }
 
 /// Why a table of this name and format has no frames to be shown one after another.

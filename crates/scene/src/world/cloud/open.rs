@@ -7,7 +7,7 @@ use glam::DVec3;
 use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
-use super::explain::{explain, without_frames};
+use super::explain::{explain, no_steps, without_frames};
 use super::observed::Observed;
 use super::pattern;
 use super::settings::Cloud;
@@ -76,6 +76,9 @@ impl OpenCloud {
             let in_range: Vec<i64> = open.cloud.timeline.in_range(numbers).collect();
             let name = harmless(&open.cloud.name);
             open.observed.warn(numbered.warnings(&name, &in_range));
+            if let Some((path, doubts)) = open.steps.doubts_of_last() {
+                open.observed.note_doubts(&open.name_of(&path), doubts);
+            }
         } else if open.cloud.takes_all {
             let refused = |error| open.refuse_table(&path, error);
             let mut frames = Frames::open(&path, UNWATCHED).map_err(refused)?;
@@ -121,17 +124,9 @@ impl OpenCloud {
         if !chosen.is_empty() {
             return Ok(chosen);
         }
-        let name = quoted(&self.cloud.name);
-        let ends = (numbers.clone().next(), numbers.clone().next_back());
-        let found = match ends {
-            (Some(first), Some(last)) => format!("those from {first} to {last}"),
-            _ => String::from("none"),
-        };
+        let ends = numbers.clone().next().zip(numbers.clone().next_back());
         let range = self.cloud.timeline.range.as_ref();
-        let wanted = range.map_or(String::new(), |range| {
-            format!(" with a number from {} to {}", range.start(), range.end())
-        });
-        Err(self.refused(format!("expected steps {name}{wanted}, found {found}")))
+        Err(self.refused(no_steps(&quoted(&self.cloud.name), range, ends)))
     }
 
     /// The number of steps; `None` of a cloud that does not change.

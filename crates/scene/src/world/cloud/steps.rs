@@ -1,10 +1,13 @@
 //! The steps of a cloud that changes over time.
 
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::file::End;
 use crate::table::{FramePlace, Frames, TableError};
+use crate::text::LocatedFault;
 
 /// The steps that a cloud has.
 #[derive(Clone, Debug)]
@@ -15,6 +18,34 @@ pub(super) enum Steps {
     Files(Vec<PathBuf>),
     /// Frames of one file.
     Frames(Vec<FramePlace>),
+}
+
+impl Steps {
+    /// What is in doubt in the last of several files, which a program may still write when it is read. What is wrong in it
+    /// is told when its turn comes.
+    pub(super) fn doubts_of_last(&self) -> Option<(PathBuf, Vec<LocatedFault>)> {
+        let Self::Files(files) = self else {
+            return None;
+        };
+        let (first, last) = (files.first()?, files.last()?);
+        let mut frames = Frames::open(last, &|_, _| {}).ok()?;
+        frames.skip().ok()?;
+        let mut doubts = frames.take_doubts();
+        let is_open = |path: &Path| last_byte(path).ok().map(|byte| byte != b'\n');
+        if frames.is_plain_text() && is_open(last)? && !is_open(first)? {
+            let doubt = "the file ends within a line, and the first one does not: its last number may have been cut";
+            doubts.push(LocatedFault::of_file(doubt));
+        }
+        Some((last.clone(), doubts))
+    }
+}
+
+fn last_byte(path: &Path) -> io::Result<u8> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::End(-1))?;
+    let mut byte = [0];
+    file.read_exact(&mut byte)?;
+    Ok(byte[0])
 }
 
 /// The step that each frame of the animation shows.
