@@ -77,7 +77,11 @@ impl Format {
         // Any file has lines that could be those of a table, but not every one is one.
         match (foreign::by_ending(&ending), by_contents) {
             (Some(foreign), None) => Err(Some(foreign)),
-            (Some(foreign), Some(Self::Text)) if !has_line_of_numbers(head) => Err(Some(foreign)),
+            (Some(foreign), Some(Self::Text))
+                if path.extension().is_none() || !has_line_of_numbers(head) =>
+            {
+                Err(Some(foreign))
+            }
             (_, found) => found.ok_or(None),
         }
     }
@@ -131,10 +135,11 @@ fn by_magic(head: &[u8]) -> Option<Format> {
     magic(b"ITEM:").then_some(Format::Lammps)
 }
 
-/// The ending of a name, in lower case, without that of its compression.
+/// The ending of a name, in lower case, without that of its compression; the name itself where it has none.
 fn ending(path: &Path) -> String {
     let of = |path: &Path| {
-        let ending = path.extension().and_then(|ending| ending.to_str());
+        let ending = path.extension().or(path.file_name());
+        let ending = ending.and_then(|ending| ending.to_str());
         ending.unwrap_or_default().to_ascii_lowercase()
     };
     match of(path) {

@@ -92,6 +92,9 @@ fn close(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
     };
     let words = fields::all(line, &Division::Words);
     let is_box = words.len() >= 3 && words.iter().all(|word| parse(word, false).is_some());
+    // Wide numbers have no spaces between them.
+    let is_of_digits = line.iter().all(|byte| b"0123456789.- ".contains(byte));
+    let is_box = is_box || is_of_digits && memchr::memchr_iter(b'.', line).count() >= 3;
     match is_box {
         true => Ok(()),
         false => Err(LocatedFault::expected(number, line, 0..line.len(), expected).into()),

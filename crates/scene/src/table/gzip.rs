@@ -7,7 +7,8 @@ use std::io::{self, BufRead, ErrorKind};
 
 use flate2::bufread::GzDecoder;
 
-use super::compression::{Blocks, Packed, REMEDY};
+use super::compression::REMEDY;
+use super::packed::{Blocks, Packed};
 
 /// The most members that hold nothing: each costs as much time as thousands of bytes.
 const MOST_EMPTY: u64 = 4096;

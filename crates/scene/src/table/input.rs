@@ -82,8 +82,12 @@ impl<'watch> Input<'watch> {
     }
 
     /// Notes what may be wrong in the file, where the format cannot tell.
+    ///
+    /// Of a compressed file that was read to its end the whole is known to be there.
     pub(crate) fn doubt(&mut self, doubt: LocatedFault) {
-        self.doubts.push(doubt);
+        if self.can_seek() {
+            self.doubts.push(doubt);
+        }
     }
 
     /// What may be wrong in the file, as far as it was read.

@@ -1,14 +1,15 @@
 //! Tables of spheres beside the scene file, in the formats of many programs.
 //!
 //! Files are read in blocks and never held as a whole: what stays is a sphere for each row and what
-//! colors it. `source` and `input` hand out bytes and lines, decompressed. `columns` finds the purpose of each
-//! column, `text` and `binary` read rows, and a file for each format reads what stands before them.
+//! colors it. `source` and `input` hand out bytes and lines, decompressed and checked. `columns` finds the purpose of
+//! each column, `text` and `binary` read rows, and a file for each format reads what stands before them.
 //! `frames` reads the frames of a file one after another.
 
 mod binary;
 mod colormap;
 mod columns;
 mod compression;
+mod decoded;
 mod delimited;
 mod element;
 mod error;
@@ -28,6 +29,7 @@ mod mmcif;
 mod npy;
 mod npz;
 mod number;
+mod packed;
 mod paint;
 mod pdb;
 mod ply;

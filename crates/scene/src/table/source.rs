@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
-use super::compression::{Compression, Decoded, REMEDY, check_count, most_bytes};
+use super::compression::{Compression, REMEDY, check_count, most_bytes};
+use super::decoded::Decoded;
 use super::file_state::FileState;
 use crate::text::LocatedFault;
 

@@ -8,18 +8,8 @@ use std::io::{self, BufRead, Cursor, ErrorKind, Read};
 
 use ruzstd::decoding::{FrameDecoder, StreamingDecoder};
 
-use super::compression::{Blocks, Packed};
-
-/// The number with which a frame begins.
-const MAGIC: u32 = 0xfd2f_b528;
-/// The numbers with which frames begin that are to be passed over.
-const SKIPPABLE: std::ops::RangeInclusive<u32> = 0x184d_2a50..=0x184d_2a5f;
-
-/// Says whether a file that starts with these bytes is compressed so.
-pub(super) fn is_start(bytes: &[u8]) -> bool {
-    let magic = bytes.first_chunk().map(|start| u32::from_le_bytes(*start));
-    magic.is_some_and(|magic| magic == MAGIC || SKIPPABLE.contains(&magic))
-}
+use super::compression::{ZSTANDARD_FRAME as MAGIC, ZSTANDARD_SKIPPABLE as SKIPPABLE};
+use super::packed::{Blocks, Packed};
 
 /// Sends what the frames of a file hold, each compared with its checksum and its size where it has them.
 ///

@@ -1,6 +1,17 @@
 //! The kinds of files that are not read, with their endings and first bytes.
 
-use super::Foreign;
+/// A kind of file that is not read.
+#[derive(Debug, Eq, PartialEq)]
+pub(crate) struct Foreign {
+    /// What it is, with its article.
+    pub(crate) kind: &'static str,
+    /// A program that makes a table of it, and how.
+    pub(crate) remedy: &'static str,
+    /// The endings of the names of such files.
+    pub(super) endings: &'static [&'static str],
+    /// Bytes with which one starts, each at its place.
+    pub(super) magic: &'static [(usize, &'static [u8])],
+}
 
 const TRAJECTORY: &str =
     "save it as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE";
@@ -101,17 +112,28 @@ pub(super) const KINDS: &[Foreign] = &[
     of("a molecule in CML", MOLECULE, &["cml"], &[]),
     of("a cube file of Gaussian", MOLECULE, &["cube", "cub"], &[]),
     of(
+        "coordinates of GROMOS",
+        TRAJECTORY,
+        &["g96", "cnf", "trc", "trj", "omd"],
+        &[(0, b"TITLE\n"), (0, b"TITLE\r\n")],
+    ),
+    of(
+        "a structure of DL_POLY",
+        TRAJECTORY,
+        &["config", "revcon", "history"],
+        &[],
+    ),
+    of("a structure of Tinker", TRAJECTORY, &["arc", "txyz"], &[]),
+    of(
         "coordinates of Amber, CHARMM or NAMD",
         TRAJECTORY,
-        &[
-            "crd", "inpcrd", "rst7", "ncrst", "rst", "coor", "mdcrd", "trj", "g96",
-        ],
+        &["crd", "inpcrd", "rst7", "ncrst", "rst", "coor", "mdcrd"],
         &[],
     ),
     of(
         "a molecule of Schrodinger or Materials Studio",
         MOLECULE,
-        &["mae", "maegz", "car", "arc", "msi", "bgf"],
+        &["mae", "maegz", "car", "msi", "bgf"],
         &[],
     ),
     of(
@@ -138,7 +160,7 @@ pub(super) const KINDS: &[Foreign] = &[
     of(
         "a structure of VASP (POSCAR)",
         CELL,
-        &["poscar", "contcar", "vasp"],
+        &["poscar", "contcar", "vasp", "xdatcar", "chgcar"],
         &[],
     ),
     of(

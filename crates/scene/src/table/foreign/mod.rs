@@ -3,20 +3,8 @@
 mod kinds;
 mod texts;
 
+pub(crate) use self::kinds::Foreign;
 use self::kinds::KINDS;
-
-/// A kind of file that is not read.
-#[derive(Debug, Eq, PartialEq)]
-pub(crate) struct Foreign {
-    /// What it is, with its article.
-    pub(crate) kind: &'static str,
-    /// A program that makes a table of it, and how.
-    pub(crate) remedy: &'static str,
-    /// The endings of the names of such files.
-    endings: &'static [&'static str],
-    /// Bytes with which one starts, each at its place.
-    magic: &'static [(usize, &'static [u8])],
-}
 
 /// The kind of files whose names end so.
 pub(super) fn by_ending(ending: &str) -> Option<&'static Foreign> {

@@ -123,7 +123,15 @@ fn ends_that_formats_do_not_tell_are_said() {
         said("a.pdb", &cut, ""),
         "a.pdb:2: the file ends with an atom, without `TER` or `END`: others may have been cut off"
     );
-    assert_eq!(said("a.pdb", &(cut + "TER\n"), ""), "");
+    assert_eq!(said("a.pdb", &(cut.clone() + "TER\n"), ""), "");
+    // What is compressed is whole.
+    let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
+    std::io::Write::write_all(&mut gzip, cut.as_bytes()).unwrap();
+    let whole = scene("a.pdb.gz", gzip.finish().unwrap(), "");
+    assert!(whole.warnings().is_empty());
+    // A box of numbers that fill their columns.
+    let wide = GRO.replace("   1.00000   1.00000", "40000.0000040000.00000");
+    assert_eq!(said("a.gro", &wide, ""), "");
     let cut = CIF.to_owned() + "C 1 2 3 1\n";
     assert_eq!(
         said("a.cif", &cut, "frames: All"),

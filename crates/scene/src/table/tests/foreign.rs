@@ -51,6 +51,18 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
         ),
         (&["CONTCAR"], old.as_bytes(), "a structure of VASP", "ASE"),
         (
+            &["CONFIG"],
+            b"DL_POLY: salt\n2 1 4\n1.0 0.0 0.0\n0.0 1.0 0.0\n0.0 0.0 1.0\nNa 1\n0.1 0.2 0.3\n",
+            "a structure of DL_POLY",
+            "ASE",
+        ),
+        (
+            &["a.g96", "a"],
+            b"TITLE\nmade by hand\nEND\nPOSITION\n",
+            "coordinates of GROMOS",
+            "MDTraj",
+        ),
+        (
             &["a.cube", "a"],
             cube.as_bytes(),
             "a cube file of Gaussian",
