@@ -34,9 +34,10 @@ pub(crate) fn header(
         let number = input.number + 1;
         let Some(line) = input.next()? else {
             return Err(match is_crystal {
-                true => TableError::UnknownFormat(foreign::crystal()),
-                false => LocatedFault::at_end(number, "a loop of `_atom_site.…`").into(),
-            });
+                true => LocatedFault::of_file(foreign::crystal()),
+                false => LocatedFault::at_end(number, "a loop of `_atom_site.…`"),
+            }
+            .into());
         };
         // Lines between two that begin with a semicolon are text.
         is_in_text ^= line.starts_with(b";");

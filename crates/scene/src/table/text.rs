@@ -17,6 +17,8 @@ use crate::text::{LocatedFault, show};
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;
+/// About how many bytes tell how long lines are.
+const TELLING: usize = 1 << 20;
 /// About how many bytes are read first where the rows may end at any line, as those of small models do.
 const FIRST_PIECE: usize = 1 << 12;
 
@@ -51,7 +53,7 @@ pub(crate) fn read(
             .into_par_iter()
             .map(|text| read_piece(text, plan, form, count.is_some()))
             .collect();
-        let is_telling = count.is_some() || bytes >= PIECE;
+        let is_telling = count.is_some() || bytes >= TELLING;
         if !is_reserved
             && is_telling
             && plan.filters.is_empty()

@@ -4,7 +4,7 @@ mod kinds;
 mod texts;
 
 pub(crate) use self::kinds::Foreign;
-use self::kinds::KINDS;
+use self::kinds::{CELL, KINDS};
 
 /// The kind of files whose names end so.
 pub(super) fn by_ending(ending: &str) -> Option<&'static Foreign> {
@@ -50,7 +50,9 @@ pub(super) fn is_cif(head: &[u8]) -> bool {
     })
 }
 
-/// The kind of crystals' CIF.
-pub(super) fn crystal() -> Option<&'static Foreign> {
-    KINDS.iter().find(|kind| kind.kind.starts_with("a crystal"))
+/// Why a crystal's CIF is no table.
+pub(super) fn crystal() -> String {
+    format!(
+        "expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: {CELL}"
+    )
 }

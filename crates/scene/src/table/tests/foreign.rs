@@ -21,7 +21,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
     let vtu =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n<Points>1 2 3</Points>\n";
     let html = "<!DOCTYPE html>\n<html><body>404</body></html>\n";
-    let crystal = "# by hand\ndata_salt\n_cell_length_a 5.64\nloop_\n_atom_site_label\n_atom_site_fract_x\nNa1 0.5\n";
     let psf = "PSF CMAP\n\n 1 !NTITLE\n REMARKS\n\n 3 !NATOM\n1 A 1 ALA N NH3 -0.3 14.0 0\n";
     let gsd = [0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0, 0];
     for (names, bytes, kind, tool) in [
@@ -87,12 +86,6 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             "fetch the file again",
         ),
         (
-            &["a.cif", "a"],
-            crystal.as_bytes(),
-            "a crystal's CIF",
-            "ASE",
-        ),
-        (
             &["a.psf", "a"],
             psf.as_bytes(),
             "a topology without positions",
@@ -149,6 +142,20 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
                 "{name}: {message}"
             );
         }
+    }
+}
+
+#[test]
+fn crystals_say_what_their_coordinates_are() {
+    let crystal = "# by hand\ndata_salt\n_cell_length_a 5.64\nloop_\n_atom_site_label\n_atom_site_fract_x\nNa1 0.5\n";
+    for name in ["a.cif", "a"] {
+        assert_eq!(
+            refusal(name, crystal, ""),
+            format!(
+                "{name}: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
+                 it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
+            )
+        );
     }
 }
 
