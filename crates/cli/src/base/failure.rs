@@ -21,6 +21,9 @@ pub(crate) enum Failure {
     /// Something else went wrong.
     #[error("{0}")]
     Work(String),
+    /// A table changed while its frames were rendered: those that follow would show another one.
+    #[error("{0}")]
+    Changed(String),
 }
 
 impl Failure {
@@ -42,7 +45,7 @@ impl Failure {
     pub(crate) fn exit_code(&self) -> u8 {
         match self {
             Self::Usage(_) | Self::Scene(_) => status::REFUSED,
-            Self::Work(_) => status::FAILURE,
+            Self::Work(_) | Self::Changed(_) => status::FAILURE,
         }
     }
 }

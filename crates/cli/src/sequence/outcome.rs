@@ -86,7 +86,7 @@ impl Failures {
         if state.reasons.insert(reason) {
             progress.failure(&Failure::Work(message));
         }
-        if self.is_fatal {
+        if self.is_fatal || matches!(failure, Failure::Changed(_)) {
             self.stop.store(true, Ordering::Relaxed);
         }
     }

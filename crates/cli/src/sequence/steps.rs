@@ -170,7 +170,10 @@ impl<'a> Steps<'a> {
             None => (Ok(scene.world().clone()), self.places.take()),
             Some(reader) => reader.read(scene, frame, key.as_ref(), &mut self.asked),
         };
-        let world = world.map_err(|error| Failure::Work(error.to_string()))?;
+        let world = world.map_err(|error| match error.is_of_changed_table() {
+            true => Failure::Changed(error.to_string()),
+            false => Failure::Work(error.to_string()),
+        })?;
         let step = Arc::new(Step::new(request, key, world, place));
         self.current = Some(Arc::clone(&step));
         self.read_ahead(&step);

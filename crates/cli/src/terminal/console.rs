@@ -170,7 +170,7 @@ impl Console {
     /// The text that [`Self::failure`] prints, without the end of the last line.
     pub(crate) fn message(&self, failure: &Failure) -> String {
         let text = match failure {
-            Failure::Usage(message) | Failure::Work(message) => {
+            Failure::Usage(message) | Failure::Work(message) | Failure::Changed(message) => {
                 let message = self.harmless(message);
                 format!("{} {message}", self.err.paint("marbles:", BOLD_RED))
             }

@@ -5,7 +5,7 @@ use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::folder::{Folder, code, text};
+use crate::folder::{Folder, code, is_picture, text};
 use crate::sequences::{contents, differences, random, start};
 
 const STEPS: usize = 12;
@@ -142,6 +142,116 @@ fn a_step_that_is_broken_does_not_stop_the_others() {
         "{errors}"
     );
     assert_eq!(folder.names("out").len(), STEPS - 1);
+}
+
+/// What another program writes over meanwhile ends the sequence: its frames would be those of two tables.
+#[test]
+fn a_table_that_changes_ends_the_sequence() {
+    const FRAMES: usize = 400;
+    let folder = Folder::new();
+    let steps: String = (0..FRAMES).map(step).collect();
+    let other = steps.replace(" 0.5 ", " 0.6 ");
+    for name in ["run", "same"] {
+        fs::write(folder.path(&format!("{name}.xyz")), &steps).unwrap();
+        let all = scene(&format!("\"{name}.xyz\", frames: All"), "");
+        fs::write(folder.path(&format!("{name}.ron")), all).unwrap();
+    }
+    let child = start(
+        &folder,
+        "render run.ron -o run/###.png --size 300x200 --threads 1",
+    );
+    while folder
+        .names("run")
+        .iter()
+        .filter(|name| is_picture(name))
+        .count()
+        < 4
+    {
+        sleep(Duration::from_millis(1));
+    }
+    fs::write(folder.path("run.xyz"), other).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let errors = text(&output.stderr);
+    assert_eq!(code(&output), 1, "{errors}");
+    assert_eq!(
+        errors.matches("found that it has changed since").count(),
+        1,
+        "{errors}"
+    );
+    let written = folder.names("run");
+    assert!(written.len() < FRAMES, "{}", written.len());
+    let frames = written.len();
+    let render = format!("render same.ron -o same/###.png --size 300x200 --frames 1-{frames}");
+    assert_eq!(code(&folder.run(&render)), 0);
+    let none: [&str; 0] = [];
+    assert_eq!(
+        differences(&contents(&folder, "same"), &contents(&folder, "run")),
+        none
+    );
+}
+
+/// Waiting for somebody who writes to it would never end.
+#[cfg(unix)]
+#[test]
+fn pipes_with_names_are_refused() {
+    let folder = Folder::new();
+    let made = std::process::Command::new("mkfifo")
+        .arg(folder.path("pipe.csv"))
+        .status();
+    if !made.is_ok_and(|status| status.success()) {
+        return;
+    }
+    fs::write(folder.path("pipe.ron"), scene("\"pipe.csv\"", "")).unwrap();
+    for (arguments, expected) in [
+        (
+            "check pipe.ron",
+            "it is a pipe or a device, and tables are read more than once",
+        ),
+        ("render pipe.ron -o a.png", "it is a pipe or a device"),
+        (
+            "check pipe.csv",
+            "expected a scene file, found a pipe with a name",
+        ),
+    ] {
+        let output = folder.run(arguments);
+        let errors = text(&output.stderr);
+        assert_eq!(
+            (code(&output), errors.contains(expected)),
+            (2, true),
+            "{errors}"
+        );
+    }
+}
+
+/// What is in doubt is said by every command, and an error where warnings are.
+#[test]
+fn what_is_left_out_of_a_series_is_said() {
+    let folder = Folder::new();
+    for index in [1, 2, 4] {
+        fs::write(folder.path(&format!("step.{index:03}.xyz")), step(index)).unwrap();
+    }
+    fs::write(folder.path("step.5.xyz"), step(5)).unwrap();
+    fs::write(folder.path("steps.ron"), scene("\"step.###.xyz\"", "")).unwrap();
+    for arguments in [
+        "check steps.ron",
+        "check --json steps.ron",
+        "render steps.ron -o a/#.png",
+    ] {
+        let output = folder.run(arguments);
+        let errors = text(&output.stderr);
+        assert_eq!(code(&output), 0, "{errors}");
+        for expected in [
+            "step.###.xyz: 1 file is nearly of this form and not shown: \"step.5.xyz\"",
+            "step.###.xyz: files are missing between the numbers 2 and 4",
+        ] {
+            assert!(errors.contains(expected), "{arguments}: {errors}");
+        }
+        assert_eq!(
+            code(&folder.run(&format!("{arguments} --strict"))),
+            2,
+            "{arguments}"
+        );
+    }
 }
 
 #[test]

@@ -20,6 +20,7 @@ pub struct SceneError {
     located: Vec<LocatedFault>,
     /// What follows the messages of the faults.
     end: String,
+    is_of_changed_table: bool,
 }
 
 impl SceneError {
@@ -31,6 +32,18 @@ impl SceneError {
     /// The faults that are told, in the order of the file; none where the file could not be read.
     pub fn faults(&self) -> &[SceneFault] {
         &self.faults
+    }
+
+    /// True where a table is not the one any more that was read before: frames that are still to come would show
+    /// another one than those before.
+    pub fn is_of_changed_table(&self) -> bool {
+        self.is_of_changed_table
+    }
+
+    /// The same error, of a table that has changed.
+    pub(crate) fn of_changed_table(mut self) -> Self {
+        self.is_of_changed_table = true;
+        self
     }
 
     /// The message for a terminal with so many columns, with ANSI colors or without: excerpts of the file fit
@@ -93,6 +106,7 @@ impl SceneError {
             faults: faults.iter().map(SceneFault::new).collect(),
             located: faults,
             end: end.to_owned(),
+            is_of_changed_table: false,
         }
     }
 }

@@ -7,9 +7,9 @@ use std::path::Path;
 use std::str::FromStr;
 use std::sync::Arc;
 
-use super::oversights;
 use super::refused::refused;
 use super::{Description, Scene};
+use super::{other_file, oversights};
 use crate::file::{Camera, File, FrameOver, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
@@ -51,6 +51,11 @@ impl Scene {
             let reason = "expected a scene file, found a folder";
             return Err(SceneError::unreadable(path, reason));
         }
+        if other_file::is_named_pipe(path) {
+            let reason =
+                "expected a scene file, found a pipe with a name, to which nobody may ever write";
+            return Err(SceneError::unreadable(path, reason));
+        }
         let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
             let why = match error.kind() {
                 ErrorKind::NotFound => "no such file",
@@ -63,6 +68,9 @@ impl Scene {
             };
             SceneError::unreadable(path, why)
         })?;
+        if let Some(message) = other_file::explain(path, &bytes) {
+            return Err(SceneError::unreadable(path, &message));
+        }
         let text = str::from_utf8(&bytes).map_err(|error| error.valid_up_to());
         let text = text.and_then(|text| {
             text.strip_suffix('\0')
@@ -265,6 +273,9 @@ impl Draft {
                 let fault = Fault::new(place, message);
                 return Err(SceneError::refused(path, text, vec![fault]));
             }
+        }
+        for table in &scene.tables {
+            scene.warnings.extend(table.take_warnings());
         }
         scene.description.lights = scene.lights.names();
         scene.world.lights = scene.first_lights();

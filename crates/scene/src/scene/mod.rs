@@ -3,6 +3,7 @@
 mod clouds;
 mod description;
 mod load;
+mod other_file;
 mod oversights;
 mod refused;
 

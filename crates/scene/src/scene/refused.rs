@@ -20,6 +20,9 @@ pub(super) fn refused(
 ) -> SceneError {
     match error {
         CloudError::Scene(fault) => SceneError::refused(path, text, vec![fault]),
+        CloudError::Changed(fault) => {
+            SceneError::refused(path, text, vec![fault]).of_changed_table()
+        }
         CloudError::Table(table, fault) => {
             SceneError::in_table(&table, fault, (path, text, &place))
         }

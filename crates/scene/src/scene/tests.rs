@@ -2,7 +2,9 @@ use std::path::Path;
 
 mod lights;
 mod opencv;
+mod other_files;
 mod series;
+mod steps;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness, Stroke, StrokeWidth};

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use super::foreign::Foreign;
 use crate::text::LocatedFault;
 
 /// The reason for which there is no table.
@@ -9,12 +10,14 @@ use crate::text::LocatedFault;
 pub(crate) enum TableError {
     /// The file cannot be opened or read.
     Unreadable(io::Error),
-    /// Neither the name nor the contents tell a format that is read; the remedy, where one is known.
-    UnknownFormat(Option<&'static str>),
+    /// Neither the name nor the contents tell a format that is read; what it is instead, where that is known.
+    UnknownFormat(Option<&'static Foreign>),
     /// There is no memory for it.
     OutOfMemory(u64),
     /// Something is wrong in it.
     Fault(LocatedFault),
+    /// It is not the file any more that was read before.
+    Changed,
 }
 
 impl From<io::Error> for TableError {

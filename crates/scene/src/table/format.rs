@@ -4,6 +4,7 @@ use std::path::Path;
 
 use super::compression::Compression;
 use super::fields::{self, Division};
+use super::foreign::{self, Foreign};
 use super::input::without_return;
 use super::number::parse;
 use super::{npy, npz, pqr, vtk};
@@ -46,56 +47,21 @@ pub(crate) const ENDINGS: [(&str, Format); 19] = [
     ("pqr", Format::Pqr),
     ("cif", Format::MmCif),
     ("mmcif", Format::MmCif),
+    ("pdbx", Format::MmCif),
     ("vtk", Format::Vtk),
 ];
 
-/// Formats that are not read, and what to do instead.
-const REMEDIES: [(&[&str], &str); 6] = [
-    (
-        &["xtc", "trr", "dcd", "nc", "ncdf", "tng", "h5md", "traj"],
-        "save the trajectory as extended XYZ, PDB or a LAMMPS dump, with MDAnalysis, MDTraj or ASE",
-    ),
-    (
-        &["vtu", "vtp", "vti", "vts", "pvd", "pvtu", "pvtp", "vtm"],
-        "save the data as CSV or as legacy VTK, in ParaView by File > Save Data",
-    ),
-    (
-        &[
-            "h5", "hdf5", "hdf", "parquet", "feather", "pkl", "mat", "fits",
-        ],
-        "save the columns as NPY, NPZ or CSV",
-    ),
-    (&["xlsx", "xls", "ods"], "save the sheet as CSV"),
-    (
-        &["las", "laz", "pcd", "e57", "obj", "stl", "gltf", "glb"],
-        "save the points as PLY or CSV",
-    ),
-    (
-        &[
-            "mol2", "sdf", "mol", "cml", "psf", "prmtop", "top", "tpr", "data", "lmp",
-        ],
-        "save the atoms as XYZ or PDB, with Open Babel, ASE or MDAnalysis",
-    ),
-];
-
 impl Format {
-    /// The format of the table at `path` that begins so; `None` where nothing tells it.
-    pub(crate) fn of(path: &Path, head: &[u8]) -> Option<Self> {
-        let magic = |magic: &[u8]| head.starts_with(magic);
-        if magic(npy::MAGIC) {
-            return Some(Self::Npy);
+    /// The format of the table at `path` that begins so.
+    ///
+    /// # Errors
+    /// Returns what the file is instead; `None` where nothing tells it.
+    pub(crate) fn of(path: &Path, head: &[u8]) -> Result<Self, Option<&'static Foreign>> {
+        if let Some(format) = by_magic(head) {
+            return Ok(format);
         }
-        if magic(npz::MAGIC) {
-            return Some(Self::Npz);
-        }
-        if magic(b"ply\n") || magic(b"ply\r\n") {
-            return Some(Self::Ply);
-        }
-        if magic(vtk::MAGIC) {
-            return Some(Self::Vtk);
-        }
-        if magic(b"ITEM:") {
-            return Some(Self::Lammps);
+        if let Some(foreign) = foreign::by_contents(head) {
+            return Err(Some(foreign));
         }
         let ending = ending(path);
         let known = ENDINGS.iter().find(|known| known.0 == ending);
@@ -105,9 +71,21 @@ impl Format {
             format => format,
         });
         // What others call a dump may be a table of any kind.
-        by_name
-            .filter(|format| *format != Self::Lammps || head.is_empty())
-            .or_else(|| by_contents(head))
+        let by_name = by_name.filter(|format| *format != Self::Lammps || head.is_empty());
+        if let Some(format) = by_name {
+            return Ok(format);
+        }
+        let by_contents = by_contents(head);
+        // Any file has lines that could be those of a table, but not every one is one.
+        match (foreign::by_ending(&ending), by_contents) {
+            (Some(foreign), None) => Err(Some(foreign)),
+            (Some(foreign), Some(Self::Text))
+                if path.extension().is_none() || !has_line_of_numbers(head) =>
+            {
+                Err(Some(foreign))
+            }
+            (_, found) => found.ok_or(None),
+        }
     }
 
     /// Says whether tables of this format have right-handed axes, as those of other programs do. The numbers of plain
@@ -126,20 +104,61 @@ impl Format {
         }
     }
 
-    /// What to do with a file of this name that is no table.
-    pub(crate) fn remedy(path: &Path) -> Option<&'static str> {
+    /// What a file surely is, by what it begins with or the ending of its name: a table, or a file of another kind.
+    pub(crate) fn evident(path: &Path, head: &[u8]) -> Option<Result<Self, &'static Foreign>> {
         let ending = ending(path);
-        let of = REMEDIES
-            .iter()
-            .find(|(endings, _)| endings.contains(&&*ending));
-        of.map(|(_, remedy)| *remedy)
+        let known = ENDINGS.iter().find(|known| known.0 == ending);
+        let by_contents = || by_contents(head).filter(|format| *format != Self::Text);
+        let foreign = || foreign::by_contents(head);
+        let format = by_magic(head)
+            .or(known.map(|known| known.1).filter(|_| foreign().is_none()))
+            .or_else(by_contents);
+        let foreign = || foreign().or_else(|| foreign::by_ending(&ending));
+        format.map(Ok).or_else(|| foreign().map(Err))
+    }
+
+    /// The name of the format.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Csv => "CSV",
+            Self::Text => "text",
+            Self::Gro => "GRO",
+            Self::Lammps => "a dump of LAMMPS",
+            Self::MmCif => "mmCIF",
+            Self::Npy => "NPY",
+            Self::Npz => "NPZ",
+            Self::Pdb => "PDB",
+            Self::Ply => "PLY",
+            Self::Pqr => "PQR",
+            Self::Vtk => "legacy VTK",
+            Self::Xyz => "XYZ",
+        }
     }
 }
 
-/// The ending of a name, in lower case, without that of its compression.
+/// The format of a file that begins with the mark of one.
+fn by_magic(head: &[u8]) -> Option<Format> {
+    let magic = |magic: &[u8]| head.starts_with(magic);
+    if magic(npy::MAGIC) {
+        return Some(Format::Npy);
+    }
+    if magic(npz::MAGIC) && !foreign::is_sheet(head) {
+        return Some(Format::Npz);
+    }
+    if magic(b"ply\n") || magic(b"ply\r\n") {
+        return Some(Format::Ply);
+    }
+    if magic(vtk::MAGIC) {
+        return Some(Format::Vtk);
+    }
+    magic(b"ITEM:").then_some(Format::Lammps)
+}
+
+/// The ending of a name, in lower case, without that of its compression; the name itself where it has none.
 fn ending(path: &Path) -> String {
     let of = |path: &Path| {
-        let ending = path.extension().and_then(|ending| ending.to_str());
+        let ending = path.extension().or(path.file_name());
+        let ending = ending.and_then(|ending| ending.to_str());
         ending.unwrap_or_default().to_ascii_lowercase()
     };
     match of(path) {
@@ -153,7 +172,21 @@ fn ending(path: &Path) -> String {
 /// Says whether the first line has several numbers and nothing else.
 fn begins_with_numbers(head: &[u8]) -> bool {
     let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
-    let fields = fields::all(without_return(line), &Division::Words);
+    is_of_numbers(line)
+}
+
+/// Says whether one of the first lines has several numbers and nothing else.
+fn has_line_of_numbers(head: &[u8]) -> bool {
+    const LINES: usize = 4;
+    let mut lines = head.split(|&byte| byte == b'\n').take(LINES);
+    lines.any(is_of_numbers)
+}
+
+fn is_of_numbers(line: &[u8]) -> bool {
+    let line = without_return(line);
+    let separator = line.iter().copied().find(|byte| b",;".contains(byte));
+    let division = separator.map_or(Division::Words, Division::Between);
+    let fields = fields::all(line, &division);
     fields.len() >= 3 && fields.iter().all(|field| parse(field, false).is_some())
 }
 
@@ -179,7 +212,7 @@ fn by_contents(head: &[u8]) -> Option<Format> {
             false => Format::Pdb,
         });
     }
-    if first.starts_with(b"data_") {
+    if foreign::is_cif(head) {
         return Some(Format::MmCif);
     }
     let is_count = |line: &[u8]| {

@@ -1,9 +1,12 @@
 //! A table that is open, whose frames are read one after another.
 
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use super::compression::Compression;
 use super::error::TableError;
+use super::file_state::FileState;
 use super::format::Format;
 use super::header::Header;
 use super::input::Input;
@@ -11,6 +14,7 @@ use super::request::Request;
 use super::rows::Rows;
 use super::source::Source;
 use super::{delimited, gro, lammps, mmcif, npy, npz, pdb, ply, pqr, vtk, xyz};
+use crate::text::LocatedFault;
 
 /// The frames of a table, one after another.
 pub(crate) struct Frames<'watch> {
@@ -36,6 +40,16 @@ pub(crate) struct FramePlace {
     lines: u64,
 }
 
+impl fmt::Debug for Frames<'_> {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut shown = formatter.debug_struct("Frames");
+        shown
+            .field("path", &self.path)
+            .field("place", &self.place());
+        shown.finish_non_exhaustive()
+    }
+}
+
 impl<'watch> Frames<'watch> {
     /// Opens the table at `path`. `watch` is called with the bytes that were read and those that there are.
     pub(crate) fn open(
@@ -43,8 +57,15 @@ impl<'watch> Frames<'watch> {
         watch: &'watch (dyn Fn(u64, u64) + Sync),
     ) -> Result<Self, TableError> {
         let input = Input::new(Source::open(path, watch)?)?;
-        let format = Format::of(path, input.head());
-        let format = format.ok_or_else(|| TableError::UnknownFormat(Format::remedy(path)))?;
+        if let Some(outer) = input.source().compression
+            && let Some(inner) = Compression::of_bytes(input.head())
+        {
+            let message = format!(
+                "expected a table in this {outer} file, found a {inner} file within it: decompress it once"
+            );
+            return Err(LocatedFault::of_file(message).into());
+        }
+        let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
         Ok(Self {
             path: path.to_owned(),
             format,
@@ -124,6 +145,66 @@ impl<'watch> Frames<'watch> {
         Ok(true)
     }
 
+    /// The name of the format.
+    pub(crate) fn format(&self) -> &'static str {
+        self.format.name()
+    }
+
+    /// True of lines that are stored as they are.
+    pub(crate) fn is_plain_text(&self) -> bool {
+        let is_binary = matches!(
+            self.format,
+            Format::Npy | Format::Npz | Format::Ply | Format::Vtk
+        );
+        !is_binary && self.input.can_seek()
+    }
+
+    /// What may be wrong in the file, as far as it was read.
+    pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
+        self.input.take_doubts()
+    }
+
+    /// Doubts the last of several frames where nothing ends its last line, as it does those of the others.
+    pub(crate) fn doubt_open_end(&mut self) {
+        let input = &mut self.input;
+        if input.is_open_at_end()
+            && matches!(self.format, Format::Xyz | Format::Lammps | Format::Gro)
+        {
+            let doubt = "the file ends within this line: its last number may have been cut";
+            input.doubt(LocatedFault::in_line(
+                input.number,
+                b"",
+                0..0,
+                doubt.to_owned(),
+            ));
+        }
+    }
+
+    /// The state of the file when it was opened.
+    pub(crate) fn state(&self) -> FileState {
+        self.input.source().state
+    }
+
+    /// Reads what is left of a compressed file for its checksums, and refuses a file that changed meanwhile.
+    pub(crate) fn finish(&mut self) -> Result<(), TableError> {
+        self.input.finish()?;
+        self.check_unchanged()
+    }
+
+    /// Refuses a file that is not the one any more that was opened.
+    pub(crate) fn check_unchanged(&self) -> Result<(), TableError> {
+        match self.input.source().is_unchanged() {
+            Ok(true) => Ok(()),
+            Ok(false) | Err(_) => Err(TableError::Changed),
+        }
+    }
+
+    /// The bytes of all blocks that were handed out.
+    #[cfg(test)]
+    pub(crate) fn handed_out(&self) -> u64 {
+        self.input.handed_out()
+    }
+
     /// Refuses more frames than a compressed file may hold.
     pub(crate) fn check_count(&self, count: usize) -> Result<(), TableError> {
         Ok(self.input.check_count(count as u64, "frames")?)
@@ -155,9 +236,13 @@ impl<'watch> Frames<'watch> {
         if self.format == Format::Npy && self.array.is_none() {
             self.array = npy::Array::new(&mut self.input).ok();
         }
-        if self.format == Format::MmCif && self.previous.is_none() {
-            // The loop names its columns once.
-            self.previous = self.header().ok().flatten();
+        if self.format == Format::MmCif {
+            // The loop names its columns once, before the first frame.
+            match place.lines {
+                0 => self.previous = None,
+                _ if self.previous.is_none() => self.previous = self.header().ok().flatten(),
+                _ => {}
+            }
         }
         let is_ahead = place.position > self.input.position;
         if self.format == Format::Xyz && self.previous.is_none() && is_ahead {

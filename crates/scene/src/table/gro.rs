@@ -6,10 +6,11 @@
 use std::ops::Range;
 
 use super::error::TableError;
-use super::fields::Division;
+use super::fields::{self, Division};
 use super::form::Form;
 use super::header::Header;
 use super::input::Input;
+use super::number::parse;
 use super::residue;
 use crate::text::LocatedFault;
 
@@ -75,11 +76,29 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         .collect();
     Ok(Some(Header {
         count: Some((count, "atoms, as the line above says")),
-        behind: 1,
+        close,
         angstrom: 0.1,
         texts: Some(texts),
         ..Header::new(names, form, (number, &line))
     }))
+}
+
+/// Reads the box, which ends a frame.
+fn close(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+    let expected = "the three or nine numbers of the box behind the atoms";
+    let number = input.number + 1;
+    let Some(line) = input.next()? else {
+        return Err(LocatedFault::at_end(number, expected).into());
+    };
+    let words = fields::all(line, &Division::Words);
+    let is_box = words.len() >= 3 && words.iter().all(|word| parse(word, false).is_some());
+    // Wide numbers have no spaces between them.
+    let is_of_digits = line.iter().all(|byte| b"0123456789.- ".contains(byte));
+    let is_box = is_box || is_of_digits && memchr::memchr_iter(b'.', line).count() >= 3;
+    match is_box {
+        true => Ok(()),
+        false => Err(LocatedFault::expected(number, line, 0..line.len(), expected).into()),
+    }
 }
 
 /// The width of numbers, which is that between their points.

@@ -23,8 +23,8 @@ pub(crate) struct Header {
     pub(crate) form: Form,
     /// The number of rows, and what they are called; `None` where the form tells the end.
     pub(crate) count: Option<(u64, &'static str)>,
-    /// Lines behind the rows that belong to them.
-    pub(crate) behind: u64,
+    /// Reads what has to stand behind the rows, the last line of which may be another one, and refuses rows that are cut.
+    pub(crate) close: fn(&mut Input<'_>, ends_with_row: bool) -> Result<(), TableError>,
     /// The length of an ångström, in the table's unit.
     pub(crate) angstrom: f64,
     /// The axes and the origin of positions that are parts of a box.
@@ -53,7 +53,7 @@ impl Header {
             names,
             form,
             count: None,
-            behind: 0,
+            close: |_, _| Ok(()),
             angstrom: 1.0,
             scaled: None,
             guess: None,
@@ -102,24 +102,23 @@ impl Header {
         {
             rows.remarks.add_guess(guess.told.clone());
         }
-        input.skip_lines(self.behind)?;
+        (self.close)(input, rows.ends_with_row)?;
         Ok(rows)
     }
 
     /// Passes over the rows behind the header, and what belongs to them.
     pub(crate) fn skip(&self, input: &mut Input<'_>) -> Result<(), TableError> {
-        match self.count {
+        let ends_with_row = match self.count {
             Some((count, noun)) => {
                 let found = input.skip_lines(count)?;
                 if found < count {
                     return Err(text::too_few(input.number, found, count, noun).into());
                 }
+                count > 0
             }
-            None => {
-                text::skip(input, &self.form)?;
-            }
-        }
-        input.skip_lines(self.behind)?;
+            None => text::skip(input, &self.form)?,
+        };
+        (self.close)(input, ends_with_row)?;
         Ok(())
     }
 

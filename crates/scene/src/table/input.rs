@@ -25,6 +25,13 @@ pub(crate) struct Input<'watch> {
     pub(crate) number: u64,
     /// The number of bytes that were handed out.
     pub(crate) position: u64,
+    /// The last line that was handed out is the file's, and nothing ends it.
+    is_open_at_end: bool,
+    /// What may be wrong in the file, where the format cannot tell.
+    doubts: Vec<LocatedFault>,
+    /// The bytes of all blocks, those that were taken back as often as they were handed out.
+    #[cfg(test)]
+    handed_out: u64,
 }
 
 impl<'watch> Input<'watch> {
@@ -42,6 +49,10 @@ impl<'watch> Input<'watch> {
             is_at_end: false,
             number: 0,
             position: 0,
+            is_open_at_end: false,
+            doubts: Vec::new(),
+            #[cfg(test)]
+            handed_out: 0,
         };
         input.fill(HEAD)?;
         if input.head().starts_with("\u{feff}".as_bytes()) {
@@ -56,9 +67,48 @@ impl<'watch> Input<'watch> {
         &self.buffer[self.start..self.end]
     }
 
+    /// The file that is read.
+    pub(crate) fn source(&self) -> &Source<'watch> {
+        &self.source
+    }
+
+    /// Passes over all that is left of a compressed file, whose checksums tell whether what was read is right.
+    pub(crate) fn finish(&mut self) -> io::Result<()> {
+        if !self.can_seek() {
+            (self.start, self.end) = (0, 0);
+            io::copy(&mut self.source, &mut io::sink())?;
+        }
+        Ok(())
+    }
+
+    /// Notes what may be wrong in the file, where the format cannot tell.
+    ///
+    /// Of a compressed file that was read to its end the whole is known to be there.
+    pub(crate) fn doubt(&mut self, doubt: LocatedFault) {
+        if self.can_seek() {
+            self.doubts.push(doubt);
+        }
+    }
+
+    /// What may be wrong in the file, as far as it was read.
+    pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
+        std::mem::take(&mut self.doubts)
+    }
+
+    /// Says whether nothing ends the last line that was handed out.
+    pub(crate) fn is_open_at_end(&self) -> bool {
+        self.is_open_at_end
+    }
+
     /// The size of the file, in bytes, where it is known.
     pub(crate) fn size(&self) -> Option<u64> {
         self.source.size()
+    }
+
+    /// The bytes of all blocks that were handed out, those that were taken back as often as they were.
+    #[cfg(test)]
+    pub(crate) fn handed_out(&self) -> u64 {
+        self.handed_out
     }
 
     /// Refuses more rows or steps, which `noun` calls, than a compressed file may hold.
@@ -102,6 +152,7 @@ impl<'watch> Input<'watch> {
         };
         let step = length + usize::from(self.start + length < self.end);
         let line = self.start..self.start + length;
+        self.is_open_at_end = step == length;
         self.start += step;
         self.position += step as u64;
         self.number += 1;
@@ -133,22 +184,30 @@ impl<'watch> Input<'watch> {
         }
     }
 
-    /// Some whole lines, at most so many, `None` at the end of the file. The caller counts them by `number`.
-    pub(crate) fn next_block(&mut self, most: u64) -> Result<Option<&[u8]>, TableError> {
+    /// Some whole lines, at most so many and about so many bytes, `None` at the end of the file. The caller counts
+    /// them by `number`.
+    pub(crate) fn next_block(
+        &mut self,
+        most: u64,
+        bytes: usize,
+    ) -> Result<Option<&[u8]>, TableError> {
         // What is left is moved to be filled up, which for many small blocks should not be all of it each time.
-        let has_enough = self.head().len() >= self.buffer.len() / 2;
-        if !has_enough || memchr::memchr(b'\n', self.head()).is_none() {
+        let has_enough = self.head().len() >= bytes.min(self.buffer.len() / 2);
+        if !self.is_at_end && (!has_enough || memchr::memchr(b'\n', self.head()).is_none()) {
             self.refill()?;
         }
         let rest = self.head();
         if rest.is_empty() {
             return Ok(None);
         }
-        let last = rest.iter().rposition(|&byte| byte == b'\n');
-        let mut length = match last {
-            Some(last) if !self.is_at_end => last + 1,
-            None if !self.is_at_end => return Err(self.too_long()),
-            _ => rest.len(),
+        let ahead = rest.get(bytes..).unwrap_or_default();
+        let mut length = match memchr::memchr(b'\n', ahead) {
+            Some(end) => bytes + end + 1,
+            None if self.is_at_end => rest.len(),
+            None => match memchr::memrchr(b'\n', rest) {
+                Some(last) => last + 1,
+                None => return Err(self.too_long()),
+            },
         };
         // A line has a byte at least.
         if most < length as u64 {
@@ -157,9 +216,14 @@ impl<'watch> Input<'watch> {
                 length = end + 1;
             }
         }
+        self.is_open_at_end = !rest[..length].ends_with(b"\n");
         let block = self.start..self.start + length;
         self.start += length;
         self.position += length as u64;
+        #[cfg(test)]
+        {
+            self.handed_out += length as u64;
+        }
         Ok(Some(&self.buffer[block]))
     }
 
@@ -173,7 +237,7 @@ impl<'watch> Input<'watch> {
     pub(crate) fn skip_lines(&mut self, count: u64) -> Result<u64, TableError> {
         let mut skipped = 0;
         while skipped < count {
-            let Some(block) = self.next_block(count - skipped)? else {
+            let Some(block) = self.next_block(count - skipped, BLOCK)? else {
                 break;
             };
             let ends = memchr::memchr_iter(b'\n', block).count() as u64;

@@ -17,24 +17,22 @@ use crate::text::LocatedFault;
 
 /// The header of the next step; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let is_first = input.number == 0;
     let (mut count, mut scaled) = (None, None);
+    // Before it, only the file may end.
+    let mut is_begun = input.number == 0;
     loop {
         let number = input.number + 1;
         let Some(line) = input.next()?.map(<[u8]>::to_vec) else {
-            return match (is_first, count) {
-                (false, None) => Ok(None),
-                _ => Err(LocatedFault::at_end(number, "`ITEM: ATOMS …`").into()),
+            return match is_begun {
+                false => Ok(None),
+                true => Err(LocatedFault::at_end(number, "`ITEM: ATOMS …`").into()),
             };
         };
         let words = fields::all(&line, &Division::Words);
         match words[..] {
-            [] => {}
+            [] => continue,
             [b"ITEM:", b"NUMBER", b"OF", b"ATOMS"] => count = Some(self::count(input)?),
             [b"ITEM:", b"BOX", b"BOUNDS", ref kinds @ ..] => scaled = Some(bounds(input, kinds)?),
-            [b"ITEM:", b"TIMESTEP" | b"TIME" | b"UNITS", ..] => {
-                input.next()?;
-            }
             [b"ITEM:", b"ATOMS", ref names @ ..] => {
                 let Some(count) = count else {
                     let expected = "`ITEM: NUMBER OF ATOMS` before";
@@ -52,13 +50,23 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
                     ..header
                 }));
             }
+            // The number of the step, and what only some programs write, as LIGGGHTS its label.
+            [b"ITEM:", ..] => {
+                while input.peek()?.is_some_and(|line| !line.starts_with(ITEM)) {
+                    input.next()?;
+                }
+            }
             _ => {
                 let expected = "a line `ITEM: …`";
                 return Err(LocatedFault::expected(number, &line, 0..line.len(), expected).into());
             }
         }
+        is_begun = true;
     }
 }
+
+/// The start of a section.
+const ITEM: &[u8] = b"ITEM:";
 
 fn count(input: &mut Input<'_>) -> Result<u64, TableError> {
     let expected = "the number of atoms";

@@ -5,6 +5,7 @@
 
 use super::error::TableError;
 use super::fields::{self, Division};
+use super::foreign;
 use super::form::{Form, LineKind};
 use super::header::Header;
 use super::input::Input;
@@ -32,13 +33,11 @@ pub(crate) fn header(
     loop {
         let number = input.number + 1;
         let Some(line) = input.next()? else {
-            let expected = match is_crystal {
-                true => {
-                    "coordinates `_atom_site.Cartn_x` (a crystal's are parts of its cell: save it as XYZ, or as PDB)"
-                }
-                false => "a loop of `_atom_site.…`",
-            };
-            return Err(LocatedFault::at_end(number, expected).into());
+            return Err(match is_crystal {
+                true => LocatedFault::of_file(foreign::crystal()),
+                false => LocatedFault::at_end(number, "a loop of `_atom_site.…`"),
+            }
+            .into());
         };
         // Lines between two that begin with a semicolon are text.
         is_in_text ^= line.starts_with(b";");
@@ -62,8 +61,25 @@ pub(crate) fn header(
             ..Form::new(Division::QuotedWords)
         };
         form.same = input.peek()?.and_then(|row| same(&names, row));
-        return Ok(Some(Header::new(names, form, (first.0, &first.1))));
+        return Ok(Some(Header {
+            close,
+            ..Header::new(names, form, (first.0, &first.1))
+        }));
     }
+}
+
+/// Doubts a file that ends with an atom: programs write a line `#` behind the loop.
+fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
+    if ends_with_row && input.peek()?.is_none() {
+        let doubt = "the file ends with an atom, without a line `#`: others may have been cut off";
+        input.doubt(LocatedFault::in_line(
+            input.number,
+            b"",
+            0..0,
+            doubt.to_owned(),
+        ));
+    }
+    Ok(())
 }
 
 /// The model of a row, which all rows of a frame have.

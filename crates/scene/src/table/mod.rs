@@ -1,23 +1,27 @@
 //! Tables of spheres beside the scene file, in the formats of many programs.
 //!
 //! Files are read in blocks and never held as a whole: what stays is a sphere for each row and what
-//! colors it. `source` and `input` hand out bytes and lines, decompressed. `columns` finds the purpose of each
-//! column, `text` and `binary` read rows, and a file for each format reads what stands before them.
+//! colors it. `source` and `input` hand out bytes and lines, decompressed and checked. `columns` finds the purpose of
+//! each column, `text` and `binary` read rows, and a file for each format reads what stands before them.
 //! `frames` reads the frames of a file one after another.
 
 mod binary;
 mod colormap;
 mod columns;
 mod compression;
+mod decoded;
 mod delimited;
 mod element;
 mod elements;
 mod error;
 mod fields;
+mod file_state;
+mod foreign;
 mod form;
 mod format;
 mod frames;
 mod gro;
+mod gzip;
 mod header;
 mod input;
 mod kind;
@@ -26,6 +30,7 @@ mod mmcif;
 mod npy;
 mod npz;
 mod number;
+mod packed;
 mod paint;
 mod pdb;
 mod ply;
@@ -40,13 +45,15 @@ mod text;
 mod time;
 mod vtk;
 mod xyz;
+mod zstandard;
 
 pub(crate) use colormap::{Colormap, index as color_index};
 pub(crate) use columns::{MOST_FILTERS, Test, unit};
 pub(crate) use element::{Radii, colors as element_colors, of_plain_symbol};
 pub(crate) use elements::color_names;
 pub(crate) use error::TableError;
-pub(crate) use format::ENDINGS;
+pub(crate) use file_state::FileState;
+pub(crate) use format::{ENDINGS, Format};
 pub(crate) use frames::{FramePlace, Frames};
 pub(crate) use paint::{Categories, Paint};
 pub(crate) use remarks::Remarks;

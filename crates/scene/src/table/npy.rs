@@ -4,7 +4,7 @@
 //! The format is described at `numpy.lib.format`.
 
 use std::fmt::Display;
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 
 use super::binary::{self, Layout};
 use super::columns::{MOST_COLUMNS, components};
@@ -105,6 +105,12 @@ impl Array {
             .saturating_add(self.tables.saturating_mul(self.size).max(1))
     }
 
+    /// The fault of a file that ends within its tables.
+    fn cut(&self) -> TableError {
+        let expected = format!("{} tables of {} bytes", self.tables, self.size);
+        fault(&expected, "the end of the file").into()
+    }
+
     /// Passes over the next table; returns whether there was one.
     ///
     /// # Errors
@@ -115,10 +121,12 @@ impl Array {
         }
         let next = input.position.saturating_add(self.size.max(1));
         if self.size > 0 && input.size().is_some_and(|size| next > size) {
-            let expected = format!("{} tables of {} bytes", self.tables, self.size);
-            return Err(fault(&expected, "the end of the file").into());
+            return Err(self.cut());
         }
-        input.skip_to(next, 0)?;
+        input.skip_to(next, 0).map_err(|error| match error.kind() {
+            ErrorKind::UnexpectedEof => self.cut(),
+            _ => error.into(),
+        })?;
         Ok(true)
     }
 }

@@ -9,7 +9,10 @@ use std::io::{self, BufReader, Read};
 use std::path::Path;
 
 use flate2::bufread::DeflateDecoder;
-use rawzip::{CompressionMethod, ErrorKind, MAX_CENTRAL_DIRECTORY_RECORD_SIZE, ZipArchive};
+use rawzip::{
+    CompressionMethod, ErrorKind, FileReader, MAX_CENTRAL_DIRECTORY_RECORD_SIZE, ZipArchive,
+    ZipEntry,
+};
 
 use super::binary::{self, Column};
 use super::columns::{MOST_COLUMNS, components};
@@ -19,7 +22,7 @@ use super::kind::Kind;
 use super::npy::{self, Elements, Header};
 use super::request::Request;
 use super::rows::Rows;
-use crate::text::LocatedFault;
+use crate::text::{LocatedFault, reason, show};
 
 pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
 
@@ -34,45 +37,7 @@ struct Array {
 pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
     let file = File::open(path)?;
     let stored = file.metadata()?.len();
-    let mut left = most_bytes(stored);
-    let mut buffer = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
-    let archive = ZipArchive::from_file(file, &mut buffer).map_err(refused)?;
-    let mut arrays = Vec::new();
-    let (mut entries, mut missing) = (archive.entries(&mut buffer), archive.entries_hint());
-    while let Some(entry) = entries.next_entry().map_err(refused)? {
-        missing = missing.saturating_sub(1);
-        let Some(name) = entry.file_path().as_bytes().strip_suffix(b".npy") else {
-            continue;
-        };
-        let name = String::from_utf8_lossy(name).into_owned();
-        let (method, is_encrypted) = (entry.compression_method(), entry.flags().is_encrypted());
-        let entry = archive.get_entry(entry.wayfinder()).map_err(refused)?;
-        let packed = BufReader::new(entry.reader());
-        let data: Box<dyn Read> = match method {
-            CompressionMethod::STORE if !is_encrypted => Box::new(packed),
-            CompressionMethod::DEFLATE if !is_encrypted => Box::new(DeflateDecoder::new(packed)),
-            _ => {
-                let message =
-                    format!("expected arrays that are stored or deflated, found others: `{name}`");
-                return Err(LocatedFault::of_file(message).into());
-            }
-        };
-        // Compares size and checksum at the end of the data.
-        let mut data = entry.verifying_reader(data);
-        if let Some((header, bytes)) = array(&mut data, left)? {
-            left -= bytes.len() as u64;
-            io::copy(&mut data.take(left), &mut io::sink()).map_err(damaged)?;
-            arrays.push(Array {
-                name,
-                header,
-                bytes,
-            });
-        }
-    }
-    if missing > 0 {
-        let message = format!("expected {missing} more arrays in the archive, found its end");
-        return Err(LocatedFault::of_file(message).into());
-    }
+    let arrays = arrays(file, stored)?;
     let rows = rows(&arrays).ok_or_else(|| {
         let names: Vec<&str> = arrays.iter().map(|array| &*array.name).collect();
         let expected = "arrays of as many rows as there are spheres";
@@ -89,8 +54,115 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
     binary::read_columns(&columns, rows, &plan)
 }
 
+/// Reads the arrays that may be columns, and the checksums of all members.
+fn arrays(file: File, stored: u64) -> Result<Vec<Array>, TableError> {
+    let mut buffer = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
+    let archive = ZipArchive::from_file(file, &mut buffer).map_err(refused)?;
+    let mut arrays = Vec::new();
+    let mut names = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
+    // Of all members together: they may share their bytes.
+    let mut left = Allowance {
+        bytes: most_bytes(stored),
+        columns: MOST_COLUMNS as u64,
+    };
+    let (mut entries, mut missing) = (archive.entries(&mut buffer), archive.entries_hint());
+    while let Some(entry) = entries.next_entry().map_err(refused)? {
+        missing = missing.saturating_sub(1);
+        let name = String::from_utf8_lossy(entry.file_path().as_bytes()).into_owned();
+        let (method, is_encrypted) = (entry.compression_method(), entry.flags().is_encrypted());
+        let checksum = entry.crc32();
+        let entry = archive.get_entry(entry.wayfinder()).map_err(refused)?;
+        check_copies(&name, checksum, &entry, &mut names)?;
+        let packed = BufReader::new(entry.reader());
+        let data: Box<dyn Read> = match method {
+            CompressionMethod::STORE if !is_encrypted => Box::new(packed),
+            CompressionMethod::DEFLATE if !is_encrypted => Box::new(DeflateDecoder::new(packed)),
+            // It is none that a table is made of.
+            _ if !name.ends_with(".npy") => continue,
+            _ => {
+                let message =
+                    format!("expected arrays that are stored or deflated, found others: `{name}`");
+                return Err(LocatedFault::of_file(message).into());
+            }
+        };
+        // Compares size and checksum at the end of the data.
+        let mut data = Counted {
+            data: entry.verifying_reader(data),
+            left: left.bytes,
+        };
+        let array = match name.strip_suffix(".npy") {
+            Some(array) => self::array(&mut data, &mut left.columns)
+                .map(|found| found.map(|(header, bytes)| (array, header, bytes))),
+            None => Ok(None),
+        };
+        let array = array.map_err(|error| in_member(&name, error))?;
+        io::copy(&mut data, &mut io::sink()).map_err(|error| in_member(&name, damaged(error)))?;
+        left.bytes = data.left;
+        arrays.extend(array.map(|(name, header, bytes)| Array {
+            name: name.to_owned(),
+            header,
+            bytes,
+        }));
+    }
+    if missing > 0 {
+        let message = format!("expected {missing} more arrays in the archive, found its end");
+        return Err(LocatedFault::of_file(message).into());
+    }
+    Ok(arrays)
+}
+
+/// What the members of an archive may still hold.
+struct Allowance {
+    bytes: u64,
+    columns: u64,
+}
+
+/// The data of a member, of which no more is read than is left.
+struct Counted<R> {
+    data: R,
+    left: u64,
+}
+
+impl<R: Read> Read for Counted<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.data.read(buffer)?;
+        self.left = self.left.checked_sub(count as u64).ok_or_else(|| {
+            io::Error::other(format!(
+                "its arrays are decompressed to too many bytes; {REMEDY}"
+            ))
+        })?;
+        Ok(count)
+    }
+}
+
+/// Compares the checksum in the directory with its copies before and behind the data of a member.
+fn check_copies(
+    name: &str,
+    stored: u32,
+    entry: &ZipEntry<'_, FileReader>,
+    buffer: &mut [u8],
+) -> Result<(), TableError> {
+    let before = entry.local_header(buffer).map_err(refused)?;
+    let behind = entry.reader().data_descriptor().map_err(refused)?;
+    let copy = match behind {
+        Some(behind) => behind.crc32(),
+        None => before.crc32(),
+    };
+    if copy == stored {
+        return Ok(());
+    }
+    let message = format!(
+        "expected one checksum of {}, found 0x{stored:08x} in the directory and 0x{copy:08x} beside the data: the archive is damaged",
+        show(name)
+    );
+    Err(LocatedFault::of_file(message).into())
+}
+
 /// An array that may be a column, or several; `None` of others.
-fn array(file: &mut dyn Read, most: u64) -> Result<Option<(Header, Vec<u8>)>, TableError> {
+fn array(
+    file: &mut Counted<impl Read>,
+    columns: &mut u64,
+) -> Result<Option<(Header, Vec<u8>)>, TableError> {
     let header = npy::header_of(file)?;
     let is_known = match &header.elements {
         Elements::Plain(kind) => !matches!(kind, Kind::Other(_)),
@@ -99,15 +171,22 @@ fn array(file: &mut dyn Read, most: u64) -> Result<Option<(Header, Vec<u8>)>, Ta
     if !is_known || !matches!(header.shape.len(), 1 | 2) {
         return Ok(None);
     }
-    let size = match &header.elements {
-        Elements::Plain(kind) => kind.size(),
-        Elements::Records(fields) => fields.iter().map(|(_, kind)| kind.size()).sum(),
+    let (size, count) = match &header.elements {
+        Elements::Plain(kind) => (Some(kind.size()), 1),
+        Elements::Records(fields) => {
+            let mut sizes = fields.iter().map(|(_, kind)| kind.size());
+            let size = sizes.try_fold(0, u64::checked_add);
+            (size, fields.len() as u64)
+        }
     };
-    let all = header
-        .shape
-        .iter()
-        .try_fold(size, |all, side| all.checked_mul(*side));
+    *columns = columns.checked_sub(count).ok_or_else(|| {
+        let message = format!("expected at most {MOST_COLUMNS} columns in all arrays, found more");
+        LocatedFault::of_file(message)
+    })?;
+    let mut sides = header.shape.iter();
+    let all = size.and_then(|size| sides.try_fold(size, |all, side| all.checked_mul(*side)));
     let all = all.ok_or(TableError::OutOfMemory(header.shape[0]))?;
+    let most = file.left;
     if all > most {
         let message =
             format!("expected arrays of at most {most} bytes more, found {all}: {REMEDY}");
@@ -167,12 +246,14 @@ fn add_columns<'a>(
         (Elements::Records(fields), None) => fields.iter().cloned().unzip(),
         _ => return Ok(()),
     };
-    let stride: u64 = kinds.iter().map(|kind| kind.size()).sum();
-    let mut before = 0;
+    // It was found to be no more than the array has, where that has rows.
+    let sizes = kinds.iter().map(|kind| kind.size());
+    let stride = sizes.fold(0, u64::saturating_add);
+    let mut before: usize = 0;
     for (name, kind) in own.into_iter().zip(kinds) {
         let size = kind.size() as usize;
         let (offset, step) = match header.is_by_column {
-            true => (before * rows, size),
+            true => (before.saturating_mul(rows), size),
             false => (before, stride as usize),
         };
         names.push(name);
@@ -183,7 +264,7 @@ fn add_columns<'a>(
             step,
             start: 0,
         });
-        before += size;
+        before = before.saturating_add(size);
     }
     Ok(())
 }
@@ -208,8 +289,32 @@ fn refused(error: rawzip::Error) -> TableError {
 
 /// What is wrong with the data of an array.
 fn damaged(error: io::Error) -> TableError {
-    match error.downcast() {
-        Ok(error) => refused(error),
+    match error.downcast::<rawzip::Error>() {
+        Ok(error) => match error.kind() {
+            ErrorKind::InvalidChecksum { expected, actual } => {
+                let message = format!(
+                    "expected the checksum 0x{expected:08x}, found 0x{actual:08x}: the archive is damaged"
+                );
+                LocatedFault::of_file(message).into()
+            }
+            _ => refused(error),
+        },
         Err(error) => error.into(),
+    }
+}
+
+/// The error of a member of this name.
+fn in_member(name: &str, error: TableError) -> TableError {
+    let name = show(name);
+    match error {
+        TableError::Fault(mut fault) => {
+            fault.message.push_str(&format!(" (in the member {name})"));
+            fault.into()
+        }
+        TableError::Unreadable(error) => {
+            let why = reason(&error);
+            io::Error::new(error.kind(), format!("in its member {name}: {why}")).into()
+        }
+        error => error,
     }
 }

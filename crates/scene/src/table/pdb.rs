@@ -34,20 +34,8 @@ const COLUMNS: [(&str, Range<usize>); 13] = [
 
 /// The header of the next model; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let is_first = input.number == 0;
-    while let Some(line) = input.peek()? {
-        if kind(line) == LineKind::Row {
-            break;
-        }
-        input.next()?;
-    }
-    let number = input.number + 1;
-    let Some(row) = input.peek()?.map(<[u8]>::to_vec) else {
-        let expected = "a line `ATOM` or `HETATM`";
-        return match is_first {
-            true => Err(LocatedFault::at_end(number, expected).into()),
-            false => Ok(None),
-        };
+    let Some(Model { number, row, close }) = model(input, kind)? else {
+        return Ok(None);
     };
     // Some programs begin all names in the first column.
     let rows = input.head().split(|byte| *byte == b'\n');
@@ -68,8 +56,94 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     let texts = COLUMNS.iter().map(|column| TEXTS.contains(&column.0));
     Ok(Some(Header {
         texts: Some(texts.collect()),
+        close,
         ..Header::new(names, form, (number, &row))
     }))
+}
+
+/// The first row of a model, and what has to stand behind its rows.
+pub(super) struct Model {
+    /// The number of the row's line.
+    pub(super) number: u64,
+    pub(super) row: Vec<u8>,
+    pub(super) close: Close,
+}
+
+/// What has to stand behind the rows of a frame, the last line of which may be one of them.
+pub(super) type Close = fn(&mut Input<'_>, bool) -> Result<(), TableError>;
+
+/// Goes on to the next model of lines that are of these kinds; `None` behind the last one.
+pub(super) fn model(
+    input: &mut Input<'_>,
+    kind: fn(&[u8]) -> LineKind,
+) -> Result<Option<Model>, TableError> {
+    let is_first = input.number == 0;
+    let mut is_model = false;
+    while let Some(line) = input.peek()? {
+        match kind(line) {
+            LineKind::Row => break,
+            LineKind::End => is_model = line.starts_with(b"MODEL"),
+            LineKind::Other => {}
+        }
+        input.next()?;
+    }
+    let number = input.number + 1;
+    let Some(row) = input.peek()?.map(<[u8]>::to_vec) else {
+        let expected = "a line `ATOM` or `HETATM`";
+        return match is_first || is_model {
+            true => Err(LocatedFault::at_end(number, expected).into()),
+            false => Ok(None),
+        };
+    };
+    let close: Close = match (is_model, is_first) {
+        (true, _) => close_model,
+        // The frame before it ended so.
+        (false, false) => close_frame,
+        (false, true) => close_file,
+    };
+    Ok(Some(Model { number, row, close }))
+}
+
+/// Refuses a model that nothing ends.
+fn close_model(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+    expect_end(input, "`ENDMDL` behind the atoms of this model")
+}
+
+/// Refuses a frame that nothing ends, as others in the file end.
+fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
+    expect_end(
+        input,
+        "`END` behind the atoms of this frame, as behind those before",
+    )
+}
+
+/// Doubts a file that ends with an atom.
+fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
+    if (ends_with_row || input.is_open_at_end()) && input.peek()?.is_none() {
+        let doubt = match ends_with_row {
+            true => {
+                "the file ends with an atom, without `TER` or `END`: others may have been cut off"
+            }
+            false => "the file ends within this line, without `END`: atoms may have been cut off",
+        };
+        input.doubt(LocatedFault::in_line(
+            input.number,
+            b"",
+            0..0,
+            doubt.to_owned(),
+        ));
+    }
+    Ok(())
+}
+
+fn expect_end(input: &mut Input<'_>, expected: &str) -> Result<(), TableError> {
+    let number = input.number + 1;
+    let fault = match input.peek()? {
+        None => LocatedFault::at_end(number, expected),
+        Some(line) if line.starts_with(b"END") => return Ok(()),
+        Some(line) => LocatedFault::expected(number, line, 0..line.len(), expected),
+    };
+    Err(fault.into())
 }
 
 pub(super) fn kind(line: &[u8]) -> LineKind {

@@ -8,8 +8,8 @@ use super::fields::{self, Division};
 use super::form::{Form, LineKind};
 use super::header::Header;
 use super::input::Input;
+use super::pdb::Model;
 use super::{pdb, residue};
-use crate::text::LocatedFault;
 
 /// The words of a line, of which the chain may be left out; the name tells the element.
 const NAMES: [&str; 12] = [
@@ -40,20 +40,8 @@ pub(crate) fn is_named(head: &[u8]) -> bool {
 
 /// The header of the next model; `None` behind the last one.
 pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError> {
-    let is_first = input.number == 0;
-    while let Some(line) = input.peek()? {
-        if kind(line) == LineKind::Row {
-            break;
-        }
-        input.next()?;
-    }
-    let number = input.number + 1;
-    let Some(row) = input.peek()?.map(<[u8]>::to_vec) else {
-        let expected = "a line `ATOM` or `HETATM`";
-        return match is_first {
-            true => Err(LocatedFault::at_end(number, expected).into()),
-            false => Ok(None),
-        };
+    let Some(Model { number, row, close }) = pdb::model(input, kind)? else {
+        return Ok(None);
     };
     let form = Form {
         kind,
@@ -75,6 +63,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
     let texts = NAMES.map(|name| TEXTS.contains(&name));
     Ok(Some(Header {
         texts: Some(texts.into()),
+        close,
         ..Header::new(NAMES.map(String::from).into(), form, (number, &row))
     }))
 }

@@ -18,6 +18,8 @@ use crate::text::LocatedFault;
 pub(crate) struct Rows {
     /// The number of rows that were read, those that are not kept among them.
     pub(crate) read: u64,
+    /// The last line of a text is a row.
+    pub(crate) ends_with_row: bool,
     pub(crate) spheres: Vec<Sphere>,
     pub(crate) paint: Paint,
     /// The numbers that a colormap turns into colors are those of this column.
@@ -60,6 +62,7 @@ impl Rows {
     pub(crate) fn new(plan: &Plan) -> Self {
         Self {
             read: 0,
+            ends_with_row: false,
             spheres: Vec::new(),
             paint: Paint::new(plan.coloring),
             columns: Arc::clone(&plan.names.0),

@@ -2,16 +2,21 @@
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::compression::{Compression, Decoded, REMEDY, check_count, most_bytes};
+use super::compression::{Compression, REMEDY, check_count, most_bytes};
+use super::decoded::Decoded;
+use super::file_state::FileState;
 use crate::text::LocatedFault;
 
 /// The bytes of a table, whose reading somebody watches.
 pub(crate) struct Source<'watch> {
     stream: Stream,
-    /// The bytes of the file, where it is an ordinary one.
-    stored: Option<u64>,
+    path: PathBuf,
+    /// The way in which the file is compressed, where it is.
+    pub(crate) compression: Option<Compression>,
+    /// The state of the file when it was opened.
+    pub(crate) state: FileState,
     /// The bytes of the file that were read.
     read: u64,
     /// The bytes that were decompressed.
@@ -29,24 +34,19 @@ enum Stream {
 impl<'watch> Source<'watch> {
     /// Opens the file at `path`. `watch` is called after every reading, of which there is one for megabytes.
     pub(crate) fn open(path: &Path, watch: &'watch (dyn Fn(u64, u64) + Sync)) -> io::Result<Self> {
+        // Before it is opened: a pipe to which nobody writes is opened after all time.
+        let state = FileState::of(path)?;
         let mut file = File::open(path)?;
-        let metadata = file.metadata()?;
-        if metadata.is_dir() {
-            return Err(io::ErrorKind::IsADirectory.into());
-        }
-        let stored = metadata.is_file().then_some(metadata.len());
-        // What is no ordinary file cannot be read twice.
-        let compression = match stored {
-            Some(_) => Compression::of(&mut file)?,
-            None => None,
-        };
+        let compression = Compression::of(&mut file)?;
         let stream = match compression {
             None => Stream::Plain(file),
             Some(compression) => Stream::Decoded(Decoded::new(file, compression)?),
         };
         Ok(Self {
             stream,
-            stored,
+            path: path.to_owned(),
+            compression,
+            state,
             read: 0,
             decompressed: 0,
             watch,
@@ -55,19 +55,24 @@ impl<'watch> Source<'watch> {
 
     /// The number of bytes, where it is known before they are read.
     pub(crate) fn size(&self) -> Option<u64> {
-        self.stored.filter(|_| self.can_seek())
+        self.can_seek().then_some(self.state.size)
     }
 
     /// True where any byte can be read next.
     pub(crate) fn can_seek(&self) -> bool {
-        matches!(self.stream, Stream::Plain(_)) && self.stored.is_some()
+        matches!(self.stream, Stream::Plain(_))
+    }
+
+    /// Says whether the file is still the one that was opened.
+    pub(crate) fn is_unchanged(&self) -> io::Result<bool> {
+        Ok(FileState::of(&self.path)? == self.state)
     }
 
     /// Refuses more rows or steps, which `noun` calls, than a compressed file may hold.
     pub(crate) fn check_count(&self, count: u64, noun: &str) -> Result<(), LocatedFault> {
-        match (&self.stream, self.stored) {
-            (Stream::Decoded(_), Some(stored)) => check_count(stored, count, noun),
-            _ => Ok(()),
+        match self.stream {
+            Stream::Decoded(_) => check_count(self.state.size, count, noun),
+            Stream::Plain(_) => Ok(()),
         }
     }
 
@@ -95,7 +100,7 @@ impl Read for Source<'_> {
                 let count = decoded.read(buffer)?;
                 self.read = decoded.taken();
                 self.decompressed += count as u64;
-                let stored = self.stored.unwrap_or(0);
+                let stored = self.state.size;
                 let most = most_bytes(stored);
                 if self.decompressed > most {
                     return Err(io::Error::other(format!(
@@ -105,7 +110,7 @@ impl Read for Source<'_> {
                 count
             }
         };
-        (self.watch)(self.read, self.stored.unwrap_or(0));
+        (self.watch)(self.read, self.state.size);
         Ok(count)
     }
 }

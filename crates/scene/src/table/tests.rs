@@ -15,8 +15,11 @@ use crate::values::from_srgb;
 
 mod atoms;
 mod colors;
+mod compressed;
 mod csv;
+mod cut;
 mod elements;
+mod foreign;
 mod formats;
 mod hands;
 mod npy;

@@ -19,6 +19,10 @@ use crate::text::LocatedFault;
 
 /// About how many bytes of text are one piece of work.
 const PIECE: usize = 1 << 18;
+/// About how many bytes tell how long lines are.
+const TELLING: usize = 1 << 20;
+/// About how many bytes are read first where the rows may end at any line, as those of small models do.
+const FIRST_PIECE: usize = 1 << 12;
 
 /// Reads rows: `count` of them, or all up to the end that the form tells.
 ///
@@ -33,20 +37,32 @@ pub(crate) fn read(
     let mut rows = Rows::new(plan);
     let wanted = |rows: &Rows| count.map_or(u64::MAX, |count| count - rows.read);
     let (size, mut number) = (input.size().unwrap_or(0), input.number);
-    let mut is_at_end = false;
+    let (mut is_at_end, mut is_reserved) = (false, false);
+    // What stands behind the rows is handed out in vain: no more than the rows themselves, and a little.
+    let mut window = match count {
+        Some(_) => usize::MAX,
+        None => FIRST_PIECE,
+    };
     while wanted(&rows) > 0 && !is_at_end {
         let start = input.position;
-        let Some(block) = input.next_block(wanted(&rows))? else {
+        let Some(block) = input.next_block(wanted(&rows), window)? else {
             break;
         };
+        window = window.saturating_mul(4);
         let bytes = block.len();
         let pieces: Vec<&[u8]> = pieces(block).collect();
         let pieces: Vec<Piece> = pieces
             .into_par_iter()
             .map(|text| read_piece(text, plan, form, count.is_some()))
             .collect();
-        if rows.read == 0 && plan.filters.is_empty() {
-            // As if all lines were as long as those of the first block.
+        let is_telling = count.is_some() || bytes >= TELLING;
+        if !is_reserved
+            && is_telling
+            && plan.filters.is_empty()
+            && pieces.iter().all(|piece| !piece.is_at_end)
+        {
+            is_reserved = true;
+            // As if all lines were as long as those of this block.
             let found: usize = pieces.iter().map(|piece| piece.rows.spheres.len()).sum();
             let share = size.saturating_sub(start) as f64 / bytes as f64;
             let more = (1.01 * share * found as f64) as u64;
@@ -61,6 +77,9 @@ pub(crate) fn read(
             }
             number += piece.lines;
             taken += piece.bytes;
+            if piece.lines > 0 {
+                rows.ends_with_row = piece.ends_with_row;
+            }
             is_at_end = piece.is_at_end;
             if is_at_end {
                 break;
@@ -88,15 +107,15 @@ pub(crate) fn read_count(
     }
 }
 
-/// Passes over rows as [`read`] does; returns how many lines there were.
-pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<u64, TableError> {
-    let mut lines = 0;
-    let is_row = |line: &[u8]| (form.kind)(line) != LineKind::End && !is_of_another(line, form);
-    while input.peek()?.is_some_and(is_row) {
-        input.next()?;
-        lines += 1;
+/// Passes over rows as [`read`] does; says whether the last line is one.
+pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<bool, TableError> {
+    let mut ends_with_row = false;
+    let is_of_this = |line: &[u8]| (form.kind)(line) != LineKind::End && !is_of_another(line, form);
+    while input.peek()?.is_some_and(is_of_this) {
+        let line = input.next()?.unwrap_or_default();
+        ends_with_row = (form.kind)(line) == LineKind::Row;
     }
-    Ok(lines)
+    Ok(ends_with_row)
 }
 
 /// The file has ended before so many rows.
@@ -131,6 +150,8 @@ struct Piece {
     bytes: usize,
     /// The next line is not of this table any more.
     is_at_end: bool,
+    /// The last line that was looked at is a row.
+    ends_with_row: bool,
     /// The first fault, by the line in the piece.
     fault: Option<LocatedFault>,
 }
@@ -141,6 +162,7 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
         lines: 0,
         bytes: 0,
         is_at_end: false,
+        ends_with_row: false,
         fault: None,
     };
     let mut numbers: Numbers = plan.constants;
@@ -157,6 +179,7 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
         if piece.is_at_end {
             break;
         }
+        piece.ends_with_row = kind == LineKind::Row;
         piece.lines += 1;
         piece.bytes += (length + 1).min(rest.len());
         if kind == LineKind::Row {

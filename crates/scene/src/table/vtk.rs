@@ -38,8 +38,13 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
     for _ in 0..2 {
         input.next()?;
     }
+    // The line that says that numbers of points or cells follow, until some do.
+    let mut announced = None;
     while let Some(line) = input.next()?.map(<[u8]>::to_vec) {
         let number = input.number;
+        if !line.trim_ascii().is_empty() {
+            announced = None;
+        }
         let words = fields::all(&line, &Division::Words);
         let refuse = |expected: &str| -> TableError {
             LocatedFault::expected(number, &line, 0..line.len(), expected).into()
@@ -67,6 +72,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             [kind @ (b"POINT_DATA" | b"CELL_DATA"), rows] => {
                 data.rows = count(rows).ok_or_else(|| refuse("the number of points or cells"))?;
                 data.is_of_points = kind == b"POINT_DATA" && data.rows == data.points;
+                announced = Some((number, line.clone()));
             }
             [b"SCALARS", name, kind, ref size @ ..] => {
                 let size = size.first().map_or(Some(1), |size| count(size));
@@ -128,6 +134,15 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             _ if !data.names.is_empty() => break,
             _ => return Err(refuse("a section of a legacy VTK file")),
         }
+    }
+    if let Some((number, line)) = announced {
+        let doubt = "the file ends where numbers of points or cells are announced: they may have been cut off";
+        input.doubt(LocatedFault::in_line(
+            number,
+            &line,
+            0..line.len(),
+            doubt.to_owned(),
+        ));
     }
     if data.names.is_empty() {
         return Err(LocatedFault::at_end(input.number + 1, "`POINTS …`").into());

@@ -10,20 +10,20 @@ use crate::values::from_srgb;
 use crate::{ColorMeaning, Scene};
 
 /// A folder of tables that is gone after the test.
-struct Folder(PathBuf);
+pub(super) struct Folder(pub(super) PathBuf);
 
 impl Folder {
-    fn new(name: &str) -> Self {
+    pub(super) fn new(name: &str) -> Self {
         let path = env::temp_dir().join(format!("marbles-series-{name}-{}", process::id()));
         fs::create_dir_all(&path).unwrap();
         Self(path)
     }
 
-    fn write(&self, name: &str, text: &str) {
+    pub(super) fn write(&self, name: &str, text: &str) {
         fs::write(self.0.join(name), text).unwrap();
     }
 
-    fn load(&self, clouds: &str, camera: &str, more: &str) -> Result<Scene, String> {
+    pub(super) fn load(&self, clouds: &str, camera: &str, more: &str) -> Result<Scene, String> {
         let text = format!(
             "(image: (width: 6, height: 4), lens: Fov(40), camera: {camera}, clouds: [{clouds}]{more})"
         );
@@ -32,7 +32,7 @@ impl Folder {
         scene.map_err(|error| error.to_string().replace(&folder, ""))
     }
 
-    fn scene(&self, clouds: &str) -> Scene {
+    pub(super) fn scene(&self, clouds: &str) -> Scene {
         self.load(clouds, "Free()", "")
             .unwrap_or_else(|message| panic!("{message}"))
     }
@@ -45,7 +45,7 @@ impl Drop for Folder {
 }
 
 /// Three steps of two spheres, the second of which goes along x; the value is 10 times its place.
-fn steps(folder: &Folder) {
+pub(super) fn steps(folder: &Folder) {
     for step in 0..3 {
         let (x, value) = (2 * step, 20 * step);
         let text = format!("x,y,z,r,value\n0,0,10,1,5\n{x},0,10,1,{value}\n");
@@ -54,7 +54,7 @@ fn steps(folder: &Folder) {
 }
 
 /// The places of the spheres along x in a frame.
-fn places(scene: &Scene, frame: i32) -> Vec<f64> {
+pub(super) fn places(scene: &Scene, frame: i32) -> Vec<f64> {
     let world = scene.world_at(frame).unwrap();
     world
         .spheres()

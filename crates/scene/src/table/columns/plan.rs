@@ -92,7 +92,7 @@ pub(crate) struct Plan {
     pub(crate) constants: [f64; Slot::COUNT],
     /// The axes and the origin of the positions, where they are not those of the table's lengths.
     pub(crate) axes: Option<(DMat3, DVec3)>,
-    /// The linear values of sRGB ones.
+    /// The linear values of sRGB ones, where colors are.
     linear: Vec<f32>,
 }
 
@@ -132,7 +132,7 @@ impl Plan {
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
             axes: None,
-            linear: (0..=255).map(|value| linear(value) as f32).collect(),
+            linear: Vec::new(),
             names: Names(Arc::new(names)),
         };
         let [x, y, z] = &columns.position;
@@ -193,6 +193,9 @@ impl Plan {
                 let is_red = |uses: &Uses| uses.slots().contains(&Slot::Red);
                 let red = plan.uses.iter().position(is_red);
                 plan.allowed.is_encoded = red.is_some_and(nature.is_byte);
+                if plan.allowed.is_encoded {
+                    plan.linear = (0..=255).map(|value| linear(value) as f32).collect();
+                }
             }
         }
         for (index, filter) in (0..).zip(&request.keep) {

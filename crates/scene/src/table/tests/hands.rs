@@ -54,7 +54,7 @@ fn table(ending: &str) -> (Vec<u8>, bool) {
         }
         "pdb" | "ent" | "pdbqt" => pdb,
         "pqr" => lines(|id, [x, y, z]| format!("ATOM {id} C LIG 1 {x} {y} {z} 0.5 1.7\n")),
-        "cif" | "mmcif" => format!("{loop_of_atoms}{words}#\n"),
+        "cif" | "mmcif" | "pdbx" => format!("{loop_of_atoms}{words}#\n"),
         "vtk" => format!(
             "# vtk DataFile Version 3.0\np\nASCII\nDATASET POLYDATA\nPOINTS 4 float\n{words}"
         ),

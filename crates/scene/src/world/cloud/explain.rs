@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io;
+use std::ops::RangeInclusive;
 use std::path::Path;
 
 use crate::table::{self, TableError};
@@ -12,18 +13,25 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
     let shown = quoted(name);
     let error = match error {
         TableError::Fault(fault) => return fault.message.clone(),
-        TableError::UnknownFormat(remedy) => {
+        TableError::UnknownFormat(foreign) => {
             let endings = table::ENDINGS.map(|ending| format!("`.{}`", ending.0));
             let endings = list(&endings);
-            return match remedy {
-                Some(remedy) => {
-                    format!("expected a table ({endings}), found {shown}: {remedy}")
+            return match foreign {
+                Some(foreign) => {
+                    let (kind, remedy) = (foreign.kind, foreign.remedy);
+                    format!("expected a table ({endings}), found {shown}, {kind}: {remedy}")
                 }
                 None => format!("expected a table ({endings}), found {shown}, which is none"),
             };
         }
         TableError::OutOfMemory(count) => {
             return format!("expected a table that fits into memory, found {count} rows");
+        }
+        TableError::Changed => {
+            return format!(
+                "expected the table {shown} as it was when it was read first, found that it has changed since: \
+                 start again when nothing writes to it any more"
+            );
         }
         TableError::Unreadable(error) => error,
     };
@@ -44,6 +52,30 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
             format!("expected a table, found {shown}, which cannot be read: {why}")
         }
     }
+}
+
+/// Why a cloud of this name shows no steps: those that it has lie between these ends.
+pub(super) fn no_steps(
+    name: &str,
+    range: Option<&RangeInclusive<i32>>,
+    ends: Option<(i64, i64)>,
+) -> String {
+    let found = match ends {
+        Some((first, last)) => format!("those from {first} to {last}"),
+        None => String::from("none"),
+    };
+    let wanted = range.map_or(String::new(), |range| {
+        format!(" with a number from {} to {}", range.start(), range.end())
+    });
+    format!("expected steps {name}{wanted}, found {found}")
+}
+
+/// Why a table of this name and format has no frames to be shown one after another.
+pub(super) fn without_frames(name: &str, format: &str) -> String {
+    format!(
+        "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has none and no time: \
+         a series is a file for each time, named as `run.####.csv`"
+    )
 }
 
 /// The name of a file beside `path` that is probably meant.

@@ -2,8 +2,10 @@
 
 mod coloring;
 mod explain;
+mod observed;
 mod open;
 mod oversights;
+mod pattern;
 mod remarked;
 mod settings;
 mod steps;
@@ -27,13 +29,15 @@ pub(crate) enum CloudError {
     Scene(Fault),
     /// Something is wrong in the table with this path.
     Table(PathBuf, LocatedFault),
+    /// A table is not the one any more that was read before.
+    Changed(Fault),
 }
 
 impl CloudError {
     /// The message without the place.
     pub(crate) fn message(&self) -> String {
         match self {
-            Self::Scene(fault) => fault.message.clone(),
+            Self::Scene(fault) | Self::Changed(fault) => fault.message.clone(),
             Self::Table(_, fault) => fault.message.clone(),
         }
     }

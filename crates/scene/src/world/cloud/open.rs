@@ -1,6 +1,5 @@
 //! A cloud whose steps are known and can be read.
 
-use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -8,16 +7,19 @@ use glam::DVec3;
 use marbles_core::{Albedos, Sphere};
 
 use super::coloring::{Learned, Scale};
-use super::explain::explain;
+use super::explain::{explain, no_steps, without_frames};
+use super::observed::Observed;
+use super::pattern;
 use super::remarked::LateRemarks;
 use super::settings::Cloud;
 use super::steps::{self, Steps};
 use super::{CloudError, Progress};
 use crate::bounds::Bounds;
 use crate::table::{Frames, Remarks, Rows, TableError};
-use crate::text::{Fault, quoted};
+use crate::text::{Fault, harmless, quoted};
 
 /// A cloud whose steps are known and can be read.
+#[derive(Debug)]
 pub(crate) struct OpenCloud {
     pub(crate) cloud: Cloud,
     folder: PathBuf,
@@ -28,6 +30,7 @@ pub(crate) struct OpenCloud {
     pub(super) late: Mutex<LateRemarks>,
     /// The file of frames, ready for one of them.
     open: Mutex<Option<Frames<'static>>>,
+    pub(super) observed: Observed,
 }
 
 /// The spheres of a step.
@@ -66,21 +69,56 @@ impl OpenCloud {
             remarks: (Remarks::default(), 0),
             late: Mutex::default(),
             open: Mutex::new(None),
+            observed: Observed::default(),
         };
-        let files = steps::files(folder, &open.cloud.name);
-        let files = files.map_err(|error| open.refuse_table(&path, error.into()))?;
-        if let Some(files) = files {
-            let chosen = open.choose(files.iter().map(|file| file.0))?;
-            let file = |place: usize| files[place].1.clone();
+        let numbered = pattern::files(folder, &open.cloud.name);
+        let numbered = numbered.map_err(|error| open.refuse_table(&path, error.into()))?;
+        if let Some(numbered) = numbered {
+            let numbers = numbered.files.iter().map(|file| file.0);
+            let chosen = open.choose(numbers.clone());
+            let chosen = chosen.map_err(|error| numbered.explain(error))?;
+            let file = |place: usize| numbered.files[place].1.clone();
             open.steps = Steps::Files(chosen.into_iter().map(file).collect());
+            let in_range: Vec<i64> = open.cloud.timeline.in_range(numbers).collect();
+            let name = harmless(&open.cloud.name);
+            open.observed.warn(numbered.warnings(&name, &in_range));
+            if let Some((path, doubts)) = open.steps.doubts_of_last() {
+                open.observed.note_doubts(&open.name_of(&path), doubts);
+            }
         } else if open.cloud.takes_all {
             let refused = |error| open.refuse_table(&path, error);
             let mut frames = Frames::open(&path, UNWATCHED).map_err(refused)?;
+            if !frames.may_be_several() {
+                let name = quoted(&open.cloud.name);
+                return Err(open.refused(without_frames(&name, frames.format())));
+            }
+            open.observed.check(&path, &frames).map_err(refused)?;
             let all = steps::index(&mut frames).map_err(refused)?;
+            frames.finish().map_err(refused)?;
+            open.note_doubts(&path, &mut frames);
             let chosen = open.choose(1..=all.len() as i64)?;
             open.steps = Steps::Frames(chosen.into_iter().map(|place| all[place]).collect());
         }
         Ok(open)
+    }
+
+    /// Notes what is in doubt in the file at `path`.
+    fn note_doubts(&self, path: &Path, frames: &mut Frames<'_>) {
+        let doubts = frames.take_doubts();
+        self.observed.note_doubts(&self.name_of(path), doubts);
+    }
+
+    /// The name of a file in messages.
+    fn name_of(&self, path: &Path) -> String {
+        match self.steps {
+            Steps::Files(_) => path.display().to_string(),
+            Steps::One | Steps::Frames(_) => self.cloud.name.clone(),
+        }
+    }
+
+    /// What is left out or in doubt, as far as it is known.
+    pub(crate) fn take_warnings(&self) -> Vec<String> {
+        self.observed.take_warnings()
     }
 
     /// The steps of the cloud's timeline.
@@ -92,17 +130,9 @@ impl OpenCloud {
         if !chosen.is_empty() {
             return Ok(chosen);
         }
-        let name = quoted(&self.cloud.name);
-        let ends = (numbers.clone().next(), numbers.clone().next_back());
-        let found = match ends {
-            (Some(first), Some(last)) => format!("those from {first} to {last}"),
-            _ => String::from("none"),
-        };
+        let ends = numbers.clone().next().zip(numbers.clone().next_back());
         let range = self.cloud.timeline.range.as_ref();
-        let wanted = range.map_or(String::new(), |range| {
-            format!(" with a number from {} to {}", range.start(), range.end())
-        });
-        Err(self.refused(format!("expected steps {name}{wanted}, found {found}")))
+        Err(self.refused(no_steps(&quoted(&self.cloud.name), range, ends)))
     }
 
     /// The number of steps; `None` of a cloud that does not change.
@@ -279,10 +309,14 @@ impl OpenCloud {
         watch: &(dyn Fn(u64, u64) + Sync),
     ) -> Result<(Rows, bool), TableError> {
         let mut frames = Frames::open(path, watch)?;
-        let rows = frames.read(&self.cloud.request)?;
-        let rows = rows.ok_or_else(gone)?;
+        self.observed.check(path, &frames)?;
+        let rows = frames.read(&self.cloud.request);
+        frames.check_unchanged()?;
+        let rows = rows?.ok_or_else(gone)?;
         // What is no frame behind the first one is passed over.
         let has_more = frames.may_be_several() && frames.has_next().unwrap_or(false);
+        frames.finish()?;
+        self.note_doubts(path, &mut frames);
         Ok((rows, has_more))
     }
 
@@ -294,8 +328,8 @@ impl OpenCloud {
     ) -> Result<Rows, TableError> {
         let mut open = self.open.lock().unwrap_or_else(PoisonError::into_inner);
         let ready = open.take().and_then(|mut frames| {
-            let is_there = frames.go_to(places[step]).is_ok();
-            is_there.then_some(frames)
+            frames.go_to(places[step]).ok()?;
+            Some(frames)
         });
         let mut frames = match ready {
             Some(frames) => frames,
@@ -305,7 +339,12 @@ impl OpenCloud {
                 frames
             }
         };
-        let rows = frames.read(&self.cloud.request)?;
+        self.observed.check(path, &frames)?;
+        frames.check_unchanged()?;
+        let rows = frames.read(&self.cloud.request);
+        // What another one looks like says nothing.
+        frames.check_unchanged()?;
+        let rows = rows?;
         *open = Some(frames);
         rows.ok_or_else(gone)
     }
@@ -318,11 +357,12 @@ impl OpenCloud {
         match error {
             TableError::Fault(fault) => CloudError::Table(path.to_owned(), fault),
             error => {
-                let name = match self.steps {
-                    Steps::Files(_) => path.display().to_string(),
-                    _ => self.cloud.name.clone(),
-                };
-                self.refused(explain(&name, path, &error))
+                let message = explain(&self.name_of(path), path, &error);
+                let fault = Fault::new(self.cloud.place.clone(), message);
+                match error {
+                    TableError::Changed => CloudError::Changed(fault),
+                    _ => CloudError::Scene(fault),
+                }
             }
         }
     }
@@ -331,14 +371,4 @@ impl OpenCloud {
 /// The file became shorter since its frames were counted.
 pub(super) fn gone() -> TableError {
     std::io::Error::from(std::io::ErrorKind::UnexpectedEof).into()
-}
-
-impl fmt::Debug for OpenCloud {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut shown = formatter.debug_struct("OpenCloud");
-        shown
-            .field("cloud", &self.cloud)
-            .field("steps", &self.steps);
-        shown.finish_non_exhaustive()
-    }
 }

@@ -1,12 +1,13 @@
 //! The steps of a cloud that changes over time.
 
-use std::fs;
-use std::io;
+use std::fs::File;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 
 use crate::file::End;
 use crate::table::{FramePlace, Frames, TableError};
+use crate::text::LocatedFault;
 
 /// The steps that a cloud has.
 #[derive(Clone, Debug)]
@@ -17,6 +18,34 @@ pub(super) enum Steps {
     Files(Vec<PathBuf>),
     /// Frames of one file.
     Frames(Vec<FramePlace>),
+}
+
+impl Steps {
+    /// What is in doubt in the last of several files, which a program may still write when it is read. What is wrong in it
+    /// is told when its turn comes.
+    pub(super) fn doubts_of_last(&self) -> Option<(PathBuf, Vec<LocatedFault>)> {
+        let Self::Files(files) = self else {
+            return None;
+        };
+        let (first, last) = (files.first()?, files.last()?);
+        let mut frames = Frames::open(last, &|_, _| {}).ok()?;
+        frames.skip().ok()?;
+        let mut doubts = frames.take_doubts();
+        let is_open = |path: &Path| last_byte(path).ok().map(|byte| byte != b'\n');
+        if frames.is_plain_text() && is_open(last)? && !is_open(first)? {
+            let doubt = "the file ends within a line, and the first one does not: its last number may have been cut";
+            doubts.push(LocatedFault::of_file(doubt));
+        }
+        Some((last.clone(), doubts))
+    }
+}
+
+fn last_byte(path: &Path) -> io::Result<u8> {
+    let mut file = File::open(path)?;
+    file.seek(SeekFrom::End(-1))?;
+    let mut byte = [0];
+    file.read_exact(&mut byte)?;
+    Ok(byte[0])
 }
 
 /// The step that each frame of the animation shows.
@@ -33,17 +62,23 @@ pub(super) struct Timeline {
 }
 
 impl Timeline {
+    /// Those of these numbers that lie in the range.
+    pub(super) fn in_range(&self, numbers: impl Iterator<Item = i64>) -> impl Iterator<Item = i64> {
+        numbers.filter(|number| self.is_in_range(*number))
+    }
+
+    fn is_in_range(&self, number: i64) -> bool {
+        let range = self.range.as_ref();
+        range.is_none_or(|range| {
+            (i64::from(*range.start())..=i64::from(*range.end())).contains(&number)
+        })
+    }
+
     /// The steps with these numbers that are shown, by their places.
     pub(super) fn choose(&self, numbers: impl Iterator<Item = i64>) -> Vec<usize> {
-        let is_in_range = |number: i64| {
-            let range = self.range.as_ref();
-            range.is_none_or(|range| {
-                (i64::from(*range.start())..=i64::from(*range.end())).contains(&number)
-            })
-        };
         let chosen = numbers
             .enumerate()
-            .filter(|(_, number)| is_in_range(*number));
+            .filter(|(_, number)| self.is_in_range(*number));
         chosen
             .step_by(self.every as usize)
             .map(|(place, _)| place)
@@ -74,63 +109,15 @@ impl Timeline {
 /// Products of frames and speeds that should be whole numbers are, within this.
 const SLACK: f64 = 1e-9;
 
-/// The files whose names have a number where `name` has its mark, in their order; `None` where it has no mark.
-pub(super) fn files(folder: &Path, name: &str) -> io::Result<Option<Vec<(i64, PathBuf)>>> {
-    let path = folder.join(name);
-    let file_name = path.file_name().and_then(|name| name.to_str());
-    let Some((before, width, after)) = file_name.and_then(mark) else {
-        return Ok(None);
-    };
-    if path.exists() {
-        return Ok(None);
-    }
-    let parent = match path.parent() {
-        Some(parent) if parent != Path::new("") => parent,
-        _ => Path::new("."),
-    };
-    let mut files = Vec::new();
-    for entry in fs::read_dir(parent)? {
-        let entry = entry?;
-        let name = entry.file_name();
-        let digits = name.to_str().and_then(|name| {
-            let digits = name.strip_prefix(before)?.strip_suffix(after)?;
-            let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
-            // As many digits as the mark has, or more where the number needs them.
-            let is_wide = digits.len() == width || digits.len() > width && !digits.starts_with('0');
-            (is_number && is_wide).then_some(digits)
-        });
-        if let Some(number) = digits.and_then(|digits| digits.parse().ok()) {
-            files.push((number, parent.join(&name)));
-        }
-    }
-    files.sort_unstable();
-    Ok(Some(files))
-}
-
-/// The parts of a name before and behind `####` or `%04d`, and the least number of digits between them.
-fn mark(name: &str) -> Option<(&str, usize, &str)> {
-    if let Some((before, rest)) = name.split_once('%') {
-        let (width, after) = rest.split_once('d')?;
-        let width = match width {
-            "" => 1,
-            width => width.parse().ok()?,
-        };
-        return Some((before, width, after));
-    }
-    let start = name.find('#')?;
-    let width = name[start..]
-        .bytes()
-        .take_while(|&byte| byte == b'#')
-        .count();
-    Some((&name[..start], width, &name[start + width..]))
-}
-
 /// The places of all frames of a table.
 pub(super) fn index(frames: &mut Frames<'_>) -> Result<Vec<FramePlace>, TableError> {
     let mut places = Vec::new();
     loop {
         let place = frames.place();
         if !frames.skip()? {
+            if places.len() > 1 {
+                frames.doubt_open_end();
+            }
             return Ok(places);
         }
         places.push(place);
@@ -194,14 +181,5 @@ mod tests {
         assert_eq!(chosen(Some(5..=15), 1), [1, 2, 3]);
         assert_eq!(chosen(Some(5..=20), 3), [1, 4]);
         assert!(chosen(Some(30..=40), 1).is_empty());
-    }
-
-    #[test]
-    fn marks_stand_for_numbers() {
-        assert_eq!(mark("run.####.csv"), Some(("run.", 4, ".csv")));
-        assert_eq!(mark("run%03d.xyz.gz"), Some(("run", 3, ".xyz.gz")));
-        assert_eq!(mark("run%d.xyz"), Some(("run", 1, ".xyz")));
-        assert_eq!(mark("run.csv"), None);
-        assert_eq!(mark("100%.csv"), None);
     }
 }

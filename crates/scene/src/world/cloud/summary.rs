@@ -91,6 +91,7 @@ impl OpenCloud {
         let refused = |error| self.refuse_table(&path, error);
         let first = |request: &Request| {
             let mut frames = Frames::open(&path, UNWATCHED)?;
+            self.observed.check(&path, &frames)?;
             if let Steps::Frames(places) = &self.steps {
                 frames.go_to(places[0])?;
             }

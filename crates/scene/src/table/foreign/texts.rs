@@ -1,0 +1,134 @@
+//! Texts of other kinds, told by their contents.
+
+use super::super::fields::{self, Division};
+use super::super::number::parse;
+
+/// The usual ending of the name of a text that begins so, where its contents leave no doubt.
+pub(super) fn ending(head: &[u8]) -> Option<&'static str> {
+    /// The lines that are looked at.
+    const LINES: usize = 64;
+    let lines = head.split(|&byte| byte == b'\n').take(LINES);
+    let lines: Vec<&[u8]> = lines.map(<[u8]>::trim_ascii).collect();
+    let line = |number: usize| lines.get(number).copied().unwrap_or_default();
+    let first = lines
+        .iter()
+        .find(|line| !line.is_empty() && !line.starts_with(b"#"))
+        .copied()
+        .unwrap_or_default();
+    if first.starts_with(b"<") {
+        return of_markup(&lines);
+    }
+    if lines.iter().any(|line| line.starts_with(b"@<TRIPOS>")) {
+        return Some("mol2");
+    }
+    if line(3).ends_with(b"V2000") || line(3).ends_with(b"V3000") {
+        return Some("sdf");
+    }
+    if first.starts_with(b"PSF") && lines.iter().any(|line| line.ends_with(b"!NTITLE")) {
+        return Some("psf");
+    }
+    if first.starts_with(b"solid") && lines.iter().any(|line| line.starts_with(b"facet normal")) {
+        return Some("stl");
+    }
+    if is_xsf(&lines) {
+        return Some("xsf");
+    }
+    if first.starts_with(b"{") && lines.iter().any(|line| line.contains(&b'"')) {
+        return Some("json");
+    }
+    if is_data_of_lammps(&lines) {
+        return Some("lmp");
+    }
+    if (2..5).all(|number| numbers(line(number)) == Some(3))
+        && numbers(line(1)).is_some_and(|count| count == 1 || count == 3)
+        && is_poscar(line(5), line(6))
+    {
+        return Some("poscar");
+    }
+    // Lines of a table have as many fields each.
+    let grid = (2..6).all(|number| matches!(numbers(line(number)), Some(4 | 5)));
+    (grid && numbers(line(3)) == Some(4) && numbers(line(6)) == Some(5)).then_some("cube")
+}
+
+/// The number of fields of a line that has numbers alone.
+fn numbers(line: &[u8]) -> Option<usize> {
+    let words = fields::all(line, &Division::Words);
+    words
+        .iter()
+        .all(|word| parse(word, false).is_some())
+        .then_some(words.len())
+        .filter(|count| *count > 0)
+}
+
+/// Says whether lines have the names of elements and their counts, or counts alone.
+fn is_poscar(names: &[u8], counts: &[u8]) -> bool {
+    let is_count = |word: &&[u8]| word.iter().all(u8::is_ascii_digit);
+    let is_name = |word: &&[u8]| word.first().is_some_and(u8::is_ascii_alphabetic);
+    let [names, counts] = [names, counts].map(|line| fields::all(line, &Division::Words));
+    let of_counts = !names.is_empty() && names.iter().all(is_count);
+    let is_kind = counts.first().is_some_and(|word| {
+        matches!(
+            word.first().map(u8::to_ascii_lowercase),
+            Some(b'd' | b'c' | b'k' | b's')
+        )
+    });
+    let named = !names.is_empty()
+        && names.len() == counts.len()
+        && names.iter().all(is_name)
+        && counts.iter().all(is_count);
+    named || of_counts && is_kind
+}
+
+fn is_xsf(lines: &[&[u8]]) -> bool {
+    const KINDS: [&[u8]; 5] = [b"CRYSTAL", b"SLAB", b"POLYMER", b"MOLECULE", b"ANIMSTEPS"];
+    const SECTIONS: [&[u8]; 4] = [b"ATOMS", b"PRIMVEC", b"CONVVEC", b"PRIMCOORD"];
+    let said = lines
+        .iter()
+        .filter(|line| !line.is_empty() && !line.starts_with(b"#"));
+    let words = said.map(|line| {
+        line.split(u8::is_ascii_whitespace)
+            .next()
+            .unwrap_or_default()
+    });
+    let mut words = words.peekable();
+    let is_begun = words
+        .peek()
+        .is_some_and(|word| KINDS.contains(word) || SECTIONS.contains(word));
+    is_begun && words.any(|word| SECTIONS.contains(&word))
+}
+
+/// Says whether lines tell the numbers of atoms and of their types, or the bounds of a box.
+fn is_data_of_lammps(lines: &[&[u8]]) -> bool {
+    let is = |line: &[u8], names: &[&[u8]]| {
+        let line = line.split(|&byte| byte == b'#').next().unwrap_or_default();
+        let words = fields::all(line, &Division::Words);
+        let numbers = words.len().saturating_sub(names.len());
+        words.ends_with(names)
+            && numbers > 0
+            && words[..numbers]
+                .iter()
+                .all(|word| parse(word, false).is_some())
+    };
+    let has = |names: &[&[u8]]| lines.iter().any(|line| is(line, names));
+    has(&[b"atoms"]) && (has(&[b"atom", b"types"]) || has(&[b"xlo", b"xhi"]))
+}
+
+/// The usual ending of the name of an XML or HTML file.
+fn of_markup(lines: &[&[u8]]) -> Option<&'static str> {
+    let has = |word: &[u8]| {
+        lines.iter().any(|line| {
+            line.windows(word.len())
+                .any(|part| part.eq_ignore_ascii_case(word))
+        })
+    };
+    if has(b"<VTKFile") {
+        return Some("vtu");
+    }
+    if has(b"<!doctype html") || has(b"<html") {
+        return Some("html");
+    }
+    if has(b"<molecule") || has(b"<cml") {
+        return Some("cml");
+    }
+    has(b"<?xml").then_some("xml")
+}

@@ -1,0 +1,194 @@
+//! Files of kinds that are not read: each is called by its name, with a program that makes a table of it.
+
+use super::*;
+
+/// The message without the list of endings.
+fn found(name: &str, bytes: impl AsRef<[u8]>) -> String {
+    let message = refusal(name, bytes, "radius: 1");
+    let start = message.find("found ").unwrap_or(0);
+    message[start..].to_owned()
+}
+
+#[test]
+fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
+    let mol2 = "# by hand\n@<TRIPOS>MOLECULE\nwater\n3 2\nSMALL\n@<TRIPOS>ATOM\n1 O 0 0 0 O.3\n";
+    let sdf = "water\n  made\n\n  3  2  0  0  0  0  0  0  0  0999 V2000\n    0.0  0.0  0.0 O   0\n";
+    let lammps = "LAMMPS data file\n\n2 atoms\n1 atom types\n0 1 xlo xhi\n\nAtoms # atomic\n\n1 1 0 0 0\n2 1 1 1 1\n";
+    let poscar = "salt\n5.64\n1 0 0\n0 1 0\n0 0 1\nNa Cl\n1 1\nDirect\n0 0 0\n.5 .5 .5\n";
+    let old = poscar.replace("Na Cl\n", "");
+    let cube = "title\nmade\n1 0.0 0.0 0.0\n2 1.0 0.0 0.0\n2 0.0 1.0 0.0\n2 0.0 0.0 1.0\n8 0.0 0.1 0.2 0.3\n1 2 3\n";
+    let xsf = "# by hand\nCRYSTAL\nPRIMVEC\n1 0 0\n0 1 0\n0 0 1\nPRIMCOORD\n1 1\n8 0 0 0\n";
+    let vtu =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\">\n<Points>1 2 3</Points>\n";
+    let html = "<!DOCTYPE html>\n<html><body>404</body></html>\n";
+    let psf = "PSF CMAP\n\n 1 !NTITLE\n REMARKS\n\n 3 !NATOM\n1 A 1 ALA N NH3 -0.3 14.0 0\n";
+    let gsd = [0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0xdf, 0x65, 0, 0];
+    for (names, bytes, kind, tool) in [
+        (
+            &["a.mol2", "a", "a.txt"][..],
+            mol2.as_bytes(),
+            "a molecule in MOL2",
+            "Open Babel",
+        ),
+        (
+            &["a.sdf", "a.mol", "a"],
+            sdf.as_bytes(),
+            "a molecule in SDF",
+            "Open Babel",
+        ),
+        (
+            &["a.lmp", "a.data", "a.txt", "a"],
+            lammps.as_bytes(),
+            "an input of LAMMPS",
+            "write_dump",
+        ),
+        (
+            &["a.poscar", "POSCAR", "a.vasp"],
+            poscar.as_bytes(),
+            "a structure of VASP",
+            "ASE",
+        ),
+        (&["CONTCAR"], old.as_bytes(), "a structure of VASP", "ASE"),
+        (
+            &["CONFIG"],
+            b"DL_POLY: salt\n2 1 4\n1.0 0.0 0.0\n0.0 1.0 0.0\n0.0 0.0 1.0\nNa 1\n0.1 0.2 0.3\n",
+            "a structure of DL_POLY",
+            "ASE",
+        ),
+        (
+            &["a.g96", "a"],
+            b"TITLE\nmade by hand\nEND\nPOSITION\n",
+            "coordinates of GROMOS",
+            "MDTraj",
+        ),
+        (
+            &["a.cube", "a"],
+            cube.as_bytes(),
+            "a cube file of Gaussian",
+            "Open Babel",
+        ),
+        (
+            &["a.xsf", "a.txt"],
+            xsf.as_bytes(),
+            "a structure in XSF",
+            "ASE",
+        ),
+        (
+            &["a.vtu", "a.csv", "a"],
+            vtu.as_bytes(),
+            "an XML file of VTK",
+            "ParaView",
+        ),
+        (
+            &["a.csv", "a.pdb"],
+            html.as_bytes(),
+            "a page in HTML",
+            "fetch the file again",
+        ),
+        (
+            &["a.psf", "a"],
+            psf.as_bytes(),
+            "a topology without positions",
+            "MDAnalysis",
+        ),
+        (
+            &["a.gsd", "a"],
+            &gsd,
+            "a trajectory of HOOMD (GSD)",
+            "OVITO",
+        ),
+        (
+            &["a.mmtf"],
+            b"\x86\xabmmtfVersion",
+            "a structure in MMTF",
+            "PyMOL",
+        ),
+        (
+            &["a.csv.bz2", "a"],
+            b"BZh91AY&SY",
+            "a bzip2 file",
+            "bunzip2",
+        ),
+        (
+            &["a.csv.xz", "a"],
+            b"\xfd7zXZ\0\0\x04",
+            "an xz file",
+            "unxz",
+        ),
+        (
+            &["a.xlsx", "a.npz"],
+            b"PK\x03\x04aaaaaaaaaaaaaaaaaaaaaaaaaa[Content_Types].xml",
+            "a sheet",
+            "CSV",
+        ),
+        (
+            &["a.h5", "a"],
+            b"\x89HDF\r\n\x1a\n\0",
+            "data in HDF5",
+            "h5py",
+        ),
+        (
+            &["a.csv"],
+            b"version https://git-lfs.github.com/spec/v1\noid sha256:1\nsize 12\n",
+            "a pointer of Git LFS",
+            "git lfs pull",
+        ),
+    ] {
+        for name in names {
+            let message = found(name, bytes);
+            let start = format!("found \"{name}\", {kind}");
+            assert!(
+                message.starts_with(&start) && message.contains(tool),
+                "{name}: {message}"
+            );
+        }
+    }
+}
+
+#[test]
+fn crystals_say_what_their_coordinates_are() {
+    let crystal = "# by hand\ndata_salt\n_cell_length_a 5.64\nloop_\n_atom_site_label\n_atom_site_fract_x\nNa1 0.5\n";
+    for name in ["a.cif", "a"] {
+        assert_eq!(
+            refusal(name, crystal, ""),
+            format!(
+                "{name}: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
+                 it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
+            )
+        );
+    }
+}
+
+/// What has the ending of another kind and rows of numbers is read all the same.
+#[test]
+fn tables_with_other_endings_are_tables() {
+    for (name, text) in [
+        ("a.data", "x y z\n1 2 3\n4 5 6\n"),
+        ("a.top", "1,2,3\n4,5,6\n"),
+        ("a.mol", "2\n\nC 1 2 3\nC 4 5 6\n"),
+        ("a", "# solid argon\n1 2 3\n4 5 6\n"),
+        (
+            "a.pdbx",
+            "# by hand\n\ndata_a\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n4 5 6\n#\n",
+        ),
+        (
+            "a",
+            "# by hand\ndata_a\nloop_\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n_atom_site.Cartn_z\n1 2 3\n4 5 6\n#\n",
+        ),
+    ] {
+        let found = spheres(&scene(name, text, "radius: 1"));
+        assert_eq!(
+            found,
+            [[1.0, 2.0, 3.0, 1.0], [4.0, 5.0, 6.0, 1.0]],
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn sections_of_dumps_that_say_nothing_of_spheres_are_passed_over() {
+    let dump = "ITEM: TIMESTEP\n1000\nITEM: LABEL\nrun1\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n\
+                ITEM: NOTES\na\nb\nITEM: ATOMS id x y z radius\n1 1 2 3 0.5\n";
+    let found = spheres(&scene("a.liggghts", dump, ""));
+    assert_eq!(found, [[1.0, 2.0, 3.0, 0.5]]);
+}
