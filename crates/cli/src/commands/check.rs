@@ -6,18 +6,18 @@ mod tables;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
+use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{
     CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, FrameError, Scene, harmless,
 };
 
-use super::args::CheckArguments;
-use super::{oversights, scene};
+use super::args::{CheckArguments, DEFAULT_TOLERANCE};
+use super::{dim_light, oversights, scene};
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
-use crate::formats::sidecar::Sidecar;
+use crate::formats::sidecar::{Sidecar, turns};
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
@@ -60,6 +60,8 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
 
     let mut warnings = costs::warnings(&world, &views);
     warnings.extend(oversights::warnings(&world, &views, *frames.start()));
+    let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
+    warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
     scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
@@ -78,7 +80,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
 
 /// Prints what is known of a frame before it is rendered.
 fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
-    let view = scene::view(scene, arguments.frame)?;
+    let view = scene::view(scene, &arguments.scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
     let text = sidecar.text().map_err(Failure::Work)?;
@@ -311,9 +313,9 @@ fn duration(scene: &Scene) -> String {
 /// The places and the directions of the camera.
 fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
-    let aims = || {
-        let aim = |view: &View| Camera::pan_and_tilt_toward(view.camera.forward());
-        views.iter().filter_map(aim)
+    let angles = |index: usize| {
+        let angle = move |view: &View| turns(&view.camera)[index];
+        format!("{}°", range(unwound(views.iter().map(angle))))
     };
     if views.is_empty() {
         return Vec::new();
@@ -321,14 +323,9 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let (x, y, z) = (along(|p| p.x), along(|p| p.y), along(|p| p.z));
     let mut rows = vec![
         ("camera", format!("{kind}: x {x}, y {y}, z {z}")),
-        (
-            "  pan",
-            format!("{}°", range(unwound(aims().map(|(pan, _)| pan.degrees())))),
-        ),
-        (
-            "  tilt",
-            format!("{}°", range(aims().map(|(_, tilt)| tilt.degrees()))),
-        ),
+        ("  pan", angles(0)),
+        ("  tilt", angles(1)),
+        ("  roll", angles(2)),
     ];
     if views.iter().any(|view| view.zoom != 1.0) {
         rows.push(("  zoom", range(views.iter().map(|view| view.zoom))));

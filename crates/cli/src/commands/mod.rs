@@ -5,6 +5,7 @@ pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod completions;
 pub(crate) mod dataset;
+mod dim_light;
 pub(crate) mod farm;
 mod figures;
 mod inputs;
