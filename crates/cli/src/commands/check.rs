@@ -1,5 +1,6 @@
 //! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
 
+mod contents;
 mod costs;
 mod tables;
 
@@ -10,6 +11,7 @@ use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{
     CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, FrameError, Scene, harmless,
 };
+use serde_json::json;
 
 use super::args::{CheckArguments, DEFAULT_TOLERANCE};
 use super::{dim_light, oversights, scene};
@@ -35,7 +37,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
 fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, &arguments.options, console, false)?;
     if arguments.json {
-        return json(&scene, arguments, console);
+        return print_json(&scene, arguments, console);
     }
     let world = scene::world(&scene, None)?;
     let frames = frames_of(&scene);
@@ -58,10 +60,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    let mut warnings = costs::warnings(&world, &views);
-    warnings.extend(oversights::warnings(&world, &views, *frames.start()));
-    let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
-    warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
+    let warnings = warnings(world, &views, *frames.start());
     scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
@@ -78,22 +77,34 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     }
 }
 
-/// Prints what is known of a frame before it is rendered.
-fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
+/// Warnings about views of a world, those of some frames, of which `frame` is the first.
+fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
+    let mut warnings = costs::warnings(&world, views);
+    warnings.extend(oversights::warnings(&world, views, frame));
+    let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
+    warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
+    warnings
+}
+
+/// Prints what is known of a frame before it is rendered, and the warnings about it.
+fn print_json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let view = scene::view(scene, &arguments.scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
     let text = sidecar.text().map_err(Failure::Work)?;
+    let world = scene::world_of(scene, frame)?;
+    let mut more = format!(",\n{}", contents::json(scene, &world)?);
+    if !scene.clouds().is_empty() {
+        more.push_str(&format!(",\n  \"clouds\": {}", tables::json(scene)?));
+    }
+    let warnings = warnings(world, &[view], frame);
+    let all: Vec<&String> = scene.warnings().iter().chain(&warnings).collect();
+    more.push_str(&format!(",\n  \"warnings\": {}", json!(all)));
     // For programs: as it is.
     let text = text.trim_end();
-    let (text, clouds) = match (text.strip_suffix('}'), scene.clouds()) {
-        (Some(inside), [_, ..]) => {
-            let clouds = tables::json(scene)?;
-            (inside.trim_end(), format!(",\n  \"clouds\": {clouds}\n}}"))
-        }
-        _ => (text, String::new()),
-    };
-    console.print(&format!("{text}{clouds}\n"));
+    let inside = text.strip_suffix('}').unwrap_or(text).trim_end();
+    console.print(&format!("{inside}{more}\n}}\n"));
+    scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     Ok(status::SUCCESS)
 }
 

@@ -371,7 +371,8 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         Format::Png => Encoding::Png(png),
         Format::Apng => Encoding::Apng(png),
         Format::Exr => Encoding::Exr(ExrOptions {
-            float: arguments.float,
+            // Many readers convert all channels to the type of the first.
+            float: arguments.float || !arguments.channels.is_empty(),
             error: arguments.error_channel,
         }),
         Format::Npy => Encoding::Npy(NpyOptions {

@@ -8,6 +8,7 @@
 mod animation;
 mod channels;
 mod compare;
+mod damage;
 #[cfg(target_os = "linux")]
 mod datasets;
 #[cfg(unix)]
@@ -192,13 +193,29 @@ fn stills_without_a_view_are_refused_by_all_commands() {
     let scene = "(image: (width: 9, height: 9), lens: Fov(50), camera: Frame(), ambient: 1,
         spheres: [(center: (0, 0, 0), radius: 1e308)])";
     fs::write(folder.path("far.ron"), scene).unwrap();
-    for command in ["check", "render", "preview"] {
-        let output = folder.run(&format!("{command} far.ron"));
+    fs::write(
+        folder.path("turn.ron"),
+        scene.replace("ambient", "animation: Turntable(), ambient"),
+    )
+    .unwrap();
+    for command in [
+        "check far.ron",
+        "check far.ron --json",
+        "render far.ron",
+        "preview far.ron",
+        "spheres far.ron",
+        "report far.ron",
+        "farm slurm far.ron -o far.png",
+        "check turn.ron",
+        "spheres turn.ron",
+        "farm openjd turn.ron -o far.#.png",
+    ] {
+        let output = folder.run(command);
         let errors = text(&output.stderr);
         assert_eq!(code(&output), 2, "{command}: {errors}");
         assert!(
-            errors.contains("frame 1: the camera is infinitely far away"),
-            "{errors}"
+            errors.contains(".ron: frame 1: the camera is infinitely far away"),
+            "{command}: {errors}"
         );
     }
 }
@@ -365,7 +382,7 @@ fn pictures_repeat_with_any_number_of_threads() {
 }
 
 #[test]
-fn a_tolerance_that_is_not_met_ends_with_1() {
+fn a_tolerance_that_is_not_met_ends_with_3() {
     let folder = Folder::new();
     let met = folder.run("render ball.ron --tolerance 1e-3 --size 30x30 -o met.png");
     assert_eq!(code(&met), 0);
@@ -374,7 +391,16 @@ fn a_tolerance_that_is_not_met_ends_with_1() {
     let huge = BALL.replace("(0, 0, 400), radius: 300", "(0, 0, 4e200), radius: 3e200");
     fs::write(folder.path("huge.ron"), huge).unwrap();
     let missed = folder.run("render huge.ron --tolerance 1e-3 --size 30x30 -o missed.png");
-    assert_eq!(code(&missed), 1);
+    assert_eq!(code(&missed), 3);
+    // Of several scenes the one that says more of what is missing decides.
+    for (scenes, expected) in [("ball huge", 3), ("huge ball", 3), ("huge none ball", 2)] {
+        let names: Vec<String> = scenes
+            .split(' ')
+            .map(|name| format!("{name}.ron"))
+            .collect();
+        let arguments = format!("render {} --size 9x9 -o all/{{scene}}.png", names.join(" "));
+        assert_eq!(code(&folder.run(&arguments)), expected, "{scenes}");
+    }
     assert!(!text(&missed.stdout).contains(", 0 over, "));
     assert!(folder.path("missed.png").exists());
     let errors = text(&missed.stderr);

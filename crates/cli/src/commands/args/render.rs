@@ -142,7 +142,7 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) rgb: bool,
 
-    /// Write an EXR in single precision instead of half
+    /// Write an EXR in single precision instead of half, as --channels does as well
     #[arg(long)]
     pub(crate) float: bool,
 
