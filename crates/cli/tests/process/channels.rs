@@ -173,7 +173,11 @@ fn all_channels_but_numbers_of_spheres_are_floats() {
         }
     }
     let plain = render(&folder, "balls.ron");
-    assert!(plain.values().all(|values| matches!(values, FlatSamples::F16(_))));
+    assert!(
+        plain
+            .values()
+            .all(|values| matches!(values, FlatSamples::F16(_)))
+    );
 }
 
 #[test]
