@@ -148,7 +148,7 @@ def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
         assert np.array_equal(found[channel], expected[..., index]), (path, channel)
         summed = sum(found[f"{layer}.{channel}"] for layer in layers)
         assert (np.abs(summed - found[channel]) <= error).all(), (path, channel)
-    assert found["1.R"].max() > 1, path
+    assert found["light-1.R"].max() > 1, path
     full = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert full is not None and np.array_equal(rgb(full), expected), path
     return 1

@@ -19,5 +19,6 @@ pub(crate) mod render;
 pub(crate) mod report;
 mod scale_bar;
 mod scene;
+mod several_scenes;
 pub(crate) mod spheres;
 pub(crate) mod svg;

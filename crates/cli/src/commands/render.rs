@@ -1,6 +1,5 @@
 //! `marbles render`: the frames of a scene, one file each.
 
-use std::collections::HashMap;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
@@ -9,9 +8,9 @@ use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
 use super::inputs::Inputs;
+use super::several_scenes::Others;
 use super::{dim_light, figures, oversights, scene};
 use crate::base::failure::Failure;
-use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
@@ -23,7 +22,7 @@ use crate::sequence::layers::LightLayer;
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
 use crate::sequence::parts::PicturePart;
-use crate::sequence::pattern::{Pattern, SCENE, has_place_for_scene, with_scene};
+use crate::sequence::pattern::{Pattern, with_scene};
 use crate::sequence::render::render;
 use crate::sequence::request::Request;
 use crate::terminal::console::Console;
@@ -36,18 +35,10 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     }
     let threads = threads::start(arguments.threads)?;
     let is_alone = arguments.scenes.len() == 1;
-    let outputs = [&arguments.output, &arguments.legend, &arguments.scale_bar];
-    let mut outputs = outputs.into_iter().flatten();
-    if !is_alone && let Some(output) = outputs.find(|output| !has_place_for_scene(output)) {
-        let why = format!("several scenes need a place for their names: {SCENE}");
-        return Err(Failure::unusable(output, &why));
-    }
-    refuse_same_names(&arguments.scenes)?;
-    let mut written = HashMap::new();
+    let mut others = Others::of(arguments)?;
     let mut code = status::SUCCESS;
     for scene in &arguments.scenes {
-        let others = (!is_alone).then_some(&mut written);
-        let ended = match run_scene(arguments, scene, others, &threads, console) {
+        let ended = match run_scene(arguments, scene, &mut others, &threads, console) {
             // One that cannot be rendered does not stop the others.
             Err(failure) if !is_alone && !arguments.fail_fast => {
                 console.failure(&failure);
@@ -63,56 +54,16 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     Ok(code)
 }
 
-/// Refuses scenes whose files would have the same names.
-fn refuse_same_names(scenes: &[PathBuf]) -> Result<(), Failure> {
-    let mut names: Vec<_> = scenes.iter().map(|scene| scene.file_stem()).collect();
-    names.sort_unstable();
-    match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        None => Ok(()),
-        Some(same) => {
-            let name = Path::new(same[0].unwrap_or_default()).shown();
-            let message = format!("two scenes are called `{name}`, and would share their files");
-            Err(Failure::Usage(message))
-        }
-    }
-}
-
-/// Files, and the scenes that they belong to.
-type Written = HashMap<PathBuf, PathBuf>;
-
-/// Refuses pictures that would replace those of scenes before: names and numbers of frames may make the same names.
-fn refuse_pictures_of_others(request: &Request, written: &mut Written) -> Result<(), Failure> {
-    let frames = request.frames.iter();
-    let parts = || 0..request.parts.len();
-    let pictures = frames.flat_map(|frame| parts().map(move |part| request.path(frame, part)));
-    for picture in pictures {
-        let scene = &request.scene_path;
-        if let Some(other) = written.insert(picture.clone(), scene.clone())
-            && other != *scene
-        {
-            let why = format!(
-                "the pictures of {} and of {} would have this name",
-                other.shown(),
-                scene.shown()
-            );
-            return Err(Failure::unusable(&picture, &why));
-        }
-    }
-    Ok(())
-}
-
-/// Renders one of the scenes; `others` are the files of those before, if there are several.
+/// Renders one of the scenes.
 fn run_scene(
     arguments: &RenderArguments,
     scene: &Path,
-    others: Option<&mut Written>,
+    others: &mut Others,
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<u8, Failure> {
     let request = request(arguments, scene, threads, console)?;
-    if let Some(others) = others {
-        refuse_pictures_of_others(&request, others)?;
-    }
+    others.add(&request)?;
     check_view(&request, arguments, threads, console)?;
     let of_scene = |path: &PathBuf| with_scene(path, name_of(scene));
     let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
