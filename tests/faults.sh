@@ -74,7 +74,7 @@ judge() {
     local code=$1 what=$2 file
     case $code in
         0) ;;
-        1 | 2) [ -s errors ] || fail "$what: ends with $code and says nothing" ;;
+        1 | 2 | 3) [ -s errors ] || fail "$what: ends with $code and says nothing" ;;
         *) cat errors; fail "$what: ends with $code" ;;
     esac
     [ -d out ] || return 0

@@ -139,7 +139,7 @@ def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
     expected = light.astype(np.float32)
     with OpenEXR.File(str(path), separate_channels=True) as file:
         found = {channel: data.pixels.astype(float) for channel, data in file.channels().items()}
-    layers = ["1", "ambient"]
+    layers = ["light-1", "ambient"]
     names = [*"RGBA"[: light.shape[2]], "error"]
     names += [f"{layer}.{channel}" for layer in layers for channel in ["R", "G", "B", "error"]]
     assert sorted(found) == sorted(names), sorted(found)
@@ -148,7 +148,7 @@ def check_layers(folder: Path, name: str, light: np.ndarray) -> int:
         assert np.array_equal(found[channel], expected[..., index]), (path, channel)
         summed = sum(found[f"{layer}.{channel}"] for layer in layers)
         assert (np.abs(summed - found[channel]) <= error).all(), (path, channel)
-    assert found["1.R"].max() > 1, path
+    assert found["light-1.R"].max() > 1, path
     full = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
     assert full is not None and np.array_equal(rgb(full), expected), path
     return 1

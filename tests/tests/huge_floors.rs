@@ -30,7 +30,7 @@ fn scene(radius: f64, light: &str, lens: &str) -> Scene {
 const PINHOLE: &str = "lens: Retina(width: 2.1, distance: 0.35), camera: Free()";
 const SUN: &str = "Directional(toward: (-1, 1, -1))";
 const LOW_SUN: &str = "Directional(toward: (1, 1e-3, 0.2))";
-const LAMP: &str = "Point(position: (-1, 7, 3), intensity: 1)";
+const LAMP: &str = "Point(position: (-1, 7, 3), intensity: 1, reference: 1)";
 
 fn image(scene: &Scene, tolerance: f64) -> Image {
     exact_picture(scene.world(), &scene.view(1).unwrap(), tolerance, false)

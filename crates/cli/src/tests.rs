@@ -100,7 +100,7 @@ fn pixels_over_their_budget_are_counted_and_told() {
         .unwrap();
     let over = picture.summary().over_tolerance;
     assert!(over > 20);
-    assert_eq!(code, 1);
+    assert_eq!(code, 3);
     assert!(out.contains(&format!(", {over} over, ")), "{out}");
     assert!(err.contains("over the tolerance"), "{err}");
 }

@@ -2,9 +2,37 @@
 
 /// All was done, and every pixel met the tolerance.
 pub(crate) const SUCCESS: u8 = 0;
-/// Something could not be done, or some pixel did not meet the tolerance, or two pictures differ.
+/// Something could not be done, or two pictures differ.
 pub(crate) const FAILURE: u8 = 1;
 /// The command line, the scene file or a picture to read is wrong.
 pub(crate) const REFUSED: u8 = 2;
+/// All is written, and some pixel did not meet the tolerance.
+pub(crate) const OVER_TOLERANCE: u8 = 3;
 /// The user ended the work; 128 and the number of the signal, as shells have it.
 pub(crate) const INTERRUPTED: u8 = 130;
+
+/// The code of two things that were done one after the other: the one that says more of what is missing.
+pub(crate) fn worse(one: u8, other: u8) -> u8 {
+    let rank = |code: u8| match code {
+        SUCCESS => 0,
+        OVER_TOLERANCE => 1,
+        FAILURE => 2,
+        REFUSED => 3,
+        _ => 4,
+    };
+    if rank(one) < rank(other) { other } else { one }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_written_is_worse_than_what_is_not_known() {
+        let codes = [SUCCESS, OVER_TOLERANCE, FAILURE, REFUSED, INTERRUPTED];
+        for pair in codes.windows(2) {
+            assert_eq!(worse(pair[0], pair[1]), pair[1]);
+            assert_eq!(worse(pair[1], pair[0]), pair[1]);
+        }
+    }
+}

@@ -1,22 +1,24 @@
 //! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
 
 mod columns;
+mod contents;
 mod costs;
 mod tables;
 
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Camera, Color, Light, LightFalloff, Sphere, View, World};
+use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{CloudDescription, FrameError, Scene};
+use serde_json::json;
 
-use super::args::CheckArguments;
-use super::{oversights, scene};
+use super::args::{CheckArguments, DEFAULT_TOLERANCE};
+use super::{dim_light, oversights, scene};
 use crate::base::failure::Failure;
 use crate::base::numbers::{range, short};
 use crate::base::shown::Shown;
 use crate::base::{status, threads};
-use crate::formats::sidecar::Sidecar;
+use crate::formats::sidecar::{Sidecar, turns};
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
@@ -34,7 +36,7 @@ pub(crate) fn run(arguments: &CheckArguments, console: &Console) -> Result<u8, F
 fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(&arguments.scene, &arguments.options, console, false)?;
     if arguments.json {
-        return json(&scene, arguments, console);
+        return print_json(&scene, arguments, console);
     }
     let world = scene::world(&scene, None)?;
     let frames = frames_of(&scene);
@@ -57,8 +59,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
         console.result(format!("{name:NAMES$}{text}").trim_end());
     }
 
-    let mut warnings = costs::warnings(&world, &views);
-    warnings.extend(oversights::warnings(&world, &views, *frames.start()));
+    let warnings = warnings(world, &views, *frames.start());
     scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     match errors.first() {
         None => Ok(status::SUCCESS),
@@ -75,22 +76,34 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     }
 }
 
-/// Prints what is known of a frame before it is rendered.
-fn json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
-    let view = scene::view(scene, arguments.frame)?;
+/// Warnings about views of a world, those of some frames, of which `frame` is the first.
+fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
+    let mut warnings = costs::warnings(&world, views);
+    warnings.extend(oversights::warnings(&world, views, frame));
+    let default = format!("the default `--tolerance {DEFAULT_TOLERANCE:e}`");
+    warnings.extend(dim_light::warning([world], DEFAULT_TOLERANCE, &default));
+    warnings
+}
+
+/// Prints what is known of a frame before it is rendered, and the warnings about it.
+fn print_json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
+    let view = scene::view(scene, &arguments.scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
     let sidecar = Sidecar::of(scene, &arguments.scene, frame, &view);
     let text = sidecar.text().map_err(Failure::Work)?;
+    let world = scene::world_of(scene, frame)?;
+    let mut more = format!(",\n{}", contents::json(scene, &world)?);
+    if !scene.clouds().is_empty() {
+        more.push_str(&format!(",\n  \"clouds\": {}", tables::json(scene)?));
+    }
+    let warnings = warnings(world, &[view], frame);
+    let all: Vec<&String> = scene.warnings().iter().chain(&warnings).collect();
+    more.push_str(&format!(",\n  \"warnings\": {}", json!(all)));
     // For programs: as it is.
     let text = text.trim_end();
-    let (text, clouds) = match (text.strip_suffix('}'), scene.clouds()) {
-        (Some(inside), [_, ..]) => {
-            let clouds = tables::json(scene)?;
-            (inside.trim_end(), format!(",\n  \"clouds\": {clouds}\n}}"))
-        }
-        _ => (text, String::new()),
-    };
-    console.print(&format!("{text}{clouds}\n"));
+    let inside = text.strip_suffix('}').unwrap_or(text).trim_end();
+    console.print(&format!("{inside}{more}\n}}\n"));
+    scene::warn(&warnings, &arguments.scene, &arguments.options, console)?;
     Ok(status::SUCCESS)
 }
 
@@ -274,9 +287,9 @@ fn duration(scene: &Scene) -> String {
 /// The places and the directions of the camera.
 fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
-    let aims = || {
-        let aim = |view: &View| Camera::pan_and_tilt_toward(view.camera.forward());
-        views.iter().filter_map(aim)
+    let angles = |index: usize| {
+        let angle = move |view: &View| turns(&view.camera)[index];
+        format!("{}°", range(unwound(views.iter().map(angle))))
     };
     if views.is_empty() {
         return Vec::new();
@@ -284,14 +297,9 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let (x, y, z) = (along(|p| p.x), along(|p| p.y), along(|p| p.z));
     let mut rows = vec![
         ("camera", format!("{kind}: x {x}, y {y}, z {z}")),
-        (
-            "  pan",
-            format!("{}°", range(unwound(aims().map(|(pan, _)| pan.degrees())))),
-        ),
-        (
-            "  tilt",
-            format!("{}°", range(aims().map(|(_, tilt)| tilt.degrees()))),
-        ),
+        ("  pan", angles(0)),
+        ("  tilt", angles(1)),
+        ("  roll", angles(2)),
     ];
     if views.iter().any(|view| view.zoom != 1.0) {
         rows.push(("  zoom", range(views.iter().map(|view| view.zoom))));

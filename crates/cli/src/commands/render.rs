@@ -1,5 +1,6 @@
 //! `marbles render`: the frames of a scene, one file each.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use marbles_core::{Method, Settings, View};
@@ -7,9 +8,9 @@ use rayon::ThreadPool;
 
 use super::args::{PerLight, RenderArguments};
 use super::inputs::Inputs;
-use super::{figures, oversights, scene};
+use super::several_scenes::Others;
+use super::{dim_light, figures, oversights, scene};
 use crate::base::failure::Failure;
-use crate::base::shown::Shown;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::formats::center_channels::{AxesForm, CenterChannels, DepthForm};
@@ -21,7 +22,7 @@ use crate::sequence::layers::LightLayer;
 use crate::sequence::messages;
 use crate::sequence::outcome::Outcome;
 use crate::sequence::parts::PicturePart;
-use crate::sequence::pattern::Pattern;
+use crate::sequence::pattern::{Pattern, with_scene};
 use crate::sequence::render::render;
 use crate::sequence::request::Request;
 use crate::terminal::console::Console;
@@ -33,17 +34,11 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
         console.speak_to(form.reader());
     }
     let threads = threads::start(arguments.threads)?;
-    if let ([_, _, ..], Some(output)) = (&arguments.scenes[..], &arguments.output)
-        && !output.as_os_str().to_string_lossy().contains(SCENE)
-    {
-        let why = format!("several scenes need a place for their names: {SCENE}");
-        return Err(Failure::unusable(output, &why));
-    }
-    refuse_same_names(&arguments.scenes)?;
     let is_alone = arguments.scenes.len() == 1;
+    let mut others = Others::of(arguments)?;
     let mut code = status::SUCCESS;
     for scene in &arguments.scenes {
-        let ended = match run_scene(arguments, scene, &threads, console) {
+        let ended = match run_scene(arguments, scene, &mut others, &threads, console) {
             // One that cannot be rendered does not stop the others.
             Err(failure) if !is_alone && !arguments.fail_fast => {
                 console.failure(&failure);
@@ -51,7 +46,7 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
             }
             ended => ended?,
         };
-        code = code.max(ended);
+        code = status::worse(code, ended);
         if ended == status::INTERRUPTED {
             break;
         }
@@ -59,33 +54,18 @@ pub(crate) fn run(arguments: &RenderArguments, console: &Console) -> Result<u8, 
     Ok(code)
 }
 
-/// Refuses scenes whose files would have the same names.
-fn refuse_same_names(scenes: &[PathBuf]) -> Result<(), Failure> {
-    let mut names: Vec<_> = scenes.iter().map(|scene| scene.file_stem()).collect();
-    names.sort_unstable();
-    match names.windows(2).find(|pair| pair[0] == pair[1]) {
-        None => Ok(()),
-        Some(same) => {
-            let name = Path::new(same[0].unwrap_or_default()).shown();
-            let message = format!("two scenes are called `{name}`, and would share their files");
-            Err(Failure::Usage(message))
-        }
-    }
-}
-
-/// The place for the name of the scene in names of files.
-const SCENE: &str = "{scene}";
-
 /// Renders one of the scenes.
 fn run_scene(
     arguments: &RenderArguments,
     scene: &Path,
+    others: &mut Others,
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<u8, Failure> {
     let request = request(arguments, scene, threads, console)?;
+    others.add(&request)?;
     check_view(&request, arguments, threads, console)?;
-    let of_scene = |path: &PathBuf| output_of(path, scene);
+    let of_scene = |path: &PathBuf| with_scene(path, name_of(scene));
     let (legend, scale_bar) = (&arguments.legend, &arguments.scale_bar);
     figures::write(
         &request,
@@ -114,12 +94,12 @@ fn run_scene(
     let code = conclusion(&outcome, noun, console);
     let late = request.scene.take_late_warnings();
     late.iter().for_each(|warning| console.warn(warning));
-    if code == status::SUCCESS && arguments.options.strict && !late.is_empty() {
-        let why = "with --strict warnings are errors";
-        console.reason(why);
+    let is_written = [status::SUCCESS, status::OVER_TOLERANCE].contains(&code);
+    if is_written && arguments.options.strict && !late.is_empty() {
+        console.reason("with --strict warnings are errors");
         return Ok(status::FAILURE);
     }
-    if code == status::SUCCESS && arguments.options.strict && outcome.clipped > 0 {
+    if is_written && arguments.options.strict && outcome.clipped > 0 {
         let why = "with --strict clipped pixels are an error";
         console.warn(why);
         console.reason(why);
@@ -135,12 +115,9 @@ pub(super) fn request(
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<Request, Failure> {
-    let output = arguments
-        .output
-        .as_deref()
-        .map(|output| output_of(output, path));
-    let pattern = output.as_deref().map(Pattern::parse).transpose();
-    let pattern = pattern.map_err(Failure::Usage)?;
+    let output = arguments.output.as_deref();
+    let pattern = output.map(|output| Pattern::of_scene(output, name_of(path)));
+    let pattern = pattern.transpose().map_err(Failure::Usage)?;
     let format = pattern.as_ref().map_or(Format::Png, Pattern::format);
     let encoding = encoding(arguments, format)?;
 
@@ -160,7 +137,7 @@ pub(super) fn request(
         let numbered = arguments.frames.is_some() || scene.frames().is_some();
         Pattern::named_after(path, numbered)
     });
-    check_names(&pattern, &frames, output.as_deref())?;
+    check_names(&pattern, &frames, output)?;
     let centers = (!arguments.channels.is_empty()).then(|| {
         CenterChannels::new(
             &arguments.channels,
@@ -193,6 +170,7 @@ pub(super) fn request(
             },
             alpha: arguments.alpha,
         },
+        error_scale: 1.0,
         frames_per_second: arguments.fps.or(scene.frames_per_second()),
         scene,
         scene_path: path.to_owned(),
@@ -229,17 +207,26 @@ fn check_view(
     let most = if scene.has_steps() { 1 } else { FRAMES };
     let frames = request.frames.iter().take(most);
     let views: Vec<View> = frames.filter_map(|frame| scene.view(frame).ok()).collect();
-    let warnings = threads.install(|| oversights::warnings(&world, &views, frame));
+    let warnings = threads.install(|| {
+        let mut warnings = oversights::warnings(&world, &views, frame);
+        if let Method::Tolerance(tolerance) = request.settings.method {
+            let option = format!("`--tolerance {tolerance:e}`");
+            let of_parts = request.parts.iter().map(|part| part.of(&world));
+            let of_layers = request.layers.iter().map(|layer| world.under(layer.light));
+            warnings.extend(dim_light::warning(
+                of_parts.chain(of_layers),
+                tolerance,
+                &option,
+            ));
+        }
+        warnings
+    });
     scene::warn(&warnings, &request.scene_path, &arguments.options, console)
 }
 
-/// The output of the scene at `path`, whose name stands in its place.
-fn output_of(output: &Path, path: &Path) -> PathBuf {
-    let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    match output.to_str() {
-        Some(text) if text.contains(SCENE) => PathBuf::from(text.replace(SCENE, &name)),
-        _ => output.to_owned(),
-    }
+/// The name of the scene at `path`.
+fn name_of(path: &Path) -> &OsStr {
+    path.file_stem().unwrap_or_default()
 }
 
 /// Refuses names that are too many or too few for the frames.
@@ -341,7 +328,8 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
         Format::Png => Encoding::Png(png),
         Format::Apng => Encoding::Apng(png),
         Format::Exr => Encoding::Exr(ExrOptions {
-            float: arguments.float,
+            // Many readers convert all channels to the type of the first.
+            float: arguments.float || !arguments.channels.is_empty(),
             error: arguments.error_channel,
         }),
         Format::Npy => Encoding::Npy(NpyOptions {
@@ -362,7 +350,7 @@ pub(super) fn conclusion(outcome: &Outcome, noun: &str, console: &Console) -> u8
         status::FAILURE
     } else if outcome.is_over_tolerance() {
         console.reason("some pixels are over the tolerance");
-        status::FAILURE
+        status::OVER_TOLERANCE
     } else {
         status::SUCCESS
     }

@@ -49,6 +49,9 @@ pub(super) fn load(
         bar.finish_and_clear();
     }
     let scene = scene.map_err(|error| Failure::Scene(Box::new(error)))?;
+    for hint in scene.hints() {
+        console.warn(&format!("hint: {hint}"));
+    }
     warn(scene.warnings(), path, options, console)?;
     Ok(scene)
 }
@@ -77,17 +80,22 @@ pub(super) fn warn(
     }
 }
 
-/// The view of the frame that `--frame` names, which has to be one of the scene's; of the first where
-/// it names none.
-pub(super) fn view(scene: &Scene, frame: Option<i32>) -> Result<View, Failure> {
-    view_of(scene, frame.unwrap_or(*frames_of(scene).start()), "--frame")
+/// The view of the frame that `--frame` names, which has to be one of the scene's, from the file at `path`; of the first
+/// where it names none.
+pub(super) fn view(scene: &Scene, path: &Path, frame: Option<i32>) -> Result<View, Failure> {
+    let frame = frame.unwrap_or(*frames_of(scene).start());
+    view_of((scene, path), frame, "--frame")
 }
 
-/// The view of a frame that an option asks for, which has to be one of the scene's.
-pub(super) fn view_of(scene: &Scene, frame: i32, option: &str) -> Result<View, Failure> {
+/// The view of a frame that an option asks for, which has to be one of the scene's, from the file at `path`.
+pub(super) fn view_of(
+    (scene, path): (&Scene, &Path),
+    frame: i32,
+    option: &str,
+) -> Result<View, Failure> {
     require_frames(scene, [frame].into_iter(), option)?;
     let view = scene.view(frame);
-    view.map_err(|error| Failure::Usage(error.to_string()))
+    view.map_err(|error| Failure::unusable(path, &error.to_string()))
 }
 
 /// Refuses frames that an option asks for and the scene does not have.

@@ -1,8 +1,7 @@
 //! Pictures are loaded from files of any format, which is known by the first bytes and not by the
 //! name.
 
-use std::fs::File;
-use std::io::{ErrorKind, Read, Seek};
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use blake3::Hash;
@@ -71,27 +70,30 @@ fn format_of(start: &[u8]) -> Option<Format> {
     format.map(|(_, format)| format)
 }
 
-/// The digest that the file at `path` tells and the part of the picture that it holds, read without
-/// its pixels; `None` where it tells none, or has been cut off.
+/// The digest that the file at `path` tells and the part of the picture that it holds.
 ///
-/// A file has its name only when it is complete: it is moved there. What copying or a disk has cut
-/// off is noticed by the end that is missing.
-pub(crate) fn contents(path: &Path) -> Option<(Hash, Region)> {
+/// A file has its name only when it is complete: it is moved there. What copying or a disk has damaged since is
+/// found by reading all of it, as far as its format has checksums, and a cut by the end that is missing. Else the
+/// reason says what is wrong.
+pub(crate) fn contents(path: &Path) -> Result<(Hash, Region), String> {
     if !path.is_file() {
-        return None;
+        return Err("it is no file".to_owned());
     }
-    contents_of(&mut File::open(path).ok()?)
+    contents_of(&Source::File(path.to_owned()))
 }
 
-fn contents_of(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
+fn contents_of(source: &Source) -> Result<(Hash, Region), String> {
+    let mut file = source.open().map_err(|error| reason(&error))?;
     let mut magic = [0; EXR_MAGIC.len()];
-    file.read_exact(&mut magic).ok()?;
+    let read = file.read_exact(&mut magic);
+    read.map_err(|_| "it ends early".to_owned())?;
     if magic == EXR_MAGIC {
         exr::stored::contents(file)
     } else if magic == NPY_MAGIC {
-        npy::stored::contents(file)
+        npy::stored::contents(&mut file)
+            .ok_or_else(|| "it tells no digest, or ends early".to_owned())
     } else {
-        png::stored::contents(file)
+        png::stored::contents(&mut file)
     }
 }
 

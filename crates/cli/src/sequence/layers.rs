@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use marbles_core::{LightPart, World};
 
+use super::parts::light_number;
 use crate::formats::center_channels::CenterChannels;
 
 /// The picture under a part of a world's light, in a layer of the frame's file.
@@ -15,8 +16,9 @@ pub(crate) struct LightLayer {
 }
 
 impl LightLayer {
-    /// A layer for each part of a world's light, whose lights have these names: a light's name or else its number from
-    /// 1, and `ambient` for what is left. Refuses names that other channels of the file have.
+    /// A layer for each part of a world's light, whose lights have these names: a light's name, or else `light-` and
+    /// its [`light_number`], and `ambient` for what is left. Readers make identifiers of layers, so that all of them
+    /// begin with a letter. Refuses names that other channels of the file have.
     pub(crate) fn each(
         world: &World,
         names: &[Option<String>],
@@ -26,11 +28,13 @@ impl LightLayer {
         let of_layer = centers.filter_map(|(name, _)| name.split_once('.'));
         let others: HashSet<&str> = of_layer.map(|(layer, _)| layer).collect();
         let mut keys = HashSet::new();
+        let count = world.lights.len();
+        let numbered = |index| format!("light-{}", light_number(index, count));
         let layer = |light| {
             let key = match light {
                 LightPart::Light(index) => {
                     let name = names.get(index).and_then(Option::as_deref);
-                    name.map_or_else(|| (index + 1).to_string(), layer_safe)
+                    name.map_or_else(|| numbered(index), layer_safe)
                 }
                 LightPart::Ambient => "ambient".to_owned(),
             };
@@ -57,14 +61,18 @@ impl LightLayer {
 const LONGEST: usize = 200;
 
 /// A light's name with a dash for every character that names of layers had better not contain, the period among them,
-/// which ends them.
+/// which ends them, and `light-` before one that begins with no letter.
 fn layer_safe(name: &str) -> String {
     let safe = |letter: char| match letter {
         '-' | '_' => letter,
         _ if letter.is_ascii_alphanumeric() => letter,
         _ => '-',
     };
-    name.chars().map(safe).collect()
+    let name: String = name.chars().map(safe).collect();
+    match name.starts_with(|first: char| first.is_ascii_alphabetic()) {
+        true => name,
+        false => format!("light-{name}"),
+    }
 }
 
 #[cfg(test)]
@@ -91,16 +99,26 @@ mod tests {
     #[test]
     fn layers_are_named_after_their_lights() {
         let found = layers([Some("key. warm\u{e9}"), None], &[]).unwrap();
-        assert_eq!(found, ["key--warm-", "2", "ambient"]);
+        assert_eq!(found, ["key--warm-", "light-2", "ambient"]);
         let found = layers([Some("albedo"), None], &[CenterChannel::Depth]).unwrap();
-        assert_eq!(found, ["albedo", "2", "ambient"]);
+        assert_eq!(found, ["albedo", "light-2", "ambient"]);
+    }
+
+    #[test]
+    fn layers_begin_with_a_letter() {
+        let found = layers([Some("2nd"), Some("\u{fc}ber_")], &[]).unwrap();
+        assert_eq!(found, ["light-2nd", "light--ber_", "ambient"]);
     }
 
     #[test]
     fn no_two_pictures_share_a_layer() {
         let long = "a".repeat(201);
         for (names, group, why) in [
-            ([Some("2"), None], CenterChannel::Id, "share the layer `2`"),
+            (
+                [Some("2"), None],
+                CenterChannel::Id,
+                "share the layer `light-2`",
+            ),
             (
                 [Some("a b"), Some("a-b")],
                 CenterChannel::Id,

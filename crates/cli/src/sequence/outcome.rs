@@ -79,10 +79,10 @@ impl Failures {
         let message = failure.to_string();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
         state.frames.push(frame);
-        // What comes before the reason is another file or frame each time.
-        let places = [path.shown(), format!("frame {frame}")];
-        let reason = places.iter().find_map(|place| message.strip_prefix(place));
-        let reason = reason.unwrap_or(&message).to_owned();
+        // The file and the number of the frame are others each time.
+        let path = path.shown();
+        let reason = message.strip_prefix(&path).unwrap_or(&message);
+        let reason = reason.replacen(&format!("frame {frame}: "), "", 1);
         if state.reasons.insert(reason) {
             progress.failure(&Failure::Work(message));
         }

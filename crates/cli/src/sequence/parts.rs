@@ -33,14 +33,15 @@ impl PicturePart {
     }
 
     /// A picture for each part of a world's light, whose lights have these names: `.light-KEY` comes before the
-    /// ending, where KEY is the light's name or else its number from 1, and `.ambient` for what is left.
+    /// ending, where KEY is the light's name or else its [`light_number`], and `.ambient` for what is left.
     pub(crate) fn each(world: &World, names: &[Option<String>]) -> Result<Vec<Self>, String> {
         let mut keys = HashSet::new();
+        let count = world.lights.len();
         let part = |light| {
             let inserted = match light {
                 LightPart::Light(index) => {
                     let name = names.get(index).and_then(Option::as_deref);
-                    let key = name.map_or_else(|| (index + 1).to_string(), file_safe);
+                    let key = name.map_or_else(|| light_number(index, count), file_safe);
                     if !keys.insert(key.clone()) {
                         return Err(format!("two lights would share the file of `{key}`"));
                     }
@@ -104,6 +105,13 @@ impl PicturePart {
     }
 }
 
+/// The number of one of so many lights, from 1, with as many digits as the last one has: names that have it sort as the
+/// lights do.
+pub(super) fn light_number(index: usize, count: usize) -> String {
+    let digits = count.to_string().len();
+    format!("{:0digits$}", index + 1)
+}
+
 /// A light's name with a dash for every character that file names had better not contain.
 fn file_safe(name: &str) -> String {
     let safe = |letter: char| match letter {
@@ -149,6 +157,24 @@ mod tests {
         );
         let named = PicturePart::named(LightPart::Light(0), "001.png".to_owned());
         assert_eq!(named.path("a/x.png".into()), Path::new("a/001.png"));
+    }
+
+    #[test]
+    fn files_of_many_lights_sort_as_the_lights_do() {
+        let mut world = world();
+        for count in [9, 10, 123] {
+            let light = world.lights[0];
+            world.lights.resize(count, light);
+            let parts = PicturePart::each(&world, &vec![None; count]).unwrap();
+            let paths = parts[..count].iter().map(|part| part.path("a.png".into()));
+            let paths: Vec<PathBuf> = paths.collect();
+            assert!(paths.is_sorted(), "{paths:?}");
+            let digits = count.to_string().len();
+            assert_eq!(
+                paths[6],
+                PathBuf::from(format!("a.light-{:0digits$}.png", 7))
+            );
+        }
     }
 
     #[test]

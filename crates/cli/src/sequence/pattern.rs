@@ -71,6 +71,18 @@ impl Pattern {
         })
     }
 
+    /// Reads a pattern in which [`SCENE`] may stand for the scene's name, which becomes a part of the files' names as
+    /// it is: nothing in it is a place for a number.
+    pub(crate) fn of_scene(path: &Path, scene: &OsStr) -> Result<Self, String> {
+        let pattern = Self::parse(path)?;
+        Ok(Self {
+            folder: with_scene(&pattern.folder, scene),
+            before: with_scene(Path::new(&pattern.before), scene).into_os_string(),
+            after: with_scene(Path::new(&pattern.after), scene).into_os_string(),
+            ..pattern
+        })
+    }
+
     /// The names of a user who gave none: those of the scene, in the current folder.
     pub(crate) fn named_after(scene: &Path, numbered: bool) -> Self {
         let mut before = scene
@@ -108,6 +120,35 @@ impl Pattern {
     pub(crate) fn is_numbered(&self) -> bool {
         self.digits.is_some()
     }
+}
+
+/// The place for the name of the scene in names of files.
+pub(crate) const SCENE: &str = "{scene}";
+
+/// Returns whether some folder or the name of a file has a place for the scene's name.
+pub(crate) fn has_place_for_scene(path: &Path) -> bool {
+    let mut parts = path.iter().filter_map(OsStr::to_str);
+    parts.any(|part| part.contains(SCENE))
+}
+
+/// The path with the scene's name in its places. Folders whose names are not UTF-8 have none.
+pub(crate) fn with_scene(path: &Path, scene: &OsStr) -> PathBuf {
+    if !has_place_for_scene(path) {
+        return path.to_owned();
+    }
+    let replaced = |part: &OsStr| match part.to_str() {
+        None => part.to_owned(),
+        Some(text) => {
+            let mut pieces = text.split(SCENE);
+            let mut name = OsString::from(pieces.next().unwrap_or_default());
+            for piece in pieces {
+                name.push(scene);
+                name.push(piece);
+            }
+            name
+        }
+    };
+    path.iter().map(replaced).collect()
 }
 
 /// The place for the frame number at the start of `text`, if there is one: its length, and the width

@@ -28,6 +28,8 @@ pub(crate) struct Request {
     pub(crate) window: Option<Window>,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) settings: Settings,
+    /// The factor on errors wherever results tell them: that on the light of a data set's pictures, else 1.
+    pub(crate) error_scale: f64,
     /// The pictures of each frame, at least one.
     pub(crate) parts: Vec<PicturePart>,
     /// The layers of each file beside its picture.
@@ -48,7 +50,7 @@ impl Request {
     /// Refuses a frame that has no view, or whose picture does not contain what is wanted of it.
     pub(crate) fn check(&self, frame: i32) -> Result<(), Failure> {
         let view = self.scene.view(frame);
-        let view = view.map_err(|error| Failure::Usage(error.to_string()))?;
+        let view = view.map_err(|error| Failure::unusable(&self.scene_path, &error.to_string()))?;
         self.region(Size::of(&self.resized(view))).map(drop)
     }
 
@@ -60,7 +62,7 @@ impl Request {
     /// The view of a frame, in the size that is wanted.
     pub(crate) fn view(&self, frame: i32) -> Result<View, Failure> {
         let view = self.scene.view(frame);
-        let view = view.map_err(|error| Failure::Work(error.to_string()))?;
+        let view = view.map_err(|error| Failure::at(&self.scene_path, &error.to_string()))?;
         Ok(self.resized(view))
     }
 

@@ -57,6 +57,14 @@ impl Results {
 }
 
 impl WorstPixel {
+    /// The same with its error times `scale`.
+    pub(super) fn scaled(self, scale: f64) -> Self {
+        Self {
+            error: self.error * scale,
+            ..self
+        }
+    }
+
     /// The worse of two; of equals the one that is further down, or else to the right.
     fn of(one: Option<Self>, other: Option<Self>) -> Option<Self> {
         let (Some(first), Some(second)) = (one, other) else {

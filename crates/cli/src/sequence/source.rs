@@ -326,7 +326,7 @@ fn is_there(
     (digest, region): (Hash, Region),
 ) -> bool {
     let mut files = files.iter();
-    files.all(|(path, digest)| load::contents(path) == Some((*digest, region)))
+    files.all(|(path, digest)| load::contents(path) == Ok((*digest, region)))
         && sidecar.is_none_or(|path| sidecar::contents(path) == Some((digest, region)))
 }
 

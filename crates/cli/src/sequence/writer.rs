@@ -94,6 +94,10 @@ fn write_file(
     encoder.write(&facts, &path, file, || buffer.take(), summary, complete)?;
     let Finished { results, time } = end.into_inner().ok_or(Unwritten::Stopped)?;
     let summary = results.summary.ok_or(Unwritten::Stopped)?;
+    let summary = Summary {
+        largest_error: summary.largest_error * request.error_scale,
+        ..summary
+    };
     let shown = path.shown();
     let (clipped, too_large) = match request.encoding {
         Encoding::Png(_) | Encoding::Apng(_) => (results.clipped, 0),
@@ -105,7 +109,8 @@ fn write_file(
     }
     if summary.over_tolerance > 0 {
         let count = summary.over_tolerance;
-        progress.warn(&messages::over_tolerance(&shown, count, results.worst));
+        let worst = results.worst.map(|worst| worst.scaled(request.error_scale));
+        progress.warn(&messages::over_tolerance(&shown, count, worst));
     }
     Ok((summary, clipped, time))
 }

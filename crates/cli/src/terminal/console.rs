@@ -205,7 +205,8 @@ impl Console {
         if stream.styled {
             stream.print(&message.ansi().to_string());
         } else {
-            stream.print(&message.to_string());
+            // Where reasons of ours repeat a part of a word, it is escaped here.
+            stream.print(&self.harmless(&message.to_string()));
         }
     }
 }

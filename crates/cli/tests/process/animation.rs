@@ -159,7 +159,7 @@ fn without_all_frames_there_is_no_loop() {
     assert_eq!(code(&output), 1);
     assert_eq!(text(&output.stdout), "");
     let errors = text(&output.stderr);
-    assert!(errors.contains("marbles: frame 3: "), "{errors}");
+    assert!(errors.contains(".ron: frame 3: "), "{errors}");
     // What comes after it is not rendered for nothing.
     for frame in [4, 5] {
         let line = format!("frame {frame}: ");

@@ -149,10 +149,35 @@ fn channels_do_not_depend_on_the_picture() {
         }
     }
     // And the picture does not depend on them.
-    let plain = render(&folder, "balls.ron --samples 1");
+    let plain = render(&folder, "balls.ron --samples 1 --float");
     for name in ["R", "G", "B"] {
         assert_eq!(format!("{:?}", one[name]), format!("{:?}", plain[name]));
     }
+}
+
+/// Readers that convert all channels to the type of the first lose nothing: that of the picture is a float as well.
+#[test]
+fn all_channels_but_numbers_of_spheres_are_floats() {
+    let folder = balls();
+    for options in [
+        ALL.to_owned(),
+        format!("{ALL} --alpha --error-channel"),
+        "--channels id --per-light=layers".to_owned(),
+        "--channels mean_normal,coverage_id".to_owned(),
+    ] {
+        let channels = render(&folder, &format!("balls.ron {options}"));
+        assert!(channels.len() > 3);
+        for (name, values) in channels {
+            let is_float = matches!(values, FlatSamples::F32(_));
+            assert_eq!(is_float, !name.ends_with("id"), "{options}: {name}");
+        }
+    }
+    let plain = render(&folder, "balls.ron");
+    assert!(
+        plain
+            .values()
+            .all(|values| matches!(values, FlatSamples::F16(_)))
+    );
 }
 
 #[test]

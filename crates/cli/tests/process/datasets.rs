@@ -19,7 +19,7 @@ fn a_data_set_has_the_files_that_its_readers_expect() {
     assert_eq!(folder.names("set").join(" "), expected);
     let read = |name: &str| fs::read_to_string(folder.path("set").join(name)).unwrap();
     assert_eq!(read("filenames.txt"), "001.png\n002.png\n003.png\n");
-    // White is 0.5 at most: all light is doubled.
+    // White is 0.5 at most: all light is doubled, and so is what is left of the tolerance.
     assert_eq!(
         read("light_intensities.txt"),
         "1 1 1\n1 0.5 0.25\n0.5 0.5 0.5\n"
@@ -38,7 +38,7 @@ fn a_data_set_has_the_files_that_its_readers_expect() {
     // Each picture is that of the scene with its light, brighter by one stop.
     run(
         &folder,
-        "render light-2.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+        "render light-2.ron -o b.png --tolerance 5e-5 --linear --rgb --exposure 1",
     );
     let [found, alone] = ["set/002.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
     assert!(found == alone);
@@ -147,7 +147,7 @@ fn a_data_set_of_near_lights_tells_them_in_the_axes_of_its_readers() {
     // Each picture is that of the scene with its light, brighter by one stop.
     run(
         &folder,
-        "render second.ron -o b.png --tolerance 1e-4 --linear --rgb --exposure 1",
+        "render second.ron -o b.png --tolerance 5e-5 --linear --rgb --exposure 1",
     );
     let [found, alone] = ["set/02.png", "b.png"].map(|name| fs::read(folder.path(name)).unwrap());
     assert!(found == alone);
@@ -192,4 +192,146 @@ fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
     fs::write(folder.path("near.ron"), beside(near)).unwrap();
     let output = folder.run("dataset near.ron -o other --layout diligent");
     assert!(text(&output.stderr).contains("and the scene a point light"));
+}
+
+/// The numbers of a PNG of 16 bit codes.
+fn codes(folder: &Folder, name: &str) -> Vec<u16> {
+    let file = std::io::BufReader::new(fs::File::open(folder.path(name)).unwrap());
+    let mut reader = png::Decoder::new(file).read_info().unwrap();
+    let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
+    reader.next_frame(&mut bytes).unwrap();
+    let (pairs, _) = bytes.as_chunks::<2>();
+    pairs.iter().map(|pair| u16::from_be_bytes(*pair)).collect()
+}
+
+/// The tolerance of a data set is a share of its full scale, whatever the lamps are.
+#[test]
+fn the_tolerance_of_a_data_set_is_a_share_of_its_full_scale() {
+    let folder = Folder::new();
+    // A reference of a thousandth makes the light of lamps some meters away a millionth.
+    let lights = |reference: f64| {
+        let [left, right] = [(-4, 0.5), (-6, 0.25)].map(|(x, intensity)| {
+            format!("Point(position: ({x}, 1, 2), intensity: {intensity}, reference: {reference})")
+        });
+        format!("{left}, {right}")
+    };
+    for (name, reference) in [("bright", 4.0), ("dim", 4.0 / 1024.0)] {
+        fs::write(
+            folder.path(&format!("{name}.ron")),
+            beside(&lights(reference)),
+        )
+        .unwrap();
+        let line = run(
+            &folder,
+            &format!("dataset {name}.ron -o {name} --layout luces --strict"),
+        );
+        let error = line.split_once("2 pictures: error <= ").unwrap().1;
+        let error: f64 = error.split_once(' ').unwrap().0.parse().unwrap();
+        assert!((1e-6..=1e-4).contains(&error), "{line}");
+    }
+    for picture in ["01.png", "02.png"] {
+        // All but the digest is the same: light has no unit.
+        let [bright, dim] =
+            ["bright", "dim"].map(|name| codes(&folder, &format!("{name}/{picture}")));
+        assert!(bright == dim, "{picture}");
+        let largest = bright.iter().max();
+        assert!(largest > Some(&4000), "{picture}: {largest:?}");
+    }
+    // Without a reference the lamps are what one expects them to be: white on the ball.
+    fs::write(
+        folder.path("some.ron"),
+        beside("Point(position: (-4, 1, 2))"),
+    )
+    .unwrap();
+    run(&folder, "dataset some.ron -o some --layout luces --strict");
+    let intensity = fs::read_to_string(folder.path("some/light_intensities.txt")).unwrap();
+    let intensity: f64 = intensity.split_once(' ').unwrap().0.parse().unwrap();
+    assert!((0.1..2.0).contains(&intensity), "{intensity}");
+}
+
+#[test]
+fn light_near_the_tolerance_is_told() {
+    let folder = Folder::new();
+    let lamp = beside("Point(position: (-4, 1, 2), reference: 0.01)");
+    fs::write(folder.path("dim.ron"), lamp).unwrap();
+    for command in [
+        "check dim.ron",
+        "check dim.ron --json",
+        "render dim.ron",
+        "render dim.ron --per-light",
+    ] {
+        let output = folder.run(command);
+        assert_eq!(code(&output), 0);
+        let message = text(&output.stderr);
+        assert!(
+            message.contains("no sphere is brighter than"),
+            "{command}: {message}"
+        );
+        assert_eq!(
+            code(&folder.run(&format!("{command} --strict"))),
+            2,
+            "{command}"
+        );
+    }
+    for command in [
+        "render dim.ron --tolerance 1e-8",
+        "render dim.ron --samples 2",
+    ] {
+        let output = folder.run(&format!("{command} --strict"));
+        assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    }
+}
+
+/// Files with the names of a data set that no data set belongs to are somebody else's.
+#[test]
+fn a_data_set_replaces_no_files_of_others() {
+    let folder = folder();
+    for (layout, scene, names) in [
+        (
+            "diligent",
+            "all.ron",
+            ["mask.png", "normal.txt", "filenames.txt", "002.png"],
+        ),
+        (
+            "luces",
+            "near.ron",
+            ["mask.png", "K.txt", "zgt.npz", "01.png"],
+        ),
+    ] {
+        let near = "Point(position: (-4, 1, 2))";
+        fs::write(folder.path("near.ron"), beside(near)).unwrap();
+        let dataset = format!("dataset {scene} --layout {layout} --size 12x9 -o");
+        for name in names {
+            let place = folder.path(&format!("{layout}-{name}"));
+            fs::create_dir(&place).unwrap();
+            fs::write(place.join(name), "mine").unwrap();
+            for more in ["", " --skip-existing"] {
+                let output = folder.run(&format!("{dataset} {layout}-{name}{more}"));
+                let message = text(&output.stderr);
+                assert_eq!(code(&output), 2, "{message}");
+                let expected =
+                    format!("{name}: the data set would replace this file of somebody else");
+                assert!(message.contains(&expected), "{message}");
+                assert_eq!(folder.names(&format!("{layout}-{name}")), [name]);
+                assert_eq!(fs::read(place.join(name)).unwrap(), b"mine");
+            }
+        }
+        // Other files are in nobody's way, and a data set may be made again: whole, or what was left of it.
+        let place = folder.path(layout);
+        fs::create_dir(&place).unwrap();
+        fs::write(place.join("notes.txt"), "mine").unwrap();
+        run(&folder, &format!("{dataset} {layout}"));
+        fs::remove_file(place.join("filenames.txt")).unwrap();
+        fs::remove_file(place.join(names[3])).unwrap();
+        run(&folder, &format!("{dataset} {layout} --skip-existing"));
+        run(&folder, &format!("{dataset} {layout}"));
+        assert_eq!(fs::read(place.join("notes.txt")).unwrap(), b"mine");
+    }
+    let output = folder.run("dataset near.ron --layout luces --size 12x9 -o diligent");
+    assert_eq!(code(&output), 2);
+    let message = text(&output.stderr);
+    assert!(
+        message.contains("of a data set of the layout diligent"),
+        "{message}"
+    );
 }

@@ -146,10 +146,18 @@ fn words_without_spaces_are_quoted_as_well() {
 #[test]
 fn scripts_end_as_the_renderer_does() {
     let folder = Folder::new();
-    program(&folder, "marbles", "#!/bin/sh\nexit 1\n");
     let output = farm(&folder, "slurm ball.ron -o a.png --job job.sh", &[]);
     assert_eq!(code(&output), 0);
-    assert_eq!(code(&task(&folder, 0, &[]).output().unwrap()), 1);
+    for (ending, words) in [(0, ""), (1, ""), (2, ""), (3, "all is written")] {
+        program(&folder, "marbles", &format!("#!/bin/sh\nexit {ending}\n"));
+        let output = task(&folder, 0, &[]).output().unwrap();
+        assert_eq!(code(&output), ending);
+        let errors = text(&output.stderr);
+        assert!(
+            errors.contains(words) && errors.is_empty() == words.is_empty(),
+            "{errors}"
+        );
+    }
 }
 
 #[test]

@@ -160,7 +160,8 @@ fn floats<'a>(channels: &'a Channels, name: &str) -> &'a [f32] {
     }
 }
 
-const LAYERS: [&str; 4] = ["1", "2", "3", "ambient"];
+/// Layers have the names of files.
+const LAYERS: [&str; 4] = KEYS;
 
 #[test]
 fn layers_hold_what_files_do() {
@@ -249,7 +250,8 @@ fn layers_come_with_sequences_parts_and_alpha() {
     let bytes = |name: &str| fs::read(folder.path(name)).unwrap();
     assert!(bytes("alone.exr") == bytes("m.2.exr"));
     let names: Vec<String> = read(&folder, "alone.exr").into_keys().collect();
-    let expected = "1.B 1.G 1.R 2.B 2.G 2.R 3.B 3.G 3.R A B G R ambient.B ambient.G ambient.R";
+    let expected = "A B G R ambient.B ambient.G ambient.R light-1.B light-1.G light-1.R \
+                    light-2.B light-2.G light-2.R light-3.B light-3.G light-3.R";
     assert_eq!(names.join(" "), expected);
 
     for (part, region) in [("upper", "0,0,50,21"), ("lower", "0,21,50,16")] {

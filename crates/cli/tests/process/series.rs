@@ -5,7 +5,7 @@ use std::process::Child;
 use std::thread::sleep;
 use std::time::Duration;
 
-use crate::folder::{Folder, code, is_picture, text};
+use crate::folder::{BALL, Folder, code, is_picture, text};
 use crate::sequences::{contents, differences, random, start};
 
 const STEPS: usize = 12;
@@ -284,6 +284,9 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     let (status, errors) = run("render a/x.ron b/x.ron");
     let expected = "two scenes are called `x`, and would share their files";
     assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
+    let (status, errors) = run("render edited.ron plain.ron -o {scene}.png --legend legend.svg");
+    let expected = "legend.svg: several scenes need a place for their names: {scene}";
+    assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
     // One that is missing does not stop the others, unless that is wanted.
     let missing = "render missing.ron edited.ron -q -o d/{scene}.png";
     assert_eq!(run(&format!("{missing} --fail-fast")).0, 2);
@@ -298,4 +301,64 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
         "{errors}"
     );
     assert_eq!(run("check plain.ron --strict").0, 2);
+}
+
+/// Names of scenes are no patterns, and no two scenes share a file.
+#[test]
+fn names_of_scenes_stay_apart() {
+    let folder = Folder::new();
+    for name in ["a####", "a0001", "a%04d", "b{frame}", "c", "c1"] {
+        let scene = BALL.replacen(
+            "lights:",
+            "animation: Keyframes(frames: (1, 11)), lights:",
+            1,
+        );
+        fs::write(folder.path(&format!("{name}.ron")), scene).unwrap();
+    }
+    let scenes = "a####.ron a0001.ron a%04d.ron b{frame}.ron";
+    let output = folder.run(&format!(
+        "render {scenes} --frames 1 --size 9x9 -q -o o/{{scene}}.png"
+    ));
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    assert_eq!(
+        folder.names("o"),
+        ["a####.png", "a%04d.png", "a0001.png", "b{frame}.png"]
+    );
+    // Frame 11 of `c` and frame 1 of `c1` would be one file.
+    let output = folder.run("render c.ron c1.ron --frames 1,11 --size 9x9 -q -o p/{scene}#.png");
+    assert_eq!(code(&output), 2);
+    let expected = "c11.png: the pictures of c.ron and of c1.ron would have this name";
+    assert!(
+        text(&output.stderr).contains(expected),
+        "{}",
+        text(&output.stderr)
+    );
+    assert_eq!(folder.names("p"), ["c1.png", "c11.png"]);
+}
+
+/// Names that are not UTF-8 differ though they are shown alike.
+#[test]
+#[cfg(unix)]
+fn names_that_are_no_text_stay_apart() {
+    use std::ffi::{OsStr, OsString};
+    use std::os::unix::ffi::OsStrExt;
+
+    let folder = Folder::new();
+    let names = [&b"a\xfe.ron"[..], b"a\xff.ron"].map(OsStr::from_bytes);
+    for name in names {
+        if fs::write(folder.0.join(name), BALL).is_err() {
+            eprintln!("skipped: names of files have to be UTF-8 here");
+            return;
+        }
+    }
+    let mut command = folder.marbles("render --size 9x9 -q -o o/{scene}.png");
+    let output = command.args(names).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", text(&output.stderr));
+    let entries = fs::read_dir(folder.path("o")).unwrap();
+    let mut found: Vec<OsString> = entries.map(|entry| entry.unwrap().file_name()).collect();
+    found.sort();
+    assert_eq!(
+        found,
+        [&b"a\xfe.png"[..], b"a\xff.png"].map(OsStr::from_bytes)
+    );
 }

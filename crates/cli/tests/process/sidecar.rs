@@ -57,7 +57,63 @@ fn every_picture_has_a_sidecar_beside_it() {
         assert!(object.remove(name).is_some(), "{name}");
         assert_eq!(known.as_object_mut().unwrap().remove(name), None);
     }
+    // And more of what is rendered.
+    for name in ["shadows", "materials", "spheres", "warnings"] {
+        let object = known.as_object_mut().unwrap();
+        assert!(object.remove(name).is_some(), "{name}");
+    }
     assert_eq!(whole, known);
+}
+
+/// A renderer that knows nothing of the scene file finds the brightest point of a ball where it is.
+#[test]
+fn check_tells_all_that_another_renderer_needs() {
+    let folder = Folder::new();
+    let scene = "(
+        image: (width: 150, height: 100), lens: Fov(40),
+        camera: LookAt(position: (2, 3, -10), target: (0, 0.7, 0), roll: 10),
+        lights: [Directional(toward: (-1, 1.5, -1), intensity: (1, 0.8, 0.5))],
+        materials: { \"a\": (albedo: (0.6, 0.3, 0.2), highlight: (strength: 0.25)) },
+        spheres: [(center: (-1, 1, 0), radius: 1, material: \"a\"), (center: (2, 1, 0.5), radius: 0.5)],
+    )";
+    fs::write(folder.path("peer.ron"), scene).unwrap();
+    let output = folder.run("check peer.ron --json");
+    let known: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let expected = serde_json::json!([
+        {"center": [-1.0, 1.0, 0.0], "radius": 1.0, "albedo": [0.6, 0.3, 0.2], "material": "a"},
+        {"center": [2.0, 1.0, -0.5], "radius": 0.5, "albedo": [1.0, 1.0, 1.0], "material": null},
+    ]);
+    assert_eq!(known["spheres"], expected);
+    assert_eq!(known["shadows"], true);
+    let expected = serde_json::json!([{
+        "name": "a", "albedo": [0.6, 0.3, 0.2], "exponent": 1.0,
+        "highlight": {"strength": 0.25, "shininess": 40.0}, "rough": null, "outline": null,
+    }]);
+    assert_eq!(known["materials"], expected);
+    assert_eq!(known["camera"]["roll"].as_f64().map(f64::round), Some(10.0));
+
+    // The point of the first ball that faces the light, as OpenCV projects it.
+    let vector =
+        |value: &Value| -> [f64; 3] { std::array::from_fn(|index| value[index].as_f64().unwrap()) };
+    let (toward, center) = (
+        vector(&known["lights"][0]["toward"]),
+        vector(&known["spheres"][0]["center"]),
+    );
+    let point: [f64; 3] = std::array::from_fn(|index| center[index] + toward[index]);
+    let camera = &known["camera"];
+    let translation = vector(&camera["t"]);
+    let seen: [f64; 3] = std::array::from_fn(|row| {
+        let axis = vector(&camera["R"][row]);
+        (0..3).map(|index| axis[index] * point[index]).sum::<f64>() + translation[row]
+    });
+    let matrix: [[f64; 3]; 3] = std::array::from_fn(|row| vector(&camera["K"][row]));
+    let pixel = |row: usize| matrix[row][row] * seen[row] / seen[2] + matrix[row][2];
+    folder.run("render peer.ron -o peer.npy --set lights[0].intensity=1 --set materials.a.highlight=(strength:0)");
+    let array = folder.read("peer.npy");
+    let (col, row) = (pixel(0).round() as usize, pixel(1).round() as usize);
+    let bytes = &array[array.len() - 8 * 3 * 150 * 100 + 8 * 3 * (150 * row + col)..][..8];
+    let red = f64::from_le_bytes(bytes.try_into().unwrap());
+    assert!((0.59..=0.6).contains(&red), "{red} at {col}, {row}");
 }
 
 #[test]

@@ -110,6 +110,15 @@ impl Camera {
         from + forward * way(from)
     }
 
+    /// Pan, tilt and roll: those with which [`Self::free`] makes this camera. Straight up or down the pan is 0.
+    pub fn pan_tilt_roll(&self) -> [Angle; 3] {
+        let none = Angle::ZERO;
+        let (pan, tilt) = Self::pan_and_tilt_toward(self.forward()).unwrap_or((none, none));
+        let upright = Self::free(DVec3::ZERO, pan, tilt, none).world_from_camera;
+        let right = upright.transpose() * self.world_from_camera.x_axis;
+        [pan, tilt, Angle::from_sides(-right.y, right.x)]
+    }
+
     /// Pan and tilt of a camera that looks along `direction`; pan 0 straight up or down, `None`
     /// where the direction is zero.
     pub fn pan_and_tilt_toward(direction: DVec3) -> Option<(Angle, Angle)> {

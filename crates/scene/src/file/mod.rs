@@ -108,8 +108,8 @@ pub(crate) enum Light {
         intensity: Placed<Color>,
         #[serde(default)]
         falloff: Placed<Falloff>,
-        #[serde(default)]
-        reference: Placed<Reference>,
+        #[serde(default, deserialize_with = "present")]
+        reference: Option<Placed<Reference>>,
     },
 }
 

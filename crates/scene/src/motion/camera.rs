@@ -12,8 +12,8 @@ use super::error::FrameError;
 use super::framing::{Framed, Framing, Picture, Turning, axes_of_orbit};
 use super::turntable::Turntable;
 use crate::file::{Animation, File, Key, Turned};
-use crate::text::{Placed, optional};
-use crate::values::FramesPerSecond;
+use crate::text::{Placed, optional, refuse};
+use crate::values::{FramesPerSecond, MOST_FRAMES};
 
 /// The camera of a scene over time.
 #[derive(Clone, Debug)]
@@ -146,7 +146,10 @@ impl Timing {
             } => {
                 let given = optional(frames, |range| Some(range.first..=range.last))?;
                 is_open = given.is_none() && keys.is_empty();
-                let frames = given.unwrap_or_else(|| frames_of(keys));
+                let frames = match given {
+                    Some(frames) => frames,
+                    None => frames_of(keys)?,
+                };
                 (frames, fps, shutter, &keys[..])
             }
             Animation::Turntable {
@@ -166,13 +169,25 @@ impl Timing {
     }
 }
 
-/// The frames from the first key to the last; frame 1 alone without keys.
-fn frames_of(keys: &[Placed<Key>]) -> RangeInclusive<i32> {
+/// The frames from the first key to the last; frame 1 alone without keys. `None` where they are too many, which is
+/// reported.
+fn frames_of(keys: &[Placed<Key>]) -> Option<RangeInclusive<i32>> {
     let frames = || keys.iter().filter_map(frame_of);
-    match (frames().min(), frames().max()) {
-        (Some(first), Some(last)) => first..=last,
-        _ => 1..=1,
+    let (Some(first), Some(last)) = (frames().min(), frames().max()) else {
+        return Some(1..=1);
+    };
+    if first.abs_diff(last) < MOST_FRAMES.unsigned_abs() {
+        return Some(first..=last);
     }
+    let mut known = keys
+        .iter()
+        .filter_map(|key| Some(&key.value.as_ref()?.frame));
+    let place = known.find(|frame| frame.get().is_some_and(|frame| frame.0 == last));
+    let place = place.map(|frame| frame.place.clone()).unwrap_or_default();
+    let message = format!(
+        "expected at most {MOST_FRAMES} frames from the first key to the last, found keys from {first} to {last}"
+    );
+    refuse(place, message)
 }
 
 fn frame_of_camera(key: &Placed<Key>) -> Option<i32> {

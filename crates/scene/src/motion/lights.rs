@@ -38,7 +38,8 @@ enum Kind {
     Directional,
     Point {
         falloff: LightFalloff,
-        reference: f64,
+        /// `None` until it is chosen, where the file names none.
+        reference: Option<f64>,
     },
 }
 
@@ -93,6 +94,28 @@ impl Lights {
         turntable.map_or(frame, |turntable| turntable.looped(frame))
     }
 
+    /// Returns whether some light has no reference distance that it needs.
+    pub(crate) fn lack_references(&self) -> bool {
+        self.lights.iter().any(|light| light.kind.lacks_reference())
+    }
+
+    /// Gives each of the lights that lack a reference distance the one that `distance` finds for its position among
+    /// `placed`, the same lights in a frame.
+    pub(crate) fn choose_references(
+        &mut self,
+        placed: &[CoreLight],
+        distance: impl Fn(DVec3) -> Option<f64>,
+    ) {
+        let lights = self.lights.iter_mut().zip(placed);
+        for (light, placed) in lights.filter(|(light, _)| light.kind.lacks_reference()) {
+            if let (Kind::Point { reference, .. }, CoreLight::Point(placed)) =
+                (&mut light.kind, placed)
+            {
+                *reference = distance(placed.position());
+            }
+        }
+    }
+
     /// As many lights, all of them dark and above, for frames that have none.
     pub(crate) fn somewhere(&self) -> Vec<CoreLight> {
         let light = |_: &Light| DirectionalLight::new(DVec3::Y, DVec3::ZERO).map(CoreLight::from);
@@ -143,6 +166,8 @@ impl Light {
                 DirectionalLight::new(toward, intensity).map(CoreLight::from)
             }
             Kind::Point { falloff, reference } => {
+                // Where it is not chosen, nothing depends on it.
+                let reference = reference.unwrap_or(1.0);
                 let position = match forward {
                     _ if self.is_attached => camera.position + camera.world_from_camera * place,
                     Some(_) => target + turned(place - target),
@@ -155,6 +180,11 @@ impl Light {
 }
 
 impl Kind {
+    fn lacks_reference(self) -> bool {
+        let falls_off = LightFalloff::InverseSquare;
+        matches!(self, Self::Point { falloff, reference: None } if falloff == falls_off)
+    }
+
     /// What is wrong with a light of this kind that has no place.
     fn fault(self, index: usize) -> FrameFault {
         match self {
@@ -227,7 +257,7 @@ fn kind(light: &file::Light, keys: &Keys<'_>) -> Option<(Kind, PointCurve)> {
                 file::Falloff::InverseSquare => LightFalloff::InverseSquare,
                 file::Falloff::None => LightFalloff::None,
             };
-            let reference = reference.get()?.0;
+            let reference = optional(reference, |reference| Some(reference.0))?;
             let position = position.get()?.0;
             let place = keys.vectors(position, |key| Some(key.position.as_ref()?.get()?.0));
             Some((Kind::Point { falloff, reference }, place))

@@ -14,7 +14,7 @@ use crate::file::{Camera, File, FrameOver, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
 use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, set, token};
-use crate::values::MaterialName;
+use crate::values::{MOST_FRAMES, MaterialName};
 use crate::world::{self, Cloud, OpenCloud, Part, Progress, Series, Step};
 
 /// The largest scene file that is read, in bytes: more than ten million spheres take, and a limit
@@ -200,6 +200,7 @@ impl Draft {
             },
             clouds: Vec::new(),
             warnings: oversights::warnings(file),
+            hints: oversights::hints(file),
             series: None,
             framed: Vec::new(),
             tables: Vec::new(),
@@ -229,6 +230,15 @@ impl Draft {
         }
         let longest = clouds.iter().filter_map(OpenCloud::frames).max();
         if let Some(frames) = longest {
+            if frames > MOST_FRAMES {
+                let slow = clouds.iter().find(|cloud| cloud.frames() == longest);
+                let place = slow.map(|cloud| cloud.cloud.place.clone());
+                let message = format!(
+                    "expected steps for at most {MOST_FRAMES} frames, found ones for {frames}: a larger `speed` needs fewer"
+                );
+                let fault = Fault::new(place.unwrap_or_default(), message);
+                return Err(SceneError::refused(path, text, vec![fault]));
+            }
             scene.motion.last(frames);
         }
         let first_frame = scene.frames().map_or(1, |frames| *frames.start());
@@ -277,6 +287,7 @@ impl Draft {
         for table in &scene.tables {
             scene.warnings.extend(table.take_warnings());
         }
+        scene.choose_references()?;
         scene.description.lights = scene.lights.names();
         scene.world.lights = scene.first_lights();
         Ok(scene)

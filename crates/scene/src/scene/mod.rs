@@ -5,6 +5,7 @@ mod description;
 mod load;
 mod other_file;
 mod oversights;
+mod references;
 mod refused;
 
 use std::ops::RangeInclusive;
@@ -34,6 +35,7 @@ pub struct Scene {
     description: Description,
     clouds: Vec<CloudDescription>,
     warnings: Vec<String>,
+    hints: Vec<String>,
     /// Where some clouds change over time.
     series: Option<Arc<Series>>,
     /// Cameras that frame the spheres of each step alone.
@@ -92,6 +94,11 @@ impl Scene {
     /// What may be an oversight, one line each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
+    }
+
+    /// What is rather meant otherwise, one line each, though nothing is wrong with it.
+    pub fn hints(&self) -> &[String] {
+        &self.hints
     }
 
     /// The view of frame `frame`; any number, inside the animation or not.

@@ -14,7 +14,6 @@ const LIKE_RADIANS: Range<f64> = 0.05..3.2;
 /// Plain sentences, what is odd first, and then what to do.
 pub(super) fn warnings(file: &File) -> Vec<String> {
     let mut warnings = Vec::new();
-    warnings.extend(lens(file));
     for (name, material) in &file.materials.0 {
         let name = name
             .value
@@ -37,6 +36,11 @@ pub(super) fn warnings(file: &File) -> Vec<String> {
     warnings
 }
 
+/// Plain sentences about what is allowed and may be meant, but seldom is: nobody has to change it.
+pub(super) fn hints(file: &File) -> Vec<String> {
+    lens(file).into_iter().collect()
+}
+
 fn lens(file: &File) -> Option<String> {
     let Lens::Fov(angle) = file.lens.value.as_ref()? else {
         return None;
@@ -45,7 +49,7 @@ fn lens(file: &File) -> Option<String> {
     LIKE_RADIANS.contains(&degrees).then(|| {
         let meant = (10.0 * degrees.to_degrees()).round() / 10.0;
         format!(
-            "lens: Fov({degrees}) is in degrees, and looks like radians, of which it would be Fov({meant})"
+            "lens: Fov({degrees}) is {degrees} degrees; if it was meant in radians, it would be Fov({meant})"
         )
     })
 }
@@ -115,6 +119,22 @@ mod tests {
     use crate::Scene;
 
     #[test]
+    fn angles_like_radians_are_no_more_than_a_hint() {
+        let of = |lens: &str| {
+            let text = format!("(image: (width: 6, height: 4), lens: {lens}, camera: Free())");
+            let scene = Scene::parse(&text, Path::new("scene.ron")).unwrap();
+            assert!(scene.warnings().is_empty());
+            scene.hints().join("; ")
+        };
+        assert_eq!(
+            of("Fov(0.9)"),
+            "lens: Fov(0.9) is 0.9 degrees; if it was meant in radians, it would be Fov(51.6)"
+        );
+        assert_eq!(of("Fov(50)"), "");
+        assert_eq!(of("Fov(1e-9)"), "");
+    }
+
+    #[test]
     fn oversights_of_the_file_are_told() {
         let of = |lens: &str, fields: &str| {
             let text =
@@ -125,12 +145,8 @@ mod tests {
         let ball = "spheres: [(center: (0, 0, 5), radius: 1, material: \"m\")]";
         for (lens, fields, expected) in [
             ("Fov(50)", "materials: {\"m\": (albedo: (1, 0.5, 0))}", ""),
-            (
-                "Fov(0.9)",
-                "",
-                "lens: Fov(0.9) is in degrees, and looks like radians, of which it would be Fov(51.6)",
-            ),
-            ("Fov(1e-9)", "", ""),
+            // The moon, and many a telescope.
+            ("Fov(0.5)", "", ""),
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: (200, 30, 0))}",

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use ron::value::RawValue;
+
 use super::show::show;
 use super::suggest::did_you_mean;
 use super::token::{is_white_space, skip_trivia, token_end, value_end};
@@ -32,9 +34,10 @@ struct Inside<'t> {
 /// The text with `value` at `path`. A field that is missing is added to its structure.
 ///
 /// # Errors
-/// Returns what was expected instead of the path, or of a part of it.
+/// Returns what was expected instead of the path, or of a part of it, or of the value: exactly one.
 pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String> {
     let parts = parts(path)?;
+    let value = one_value(value)?;
     let start = skip_trivia(text, 0);
     let mut place = start..value_end(text, start);
     for (index, part) in parts.iter().enumerate() {
@@ -51,9 +54,11 @@ pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
                     return Err(missing(&inside, part));
                 };
                 let comma = if inside.needs_comma { ", " } else { "" };
+                let is_plain = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
                 let key = match inside.bracket {
                     b'{' => format!("{name:?}"),
-                    _ => (*name).to_owned(),
+                    _ if name.chars().all(is_plain) => (*name).to_owned(),
+                    _ => return Err(missing(&inside, part)),
                 };
                 let (before, after) = text.split_at(inside.end);
                 return Ok(format!("{before}{comma}{key}: {value}{after}"));
@@ -63,6 +68,15 @@ pub(crate) fn set(text: &str, path: &str, value: &str) -> Result<String, String>
     }
     let (before, after) = (&text[..place.start], &text[place.end..]);
     Ok(format!("{before}{value}{after}"))
+}
+
+/// The value in a text without what surrounds it. What ends it early, or leaves it open, would change the text around.
+fn one_value(text: &str) -> Result<String, String> {
+    // A comment ends with its line.
+    let line = format!("{text}\n");
+    let value = RawValue::from_ron(&line).map(|value| value.trim().get_ron().to_owned());
+    let value = value.ok().filter(|value| !value.is_empty());
+    value.ok_or_else(|| format!("expected one value, found {}", show(text)))
 }
 
 /// The steps of a path: names with points between them, and numbers from 0 in brackets.
@@ -89,7 +103,9 @@ fn parts(path: &str) -> Result<Vec<Part<'_>>, String> {
             Some(inside) => inside.split_once('"').ok_or_else(wrong)?,
             None => rest.split_at(rest.find(['.', '[']).unwrap_or(rest.len())),
         };
-        if name.is_empty() {
+        // Brackets, colons and the like would be more than a name.
+        let is_name = |letter: char| letter.is_alphanumeric() || "_- ".contains(letter);
+        if name.is_empty() || !(rest.starts_with('"') || name.chars().all(is_name)) {
             return Err(wrong());
         }
         parts.push(Part::Name(name));
@@ -251,6 +267,37 @@ mod tests {
             set("(a: 1 // one\n)", "b", "2").unwrap(),
             "(a: 1 // one\n, b: 2)"
         );
+    }
+
+    /// Whatever follows a value, or is missing of it, would become a part of the file around it.
+    #[test]
+    fn a_value_is_one() {
+        for value in [
+            "radius=1",
+            "1),(center: (0, 0, 9), radius: 2",
+            "1, roll: 20",
+            "(1",
+            "1)",
+            "\"a",
+            "1 /*",
+            "",
+            "// 1",
+            "#![enable(implicit_some)] 1",
+        ] {
+            let expected = format!("expected one value, found {}", show(value));
+            assert_eq!(set(TEXT, "camera.radius", value).unwrap_err(), expected);
+        }
+        for value in [" 3 // three", "/* three */ 3", "3"] {
+            let found = set(TEXT, "camera.radius", value).unwrap();
+            assert_eq!(found, TEXT.replacen("radius: 9", "radius: 3", 1));
+        }
+        for path in [
+            "camera.roll: 20, azimuth",
+            "materials.a\": (), \"b",
+            "camera.\"roll: 2, x\"",
+        ] {
+            assert!(set(TEXT, path, "1").is_err(), "{path}");
+        }
     }
 
     #[test]

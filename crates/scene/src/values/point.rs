@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::quantity::{Coordinate, Frame};
+use super::quantity::{Coordinate, Frame, MOST_FRAMES};
 use crate::text::{Read, Slice, read_tuple};
 
 /// A point or a vector of the world, the origin by default.
@@ -39,6 +39,11 @@ impl<'t> Read<'t> for FrameRange {
         let [Frame(first), Frame(last)] = read_tuple(slice, "two frames `(first, last)`")?;
         if first > last {
             return slice.refuse("a first frame that is not after the last");
+        }
+        if first.abs_diff(last) >= MOST_FRAMES.unsigned_abs() {
+            return slice.refuse(&format!(
+                "at most {MOST_FRAMES} frames from the first to the last"
+            ));
         }
         Some(Self { first, last })
     }

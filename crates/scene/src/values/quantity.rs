@@ -2,6 +2,9 @@
 
 use crate::text::{Read, Slice, read_simple};
 
+/// The most frames of an animation: at 24 a second more than eleven hours.
+pub(crate) const MOST_FRAMES: i32 = 1_000_000;
+
 /// Declares a kind of number: its type, what is expected, which are allowed, the default.
 macro_rules! quantities {
     ($($(#[$doc:meta])* $name:ident($type:ty): $expected:literal, $allowed:expr $(, default $default:literal)?;)*) => {$(
@@ -41,7 +44,7 @@ quantities! {
     /// The distance of the retina.
     RetinaDistance(f64): "a distance greater than 0", |x| x > 0.0;
     /// The distance at which a point light has its intensity.
-    Reference(f64): "a distance greater than 0", |x| x > 0.0, default 1.0;
+    Reference(f64): "a distance greater than 0", |x| x > 0.0;
     /// The focal length of a matrix.
     FocalLength(f64): "a focal length in pixels, greater than 0", |x| x > 0.0;
     /// The horizontal field of view.
@@ -87,7 +90,7 @@ quantities! {
     /// The number of a frame.
     Frame(i32): "a whole number (a frame)", |_| true;
     /// A number of frames.
-    FrameCount(i32): "a whole number of frames, at least 1", |n| n >= 1, default 120;
+    FrameCount(i32): "a whole number of frames from 1 to 1000000", |n| (1..=MOST_FRAMES).contains(&n), default 120;
     /// One of so many steps.
     Every(u32): "a whole number, at least 1", |n| n >= 1, default 1;
     /// The seed of a rough surface.

@@ -39,8 +39,9 @@ Files of the layout `luces`, for point lights that fall off with the square of t
 
 Exit codes:
   0  everything is written, and every pixel met the tolerance
-  1  something failed, or some pixel did not meet the tolerance
+  1  something failed
   2  the command line or the scene file is wrong
+  3  everything is written, and some pixel did not meet the tolerance
   130  interrupted";
 
 /// A kind of data set.
@@ -74,7 +75,8 @@ pub(crate) struct DatasetArguments {
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) frame: Option<i32>,
 
-    /// Bring every channel of every pixel within E of its exact value, before it is scaled and rounded
+    /// Bring every channel of every pixel within E of its exact value, before it is rounded; E is a share of the
+    /// largest code, and so are the errors that results tell
     #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 

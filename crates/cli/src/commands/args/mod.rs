@@ -16,6 +16,7 @@ mod values;
 
 use std::ffi::OsString;
 
+use clap::error::ContextValue;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::base::layout::lay_out;
@@ -28,7 +29,7 @@ pub(crate) use self::manual::{CompletionsArguments, ManArguments};
 pub(crate) use self::merge::MergeArguments;
 pub(crate) use self::new::NewArguments;
 pub(crate) use self::preview::PreviewArguments;
-pub(crate) use self::render::{PerLight, RenderArguments};
+pub(crate) use self::render::{DEFAULT_TOLERANCE, PerLight, RenderArguments};
 pub(crate) use self::report::ReportArguments;
 pub(crate) use self::scene::SceneOptions;
 pub(crate) use self::spheres::SpheresArguments;
@@ -64,9 +65,30 @@ impl Arguments {
         columns: usize,
     ) -> Result<Self, clap::Error> {
         let mut command = fitted(Self::command(), columns).term_width(columns);
-        let mut matches = command.try_get_matches_from_mut(words)?;
+        let matches = command.try_get_matches_from_mut(words);
+        let mut matches = matches.map_err(harmless)?;
         Self::from_arg_matches_mut(&mut matches).map_err(|error| error.format(&mut command))
     }
+}
+
+/// The same error, in which no word of the command line does something to a terminal.
+fn harmless(mut error: clap::Error) -> clap::Error {
+    let context = error.context().map(|(kind, value)| (kind, value.clone()));
+    for (kind, value) in context.collect::<Vec<_>>() {
+        let value = match value {
+            ContextValue::String(text) => ContextValue::String(escaped(&text)),
+            ContextValue::Strings(texts) => {
+                ContextValue::Strings(texts.iter().map(|text| escaped(text)).collect())
+            }
+            _ => continue,
+        };
+        error.insert(kind, value);
+    }
+    error
+}
+
+fn escaped(text: &str) -> String {
+    marbles_scene::harmless(text)
 }
 
 /// The command, and its commands, with the end of their help laid out for so many columns.

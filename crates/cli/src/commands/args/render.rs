@@ -28,14 +28,18 @@ Examples:
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
   marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr: each light alone
-  marbles render ball.ron -o a.exr --per-light=layers  the same in layers 1, …, ambient of a.exr
+  marbles render ball.ron -o a.exr --per-light=layers  the same in layers light-1, …, ambient of a.exr
   marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
 
 Exit codes:
   0  everything is written, and every pixel met the tolerance
-  1  something failed, or some pixel did not meet the tolerance
+  1  something failed
   2  the command line or the scene file is wrong
+  3  everything is written, and some pixel did not meet the tolerance
   130  interrupted";
+
+/// The tolerance where none is given.
+pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 /// The place of the pictures under one light each.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
@@ -107,9 +111,10 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) alpha: bool,
 
-    /// Render each light alone, with its shadows, into NAME.light-KEY.png and so on, KEY its number from 1, and
-    /// ambient light and background into NAME.ambient.png: the sum is the picture. With --per-light=layers into
-    /// layers KEY (KEY.R, KEY.G, KEY.B) and `ambient` of one EXR, beside the picture under all lights
+    /// Render each light alone, with its shadows, into NAME.light-KEY.png and so on, KEY its name, or its number from
+    /// 1 (from 01 where there are ten or more), and ambient light and background into NAME.ambient.png: the sum is the
+    /// picture. With --per-light=layers into layers light-1 (light-1.R, light-1.G, light-1.B) and so on, or the lights'
+    /// names, and `ambient` of one EXR, beside the picture under all lights
     #[arg(
         long,
         value_name = "PLACE",
@@ -137,7 +142,7 @@ pub(crate) struct RenderArguments {
     #[arg(long)]
     pub(crate) rgb: bool,
 
-    /// Write an EXR in single precision instead of half
+    /// Write an EXR in single precision instead of half, as --channels does as well
     #[arg(long)]
     pub(crate) float: bool,
 

@@ -35,8 +35,9 @@ Columns of the table:
 
 Exit codes:
   0  everything is measured and written, and every pixel met its tolerance
-  1  something failed, or some pixel did not meet its tolerance
+  1  something failed
   2  the command line or the scene file is wrong
+  3  everything is measured and written, and some pixel did not meet its tolerance
   130  interrupted";
 
 /// Measure speed against error: tolerances and supersampling, held against a reference

@@ -133,3 +133,62 @@ fn help_fits_the_terminal() {
         }
     }
 }
+
+#[test]
+fn the_default_tolerance_is_the_one_that_help_tells() {
+    let words = ["marbles", "render", "a.ron"].map(OsString::from);
+    let Command::Render(arguments) = Arguments::of(words, 80).unwrap().command else {
+        panic!("another command");
+    };
+    assert_eq!(arguments.tolerance, DEFAULT_TOLERANCE);
+}
+
+/// A word of the command line is repeated in a message, where it does nothing to a terminal.
+#[test]
+fn words_do_nothing_to_a_terminal() {
+    for word in [
+        "a\u{1b}[31mb",
+        "a\u{9b}31mb",
+        "a\nb",
+        "a\u{202e}b",
+        "a\u{7f}b",
+    ] {
+        for words in [
+            vec![format!("fly{word}")],
+            vec!["render".to_owned(), format!("--fly{word}")],
+            vec![
+                "render".to_owned(),
+                "a.ron".to_owned(),
+                format!("--tolerance={word}"),
+            ],
+            vec![
+                "render".to_owned(),
+                "a.ron".to_owned(),
+                format!("--size={word}"),
+            ],
+            vec![
+                "render".to_owned(),
+                "a.ron".to_owned(),
+                format!("--frames={word}"),
+            ],
+            vec![
+                "render".to_owned(),
+                "a.ron".to_owned(),
+                format!("--progress={word}"),
+            ],
+            vec![
+                "render".to_owned(),
+                "a.ron".to_owned(),
+                format!("--channels=id,{word}"),
+            ],
+            vec!["check".to_owned(), "a.ron".to_owned(), word.to_owned()],
+        ] {
+            let words = ["marbles".to_owned()].into_iter().chain(words);
+            let error = Arguments::of(words.map(OsString::from), 1000).unwrap_err();
+            // Its own styles are those of clap.
+            let text = error.render().ansi().to_string();
+            assert!(!text.contains(word), "{text:?}");
+            assert!(text.contains(&marbles_scene::harmless(word)), "{text:?}");
+        }
+    }
+}

@@ -80,7 +80,7 @@ impl DifferencePicture {
         }
         let middle = middle(tolerance);
         let mut differences = Vec::new();
-        write_grey(size, &self.path, |codes| {
+        write_grey(size, &self.path, &[], |codes| {
             differences.clear();
             let columns = row(&mut differences)?;
             codes.resize(columns.start as usize, 0);

@@ -12,7 +12,7 @@ use crate::base::size::Size;
 use crate::files::save::{Fault, save, write_bytes};
 use crate::formats::mat;
 use crate::formats::npy::npz;
-use crate::formats::png::write::{rgb_bytes, write_grey, write_rgb_16};
+use crate::formats::png::write::{Text, rgb_bytes, write_grey, write_rgb_16};
 
 /// The normals and depths of a picture.
 pub(super) struct Centers {
@@ -69,10 +69,10 @@ impl Centers {
         (count > 0).then(|| self.depths.iter().map(mean).sum())
     }
 
-    /// Writes 255 where a sphere is seen.
-    pub(super) fn write_mask(&self, path: &Path) -> Result<(), Failure> {
+    /// Writes 255 where a sphere is seen, with a text by which the file is known.
+    pub(super) fn write_mask(&self, path: &Path, text: Text) -> Result<(), Failure> {
         let mut rows = self.mask.chunks(self.size.width as usize);
-        write_grey(self.size, path, |codes| {
+        write_grey(self.size, path, &[text], |codes| {
             let row = rows.next().unwrap_or_default().iter();
             codes.extend(row.map(|&seen| if seen { 255 } else { 0 }));
             Ok(())

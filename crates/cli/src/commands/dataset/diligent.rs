@@ -21,18 +21,17 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<DirectionalLi
     distant.collect()
 }
 
-/// The files beside the pictures.
-pub(super) const NAMES: [&str; 6] = [
+/// The files beside the pictures and the mask.
+pub(super) const NAMES: [&str; 5] = [
     "light_directions.txt",
     "light_intensities.txt",
-    "mask.png",
     "Normal_gt.png",
     "normal.txt",
     "Normal_gt.mat",
 ];
 
-/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the mask and
-/// the normals.
+/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, and the
+/// normals.
 pub(super) fn write(
     folder: &Path,
     view: &View,
@@ -45,11 +44,9 @@ pub(super) fn write(
         line(&[x, -y, -z])
     };
     let intensity = |light: &DirectionalLight| line(&(light.intensity() * gain).to_array());
-    let [directions, intensities, mask, picture, normals, matrix] =
-        NAMES.map(|name| folder.join(name));
+    let [directions, intensities, picture, normals, matrix] = NAMES.map(|name| folder.join(name));
     write_lines(&directions, lights.iter().map(direction))?;
     write_lines(&intensities, lights.iter().map(intensity))?;
-    centers.write_mask(&mask)?;
     centers.write_picture(&picture)?;
     centers.write_text(&normals)?;
     centers.write_mat(&matrix)

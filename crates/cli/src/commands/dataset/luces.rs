@@ -67,20 +67,19 @@ pub(super) fn mean_distance(scene: &Path, centers: &Centers) -> Result<f64, Fail
     })
 }
 
-/// The files beside the pictures.
-pub(super) const NAMES: [&str; 8] = [
+/// The files beside the pictures and the mask.
+pub(super) const NAMES: [&str; 7] = [
     "led_params.txt",
     "K.txt",
     "light_positions.txt",
     "light_directions.txt",
     "light_intensities.txt",
-    "mask.png",
     "normals.png",
     "zgt.npz",
 ];
 
 /// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the camera, the
-/// mask, the normals and the depths.
+/// normals and the depths.
 pub(super) fn write(
     folder: &Path,
     view: &View,
@@ -100,7 +99,6 @@ pub(super) fn write(
         positions_file,
         directions_file,
         intensities_file,
-        mask_file,
         normals_file,
         depths_file,
     ] = NAMES.map(|name| folder.join(name));
@@ -146,7 +144,6 @@ pub(super) fn write(
             .iter()
             .map(|light| line(&brightness(light).to_array())),
     )?;
-    centers.write_mask(&mask_file)?;
     centers.write_deep_picture(&normals_file)?;
     centers.write_depths(&["zgt", "zgt_int"], &depths_file)
 }

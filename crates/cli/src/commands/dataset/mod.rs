@@ -4,10 +4,11 @@ mod centers;
 mod diligent;
 mod lines;
 mod luces;
+mod mark;
 #[cfg(test)]
 mod tests;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use marbles_core::{
     DirectionalLight, Light, LightPart, Method, PointLight, Renderer, Settings, View, World,
@@ -49,14 +50,14 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
             "the scene has no lights",
         ));
     }
-    let view = scene::view(&scene, arguments.frame)?;
+    let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
     let lights = scene.lights(&view);
     let layout = Layout::new(arguments, &view, &lights)?;
     let world = pool.install(|| scene::world(&scene, arguments.frame))?;
     let gain = gain(&world, &lights);
     let request = request(arguments, scene, (&layout, lights.len()), gain)?;
-    layout.refuse_inputs(&arguments.output, &request)?;
+    layout.refuse_files(&arguments.output, &request)?;
     interrupt::listen(console);
 
     layout.write(arguments, &request, (&view, gain), (&world, &pool))?;
@@ -94,6 +95,14 @@ impl Layout {
         })
     }
 
+    /// The name on the command line.
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Diligent(_) => "diligent",
+            Self::Luces(_) => "luces",
+        }
+    }
+
     /// The fewest digits of a picture's number.
     fn digits(&self) -> usize {
         match self {
@@ -102,17 +111,19 @@ impl Layout {
         }
     }
 
-    /// Refuses a folder in which a file would replace the scene or a table.
-    fn refuse_inputs(&self, folder: &Path, request: &Request) -> Result<(), Failure> {
+    /// Refuses a folder in which a file would replace the scene or a table, or a file of somebody else.
+    fn refuse_files(&self, folder: &Path, request: &Request) -> Result<(), Failure> {
         let names: &[&str] = match self {
             Self::Diligent(_) => &diligent::NAMES,
             Self::Luces(_) => &luces::NAMES,
         };
-        let beside = names.iter().chain([&PICTURES]);
+        let beside = names.iter().chain([&mark::MASK, &PICTURES]);
         let frame = request.frames.first();
         let pictures = (0..request.parts.len()).map(|part| request.path(frame, part));
         let files = beside.map(|name| folder.join(name)).chain(pictures);
-        Inputs::of(&request.scene_path, &request.scene).refuse(files)
+        let files: Vec<PathBuf> = files.collect();
+        Inputs::of(&request.scene_path, &request.scene).refuse(files.iter().cloned())?;
+        mark::refuse_files_of_others(folder, self.name(), files)
     }
 
     /// Writes all but the pictures.
@@ -127,18 +138,20 @@ impl Layout {
         let centers = pool.install(|| Centers::of(&renderer(), view));
         let folder = &arguments.output;
         let names = folder.join(PICTURES);
-        let write_names = || {
+        let write_first = || {
             prepare(&names)?;
+            // What comes after it is known as marbles' own by it.
+            centers.write_mask(&folder.join(mark::MASK), mark::of(self.name()))?;
             write_lines(&names, file_names(request.parts.len(), self.digits()))
         };
         match self {
             Self::Diligent(lights) => {
-                write_names()?;
+                write_first()?;
                 diligent::write(folder, view, (lights, gain), &centers)
             }
             Self::Luces(lights) => {
                 let mean_distance = luces::mean_distance(&arguments.scene, &centers)?;
-                write_names()?;
+                write_first()?;
                 luces::write(folder, view, (lights, gain), (&centers, mean_distance))
             }
         }
@@ -175,9 +188,11 @@ fn request(
         window: None,
         frames_per_second: None,
         settings: Settings {
-            method: Method::Tolerance(arguments.tolerance),
+            // Light is multiplied by a power of two, and so is the error that is accepted.
+            method: Method::Tolerance(arguments.tolerance / gain),
             alpha: false,
         },
+        error_scale: gain,
         scene,
         scene_path: arguments.scene.clone(),
         centers: None,
@@ -207,7 +222,9 @@ fn gain(world: &World, lights: &[Light]) -> f64 {
         }
     }
     if brightest > 0.0 && brightest.is_finite() {
-        libm::exp2(-brightest.log2().ceil())
+        // Beyond that, powers of two and tolerances times them are no numbers any more.
+        const MOST: f64 = 1000.0;
+        libm::exp2((-brightest.log2().ceil()).clamp(-MOST, MOST))
     } else {
         1.0
     }

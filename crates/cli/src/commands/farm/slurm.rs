@@ -27,6 +27,9 @@ trap 'again=1; end' USR1
 "#;
 
 /// The part of a task that waits for the renderer: `wait` returns whenever a signal comes.
+///
+/// A task whose pixels did not all meet the tolerance ends with 3, as the renderer does: rendering it again would change
+/// nothing.
 const WAIT: &str = r#"renderer=$!
 [ -z "$ended" ] || kill -TERM "$renderer"
 signaled=1
@@ -40,6 +43,9 @@ done
 if [ -n "$again" ] && { [ "$code" -eq 130 ] || [ "$code" -eq 143 ]; } &&
     [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
+fi
+if [ "$code" -eq 3 ]; then
+    echo "all is written, and some pixels are over the tolerance: $0 ends with 3" >&2
 fi
 exit "$code"
 "#;

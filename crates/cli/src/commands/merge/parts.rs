@@ -39,9 +39,9 @@ impl Parts {
             if !path.exists() {
                 return Err(Failure::unusable(path, "no such file"));
             }
-            let (digest, region) = contents(path).ok_or_else(|| {
+            let (digest, region) = contents(path).map_err(|why| {
                 let expected = "expected a complete picture that `marbles render` has written";
-                Failure::unusable(path, expected)
+                Failure::unusable(path, &format!("{expected}: {why}"))
             })?;
             let other = *found.get_or_insert((digest, region.whole));
             if other != (digest, region.whole) {

@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8,
     }
     let scene =
         threads.install(|| scene::load(&arguments.scene, &arguments.options, console, false))?;
-    let view = scene::view(&scene, arguments.frame)?;
+    let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
     let view = screen.area(PROMPT_LINES).fit(view);
     interrupt::listen(console);
     let progress = Progress::new(console, None, false, 1);

@@ -77,7 +77,7 @@ fn look(
         Err(_) => {}
     }
     let scene = scene?;
-    let view = area.fit(scene::view(&scene, arguments.frame)?);
+    let view = area.fit(scene::view(&scene, &arguments.scene, arguments.frame)?);
     let world = scene::world(&scene, arguments.frame)?;
     Ok(render((&scene, &world), &view, arguments.tolerance, None))
 }

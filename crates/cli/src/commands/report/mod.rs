@@ -1,7 +1,7 @@
 //! `marbles report`: speed against error, of tolerances and of supersampling.
 //!
 //! All settings are held against a reference, and supersampling is the yardstick: how much longer
-//! would it take to the same error? The exit code is that of `render`: 1 where some pixel does not
+//! would it take to the same error? The exit code is that of `render`: 3 where some pixel does not
 //! meet its tolerance, by its own word or by measurement.
 
 mod accuracy;
@@ -49,7 +49,7 @@ fn report(arguments: &ReportArguments, threads: usize, console: &Console) -> Res
         console,
         arguments.quiet,
     )?;
-    let view = scene::view(&scene, arguments.frame)?;
+    let view = scene::view(&scene, &arguments.scene, arguments.frame)?;
     let view = arguments.size.map_or(view, |size| size.resize(view));
     // What cannot be written is refused before the long work.
     let outputs = || arguments.csv.iter().chain(&arguments.plot);
@@ -126,7 +126,7 @@ fn check_memory(size: Size, channels: Channels) -> Result<(), Failure> {
 fn conclusion(report: &Report) -> u8 {
     let settings = &report.measurement.settings;
     if settings.iter().any(|setting| setting.accuracy.missed > 0) {
-        status::FAILURE
+        status::OVER_TOLERANCE
     } else {
         status::SUCCESS
     }

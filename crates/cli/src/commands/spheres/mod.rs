@@ -8,7 +8,7 @@ use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use marbles_core::{Renderer, View};
+use marbles_core::Renderer;
 use marbles_scene::Scene;
 use rayon::ThreadPool;
 
@@ -18,6 +18,7 @@ use super::inputs::Inputs;
 use super::scene;
 use crate::base::failure::Failure;
 use crate::base::shown::Shown;
+use crate::base::size::Size;
 use crate::base::{status, threads};
 use crate::files::destination::prepare;
 use crate::files::save::{Fault, Unwritten, save};
@@ -40,19 +41,23 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
     Inputs::of(&arguments.scene, &scene).refuse([path.clone()])?;
     let frames = arguments.frames.clone();
     let frames = frames.unwrap_or_else(|| FrameList::from(frames_of(&scene)));
-    let views = views(&scene, &frames, arguments)?;
+    let frames: Vec<i32> = frames.iter().collect();
+    for &frame in &frames {
+        scene::view_of((&scene, &arguments.scene), frame, "--frames")?;
+    }
     interrupt::listen(console);
     prepare(&path)?;
 
     let table = Table {
         scene: &scene,
+        size: arguments.size,
         tolerance: arguments.tolerance,
         pool: &pool,
     };
     let mut spheres = 0;
     let written = save(&path, |mut file| {
         let mut to = BufWriter::new(file.file());
-        spheres = table.write(&views, &mut to)?;
+        spheres = table.write(&frames, &mut to)?;
         to.flush()?;
         drop(to);
         Ok(file)
@@ -66,7 +71,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
         Ok(()) => {}
     }
     if !arguments.quiet {
-        let frames = views.len();
+        let frames = frames.len();
         let path = path.shown();
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         console.result(&format!(
@@ -76,19 +81,6 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
         ));
     }
     Ok(status::SUCCESS)
-}
-
-/// The frames and their views, which have to be the scene's where they are asked for.
-fn views(
-    scene: &Scene,
-    frames: &FrameList,
-    arguments: &SpheresArguments,
-) -> Result<Vec<(i32, View)>, Failure> {
-    let view = |frame| {
-        let view = scene::view_of(scene, frame, "--frames")?;
-        Ok((frame, arguments.size.map_or(view, |size| size.resize(view))))
-    };
-    frames.iter().map(view).collect()
 }
 
 /// The table's name: that of the scene, with another ending.
@@ -101,37 +93,40 @@ fn named_after(scene: &Path) -> PathBuf {
 /// What the table is made of.
 struct Table<'a> {
     scene: &'a Scene,
+    /// A size in place of the scene's.
+    size: Option<Size>,
     tolerance: f64,
     pool: &'a ThreadPool,
 }
 
 impl Table<'_> {
     /// Writes the rows of all frames; returns the number of spheres in the first of them.
-    fn write(&self, views: &[(i32, View)], to: &mut impl Write) -> Result<usize, Fault> {
+    fn write(&self, frames: &[i32], to: &mut impl Write) -> Result<usize, Fault> {
         to.write_all(HEADER.as_bytes())?;
         let go_on = |_| match interrupt::requested() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
         let mut count = None;
-        let same_step = |one: &(i32, View), other: &(i32, View)| {
-            self.scene.steps_at(one.0) == self.scene.steps_at(other.0)
-        };
-        for views in views.chunk_by(same_step) {
-            let world = self
-                .pool
-                .install(|| scene::world_of(self.scene, views[0].0));
+        let same_step =
+            |one: &i32, other: &i32| self.scene.steps_at(*one) == self.scene.steps_at(*other);
+        for frames in frames.chunk_by(same_step) {
+            let world = self.pool.install(|| scene::world_of(self.scene, frames[0]));
             let world = world.map_err(Fault::Failed)?;
             let renderer = self.pool.install(|| Renderer::new(&world));
             count.get_or_insert(world.spheres().len());
-            for (_, view) in views {
+            for &frame in frames {
+                // All of them were looked at before.
+                let view = self.scene.view(frame);
+                let view = view.map_err(|error| Fault::Encoding(error.to_string()))?;
+                let view = self.size.map_or(view, |size| size.resize(view));
                 let measured = self
                     .pool
-                    .install(|| renderer.visible_areas(view, self.tolerance, &go_on));
+                    .install(|| renderer.visible_areas(&view, self.tolerance, &go_on));
                 let areas = measured.map_err(|_| Fault::Stopped)?;
                 let spheres = world.spheres().iter();
                 for (id, (sphere, visible)) in spheres.zip(&areas).enumerate() {
-                    write_row(to, view, (id, sphere), visible)?;
+                    write_row(to, &view, (id, sphere), visible)?;
                 }
             }
         }

@@ -1,36 +1,55 @@
-//! The digest and the region that an EXR tells, read without its pixels.
+//! The digest and the region that an EXR tells, if its blocks are not damaged.
 
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 
 use blake3::Hash;
-use exr::meta::MetaData;
 use exr::meta::header::Header;
+use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::AttributeValue;
 use marbles_core::Window;
 
+use super::block_reader::{BlockReader, meta_of};
 use super::guard::guarded;
 use super::header::DIGEST_ATTRIBUTE;
+use crate::base::failure::reason;
 use crate::base::region::Region;
 use crate::base::size::Size;
+use crate::formats::source::Input;
 
-/// The digest and the region of the picture in a file of one part; `None` where it does not tell
-/// them, or does not end with its last block.
-pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
+/// The digest and the region of the picture in a file of one part.
+///
+/// All blocks are read: each has to be where the table says, and the checksum of its samples right if it is
+/// compressed. Refuses files that tell no digest, whose blocks are damaged, or which do not end with their last block.
+pub(crate) fn contents(mut file: Box<dyn Input>) -> Result<(Hash, Region), String> {
+    let (told, blocks) = told(&mut file).ok_or("it tells no digest, or ends early")?;
+    file.rewind().map_err(|error| reason(&error))?;
+    let meta = meta_of(&mut file)?;
+    let mut reader = BlockReader::of_part(file, meta, 0)?;
+    for row in 0..blocks {
+        reader.read(0, row)?;
+    }
+    Ok(told)
+}
+
+/// The digest and the region of a picture, and the number of its blocks; `None` where the file does not tell them,
+/// or does not end with its last block.
+fn told(file: &mut Box<dyn Input>) -> Option<((Hash, Region), usize)> {
     let end = file.seek(SeekFrom::End(0)).ok()?;
     file.rewind().ok()?;
-    let mut file = BufReader::new(file);
     // Pedantic: a number of blocks that does not fit the size tells of a file that was altered.
-    let meta = guarded(|| MetaData::read_from_buffered(&mut file, true)).ok()?;
+    let meta = guarded(|| MetaData::read_from_buffered(&mut *file, true)).ok()?;
     let [header] = &meta.headers[..] else {
         return None;
     };
+    // Those of tiles are written by others.
+    (header.blocks == BlockDescription::ScanLines).then_some(())?;
     let digest = header.own_attributes.other.get(DIGEST_ATTRIBUTE.as_bytes());
     let AttributeValue::Text(digest) = digest? else {
         return None;
     };
     let digest = Hash::from_hex(digest.as_slice()).ok()?;
-    (end_of_last_block(&mut file, header.chunk_count)? == end).then_some(())?;
-    Some((digest, region(header)?))
+    (end_of_last_block(file, header.chunk_count)? == end).then_some(())?;
+    Some(((digest, region(header)?), header.chunk_count))
 }
 
 /// The end of the last block, from its place in the table that comes next in the file.

@@ -18,7 +18,12 @@ pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> 
         stamp,
         start,
     } = header::read(file).ok()?;
-    let Stamp { digest, region } = stamp?;
+    let Stamp { digest, region } = stamp.as_ref()?;
     let is_whole = start.checked_add(array.bytes()?)? == end && array.size == region.size();
-    is_whole.then_some((digest, region))
+    // Nothing else was written there.
+    let expected = header::bytes(&array, stamp.as_ref());
+    let mut found = vec![0; expected.len()];
+    file.rewind().ok()?;
+    file.read_exact(&mut found).ok()?;
+    (is_whole && found == expected).then_some((*digest, *region))
 }

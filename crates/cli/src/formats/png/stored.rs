@@ -1,29 +1,44 @@
-//! The digest and the region that a PNG tells, read without its pixels.
+//! The texts that a PNG tells: the digest and the region, if nothing in the file is damaged, and others.
 
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::fs::File;
+use std::io::{BufRead, BufReader, Seek, SeekFrom};
+use std::path::Path;
 
 use blake3::Hash;
+use png::{DecodingError, Info};
 
-use super::decoder::decoder;
+use super::decoder::{decoder, strict_decoder};
 use super::shape::size_of;
 use super::write::{DIGEST_KEYWORD, REGION_KEYWORD};
+use crate::base::failure::lower;
 use crate::base::region::Region;
 
-/// The last chunk of every PNG: no bytes, the name `IEND`, and the checksum of that.
-const LAST_CHUNK: [u8; 12] = *b"\0\0\0\0IEND\xae\x42\x60\x82";
-
-/// The digest and the region of the picture in a file; `None` where it does not tell them, or has been
-/// cut off or continued.
-pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
-    let mut end = [0; LAST_CHUNK.len()];
-    file.seek(SeekFrom::End(-(end.len() as i64))).ok()?;
-    file.read_exact(&mut end).ok()?;
-    if end != LAST_CHUNK {
-        return None;
+/// The digest and the region of the picture in a file.
+///
+/// The whole file is read: the checksum of every chunk and that of the pixels have to be right. Refuses files
+/// that tell no digest, or have been damaged, cut off or continued.
+pub(crate) fn contents(file: &mut (impl BufRead + Seek)) -> Result<(Hash, Region), String> {
+    let place = |place: std::io::Result<u64>| place.map_err(|error| error.to_string());
+    let end = place(file.seek(SeekFrom::End(0)))?;
+    place(file.seek(SeekFrom::Start(0)))?;
+    let told = read(&mut *file).map_err(|error| lower(&error.to_string()))?;
+    match place(file.stream_position())? == end {
+        true => told.ok_or_else(|| "it tells no digest".to_owned()),
+        false => Err("it goes on after its last chunk".to_owned()),
     }
-    file.rewind().ok()?;
-    let reader = decoder(BufReader::new(file)).read_info().ok()?;
-    let info = reader.info();
+}
+
+/// Reads a file up to its last chunk.
+fn read(file: impl BufRead + Seek) -> Result<Option<(Hash, Region)>, DecodingError> {
+    let mut reader = strict_decoder(file).read_info()?;
+    let told = told(reader.info());
+    while reader.next_row()?.is_some() {}
+    reader.finish()?;
+    Ok(told)
+}
+
+/// The digest and the region in the texts of a file.
+fn told(info: &Info<'_>) -> Option<(Hash, Region)> {
     let mut digest = None;
     let mut region = Region::all(size_of(info));
     for chunk in &info.uncompressed_latin1_text {
@@ -34,4 +49,13 @@ pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> 
         }
     }
     Some((digest?, region))
+}
+
+/// The text under a keyword in the file at `path`, if it is a PNG that has one.
+pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
+    let file = BufReader::new(File::open(path).ok()?);
+    let reader = decoder(file).read_info().ok()?;
+    let mut texts = reader.info().uncompressed_latin1_text.iter();
+    let found = texts.find(|text| text.keyword == keyword);
+    found.map(|found| found.text.clone())
 }

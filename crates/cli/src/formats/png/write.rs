@@ -41,10 +41,11 @@ pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
     texts
 }
 
-/// Writes a grey PNG of 8 bit codes, whole or not at all; `row` adds those of the next row.
+/// Writes a grey PNG of 8 bit codes with some texts, whole or not at all; `row` adds those of the next row.
 pub(crate) fn write_grey(
     size: Size,
     path: &Path,
+    texts: &[Text],
     mut row: impl FnMut(&mut Vec<u8>) -> Result<(), Fault>,
 ) -> Result<(), Failure> {
     let shape = Shape::of_codes(size, ColorType::Grayscale, BitDepth::Eight);
@@ -57,7 +58,7 @@ pub(crate) fn write_grey(
         }
         Ok(())
     };
-    Ok(save(path, |file| write(file, shape, &[], codes))?)
+    Ok(save(path, |file| write(file, shape, texts, codes))?)
 }
 
 /// Writes a PNG of 16 bit codes of red, green and blue, row by row, whole or not at all; `codes` gives those of a row.

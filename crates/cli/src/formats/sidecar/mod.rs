@@ -74,6 +74,10 @@ struct Camera {
     translation: [f64; 3],
     /// The viewpoint in the right-handed world.
     position: [f64; 3],
+    /// The angles of a `Free` camera that sees the same, in degrees.
+    pan: f64,
+    tilt: f64,
+    roll: f64,
     axes: &'static str,
     world: &'static str,
 }
@@ -138,6 +142,19 @@ struct Rendered {
 enum Setting {
     Tolerance(f64),
     Samples(u32),
+}
+
+/// Pan, tilt and roll of a camera in degrees, without what rounding leaves of 0.
+pub(crate) fn turns(camera: &marbles_core::Camera) -> [f64; 3] {
+    const ROUNDING: f64 = 1e-12;
+    camera.pan_tilt_roll().map(|angle| {
+        let degrees = angle.degrees();
+        if degrees.abs() < ROUNDING {
+            0.0
+        } else {
+            degrees
+        }
+    })
 }
 
 /// The name of the sidecar of the picture at `path`.
@@ -233,7 +250,11 @@ impl<'a> Sidecar<'a> {
 
 impl Camera {
     fn of(view: &View, place: &Extrinsics) -> Self {
+        let [pan, tilt, roll] = turns(&view.camera);
         Self {
+            pan,
+            tilt,
+            roll,
             projection: Projection::of(view),
             pixel_size: view.pixel_size(),
             zoom: view.zoom,

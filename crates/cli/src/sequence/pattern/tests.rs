@@ -84,3 +84,37 @@ fn names_come_from_the_scene() {
     let sequence = Pattern::named_after(scene, true);
     assert_eq!(sequence.path(-3), Path::new("two#balls.-003.png"));
 }
+
+#[test]
+fn names_of_scenes_are_taken_as_they_are() {
+    let name = |pattern: &str, scene: &str| {
+        let pattern = Pattern::of_scene(Path::new(pattern), OsStr::new(scene)).unwrap();
+        pattern.path(7).into_os_string().into_string().unwrap()
+    };
+    for scene in ["a", "a####", "a%04d", "{frame}", "{scene}", "a.png"] {
+        assert_eq!(name("{scene}.png", scene), format!("{scene}.png"));
+        assert_eq!(
+            name("o/{scene}/b_{scene}.##.exr", scene),
+            format!("o/{scene}/b_{scene}.07.exr")
+        );
+        assert_eq!(name("#_{scene}_b.npy", scene), format!("7_{scene}_b.npy"));
+    }
+    assert_eq!(name("a.#.png", "b"), "a.7.png");
+}
+
+/// Names that are not UTF-8 stay apart.
+#[test]
+#[cfg(unix)]
+fn names_of_scenes_are_bytes() {
+    use std::os::unix::ffi::OsStrExt;
+
+    let [one, other] = [&b"a\xfe"[..], b"a\xff"].map(|scene| {
+        let pattern = Pattern::of_scene(Path::new("{scene}.#.png"), OsStr::from_bytes(scene));
+        pattern.unwrap().path(1)
+    });
+    assert_eq!(one.as_os_str().as_bytes(), b"a\xfe.1.png");
+    assert_eq!(other.as_os_str().as_bytes(), b"a\xff.1.png");
+    assert!(!has_place_for_scene(Path::new(OsStr::from_bytes(
+        b"\xff{scene}/a.png"
+    ))));
+}

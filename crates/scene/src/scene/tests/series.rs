@@ -172,11 +172,15 @@ fn nothing_jumps_from_step_to_step() {
         .load(cloud, "Frame(frame_over: Step)", short)
         .unwrap();
     assert_eq!(position(&short, 3), position(&step, 3));
-    let slow = "(file: \"run.####.csv\", speed: 1e-9)";
+    let slow = "(file: \"run.####.csv\", speed: 1e-5)";
     let message = folder
         .load(slow, "Frame(frame_over: Step)", "")
         .unwrap_err();
-    let expected = "expected at most 100000 frames for `frame_over: Step`, found 2147483647";
+    let expected = "expected at most 100000 frames for `frame_over: Step`, found 300000";
+    assert!(message.contains(expected), "{message}");
+    let slower = slow.replace("1e-5", "1e-9");
+    let message = folder.load(&slower, "Free()", "").unwrap_err();
+    let expected = "expected steps for at most 1000000 frames, found ones for 2147483647";
     assert!(message.contains(expected), "{message}");
     // The middle of all steps.
     let centered = folder.scene("(file: \"run.####.csv\", center: true)");

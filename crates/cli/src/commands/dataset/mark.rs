@@ -1,0 +1,46 @@
+//! The mark by which a folder's data set is known as one that marbles wrote.
+//!
+//! Most files of a data set have no room for one. The mask has, and is written before all others: where it is not
+//! marked, all that is there belongs to somebody else.
+
+use std::path::{Path, PathBuf};
+
+use crate::base::failure::Failure;
+use crate::formats::png::stored::text;
+use crate::formats::png::write::Text;
+
+/// The file that is marked.
+pub(super) const MASK: &str = "mask.png";
+
+/// The keyword of the mark, whose text is the name of the layout.
+const KEYWORD: &str = "Data set of marbles";
+
+/// The mark of a layout.
+pub(super) fn of(layout: &str) -> Text {
+    (KEYWORD, layout.to_owned())
+}
+
+/// Refuses to replace any of `files`, unless marbles wrote a data set of this layout into the folder.
+pub(super) fn refuse_files_of_others(
+    folder: &Path,
+    layout: &str,
+    files: impl IntoIterator<Item = PathBuf>,
+) -> Result<(), Failure> {
+    let found = text(&folder.join(MASK), KEYWORD);
+    if found.as_deref() == Some(layout) {
+        return Ok(());
+    }
+    let mut files = files.into_iter();
+    let Some(file) = files.find(|file| file.symlink_metadata().is_ok()) else {
+        return Ok(());
+    };
+    let owner = match found {
+        Some(other) => format!("of a data set of the layout {other}"),
+        None => "of somebody else".to_owned(),
+    };
+    let why = format!(
+        "the data set would replace this file {owner}: expected a folder without one, or with a data set of the \
+         layout {layout} that `marbles dataset` has written"
+    );
+    Err(Failure::unusable(&file, &why))
+}
