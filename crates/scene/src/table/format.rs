@@ -28,7 +28,7 @@ pub(crate) enum Format {
 }
 
 /// The endings of names by which formats are told.
-pub(crate) const ENDINGS: [(&str, Format); 19] = [
+pub(crate) const ENDINGS: [(&str, Format); 20] = [
     ("csv", Format::Csv),
     ("tsv", Format::Csv),
     ("txt", Format::Text),
