@@ -340,14 +340,15 @@ fn names_of_pdb_tell_elements_by_their_residues() {
         (vec![line("ATOM", " CA", "ALA", "X")], 1.7),
         (vec![line("ATOM", " D1", "DOD", "D")], 1.1),
     ] {
-        let text = lines.concat();
+        let text = lines.concat() + "END\n";
         let scene = scene("a.pdb", &text, "");
         assert_eq!(radii(&scene)[0], expected, "{text}");
         assert_eq!(warnings(&scene), "", "{text}");
     }
     // AutoDock's types have a charge before them, and another place.
     let docked = |kind: &str| {
-        line("HETATM", " X1", "LIG", "").trim_end().to_owned() + &format!("     0.123 {kind}\n")
+        line("HETATM", " X1", "LIG", "").trim_end().to_owned()
+            + &format!("     0.123 {kind}\nEND\n")
     };
     for (kind, expected) in [
         ("NA", 1.55),
