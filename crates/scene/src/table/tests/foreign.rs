@@ -158,7 +158,7 @@ fn crystals_say_what_their_coordinates_are() {
         assert_eq!(
             refusal(name, crystal, ""),
             format!(
-                "{name}: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
+                "{name}:8:1: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
                  it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
             )
         );
