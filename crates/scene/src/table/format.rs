@@ -5,6 +5,7 @@ use std::path::Path;
 use super::compression::Compression;
 use super::fields::{self, Division};
 use super::foreign::{self, Foreign};
+use super::form::{self, LineKind};
 use super::input::without_return;
 use super::number::parse;
 use super::{npy, npz, pqr, vtk};
@@ -80,7 +81,7 @@ impl Format {
         match (foreign::by_ending(&ending), by_contents) {
             (Some(foreign), None) => Err(Some(foreign)),
             (Some(foreign), Some(Self::Text))
-                if path.extension().is_none() || !has_line_of_numbers(head) =>
+                if path.extension().is_none() || !is_like_a_table(head) =>
             {
                 Err(Some(foreign))
             }
@@ -175,18 +176,30 @@ fn begins_with_numbers(head: &[u8]) -> bool {
     is_of_numbers(line)
 }
 
-/// Says whether one of the first lines has several numbers and nothing else.
-fn has_line_of_numbers(head: &[u8]) -> bool {
-    const LINES: usize = 4;
-    let mut lines = head.split(|&byte| byte == b'\n').take(LINES);
-    lines.any(is_of_numbers)
+/// Says whether a text of which the name says something else is a table: it begins with numbers, or with as many names
+/// as the next line has fields, most of them numbers.
+fn is_like_a_table(head: &[u8]) -> bool {
+    let lines = head.split(|&byte| byte == b'\n').map(without_return);
+    let mut lines = lines.filter(|line| form::of_table(line) == LineKind::Row);
+    let first = lines.next().unwrap_or_default();
+    let counts = |line: &[u8]| {
+        let fields = split(line);
+        let numbers = fields.iter().filter(|field| parse(field, false).is_some());
+        (numbers.count(), fields.len())
+    };
+    let (names, (numbers, fields)) = (counts(first).1, lines.next().map_or((0, 0), counts));
+    is_of_numbers(first) || numbers >= 3 && names == fields
+}
+
+/// The fields of a line between commas, semicolons or spaces.
+fn split(line: &[u8]) -> Vec<&[u8]> {
+    let separator = line.iter().copied().find(|byte| b",;".contains(byte));
+    let division = separator.map_or(Division::Words, Division::Between);
+    fields::all(line, &division)
 }
 
 fn is_of_numbers(line: &[u8]) -> bool {
-    let line = without_return(line);
-    let separator = line.iter().copied().find(|byte| b",;".contains(byte));
-    let division = separator.map_or(Division::Words, Division::Between);
-    let fields = fields::all(line, &division);
+    let fields = split(without_return(line));
     fields.len() >= 3 && fields.iter().all(|field| parse(field, false).is_some())
 }
 

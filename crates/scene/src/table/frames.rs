@@ -66,6 +66,12 @@ impl<'watch> Frames<'watch> {
             return Err(LocatedFault::of_file(message).into());
         }
         let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
+        if let (Format::Npz, Some(outer)) = (format, input.source().compression) {
+            let message = format!(
+                "expected an NPZ archive as it is, found one in a {outer} file: decompress it once"
+            );
+            return Err(LocatedFault::of_file(message).into());
+        }
         Ok(Self {
             path: path.to_owned(),
             format,

@@ -34,7 +34,7 @@ pub(crate) fn header(
         let number = input.number + 1;
         let Some(line) = input.next()? else {
             return Err(match is_crystal {
-                true => LocatedFault::of_file(foreign::crystal()),
+                true => LocatedFault::in_line(number, b"", 0..0, foreign::crystal()),
                 false => LocatedFault::at_end(number, "a loop of `_atom_site.…`"),
             }
             .into());

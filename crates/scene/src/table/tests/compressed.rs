@@ -100,6 +100,14 @@ fn tables_that_are_compressed_twice_are_called_so() {
     }
 }
 
+#[test]
+fn archives_are_not_compressed_once_more() {
+    let message = refusal("a.npz.gz", gzip(&npz(&[])), "");
+    let expected =
+        "a.npz.gz: expected an NPZ archive as it is, found one in a gzip file: decompress it once";
+    assert_eq!(message, expected);
+}
+
 /// Refuses a table of which any bit of these bytes is another one.
 fn check(name: &str, bytes: &[u8], places: impl Iterator<Item = usize>, fields: &str) {
     let is_refused = |bytes: &[u8]| load(name, bytes, fields).is_err();

@@ -62,6 +62,12 @@ fn kinds_are_told_by_contents_or_endings_before_columns_are_looked_for() {
             "MDTraj",
         ),
         (
+            &["a.inpcrd", "a.rst7"],
+            b"ACE\n2\n  1.0  2.0  3.0  4.0  5.0  6.0\n",
+            "coordinates of Amber",
+            "MDTraj",
+        ),
+        (
             &["a.cube", "a"],
             cube.as_bytes(),
             "a cube file of Gaussian",
@@ -152,7 +158,7 @@ fn crystals_say_what_their_coordinates_are() {
         assert_eq!(
             refusal(name, crystal, ""),
             format!(
-                "{name}: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
+                "{name}:8:1: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
                  it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
             )
         );
@@ -164,7 +170,9 @@ fn crystals_say_what_their_coordinates_are() {
 fn tables_with_other_endings_are_tables() {
     for (name, text) in [
         ("a.data", "x y z\n1 2 3\n4 5 6\n"),
+        ("a.out", "# by hand\nelement;x;y;z\nC;1;2;3\nC;4;5;6\n"),
         ("a.top", "1,2,3\n4,5,6\n"),
+        ("a.out", "# by hand\nelement;x;y;z\nC;1;2;3\nC;4;5;6\n"),
         ("a.mol", "2\n\nC 1 2 3\nC 4 5 6\n"),
         ("a", "# solid argon\n1 2 3\n4 5 6\n"),
         (
