@@ -67,6 +67,7 @@ frames      a still
 camera      Free: x 0, y 0, z 0
   pan       0°
   tilt      0°
+  roll      0°
 "
     );
 }

@@ -6,7 +6,7 @@
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
-use marbles_scene::Scene;
+use marbles_scene::{Scene, harmless};
 
 /// The longest list that users may write, each frame as often as it is named: nobody waits for
 /// more pictures, and so many frames are counted in no time.
@@ -141,7 +141,7 @@ impl FromStr for Range {
         if item.is_empty() {
             return Err(format!("{EXPECTED} between the commas, found nothing"));
         }
-        let syntax = || format!("{EXPECTED}, found `{item}`");
+        let syntax = || format!("{EXPECTED}, found `{}`", harmless(item));
         let (first, rest) = leading_number(item).ok_or_else(syntax)?;
         let first = frame_number(first)?;
         let (last, step) = if rest.is_empty() {

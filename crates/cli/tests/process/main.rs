@@ -133,6 +133,21 @@ fn pans_that_go_around_are_told_as_they_go() {
     let output = folder.run("check around.ron");
     let lines = text(&output.stdout);
     assert!(lines.contains("  pan       -30 to 690°\n"), "{lines}");
+    // A camera on its head is none that is turned around.
+    let head = scene.replace("camera: Free()", "camera: Free(tilt: 180, roll: 10)");
+    fs::write(
+        folder.path("head.ron"),
+        head.replace("pan: -30", "pan: 0")
+            .replace("pan: 690", "pan: 0"),
+    )
+    .unwrap();
+    let output = folder.run("check head.ron");
+    let lines = text(&output.stdout);
+    let expected = "  pan       180°\n  tilt      0°\n  roll      -170°\n";
+    assert!(lines.contains(expected), "{lines}");
+    let output = folder.run("check head.ron --json");
+    let lines = text(&output.stdout);
+    assert!(lines.contains("\"roll\": -170"), "{lines}");
 }
 
 #[test]

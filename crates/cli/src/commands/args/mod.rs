@@ -74,11 +74,27 @@ impl Arguments {
 /// The same error, in which no word of the command line does something to a terminal.
 fn harmless(mut error: clap::Error) -> clap::Error {
     let context = error.context().map(|(kind, value)| (kind, value.clone()));
-    for (kind, value) in context.collect::<Vec<_>>() {
+    let context: Vec<_> = context.collect();
+    let is_harmful = |text: &String| escaped(text) != *text;
+    let mut values = context.iter().map(|(_, value)| value);
+    let has_harmful = values.any(|value| match value {
+        ContextValue::String(text) => is_harmful(text),
+        ContextValue::Strings(texts) => texts.iter().any(is_harmful),
+        _ => false,
+    });
+    if !has_harmful {
+        return error;
+    }
+    for (kind, value) in context {
         let value = match value {
             ContextValue::String(text) => ContextValue::String(escaped(&text)),
             ContextValue::Strings(texts) => {
                 ContextValue::Strings(texts.iter().map(|text| escaped(text)).collect())
+            }
+            // Tips, which repeat the word between styles: without these, nothing else moves a cursor.
+            ContextValue::StyledStrs(texts) => {
+                let plain = texts.iter().map(|text| escaped(&text.to_string()).into());
+                ContextValue::StyledStrs(plain.collect())
             }
             _ => continue,
         };

@@ -92,3 +92,44 @@ fn a_point_on_the_axis_is_known_however_far_the_viewpoint_is() {
     let way = elsewhere.on_axis_at(along) - position;
     assert!(way.cross(camera.forward()).length() < 1e-3);
 }
+
+#[test]
+fn pan_tilt_and_roll_make_the_same_camera() {
+    let near = |one: f64, other: f64| {
+        // A turn more is the same.
+        let apart = (one - other).rem_euclid(360.0);
+        apart.min(360.0 - apart) < 1e-12
+    };
+    for pan in [-170.0, -90.0, 0.0, 12.5, 180.0] {
+        for tilt in [-89.0, -30.0, 0.0, 75.0] {
+            for roll in [-180.0, -95.0, 0.0, 10.0, 180.0] {
+                let angles = [pan, tilt, roll].map(Angle::from_degrees);
+                let [pan_angle, tilt_angle, roll_angle] = angles;
+                let camera = Camera::free(DVec3::ONE, pan_angle, tilt_angle, roll_angle);
+                let found = camera.pan_tilt_roll().map(|angle| angle.degrees());
+                let pairs = found.into_iter().zip([pan, tilt, roll]);
+                assert!(
+                    pairs.into_iter().all(|(one, other)| near(one, other)),
+                    "{found:?} {pan} {tilt} {roll}"
+                );
+            }
+        }
+    }
+    // Upside down it looks along the same line as the other way around.
+    let half = Angle::from_degrees(180.0);
+    let down = Camera::free(DVec3::ZERO, Angle::ZERO, half, Angle::ZERO);
+    let [pan, tilt, roll] = down.pan_tilt_roll().map(|angle| angle.degrees().abs());
+    assert!(near(pan, 180.0) && near(tilt, 0.0) && near(roll, 180.0));
+    // Straight up all of the turn is roll.
+    let up = Camera::free(
+        DVec3::ZERO,
+        Angle::from_degrees(20.0),
+        Angle::from_degrees(90.0),
+        Angle::ZERO,
+    );
+    let [pan, tilt, roll] = up.pan_tilt_roll().map(|angle| angle.degrees());
+    assert!(
+        near(tilt, 90.0) && near(pan.abs() + roll.abs(), 20.0),
+        "{pan} {roll}"
+    );
+}
