@@ -1,5 +1,7 @@
 //! Every scene again in other units of length and of light: the same picture, to the last bit.
 
+use std::io::{self, Write as _};
+
 use marbles_core::Method;
 use rayon::prelude::*;
 
@@ -21,7 +23,15 @@ pub(super) fn search(
         let draft = super::draft(family, scenes, options, index);
         let difference = difference(&draft, &options.tolerances)
             .map_err(|error| format!("{} {index}: {error}", family.name))?;
-        Ok(difference.map(|it| format!("{} {index}: {it}, {}\n", family.name, draft.kind)))
+        let line = difference.map(|it| format!("{} {index}: {it} {}\n", family.name, draft.kind));
+        if let Some(line) = &line {
+            // A long search tells what it finds; nothing is left to do when even this fails.
+            let _ = write!(io::stderr(), "{line}");
+            if options.only.is_some() {
+                let _ = write!(io::stderr(), "{}", draft.text());
+            }
+        }
+        Ok(line)
     };
     let all: Result<Vec<_>, String> = super::indices(scenes, options)
         .into_par_iter()
