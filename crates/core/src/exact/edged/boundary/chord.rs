@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::{Linear, Quadratic};
+use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// Where chords of a sphere begin: at x = `start` + `slope` · y.
 #[derive(Clone, Copy, Debug)]
@@ -126,6 +127,9 @@ impl Extent {
     }
 }
 
+/// The weight of no chord of a hyperbola exceeds this: W is the hyperbolic cosine of half of what the chord spans.
+const LARGEST_WEIGHT: f64 = 1e12;
+
 /// The chords of eight lines, from a reference to some x.
 ///
 /// On a line the root w of the discriminant Q makes x and w a conic w² = Q(x): an ellipse, where the
@@ -190,13 +194,18 @@ impl<S: Simd> Chord<S> {
         let rise = half * slope * 2.0;
         let first = (there + bend - rise).max(zero).sqrt();
         let last = (there + bend + rise).max(zero).sqrt();
-        let between = (first * last + there - bend).max(one * f64::MIN_POSITIVE);
+        // What W is at most, whatever rounding leaves of G.
+        let largest = if q.xx < 0.0 { 1.0 } else { LARGEST_WEIGHT };
+        let sum = first + last;
+        let rounded = (there.abs() + bend.abs()) * UNIT_ROUNDOFF + f64::MIN_POSITIVE;
+        let least = (sum * sum * (0.5 / (largest * largest))).max(rounded);
+        let between = (first * last + there - bend).max(least);
         let scale = (between * 2.0).sqrt();
         let inverse = one / scale;
         Self {
             middle,
             half,
-            weight: (first + last) * inverse,
+            weight: sum * inverse,
             lean: (first - last) * inverse,
             scale,
             roots: [first, last],
