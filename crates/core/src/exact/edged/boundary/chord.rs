@@ -127,9 +127,6 @@ impl Extent {
     }
 }
 
-/// The weight of no chord of a hyperbola exceeds this: W is the hyperbolic cosine of half of what the chord spans.
-const LARGEST_WEIGHT: f64 = 1e12;
-
 /// The chords of eight lines, from a reference to some x.
 ///
 /// On a line the root w of the discriminant Q makes x and w a conic w² = Q(x): an ellipse, where the
@@ -142,7 +139,7 @@ const LARGEST_WEIGHT: f64 = 1e12;
 /// So the root is rational, too, and light is smooth to the very outline. With w₁ and w₂ the roots at the
 /// ends and G = w₁ w₂ + P, where P = Q(middle) − Q″ h² / 2 is the polar form of Q between the ends,
 /// W = (w₁ + w₂) / √(2 G) and E = (w₁ − w₂) / √(2 G). On an ellipse W is the cosine of half of the angle
-/// that the chord spans.
+/// that the chord spans. As w₁² + w₂² = 2 Q(middle) + Q″ h², G is ½ (w₁ + w₂)² − Q″ h², too.
 ///
 /// # Source
 /// Farin, Curves and Surfaces for CAGD, 2002, chapter 12.
@@ -194,12 +191,16 @@ impl<S: Simd> Chord<S> {
         let rise = half * slope * 2.0;
         let first = (there + bend - rise).max(zero).sqrt();
         let last = (there + bend + rise).max(zero).sqrt();
-        // What W is at most, whatever rounding leaves of G.
-        let largest = if q.xx < 0.0 { 1.0 } else { LARGEST_WEIGHT };
         let sum = first + last;
-        let rounded = (there.abs() + bend.abs()) * UNIT_ROUNDOFF + f64::MIN_POSITIVE;
-        let least = (sum * sum * (0.5 / (largest * largest))).max(rounded);
-        let between = (first * last + there - bend).max(least);
+        let tiny = one * f64::MIN_POSITIVE;
+        let between = if q.xx < 0.0 {
+            // The same in another form, of an ellipse a sum of what is positive.
+            (sum * sum * 0.5 - bend * 2.0).max(tiny)
+        } else {
+            // Rounding leaves no more of it.
+            let rounded = (there.abs() + bend) * UNIT_ROUNDOFF;
+            (first * last + there - bend).max(rounded).max(tiny)
+        };
         let scale = (between * 2.0).sqrt();
         let inverse = one / scale;
         Self {
