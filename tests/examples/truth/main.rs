@@ -29,6 +29,9 @@ cargo truth hunt [--scenes 160] [--seed 1] [--family NAME] [--tolerances 1e-2,1e
     --rows tells how many scenes each row has;
     --write reduces scenes of such pixels and writes them, --page writes the tables into a page,
     --only takes a single scene of each family, --limits refuses to give up more pixels than a file allows
+cargo truth laws [--scenes 160] [--seed 1] [--family NAME] [--tolerances 1e-2,...] [--rows 10] [--only SCENE]
+    renders the scenes of a hunt with other units of length and of light: values, claims and counts of work
+    are to be the same bits
 cargo truth whole [SCENE ...] [--size own|WIDTHxHEIGHT] [--tolerances 1e-2,1e-3,1e-4,5e-5,1e-5]
     renders the scenes, or all of scenes/, in their own size and in two odd ones, and holds every pixel against the
     same picture with 3 x 3 as many pixels at 1e-7
@@ -60,6 +63,7 @@ fn run(arguments: &[String]) -> Result<(), String> {
         ["doubt", scene, options @ ..] => judge::doubt(scene, options)?,
         ["pixel", scene, col, row, options @ ..] => judge::pixel(scene, col, row, options)?,
         ["hunt", options @ ..] => hunt::hunt(options)?,
+        ["laws", options @ ..] => hunt::laws(options)?,
         ["whole", options @ ..] => whole::whole(options)?,
         ["write"] => files::write("")?,
         ["write", part] => files::write(part)?,

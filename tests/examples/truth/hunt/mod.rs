@@ -7,6 +7,7 @@
 mod draft;
 mod extremes;
 mod families;
+mod laws;
 mod limits;
 mod options;
 mod page;
@@ -142,22 +143,9 @@ struct Scene {
 /// Hunts, and reports by families; an error, with the report, if a pixel is broken.
 pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
-    let families: Vec<&Family> = FAMILIES
-        .iter()
-        .filter(|family| family.name.contains(&options.family))
-        .collect();
-    if families.is_empty() {
-        return Err(format!("no family is called {}", options.family));
-    }
-    let shares = families.iter().map(|family| 1.0 / family.rarity as f64);
-    let most = (options.scenes as f64 / shares.sum::<f64>()).ceil() as u64;
     let mut report = Report::new(&options.tolerances);
     let mut examples = String::new();
-    for family in families {
-        let each = match (family.draft, options.rows) {
-            (Maker::Row(_), Some(scenes)) => scenes * features::count(),
-            _ => most.div_ceil(family.rarity),
-        };
+    for (family, each) in families(&options)? {
         let start = Instant::now();
         let found = search(family, each, &options)?;
         let mut sum = Found::new(&options.tolerances);
@@ -207,6 +195,67 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     }
 }
 
+/// Renders scenes in other units of light and of length; an error if a picture is another one.
+pub(crate) fn laws(arguments: &[&str]) -> Result<String, String> {
+    let options = Options::parse(arguments)?;
+    let mut broken = String::new();
+    let mut count = 0;
+    for (family, each) in families(&options)? {
+        let start = Instant::now();
+        let found = laws::search(family, each, &options)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let name = family.name;
+        let differ = found.len();
+        let line = format!("{name}: {each} scenes, {differ} differ, {seconds:.0} s");
+        let _ = writeln!(io::stderr(), "{line}");
+        count += each;
+        broken += &found.concat();
+    }
+    match broken.is_empty() {
+        true => Ok(format!("{count} scenes are the same in all units\n")),
+        false => Err(broken),
+    }
+}
+
+/// The families that are asked for, and how many scenes of each.
+fn families(options: &Options) -> Result<Vec<(&'static Family, u64)>, String> {
+    let families = FAMILIES.iter();
+    let families: Vec<&Family> = families
+        .filter(|family| family.name.contains(&options.family))
+        .collect();
+    if families.is_empty() {
+        return Err(format!("no family is called {}", options.family));
+    }
+    let shares = families.iter().map(|family| 1.0 / family.rarity as f64);
+    let most = (options.scenes as f64 / shares.sum::<f64>()).ceil() as u64;
+    let counted = families.into_iter().map(|family| {
+        let each = match (family.draft, options.rows) {
+            (Maker::Row(_), Some(scenes)) => scenes * features::count(),
+            _ => most.div_ceil(family.rarity),
+        };
+        (family, each)
+    });
+    Ok(counted.collect())
+}
+
+/// The scene of a family by its number.
+fn draft(family: &Family, scenes: u64, options: &Options, index: u64) -> Draft {
+    let mut numbers = Numbers(scene_seed(options, index));
+    match family.draft {
+        Maker::Random(draft) => draft(&mut numbers),
+        // Other seeds begin with other rows.
+        Maker::Row(draft) => draft(&mut numbers, options.seed.wrapping_mul(scenes) + index),
+    }
+}
+
+/// The numbers of the scenes that are asked for.
+fn indices(scenes: u64, options: &Options) -> Vec<u64> {
+    match options.only {
+        Some(index) => vec![index],
+        None => (0..scenes).collect(),
+    }
+}
+
 /// The worst pixel that fell short, the worst that an ulp moves too far, and one that is given up.
 fn worst_of(found: &Found, seed: u64) -> impl Iterator<Item = (Broken, Fault)> {
     let ratio = |broken: &&Broken| broken.error / broken.tolerance;
@@ -230,12 +279,7 @@ fn scene_seed(options: &Options, index: u64) -> u64 {
 fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>, String> {
     let judged = |index| {
         let seed = scene_seed(options, index);
-        let mut numbers = Numbers(seed);
-        let draft = match family.draft {
-            Maker::Random(draft) => draft(&mut numbers),
-            // Other seeds begin with other rows.
-            Maker::Row(draft) => draft(&mut numbers, options.seed.wrapping_mul(scenes) + index),
-        };
+        let draft = draft(family, scenes, options, index);
         let subject = Subject::of(&draft).map_err(|error| format!("{}: {error}", family.name))?;
         if options.only.is_some() {
             let _ = writeln!(io::stderr(), "{} {index}: {}", family.name, draft.kind);
@@ -270,9 +314,8 @@ fn search(family: &Family, scenes: u64, options: &Options) -> Result<Vec<Scene>,
             found,
         })
     };
-    let indices: Vec<u64> = match options.only {
-        Some(index) => vec![index],
-        None => (0..scenes).collect(),
-    };
-    indices.into_par_iter().map(judged).collect()
+    indices(scenes, options)
+        .into_par_iter()
+        .map(judged)
+        .collect()
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use glam::{DVec3, DVec4};
-use marbles_core::{Image, LightPart, Method, Renderer, Settings, View, World};
+use marbles_core::{Image, LightPart, Method, Renderer, Settings, View, Work, World};
 use marbles_scene::Scene;
 
 /// What a picture shows of a scene.
@@ -42,6 +42,11 @@ impl Picture {
         }
         let image = renderer.render(scene.exposure(view), &settings, &go).ok()?;
         Some(Self { image, mode })
+    }
+
+    /// What it took to render it.
+    pub(super) fn work(&self) -> Work {
+        self.image.work()
     }
 
     pub(super) fn columns(&self) -> u32 {

@@ -49,8 +49,13 @@ impl Subject {
 
     /// The picture to a tolerance.
     pub(super) fn picture(&self, tolerance: f64) -> Option<Picture> {
+        self.shown(Method::Tolerance(tolerance))
+    }
+
+    /// The picture by a method.
+    pub(super) fn shown(&self, method: Method) -> Option<Picture> {
         let view = self.scene.view(self.frame()).ok()?;
-        Picture::of(&self.scene, &view, self.mode, Method::Tolerance(tolerance))
+        Picture::of(&self.scene, &view, self.mode, method)
     }
 
     /// The picture that judges have of so many times as many columns and rows, to a tolerance.

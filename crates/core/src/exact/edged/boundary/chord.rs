@@ -4,6 +4,7 @@ use fearless_simd::Simd;
 
 use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::{Linear, Quadratic};
+use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// Where chords of a sphere begin: at x = `start` + `slope` · y.
 #[derive(Clone, Copy, Debug)]
@@ -138,7 +139,7 @@ impl Extent {
 /// So the root is rational, too, and light is smooth to the very outline. With w₁ and w₂ the roots at the
 /// ends and G = w₁ w₂ + P, where P = Q(middle) − Q″ h² / 2 is the polar form of Q between the ends,
 /// W = (w₁ + w₂) / √(2 G) and E = (w₁ − w₂) / √(2 G). On an ellipse W is the cosine of half of the angle
-/// that the chord spans.
+/// that the chord spans. As w₁² + w₂² = 2 Q(middle) + Q″ h², G is ½ (w₁ + w₂)² − Q″ h², too.
 ///
 /// # Source
 /// Farin, Curves and Surfaces for CAGD, 2002, chapter 12.
@@ -190,13 +191,22 @@ impl<S: Simd> Chord<S> {
         let rise = half * slope * 2.0;
         let first = (there + bend - rise).max(zero).sqrt();
         let last = (there + bend + rise).max(zero).sqrt();
-        let between = (first * last + there - bend).max(one * f64::MIN_POSITIVE);
+        let sum = first + last;
+        let tiny = one * f64::MIN_POSITIVE;
+        let between = if q.xx < 0.0 {
+            // The same in another form, of an ellipse a sum of what is positive.
+            (sum * sum * 0.5 - bend * 2.0).max(tiny)
+        } else {
+            // Rounding leaves no more of it.
+            let rounded = (there.abs() + bend) * UNIT_ROUNDOFF;
+            (first * last + there - bend).max(rounded).max(tiny)
+        };
         let scale = (between * 2.0).sqrt();
         let inverse = one / scale;
         Self {
             middle,
             half,
-            weight: (first + last) * inverse,
+            weight: sum * inverse,
             lean: (first - last) * inverse,
             scale,
             roots: [first, last],

@@ -159,7 +159,8 @@ impl<S: Simd> HalfPlane<S> {
         let one = f64x8::splat(simd, 1.0);
         let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
         let [x, y] = across;
-        let by_steep = one / (x * x + y * y).max(tiny);
+        let size_sq = x * x + y * y;
+        let by_steep = one / size_sq.max(tiny);
         // Along the gradient the function is g + g' s + a s²: its slope at the root is g' √(1 − 4 a g / g'²).
         let along = bends.at(across) * by_steep;
         let slope_sq = (one - value * by_steep * along * 4.0).max(tiny);
@@ -188,7 +189,6 @@ impl<S: Simd> HalfPlane<S> {
         };
         let mut part = Self::of_slopes(simd, &slopes, moved, tangent, left);
         // The other root along the gradient lies so far from the first, on the side of what is positive.
-        let size_sq = x * x + y * y;
         let may_be_narrow =
             (slope_sq * size_sq).simd_lt(along * along * (4.0 * FARTHEST * FARTHEST));
         if may_be_narrow.to_bitmask() != 0 {
@@ -203,8 +203,9 @@ impl<S: Simd> HalfPlane<S> {
             part.doubt = is_strip.select(part.doubt.max(OF_NARROW), part.doubt);
         }
         let bend = bends.most() + rest.unwrap_or(zero);
-        // Without a root along the gradient there is no line: the function may have one sign in all of the box.
-        let is_lost = slope_sq.simd_le(tiny);
+        // Without a root along the gradient, or without a gradient, there is no line: the function may have one sign in
+        // all of the box.
+        let is_lost = slope_sq.simd_le(tiny) | size_sq.simd_le(tiny);
         if is_lost.to_bitmask() != 0 {
             let mut linear = Self::new(simd, value, across, bend);
             let other_sign = value.simd_gt(zero).select(one - linear.share, linear.share);

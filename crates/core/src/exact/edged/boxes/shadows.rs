@@ -106,8 +106,11 @@ const DEEPEST: f64 = 0.375;
 fn foot<S: Simd>(simd: S, value: f64x8<S>, across: [f64x8<S>; 2]) -> [f64x8<S>; 2] {
     let tiny = f64x8::splat(simd, f64::MIN_POSITIVE);
     let half = f64x8::splat(simd, 0.5);
-    let steep = (across[0] * across[0] + across[1] * across[1]).max(tiny);
-    let step = value * -1.0 / steep;
+    let steep = across[0] * across[0] + across[1] * across[1];
+    // Where it has no gradient it does not vanish.
+    let step = steep
+        .simd_gt(tiny)
+        .select(value * -1.0 / steep, f64x8::splat(simd, 0.0));
     [
         (across[0] * step).max(-half).min(half),
         (across[1] * step).max(-half).min(half),

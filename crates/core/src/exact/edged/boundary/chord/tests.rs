@@ -93,3 +93,30 @@ fn roots_are_smooth_along_chords() {
         }
     }
 }
+
+/// Rounding may put a short chord outside of its outline: it is the same in all units of length.
+#[test]
+fn chords_beside_their_outline_have_no_unit() {
+    let size_of_way = |unit: f64| {
+        let q = Quadratic {
+            one: -1e-9 * unit * unit,
+            x: 8e-5 * unit * unit,
+            xx: -unit * unit,
+            ..Quadratic::default()
+        };
+        let reference = Reference {
+            start: -1e-5,
+            slope: 0.0,
+        };
+        dispatch!(Level::new(), simd => {
+            let splat = |number| f64x8::splat(simd, number);
+            let chord = Chord::new(simd, &q, &reference, splat(1e-5), splat(0.0));
+            chord.size_of_way()[3]
+        })
+    };
+    let expected = size_of_way(1.0);
+    assert!(expected > 0.0 && expected < 1.0, "{expected}");
+    for exponent in [-20, 20] {
+        assert_eq!(size_of_way(libm::scalbn(1.0, exponent)), expected);
+    }
+}

@@ -23,6 +23,30 @@ fn found(middle: [f64; 2], radius: f64) -> [f64; 2] {
     })
 }
 
+/// Where a function is the same everywhere, its sign says all, in any unit.
+#[test]
+fn functions_without_a_gradient_have_one_sign() {
+    for unit in [1e-9, 1.0, 1e9] {
+        for value in [-2.0, -0.03, 0.03, 2.0] {
+            dispatch!(Level::new(), simd => {
+                let splat = |number| f64x8::splat(simd, number * unit);
+                let flat = splat(0.0);
+                let bends = Bends { xx: flat, xy: flat, yy: flat };
+                for rest in [None, Some(splat(5.0))] {
+                    let part =
+                        HalfPlane::of_second_degree(simd, splat(value), [flat; 2], &bends, rest);
+                    let (share, doubt) = (part.share[5], part.doubt[5]);
+                    let expected = f64::from(u8::from(value > 0.0));
+                    let place = format!("{value} in units of {unit}");
+                    assert_eq!(share, expected, "{place}");
+                    // What may differ by more than the value may have the other sign.
+                    assert_eq!(doubt, f64::from(u8::from(rest.is_some())), "{place}");
+                }
+            });
+        }
+    }
+}
+
 #[test]
 fn discs_fill_boxes_as_points_say() {
     for radius in [0.3, 0.45, 0.6, 1.0, 2.0, 5.0] {

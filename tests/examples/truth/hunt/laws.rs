@@ -1,0 +1,71 @@
+//! Every scene again in other units of length and of light: the same picture, to the last bit.
+
+use std::io::{self, Write as _};
+
+use marbles_core::Method;
+use rayon::prelude::*;
+
+use super::draft::Draft;
+use super::families::Family;
+use super::options::Options;
+use super::subject::Subject;
+
+/// Powers of two by which lengths, and light, are multiplied.
+const UNITS: [(i32, i32); 5] = [(-12, 0), (-33, 0), (17, 0), (0, -40), (0, 34)];
+
+/// What is said of each scene of which a picture is another one in another unit.
+pub(super) fn search(
+    family: &Family,
+    scenes: u64,
+    options: &Options,
+) -> Result<Vec<String>, String> {
+    let differs = |index| {
+        let draft = super::draft(family, scenes, options, index);
+        let difference = difference(&draft, &options.tolerances)
+            .map_err(|error| format!("{} {index}: {error}", family.name))?;
+        let line = difference.map(|it| format!("{} {index}: {it} {}\n", family.name, draft.kind));
+        if let Some(line) = &line {
+            // A long search tells what it finds; nothing is left to do when even this fails.
+            let _ = write!(io::stderr(), "{line}");
+            if options.only.is_some() {
+                let _ = write!(io::stderr(), "{}", draft.text());
+            }
+        }
+        Ok(line)
+    };
+    let all: Result<Vec<_>, String> = super::indices(scenes, options)
+        .into_par_iter()
+        .map(differs)
+        .collect();
+    Ok(all?.into_iter().flatten().collect())
+}
+
+/// The first picture that is another one, and where.
+fn difference(draft: &Draft, tolerances: &[f64]) -> Result<Option<String>, String> {
+    let subject = Subject::of(draft)?;
+    for (length, light) in UNITS {
+        let mut other = draft.clone();
+        other.length *= libm::scalbn(1.0, length);
+        other.light *= libm::scalbn(1.0, light);
+        let other = Subject::of(&other)?;
+        let tolerances = tolerances.iter().map(|&it| Method::Tolerance(it));
+        let samples = Method::Samples(2.try_into().map_err(|_| "no samples")?);
+        for method in tolerances.chain([samples]) {
+            let pictures = (subject.shown(method), other.shown(method));
+            let (Some(one), Some(other)) = pictures else {
+                continue;
+            };
+            let is_other = |&(col, row): &(u32, u32)| {
+                one.value(col, row) != other.value(col, row)
+                    || one.claimed(col, row) != other.claimed(col, row)
+            };
+            let place = one.places().find(is_other);
+            if place.is_some() || one.work() != other.work() {
+                return Ok(Some(format!(
+                    "{method:?}, lengths * 2^{length}, light * 2^{light}: first at {place:?}"
+                )));
+            }
+        }
+    }
+    Ok(None)
+}
