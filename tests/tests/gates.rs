@@ -1,6 +1,6 @@
 //! Nothing in `exact` compares a tolerance, a claim or light with a bare number, but for the gates below.
 //!
-//! Goals inside of `exact` are multiples of the world's contrast (`exact/unit.rs`), so that such a gate does not depend on how
+//! Goals inside of `exact` are multiples of the world's contrast (`model/light_unit.rs`), so that such a gate does not depend on how
 //! bright a world is. A gate may decide what a pixel costs, and never what it claims: each is listed with what it
 //! decides. The search is textual: it knows the names below, comparisons, and the methods that choose
 //! the smaller or the larger of two numbers. A number that is first given a lower-case name escapes it.

@@ -11,9 +11,9 @@ use super::context::Context;
 use super::crowd::UnitsOfTile;
 use super::crowd_blocks::{CrowdBlocks, OfTile};
 use super::scene::{InCamera, MOST_LIGHTS};
-use super::unit::LightUnit;
 use super::{LitTile, Scratch, tile_pixels};
 use crate::model::color::Color;
+use crate::model::light_unit::{self, LightUnit};
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
@@ -231,7 +231,7 @@ impl<'scene> Exact<'scene> {
         let mut range = None;
         // What one group is over its share, another may be below.
         for pixel in &mut *pixels {
-            pixel.value *= self.unit;
+            pixel.value = light_unit::in_world(pixel.value, self.unit);
             pixel.error *= self.unit;
             if pixel.error > self.tolerance {
                 let range = range.get_or_insert_with(|| self.range_of_light(candidates));

@@ -35,7 +35,6 @@ mod part;
 mod points;
 mod scene;
 mod surface;
-pub(crate) mod unit;
 
 use fearless_simd::Simd;
 

@@ -5,6 +5,7 @@ pub(crate) mod camera;
 pub(crate) mod color;
 pub(crate) mod exposure;
 pub(crate) mod light;
+pub(crate) mod light_unit;
 pub(crate) mod material;
 mod material_ids;
 pub(crate) mod opencv;

@@ -5,11 +5,11 @@ use std::num::NonZeroU32;
 use rayon::prelude::*;
 
 use super::settings::Settings;
-use crate::exact::unit::LightUnit;
 use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::model::exposure::Exposure;
 use crate::model::light::Light;
+use crate::model::light_unit::LightUnit;
 use crate::model::sphere::Sphere;
 use crate::model::view::View;
 use crate::model::world::World;

@@ -61,17 +61,17 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
         self.covered += mask64x8::from_bitmask(simd, covered).select(one, zero);
     }
 
-    /// The means, and their errors: the spread of the samples, alpha being one more channel, over
-    /// twice the samples a side.
+    /// The means, and their errors: the spread of the samples over twice the samples per side. Alpha is one more
+    /// channel, times what an error of it counts as.
     #[inline(always)]
-    pub(super) fn store(self, simd: S, side: u32, alpha: bool, pixels: &mut RowLight) {
+    pub(super) fn store(self, simd: S, side: u32, of_alpha: f64, pixels: &mut RowLight) {
         let count = (u64::from(side) * u64::from(side)) as f64;
-        let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
+        let zero = f64x8::splat(simd, 0.0);
         let mut spread = zero;
-        if alpha {
+        if of_alpha > 0.0 {
             let all = f64x8::splat(simd, count);
             let partly = self.covered.simd_gt(zero) & self.covered.simd_lt(all);
-            spread = partly.select(one, zero);
+            spread = partly.select(f64x8::splat(simd, of_alpha), zero);
         }
         for channel in 0..CHANNELS {
             let range = self.high[channel] - self.low[channel];

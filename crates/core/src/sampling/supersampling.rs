@@ -16,6 +16,7 @@ use super::tile_balls::{TileBall, TileBalls};
 use super::trace::{RayRow, Tracer};
 use crate::model::camera::Projection;
 use crate::model::color::Color;
+use crate::model::light_unit::LightUnit;
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
@@ -47,6 +48,8 @@ pub(crate) struct Supersampling<'scene> {
     samples: NonZeroU32,
     channels: Channels,
     alpha: bool,
+    /// What an error of alpha counts as, in light; 0 where nobody asks for alpha.
+    of_alpha: f64,
     rays: Rays,
     shading: Shading<'scene>,
     view: View,
@@ -73,6 +76,10 @@ impl<'scene> Supersampling<'scene> {
             samples,
             channels: Channels::of(world, alpha),
             alpha,
+            of_alpha: match alpha {
+                true => LightUnit::new(world, index.visibility.lights()).unit,
+                false => 0.0,
+            },
             rays: Rays::new(view, samples.get()),
             shading: Shading::new(world, view, index),
             view: *view,
@@ -246,7 +253,7 @@ impl<'scene> Supersampling<'scene> {
         for row in 0..height {
             let pixels = light.row_mut(row as u32);
             match &sums {
-                Some(sums) => sums[row].store(simd, side, self.alpha, pixels),
+                Some(sums) => sums[row].store(simd, side, self.of_alpha, pixels),
                 None => samples[row].store(simd, pixels),
             }
         }

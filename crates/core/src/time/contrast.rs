@@ -2,8 +2,8 @@
 
 use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use crate::exact::unit::LightUnit;
 use crate::model::light::Light;
+use crate::model::light_unit::LightUnit;
 use crate::model::world::World;
 
 /// The differences of light, and of coverage, that something may make in any channel.

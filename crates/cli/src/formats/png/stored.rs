@@ -30,7 +30,7 @@ pub(crate) fn contents(file: &mut (impl BufRead + Seek)) -> Result<(Hash, Region
 
 /// Reads a file up to its last chunk.
 fn read(file: impl BufRead + Seek) -> Result<Option<(Hash, Region)>, DecodingError> {
-    let mut reader = strict_decoder(BufReader::new(file)).read_info()?;
+    let mut reader = strict_decoder(file).read_info()?;
     let told = told(reader.info());
     while reader.next_row()?.is_some() {}
     reader.finish()?;

@@ -3,9 +3,9 @@
 //! Pixels are integrated in units of a power of two near the contrast of their world, so that nothing depends on how
 //! bright it is: goals, gates and claims are multiples of it, and no bit changes with it.
 
-use crate::model::color::Color;
-use crate::model::light::Light;
-use crate::model::world::World;
+use super::color::Color;
+use super::light::Light;
+use super::world::World;
 
 /// The contrast of a world, and its unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +33,13 @@ impl LightUnit {
             unit,
         }
     }
+}
+
+/// Light in the world's unit, of light in its own. What is next to nothing is nothing: numbers that are so small would be
+/// rounded otherwise in other units.
+pub(crate) fn in_world(light: Color, unit: f64) -> Color {
+    const NOTHING: f64 = 1e-200;
+    Color::select(light.abs().cmplt(Color::splat(NOTHING)), Color::ZERO, light) * unit
 }
 
 /// The least power of two that is not below a number; 1 for what has none.
