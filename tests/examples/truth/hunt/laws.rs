@@ -60,10 +60,16 @@ fn difference(draft: &Draft, tolerances: &[f64]) -> Result<Option<String>, Strin
                     || one.claimed(col, row) != other.claimed(col, row)
             };
             let place = one.places().find(is_other);
-            if place.is_some() || one.work() != other.work() {
+            let units = format!("{method:?}, lengths * 2^{length}, light * 2^{light}");
+            if let Some((col, row)) = place {
+                let [one, other] =
+                    [&one, &other].map(|it| (it.value(col, row), it.claimed(col, row)));
                 return Ok(Some(format!(
-                    "{method:?}, lengths * 2^{length}, light * 2^{light}: first at {place:?}"
+                    "{units}: column {col}, row {row}: {one:?}, {other:?}"
                 )));
+            }
+            if one.work() != other.work() {
+                return Ok(Some(format!("{units}: other work")));
             }
         }
     }
