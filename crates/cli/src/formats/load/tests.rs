@@ -112,7 +112,7 @@ fn pixels_of_a_png_have_a_checksum_of_their_own() {
 /// The samples of an EXR that are compressed have a checksum; its header, the table of its blocks, and blocks that
 /// compressing would make no shorter have none.
 #[test]
-fn hardly_a_sample_of_an_exr_is_wrong_unnoticed() {
+fn samples_of_an_exr_are_as_good_as_their_checksum() {
     for file in &files()[2..] {
         let samples = |file: &[u8]| {
             let mut rows = decode(file).unwrap();
@@ -141,7 +141,7 @@ fn hardly_a_sample_of_an_exr_is_wrong_unnoticed() {
         // Some bits of what deflate writes have no meaning.
         let all = file.len() - start - plain.iter().map(Range::len).sum::<usize>();
         assert!(100 * found >= 99 * all, "{found} of {all}");
-        // One byte in 2,800 of one of these files is wrong unnoticed, which is not understood yet.
+        // Adler-32 is weak on so few bytes: zlib itself reads byte 3328 of the first file, damaged, with the right sum.
         assert!(1000 * wrong <= all, "{wrong} of {all}");
     }
 }
