@@ -177,12 +177,7 @@ impl<'watch> Frames<'watch> {
             && matches!(self.format, Format::Xyz | Format::Lammps | Format::Gro)
         {
             let doubt = "the file ends within this line: its last number may have been cut";
-            input.doubt(LocatedFault::in_line(
-                input.number,
-                b"",
-                0..0,
-                doubt.to_owned(),
-            ));
+            input.doubt_line(doubt);
         }
     }
 

@@ -90,6 +90,16 @@ impl<'watch> Input<'watch> {
         }
     }
 
+    /// Notes what may be wrong at the line that was handed out last.
+    pub(crate) fn doubt_line(&mut self, doubt: &str) {
+        self.doubt(LocatedFault::in_line(
+            self.number,
+            b"",
+            0..0,
+            doubt.to_owned(),
+        ));
+    }
+
     /// What may be wrong in the file, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         std::mem::take(&mut self.doubts)

@@ -72,12 +72,7 @@ pub(crate) fn header(
 fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
     if ends_with_row && input.peek()?.is_none() {
         let doubt = "the file ends with an atom, without a line `#`: others may have been cut off";
-        input.doubt(LocatedFault::in_line(
-            input.number,
-            b"",
-            0..0,
-            doubt.to_owned(),
-        ));
+        input.doubt_line(doubt);
     }
     Ok(())
 }

@@ -126,12 +126,7 @@ fn close_file(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableErr
             }
             false => "the file ends within this line, without `END`: atoms may have been cut off",
         };
-        input.doubt(LocatedFault::in_line(
-            input.number,
-            b"",
-            0..0,
-            doubt.to_owned(),
-        ));
+        input.doubt_line(doubt);
     }
     Ok(())
 }
