@@ -64,7 +64,7 @@ fn hard_pixels_cost_no_more_than_allowed() {
         (scene(&bumps(0.1), 1, NEAR, ""), 1e-5, 2800.0),
         (scene(&bumps(1e-6), 1, NEAR, ""), 1e-5, 350.0),
         (scene(&bumps(0.1), 17, NEAR, ""), 1e-5, 12_000.0),
-        (scene(&bright("65537"), 1, NEAR, ""), 1e-5, 400.0),
+        (scene(&bright("65537"), 1, NEAR, ""), 1e-5, 700.0),
         (scene(&bright("1e300"), 1, NEAR, ""), 1e-5, 200.0),
         (scene("exponent: 1", 1, FAR, ""), 1e-5, 250.0),
         (scene("exponent: 1", 1, NEAR, TURNS), 1e-5, 1500.0),

@@ -1,8 +1,8 @@
 //! Nothing in `exact` compares a tolerance, a claim or light with a bare number, but for the gates below.
 //!
-//! Goals inside of `exact` are multiples of the world's contrast (`model/light_unit.rs`), so that such a gate does not depend on how
-//! bright a world is. It may still decide what is right, and does so at one tolerance and not at the next: each is
-//! listed with what it decides. The search is textual: it knows the names below, comparisons, and the methods that choose
+//! Goals inside of `exact` are multiples of the world's contrast (`model/light_unit.rs`), so that such a gate does not
+//! depend on how bright a world is. A gate may decide what a pixel costs, and never what it claims: each is listed with
+//! what it decides. The search is textual: it knows the names below, comparisons, and the methods that choose
 //! the smaller or the larger of two numbers. A number that is first given a lower-case name escapes it.
 
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ const METHODS: [&str; 9] = [
 ];
 
 /// The file, the comparison, and what it decides.
-const GATES: [[&str; 3]; 15] = [
+const GATES: [[&str; 3]; 12] = [
     [
         "context.rs",
         "contrast.max ( LEAST )",
@@ -43,21 +43,6 @@ const GATES: [[&str; 3]; 15] = [
         "edged/boundary/kinks.rs",
         "self.tolerance > FINE",
         "cost: looks on a chord",
-    ],
-    [
-        "edged/boundary/kinks.rs",
-        "self.tolerance < WARY",
-        "claims: dark starts",
-    ],
-    [
-        "edged/boundary/kinks.rs",
-        "self.tolerance < WARY",
-        "claims: tips",
-    ],
-    [
-        "edged/boundary/quadrature.rs",
-        "goal.tolerance < FINE",
-        "claims: the least of a rule",
     ],
     [
         "edged/boxes/mod.rs",

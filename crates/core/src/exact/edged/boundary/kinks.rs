@@ -61,10 +61,8 @@ fn beyond_zero(values: &[f64; 8]) -> f64 {
 /// Into how many parts a chord on bumps is divided at most.
 const MOST_PARTS: usize = 16;
 
-/// Tolerances that are small enough for a search in earnest, and for what lies between lines to count: tips of light,
-/// and where chords cease to begin in the dark.
+/// Tolerances that are small enough for a search in earnest.
 const FINE: f64 = 4.5e-5;
-const WARY: f64 = 9e-4;
 
 /// What it costs the sum across lines that some of them turn otherwise than others, in what they
 /// differ by: where light bends, and where it jumps.
@@ -251,13 +249,12 @@ impl Sender<'_, '_> {
                     };
                     let value = turn.value(&normal, &points);
                     let here = Look { sigma, value };
-                    if index == 0 && self.tolerance < WARY {
+                    if index == 0 {
+                        // Where chords cease to begin in the dark.
                         let below = value.simd_lt(0.0).to_bitmask();
                         is_alike &= below == 0 || below == 0xff;
                     }
-                    if self.tolerance < WARY {
-                        beyond = beyond.max(beyond_zero(&value.into()));
-                    }
+                    beyond = beyond.max(beyond_zero(&value.into()));
                     let seeker = Seeker {
                         sender: self,
                         chord,

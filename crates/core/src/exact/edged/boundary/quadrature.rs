@@ -32,13 +32,12 @@ const OF_TIP: f64 = 0.05;
 /// The share of the tolerance that this may take on an arc before it is halved: few arcs have any.
 const SHARE_OF_TIP: f64 = 0.1;
 
-/// The part of what the rules differ by that they are taken to be off by at least, over bumps and at tolerances that are
-/// so fine.
+/// The part of what the rules differ by that they are taken to be off by at least.
+///
 /// Sums along lines are not analytic everywhere: over bumps their second derivatives jump, and near corners of what
 /// is seen they are nearly singular. There Kronrod's rule is off by a tenth of the difference, as a median, seldom
 /// by all of it; a power of the difference claims a fiftieth, which one pixel in ten million found out.
 const LEAST_OF_DIFFERENCE: f64 = 0.4;
-const FINE: f64 = 5e-6;
 
 /// What lies on both sides of an arc, at the nodes of the rule: light summed up from references.
 struct Sides<S: Simd> {
@@ -48,6 +47,12 @@ struct Sides<S: Simd> {
     tip: f64,
     /// How often nothing is seen on the inner side, less how often on the outer one.
     empty: f64,
+}
+
+/// What a rule is taken to be off by, from what two of them differ by and from how far a function spreads.
+#[inline(always)]
+fn claim(difference: f64, spread: f64) -> f64 {
+    error_estimate(difference, spread).max(LEAST_OF_DIFFERENCE * difference)
 }
 
 impl Boundary {
@@ -108,17 +113,13 @@ impl Boundary {
                 let slip = (total(all) - rise).abs();
                 let mut error = 0.0_f64;
                 let kept = *sum;
-                let is_rough = setting.has_bumps || goal.tolerance < FINE;
                 if sides.empty != 0.0 {
                     let (one, other) = (places.x * all, places.x * dy * coarse);
                     sum.empty += one * sides.empty;
                     let spread = total((places.x * dy - total(one)).abs() * fine);
                     let of_odd = total(places.x * dy * odd);
                     let difference = doubt(total(one - other), of_odd);
-                    error = goal.of_coverage * (error_estimate(difference, spread) + slip);
-                    if is_rough {
-                        error = error.max(goal.of_coverage * LEAST_OF_DIFFERENCE * difference);
-                    }
+                    error = goal.of_coverage * (claim(difference, spread) + slip);
                 }
                 let mut square = 0.0;
                 for (channel, light) in sides.light.into_iter().enumerate().take(scene.channels) {
@@ -130,10 +131,7 @@ impl Boundary {
                     let mean = total(one);
                     let spread = total((part - mean).abs() * fine);
                     let highest = greatest(light.abs());
-                    let mut estimate = error_estimate(difference, spread);
-                    if is_rough {
-                        estimate = estimate.max(LEAST_OF_DIFFERENCE * difference);
-                    }
+                    let mut estimate = claim(difference, spread);
                     if is_singular {
                         // Of a power at an end both rules are off by a fixed ratio.
                         estimate = apart;
