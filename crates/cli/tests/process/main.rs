@@ -22,6 +22,8 @@ mod lights;
 mod limits;
 mod memory;
 mod merge;
+#[cfg(unix)]
+mod pages;
 mod png_codes;
 #[cfg(target_os = "linux")]
 mod preview;
