@@ -16,7 +16,7 @@ use crate::model::sphere::Sphere;
 use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
-use crate::numeric::rounding::WIDER;
+use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
 use crate::picture::image::Channels;
 use crate::search::point_occluders::enclosing;
 use crate::search::visibility::Visibility;
@@ -96,10 +96,14 @@ impl Light {
         }
     }
 
-    /// A bound of the factor by which intensity is larger anywhere on a patch.
-    pub(crate) fn most_on(&self, patch: &Patch) -> f64 {
+    /// A bound of the factor by which intensity is larger anywhere on a ball's patch, which may seem to reach around the
+    /// light where the ball does not.
+    pub(crate) fn most_on(&self, ball: &Ball, patch: &Patch) -> f64 {
         self.near.map_or(1.0, |near| {
-            near.most_from(patch.distance_from(near.position))
+            let apart = (ball.center - near.position).length();
+            let size = ball.center.length() + near.position.length() + ball.radius;
+            let of_ball = (apart - ball.radius).abs() - GEOMETRY_SLACK * size;
+            near.most_from(patch.distance_from(near.position).max(of_ball))
         })
     }
 }

@@ -49,7 +49,10 @@ impl Contents {
             let outer = Ball { outside, ..ball };
             let along = cell.along(ball.center);
             let patch = Patch::new(cell, &outer, &silhouette(cell, &outer), &along);
-            let near = scene.lights.iter().map(|light| excess_on(light, &patch));
+            let near = scene
+                .lights
+                .iter()
+                .map(|light| excess_on(light, &outer, &patch));
             let (excess, lights_together) = excess_of(scene, sphere, near.sum());
             let highlight = scene.world.material(sphere).highlight;
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);
@@ -69,7 +72,9 @@ impl Contents {
         let first = position * scene.lights.len();
         let lights = scene.lights.iter().zip(&self.reach[first..]);
         let reaching = lights.filter(|(_, reach)| matches!(reach, Reach::Past(_)));
-        reaching.map(|(light, _)| excess_on(light, &patch)).sum()
+        reaching
+            .map(|(light, _)| excess_on(light, &active.ball, &patch))
+            .sum()
     }
 
     /// About the number of cells of the noise of bumps side by side in the cell that was seen last, where they
@@ -114,7 +119,7 @@ impl Contents {
                     Some(_) => {
                         let (ball, along) = (&active.ball, &active.along);
                         let patch = Patch::new(cell, ball, &active.discriminant, along);
-                        highlight * light.most_on(&patch)
+                        highlight * light.most_on(ball, &patch)
                     }
                 };
             }
@@ -155,8 +160,8 @@ impl Contents {
 }
 
 /// By how much more than its intensity a light may send to a patch in the brightest channel.
-fn excess_on(light: &Light, patch: &Patch) -> f64 {
-    (light.most_on(patch) - 1.0).max(0.0) * light.intensity.max_element()
+fn excess_on(light: &Light, ball: &Ball, patch: &Patch) -> f64 {
+    (light.most_on(ball, patch) - 1.0).max(0.0) * light.intensity.max_element()
 }
 
 /// By how much more a sphere may send than a white one that all lights reach, without its highlight, where point lights
