@@ -6,6 +6,7 @@ mod averages;
 mod budget;
 mod claims;
 mod closed_forms;
+mod coincident_casters;
 mod crowds;
 mod cut_planes;
 mod examples;

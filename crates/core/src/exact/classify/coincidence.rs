@@ -3,13 +3,14 @@
 use glam::DVec3;
 
 use crate::edges::cell::{Ball, Cell};
+use crate::edges::shadow::Caster;
 use crate::edges::terminator::Plane;
-use crate::exact::scene::InCamera;
+use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::Projection;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
-const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
+pub(super) const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
 /// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
@@ -81,4 +82,28 @@ pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) 
     let aside = (offset - toward * ahead).length();
     ahead > FARTHER * ball.radius
         && aside + (radius - ball.radius).abs() < ALIKE * (ball.radius + offset.length())
+}
+
+/// Returns whether the shadows of two casters have the same edge, but for rounding: crossings cannot tell on which side of
+/// the other one each of them lies. The caster that is nearer to the light shades all that the other one shades.
+pub(super) fn has_same_shadow(one: &Caster, other: &Caster) -> bool {
+    let slack = ALIKE * (one.center.length() + other.center.length() + one.radius + other.radius);
+    if let (Some(cone), Some(other_cone)) = (&one.cone, &other.cone) {
+        let [near, far] = [cone, other_cone].map(|cone| cone.axis.length());
+        let slack = slack * near.max(far);
+        return (one.radius * far - other.radius * near).abs() <= slack
+            && (cone.axis * far - other_cone.axis * near).length() <= slack;
+    }
+    let apart = other.center - one.center;
+    (other.radius - one.radius).abs() <= slack
+        && apart.dot(one.right).abs() <= slack
+        && apart.dot(one.up).abs() <= slack
+}
+
+/// Returns whether a caster is nearer to a light than another one with the same shadow.
+pub(super) fn is_nearer(one: &Caster, other: &Caster, light: &Light) -> bool {
+    match (&one.cone, &other.cone) {
+        (Some(one), Some(other)) => one.axis.length_squared() < other.axis.length_squared(),
+        _ => (one.center - other.center).dot(light.toward) > 0.0,
+    }
 }

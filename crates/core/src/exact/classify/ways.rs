@@ -3,15 +3,17 @@
 use glam::DVec3;
 
 use super::active::Active;
-use super::coincidence::{FARTHER, hides_all, is_at_eye, nesting};
+use super::coincidence::{
+    ALIKE, FARTHER, has_same_shadow, hides_all, is_at_eye, is_nearer, nesting,
+};
 use super::contents::{Contents, PAIRS_OF_A_TEST, ROUNDINGS, WAYS_OF_A_TEST};
 use super::occluder_cache::{OccluderCache, Shade};
 use super::patch::Patch;
 use super::reach::Reach;
 use crate::edges::cell::{Ball, Cell};
-use crate::edges::shadow::Cone;
+use crate::edges::shadow::{Caster, Cone};
 use crate::exact::budget::is_beyond_a_crowd;
-use crate::exact::scene::InCamera;
+use crate::exact::scene::{InCamera, Light};
 use crate::light::reflection::NearLight;
 use crate::model::camera::Projection;
 use crate::numeric::rounding::GEOMETRY_SLACK;
@@ -73,21 +75,31 @@ impl Contents {
                 if hides_itself && center.z >= radius || is_inside() {
                     continue;
                 }
-                let mut known = self.occluders[first..].iter();
-                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
-                    continue;
-                }
                 if hides_all(&active.ball, center, radius, in_camera.toward) {
                     return Reach::Nowhere;
                 }
+                let roundings = self.cast(first, in_camera.caster(center, radius), in_camera);
                 for End { scale, size, .. } in ends {
                     let largest = scale.max(extent(center, radius));
-                    self.rounding = self.rounding.max(ROUNDINGS * largest / size);
+                    self.rounding = self.rounding.max(roundings * largest / size);
                 }
-                self.occluders.push(in_camera.caster(center, radius));
             }
         }
         Reach::Past(first..self.occluders.len())
+    }
+
+    /// Adds a caster to those from `first` on, of casters with the same shadow only the one nearest to the light. Returns
+    /// by how many roundoffs of the numbers that it is computed from its edge may be off.
+    fn cast(&mut self, first: usize, caster: Caster, light: &Light) -> f64 {
+        let mut known = self.occluders[first..].iter_mut();
+        let Some(known) = known.find(|known| has_same_shadow(known, &caster)) else {
+            self.occluders.push(caster);
+            return ROUNDINGS;
+        };
+        if is_nearer(&caster, known, light) {
+            *known = caster;
+        }
+        ALIKE
     }
 
     /// Counts the shadow edges that were held against each other.
@@ -146,10 +158,6 @@ impl Contents {
                 {
                     continue;
                 }
-                let mut known = self.occluders[first..].iter();
-                if known.any(|occluder| occluder.center == center && occluder.radius == radius) {
-                    continue;
-                }
                 if self.begins_inside(cell, (sphere, &ball)) {
                     return Reach::Nowhere;
                 }
@@ -161,13 +169,14 @@ impl Contents {
                 if cone.contains(middle, around) || hides_all_near(&active.ball, &cone, radius) {
                     return Reach::Nowhere;
                 }
+                let roundings = self.cast(first, caster, in_camera);
                 // What rounding turns the edges of the cone by grows toward its apex, and where it is flat.
                 let distance = cone.axis.length();
                 let largest = near.position.length() + center.length() + radius;
                 let turned = largest / distance.min(cone.power.max(0.0).sqrt());
                 for End { place, scale, size } in ends {
                     let apart = (place - near.position).length() + patch.around;
-                    let moved = ROUNDINGS * (largest + scale + turned * apart);
+                    let moved = roundings * (largest + scale + turned * apart);
                     // Squares of distances nearly cancel in the functions of the cone and of the way to the ball.
                     let mut cancelled = ROUNDINGS * apart * distance / radius;
                     if active.ball.is_apart() {
@@ -175,7 +184,6 @@ impl Contents {
                     }
                     self.rounding = self.rounding.max((moved + cancelled) / size);
                 }
-                self.occluders.push(caster);
             }
         }
         Reach::Past(first..self.occluders.len())
