@@ -3,7 +3,8 @@
 //! Each page is run alone, its blocks in order, in a folder with the repository's scenes and pages. A block of `sh` must
 //! end with exit code 0, or with N after a line `<!-- exit: N -->`. A block of `text` right after it is its output: `…`
 //! stands for anything in a line, a line `…` for any lines. A block after `<!-- file: NAME -->` is written to that file.
-//! `<!-- not run: REASON -->` marks placeholders and programs of others, `<!-- not output -->` other text.
+//! `<!-- not run: REASON -->` marks placeholders and programs of others, `<!-- not output -->` other text. What a measuring
+//! command writes, between `<!-- measured: NAME -->` and `<!-- end -->`, is not run.
 
 use std::env;
 use std::fs;
@@ -39,6 +40,7 @@ fn blocks(page: &str) -> Vec<Block> {
     let mut open: Option<Block> = None;
     let mut last_line = "";
     let mut prose = 0;
+    let mut is_measured = false;
     for (index, line) in page.lines().enumerate() {
         let fence = line.trim_start().strip_prefix("```");
         match (open.as_mut(), fence) {
@@ -54,14 +56,18 @@ fn blocks(page: &str) -> Vec<Block> {
                 });
             }
             (Some(_), Some(_)) => {
-                blocks.extend(open.take());
+                blocks.extend(open.take().filter(|_| !is_measured));
                 prose = 0;
             }
             (Some(block), None) => {
                 block.text += line;
                 block.text.push('\n');
             }
-            (None, None) => prose += usize::from(!line.trim().is_empty()),
+            (None, None) => {
+                prose += usize::from(!line.trim().is_empty());
+                is_measured =
+                    line.starts_with("<!-- measured:") || is_measured && line != "<!-- end -->";
+            }
         }
         last_line = line;
     }
@@ -171,8 +177,11 @@ fn faults(name: &str, page: &str) -> Vec<String> {
                 ));
             }
             printed = Some(output);
-        } else if block.language == "text" && block.follows && block.noted("not output").is_none() {
-            let Some(output) = printed.take() else {
+        } else {
+            // Only a text right after a script is its output.
+            let output = printed.take();
+            let is_output = block.language == "text" && block.follows && block.note.is_none();
+            let Some(output) = output.filter(|_| is_output) else {
                 continue;
             };
             let shown: Vec<&str> = block.text.lines().collect();
