@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import scipy.io
 
-DARK = 0.02  # no pixel is as bright that a light reaches in part only
+DARK = 0.02  # brighter than any pixel that is only partly lit
 
 folder = Path(sys.argv[1])
 directions = np.loadtxt(folder / "light_directions.txt")
