@@ -1,4 +1,4 @@
-//! What does it cost to tell what the rays through the centers of pixels see, beside one sample a pixel?
+//! Measures the cost of the geometry at the centers of pixels, in addition to one sample per pixel.
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;

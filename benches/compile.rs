@@ -1,4 +1,4 @@
-//! How long does a newcomer wait?
+//! Measures how long a newcomer waits.
 //!
 //! Counts the lines of code that the compiler makes of `marbles-core` before it simplifies them: these decide how long the
 //! crate compiles, and do not depend on the machine's speed. Then runs the README's two commands from empty targets,
@@ -22,7 +22,7 @@ const COMMANDS: [&str; 2] = [
     "cargo run --release --locked --quiet -- render scenes/turntable.ron --quiet -o FOLDER/turntable.####.png",
     "cargo test --workspace --locked --quiet",
 ];
-/// What stands behind the number of lines in the page.
+/// The text after the number of lines in the page.
 const LINES: &str = " lines before they are simplified.";
 
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]

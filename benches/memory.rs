@@ -12,7 +12,7 @@ use marbles_benches::page::Page;
 use marbles_benches::process::{self, Held};
 use marbles_benches::{Folder, is_to_write, seconds};
 
-/// How many spheres, their largest radius, and what the table calls them.
+/// The numbers of spheres, their largest radius, and their names in the table.
 const COUNTS: [(u64, f32, &str); 3] = [
     (1_000, 2.0, "10³"),
     (10_000_000, 0.5, "10⁷"),

@@ -1,4 +1,4 @@
-//! How many primary rays a second are traced at one sample a pixel, apart from preparing the view?
+//! Measures the primary rays per second at one sample per pixel, without the preparation of the view.
 //!
 //! A view is prepared until the first tile is done, which is the first that progress is told of.
 //! That tile is counted in neither part.

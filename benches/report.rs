@@ -1,4 +1,4 @@
-//! What does a smaller error cost, by tolerances and by supersampling?
+//! Measures the cost of a smaller error, by tolerances and by supersampling.
 //!
 //! `marbles report` of two scenes. With `-- --write` the plots are drawn and what is printed becomes
 //! the measured parts of docs/report.md.

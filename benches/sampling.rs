@@ -1,4 +1,4 @@
-//! How many primary rays a second does supersampling trace?
+//! Measures the primary rays per second of supersampling.
 
 use marbles_benches::{Case, by_samples, load, main as run, mean, square_view, table};
 use marbles_core::{Renderer, World};

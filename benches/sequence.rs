@@ -1,4 +1,4 @@
-//! How much longer does a sequence take than its pictures alone? On two threads.
+//! Measures how much longer a sequence takes than its pictures alone, on two threads.
 //!
 //! Encoding and writing go on beside rendering, and take time from it where all cores are busy.
 //! With `-- --write` the table becomes the measured part of docs/sequences.md.

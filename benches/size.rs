@@ -1,4 +1,4 @@
-//! How does the time grow with the size of the picture?
+//! Measures how the time grows with the size of the picture.
 
 use marbles_benches::{Case, load, main as run, mean, square_view, table, to_tolerance};
 use marbles_core::{Renderer, View, World};

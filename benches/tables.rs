@@ -1,4 +1,4 @@
-//! How long does it take to read a table, in each format and on one thread and two?
+//! Measures the time of reading a table, in each format and on one thread and two.
 
 use std::fmt::Write as _;
 use std::fs;

@@ -1,4 +1,4 @@
-//! How does the time grow as the tolerance shrinks?
+//! Measures how the time grows as the tolerance shrinks.
 
 use marbles_benches::{
     Case, largest_difference, load, main as run, mean, square_view, table, to_tolerance,

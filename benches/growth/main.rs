@@ -1,4 +1,4 @@
-//! How does the time of a picture grow with spheres of which it hides nearly all, and with its size?
+//! Measures how the time of a picture grows with spheres of which it hides nearly all, and with its size.
 //!
 //! The spheres are the same part of the same volume, however many. Prints tables in Markdown; with
 //! `-- --write` they become the measured parts of docs/growth.md, and the plot is drawn.

@@ -49,7 +49,7 @@ pub(crate) struct Picture<'scene> {
     renderer: &'scene Renderer<'scene>,
     view: &'scene View,
     reference: Image,
-    /// What was tried so far of each kind, in the order of the settings.
+    /// The runs of each kind so far, in the order of the settings.
     tried: [Vec<Run>; 2],
     /// The worst pixel of each setting that has pixels over what they may be off by.
     pub(crate) broken: Vec<String>,
@@ -66,7 +66,7 @@ pub(crate) struct Run {
 /// A setting that suffices, or the best one that was tried.
 pub(crate) struct Choice {
     pub(crate) run: Run,
-    /// What suffices has so many times the samples on a side, and takes so many times as long.
+    /// The factors, on the samples per side and on the time, of the setting that suffices.
     beyond: Option<[f64; 2]>,
 }
 
@@ -270,7 +270,7 @@ impl Choice {
     }
 }
 
-/// How many times the samples on a side, and how many times the time, an error takes that the last run does
+/// The factors, on the samples per side and on the time, for an error that the last run does
 /// not reach: straight on in log-log plots of the last runs.
 fn extrapolated(runs: &[Run], goal: f64) -> [f64; 2] {
     let last = &runs[runs.len().saturating_sub(SLOPE)..];

@@ -104,7 +104,7 @@ fn row(
     chosen.into_iter().map(|(_, value)| value).collect()
 }
 
-/// How many missing triples a value makes with two that are chosen.
+/// The number of missing triples that a value makes with two that are chosen.
 fn gain(value: Choice, chosen: &[Choice], missing: &BTreeSet<Triple>) -> usize {
     let pairs = chosen
         .iter()
@@ -124,7 +124,7 @@ fn gain(value: Choice, chosen: &[Choice], missing: &BTreeSet<Triple>) -> usize {
 mod tests {
     use super::*;
 
-    /// How many triples that contradict nothing are in no row: looked for one by one.
+    /// The number of triples that contradict nothing and are in no row: looked for one by one.
     fn uncovered(
         rows: &[Vec<usize>],
         levels: &[usize],

@@ -5,12 +5,12 @@ use std::sync::OnceLock;
 
 use crate::covering::{Choice, rows};
 
-/// What differs between scenes.
+/// The features in which scenes differ.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Feature {
-    /// How rays run.
+    /// The lens.
     Lens,
-    /// What lights.
+    /// The kind of light.
     Light,
     /// Bumps.
     Surface,
@@ -30,7 +30,7 @@ pub enum Feature {
     PerLight,
     /// A huge sphere below.
     Floor,
-    /// Where the camera is.
+    /// The place of the camera.
     Eye,
     /// The unit of light.
     Brightness,

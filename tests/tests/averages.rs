@@ -26,7 +26,7 @@ fn settings(axes: Axes, tolerance: f64) -> GeometrySettings {
     }
 }
 
-/// What a geometry tells of its pixels, row by row: mean normals, their errors, shares, their errors, indices.
+/// The averages in a geometry, row by row: mean normals, their errors, shares, their errors, indices.
 struct Means {
     normals: Vec<DVec3>,
     normal_errors: Vec<f64>,

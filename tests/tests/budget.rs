@@ -1,4 +1,4 @@
-//! What hard pixels may cost, counted, and what they confess when they end over their tolerance.
+//! The work of hard pixels, counted, and their claims when they end over their tolerance.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -109,7 +109,7 @@ fn confessed_pixels_are_within_what_they_claim() {
     }
 }
 
-/// What turns too fast for any moments to show it claims all that may be seen: black, and white in all light.
+/// A view that turns too fast for any moments to show it claims all that may be seen: black, and white in all light.
 #[test]
 fn pixels_that_moments_cannot_know_claim_the_contrast() {
     for motion in [TURNS, LEAPS] {

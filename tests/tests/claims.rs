@@ -1,4 +1,4 @@
-//! What pixels claim where it is hard to claim anything.
+//! Claims of pixels for which it is hard to claim anything.
 
 use glam::DVec3;
 use marbles_core::{
@@ -296,7 +296,7 @@ fn bumps_are_within_loose_claims() {
     assert!(given_up <= MOST_GIVEN_UP, "{given_up}");
 }
 
-/// Where bumps are so fine that samples are random, claims hold against many more samples, and are not all that
+/// If bumps are so fine that samples are random, claims hold against many more samples, and are not all that
 /// light may be.
 #[test]
 fn random_samples_of_fine_bumps_are_within_their_claims() {

@@ -9,7 +9,7 @@ use crate::studio::{exact_picture, looking_forward, matte, pixels};
 const SCENES: u64 = 24;
 const TOLERANCE: f64 = 1e-5;
 
-/// What all pixels look at.
+/// The sphere that all pixels look at.
 const RECEIVER: (DVec3, f64) = (DVec3::new(0.0, 0.0, 40.0), 8.0);
 
 fn view() -> View {

@@ -1,4 +1,4 @@
-//! How far away parallel rays begin changes nothing about them.
+//! Parallel rays are the same, however far away they begin.
 
 use std::path::Path;
 

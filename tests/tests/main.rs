@@ -1,4 +1,4 @@
-//! What crosses the crates of marbles: pictures with known pixels, stated bounds measured,
+//! Tests across the crates of marbles: pictures with known pixels, stated bounds measured,
 //! refused scenes with their messages.
 
 mod anchored_roughness;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use marbles_tests::reference::Reference;
 
-/// What the numbers in the files may be off by.
+/// The largest error of the numbers in the files.
 const FILES: f64 = 1e-11;
 
 /// All pixels of `tests/truth/pixels`.

@@ -24,7 +24,7 @@ fn names(ending: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// What is said about the scene; its path as a user in the folder `tests` would give it.
+/// The message about the scene; its path as a user in the folder `tests` would give it.
 fn message(path: &Path) -> String {
     let error = Scene::load(path).expect_err("a broken scene");
     let folder = format!("{}/", env!("CARGO_MANIFEST_DIR"));

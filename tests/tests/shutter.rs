@@ -17,7 +17,7 @@ const MOMENTS: i32 = 192;
 const FINE: f64 = 2e-5;
 /// More than what is lost between the moments.
 const BETWEEN: f64 = 5e-5;
-/// How long the shutter is open, in frames.
+/// The time for which the shutter is open, in frames.
 const SHUTTER: f64 = 0.5;
 /// Frames of the scene with many frames for one of the other.
 const FRAMES: i32 = 4 * MOMENTS;

@@ -115,7 +115,7 @@ fn extreme_numbers_are_not_claimed_to_be_met() {
     }
 }
 
-/// Where four pixels meet, and elsewhere: a speck covers nearly nothing, and no pixel says more.
+/// Specks where four pixels meet, and elsewhere: a speck covers nearly nothing, and no pixel says more.
 #[test]
 fn specks_of_any_radius_are_nearly_dark() {
     for exponent in 3..=13 {

@@ -37,7 +37,7 @@ fn exact_pixels(name: &str) -> Vec<ExactPixel> {
     lines.map(pixel).collect()
 }
 
-/// How supersampling did on the pixels of a file.
+/// The results of supersampling on the pixels of a file.
 #[derive(Debug, Default)]
 struct Score {
     pixels: u32,

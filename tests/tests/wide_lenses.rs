@@ -33,7 +33,7 @@ struct Place {
     half_width: f64,
 }
 
-/// What a ray meets.
+/// The object that a ray meets.
 #[derive(Clone, Copy)]
 enum Met {
     /// The ball, where the sun reaches it, with this light.

@@ -1,4 +1,4 @@
-//! What pictures cost, counted: samples, lines and candidates a pixel, never time.
+//! The work of pictures, counted: samples, lines and candidates per pixel, never time.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use crate::studio::{exact_picture, glowing, looking_forward, picture, world_of};
 /// A bound that is this many times what is counted guards nothing.
 const STALE: f64 = 2.0;
 
-/// What a picture may cost for each pixel.
+/// The work that a picture may cost for each pixel.
 struct Allowance {
     scene: &'static str,
     tolerance: f64,

@@ -15,7 +15,7 @@ use marbles_tests::numbers::Numbers;
 use marbles_tests::promise::measure::single_pixel;
 use marbles_tests::reference::{Reference, Truth};
 
-/// What may be asked of a judge.
+/// The options of a judge.
 struct Options {
     tolerance: f64,
     pixels: usize,

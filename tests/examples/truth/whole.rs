@@ -17,10 +17,10 @@ const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 5e-5, 1e-5];
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-7;
 
-/// What the mean of parts is off by through rounding, in units of light.
+/// The error of the mean of parts through rounding, in units of light.
 const ROUNDING: f64 = 1e-13;
 
-/// What is asked.
+/// The options.
 struct Options {
     scenes: Vec<PathBuf>,
     tolerances: Vec<f64>,
@@ -211,7 +211,7 @@ fn picture(renderer: &Renderer<'_>, scene: &Scene, view: &View, tolerance: f64) 
     renderer.render(scene.exposure(view), &settings, &go).ok()
 }
 
-/// What the pixels of a picture came to.
+/// The results of the pixels of a picture.
 #[derive(Default)]
 struct Count {
     over: usize,

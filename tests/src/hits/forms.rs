@@ -5,7 +5,7 @@
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
-/// What every form computes: the distance and the outward normal.
+/// The result of every form: the distance and the outward normal.
 pub type Form = fn(&Sphere, &Ray) -> Option<(f64, DVec3)>;
 
 /// The forms with their names, the project's own last.

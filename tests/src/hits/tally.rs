@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::judge::ExactHit;
 
-/// What was found for many cases, held against what is true.
+/// The answers for many cases, compared with the truth.
 #[derive(Clone, Default)]
 pub struct Tally {
     /// Cases so far.

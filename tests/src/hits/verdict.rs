@@ -1,4 +1,4 @@
-//! What [`Sphere::hit`](marbles_core::Sphere::hit) claims of a hit, held against the judge.
+//! The claims of [`Sphere::hit`](marbles_core::Sphere::hit) about a hit, compared with the judge.
 
 use marbles_core::Hit;
 

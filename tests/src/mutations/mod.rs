@@ -82,7 +82,7 @@ impl Input<'_> {
     }
 }
 
-/// What some inputs came to.
+/// The results of some inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// The number of inputs.
@@ -98,7 +98,7 @@ pub struct Found {
 /// The seconds that an input may take, on the clock or of the processors' work.
 const LONGEST: f64 = 5.0;
 
-/// How long to search.
+/// The length of a search.
 #[derive(Clone, Copy, Debug)]
 pub enum Limit {
     /// So many inputs of each kind.
@@ -155,7 +155,7 @@ pub fn folder() -> PathBuf {
 
 /// Alters the seeds of a target.
 ///
-/// What is faulty is kept beside other temporary files.
+/// Searches a target. Faulty inputs are kept next to other temporary files.
 fn search(target: &Target, seed: u64, limit: Limit) -> Found {
     let folder = folder().join(target.name.replace(' ', "-"));
     fs::create_dir_all(&folder).expect("a folder can be made");

@@ -22,7 +22,7 @@ const SCENE: &str = "(
 ";
 const RENDER: &str = "render scene.ron --frames 1 --samples 2 --quiet --threads 1";
 
-/// What differs between the files that are altered, and their names.
+/// The options in which the altered files differ, and their names.
 const FILES: [(&str, &str); 6] = [
     ("a.png", ""),
     ("b.png", "--bits 16 --alpha --region 0,0,24,10"),

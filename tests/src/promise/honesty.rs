@@ -1,4 +1,4 @@
-//! How far pixels are off, in shares of what they claim.
+//! Errors of pixels, as shares of their claims.
 
 /// True errors over claimed ones of some pixels, each of which may stand for several.
 #[derive(Clone, Debug, Default)]

@@ -1,4 +1,4 @@
-//! How far the renderer is off, and how far it says it may be.
+//! Errors of the renderer, and its claims.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -13,7 +13,7 @@ use super::pixels::{self, ExactPixel};
 /// left of a true error below that moves a ratio of 1/1000 by a tenth of it.
 const TELLING: f64 = 1e4;
 
-/// What a scene's pixels came to at a tolerance.
+/// The results of a scene's pixels at a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Score {
     /// Pixels that were compared.
@@ -32,7 +32,7 @@ pub struct Score {
     pub honesty: f64,
 }
 
-/// What is judged of a pixel.
+/// The parts of a pixel that are judged.
 struct Judged {
     has_edge: bool,
     error: f64,

@@ -20,7 +20,7 @@ pub struct ExactPixel {
     pub has_edge: bool,
     /// The spheres' light without the background, and the covered fraction.
     pub value: DVec4,
-    /// What any of these may be off by.
+    /// The largest error of any of these.
     pub error: f64,
 }
 

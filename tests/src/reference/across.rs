@@ -13,11 +13,11 @@ use super::seeds::{Seeds, touching_lines};
 
 /// Lines of the first look, beside those that seeds suggest.
 const FIRST_LINES: usize = 24;
-/// How closely the lines are found between which the structure changes, in pixels: what begins
+/// The accuracy, in pixels, of the lines between which the structure changes: what begins
 /// there does so with zero width. Less closely where less is asked: by so much of the patch's goal.
 const CLOSE: f64 = 1e-11;
 const CLOSE_SHARE: f64 = 1e-2;
-/// What the integral across lines may be off by, beside the noise, as a share of the patch's goal.
+/// The error that the integral across lines may have, in addition to the noise, as a share of the patch's goal.
 const SHARE: f64 = 2e-2;
 const HALVINGS: u32 = 10;
 const RETRIES: u32 = 4;
@@ -59,7 +59,7 @@ impl Way {
     }
 }
 
-/// What an integral over a patch found out.
+/// The result of an integral over a patch.
 pub(crate) struct Found {
     pub(crate) integral: Integral,
     /// Whether more than one thing is seen.
@@ -257,7 +257,7 @@ impl<'patch> Across<'patch> {
         sum
     }
 
-    /// Where edges leave the patch through the sides that the lines run between.
+    /// The places where edges leave the patch through the sides that the lines run between.
     fn border_events(&self) -> Vec<f64> {
         let crosswise = Across {
             patch: self.patch,

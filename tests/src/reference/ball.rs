@@ -74,7 +74,7 @@ impl Ball {
         chord_sq(self.center, self.radius, self.power, direction.normalize())
     }
 
-    /// Where the ray from the viewpoint meets the surface, in multiples of `direction`.
+    /// The place where the ray from the viewpoint meets the surface, in multiples of `direction`.
     pub(crate) fn hit(&self, direction: DVec3) -> Option<f64> {
         let chord_sq = self.chord_sq(direction);
         if self.forward.is_some() {

@@ -55,8 +55,8 @@ impl Lamp {
         }
     }
 
-    /// What changes its sign where the shadow of a ball ends on the way of points, negative where it passes by; and
-    /// whether the ball lies between.
+    /// A function that changes its sign where the shadow of a ball ends on the way of points, negative where it passes
+    /// by; and whether the ball lies between.
     ///
     /// Between two points the surface of a ball is met where one of them alone is inside, or where the line cuts it
     /// between them.

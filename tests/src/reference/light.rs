@@ -1,11 +1,11 @@
-//! What a ray sees: which sphere, which lights reach it there, and the light it sends.
+//! The view of a ray: the sphere, the lights that reach it there, and the light that it sends.
 
 use glam::{DVec3, DVec4};
 
 use super::noise::bump;
 use super::patch::{Candidate, Patch};
 
-/// What may jump, or bend sharply, from one ray to the next.
+/// The properties that may jump, or bend sharply, from one ray to the next.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub(crate) struct Signature {
     /// One more than the index in the patch's candidates; 0 for the background.
@@ -76,7 +76,7 @@ impl Patch<'_> {
         self.look(direction, false).0
     }
 
-    /// What is seen in a direction, and its light and coverage, if `is_asked`.
+    /// The sphere seen in a direction, and its light and coverage, if `is_asked`.
     pub(crate) fn look(&self, direction: DVec3, is_asked: bool) -> (Signature, DVec4) {
         let mut signature = Signature::default();
         let Some((index, t)) = self.front(direction) else {

@@ -15,9 +15,10 @@ const CLOSE: f64 = 2e-12;
 const CLOSE_SHARE: f64 = 2e-3;
 /// Parts shorter than this many times that do not count as a difference between two lines.
 const SHORT: f64 = 10.0;
-/// What the light along a line may be off by, in pixels times light, beside the noise, as a share of the patch's goal.
+/// The error that the light along a line may have, in pixels times light, in addition to the noise, as a share of the
+/// patch's goal.
 const SHARE: f64 = 2e-3;
-/// How often a part of a line may be halved, and how often a line is cut again.
+/// The number of times that a part of a line may be halved, and that a line is cut again.
 const HALVINGS: u32 = 12;
 const RETRIES: u32 = 4;
 /// Places at which functions along a visible part are known, before their zeros are sought.
@@ -51,7 +52,7 @@ impl Line<'_> {
         CLOSE.max(CLOSE_SHARE * self.patch.goal) + self.patch.noise
     }
 
-    /// What is seen along the line, in order.
+    /// The views along the line, in order.
     pub(crate) fn structure(&self, pieces: &[Piece]) -> Vec<Signature> {
         let short = SHORT * self.close();
         let long = pieces
@@ -165,7 +166,7 @@ impl Line<'_> {
         cuts.windows(2).map(part).collect()
     }
 
-    /// Where the line grazes a ball.
+    /// The places where the line grazes a ball.
     fn outline_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
         if ball.has_eye_inside() {
             return;
@@ -201,7 +202,7 @@ impl Line<'_> {
         }
     }
 
-    /// Where a line of parallel rays grazes a ball, or enters the circle in which these begin inside.
+    /// The places where a line of parallel rays grazes a ball, or enters the circle in which these begin inside.
     fn circle_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
         let Some(forward) = ball.forward else { return };
         let to_center = ball.center - self.origin;
@@ -217,7 +218,7 @@ impl Line<'_> {
         }
     }
 
-    /// Where the line crosses the circle in which two balls intersect.
+    /// The places where the line crosses the circle in which two balls intersect.
     fn seam_seeds(&self, a: &Ball, b: &Ball, seeds: &mut Vec<f64>) {
         let apart = a.center - b.center;
         let distance = apart.length();
@@ -266,7 +267,7 @@ impl Line<'_> {
         }
     }
 
-    /// Where terminators, edges of shadows, and cells of the noise may cross the line on a ball
+    /// The places where terminators, edges of shadows, and cells of the noise may cross the line on a ball
     /// that is seen from `start` to `end`.
     fn seeds_on(&self, candidate: &Candidate, start: f64, end: f64, seeds: &mut Vec<f64>) {
         let world = self.patch.stage.world;

@@ -29,12 +29,12 @@ use across::Way;
 use patch::{Patch, Stage};
 use seeds::Seeds;
 
-/// What both directions may differ by in a pixel before it is quartered.
+/// The difference of both directions above which a pixel is quartered.
 const TOLERANCE: f64 = 1e-10;
-/// How often quarters are quartered, and how many lines a pixel may cost.
+/// The number of times that quarters are quartered, and the lines that a pixel may cost.
 const DEPTH: u32 = 5;
 const BUDGET: u32 = 40_000;
-/// What the last digits of lines and edges cost where all else agrees.
+/// The error from the last digits of lines and edges if all else agrees.
 const ROUNDING: f64 = 1e-12;
 
 /// The four quarters of a patch.
@@ -45,7 +45,7 @@ const SIDES: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
 pub struct Truth {
     /// Red, green, blue of the spheres' light, without the background, and the covered fraction.
     pub value: DVec4,
-    /// What any channel may be off by.
+    /// The largest error of any channel.
     pub error: f64,
     /// Whether something changes inside the pixel: a sphere's outline, a shadow, a terminator.
     pub has_edge: bool,

@@ -9,7 +9,7 @@ use super::lamp::Lamp;
 /// Slack of the search for spheres, in units of what is compared: far above rounding.
 const SLACK: f64 = 1e-7;
 
-/// What rounding a direction or a point costs, in units of its own size: some eight operations.
+/// The error of rounding a direction or a point, in units of its own size: some eight operations.
 const ROUNDING: f64 = 8.0 * 0.5 * f64::EPSILON;
 
 /// A world as seen from a viewpoint.
@@ -94,10 +94,10 @@ pub(crate) struct Patch<'stage> {
     pub(crate) up: DVec3,
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
-    /// What rounding costs: places along lines are off by so many pixels, light by so much. Lines
+    /// The error of rounding: places along lines are off by so many pixels, light by so much. Lines
     /// of both directions share it.
     pub(crate) noise: f64,
-    /// What the integral may be off by; lines and their parts have shares of it.
+    /// The error that the integral may have; lines and their parts have shares of it.
     pub(crate) goal: f64,
     /// Spheres that may be seen in it.
     pub(crate) candidates: Vec<Candidate>,
@@ -327,7 +327,7 @@ impl Beam {
 
 /// All parallel rays within a distance from an axis.
 struct Cylinder {
-    /// Where the axis begins.
+    /// The start of the axis.
     middle: DVec3,
     forward: DVec3,
     radius: f64,

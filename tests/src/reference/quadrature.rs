@@ -30,7 +30,7 @@ const RULE: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 
-/// How often halving may gain nothing, before it is given up.
+/// The number of times that halving may gain nothing, before it is given up.
 const IDLE: u32 = 6;
 
 /// More changes than this in one range are noise.

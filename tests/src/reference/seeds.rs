@@ -14,7 +14,7 @@ const EDGE_POINTS: u32 = 8;
 /// With more casters than this, pairs of them are not followed.
 const MANY: usize = 60;
 
-/// Where to look in a patch.
+/// Places to look at in a patch.
 #[derive(Debug, Default)]
 pub(crate) struct Seeds {
     /// Points around which something may change.
@@ -188,7 +188,7 @@ fn near_shadow_points(
     points
 }
 
-/// Where the outlines of two balls cross, as a light sees them.
+/// The points where the outlines of two balls cross, as a light sees them.
 fn disc_crossings(a: &Ball, b: &Ball, toward: DVec3) -> Vec<DVec3> {
     let way = b.center - a.center;
     let way = way - toward * way.dot(toward);

@@ -1,4 +1,4 @@
-//! What rays through the centers of pixels see, held against rational arithmetic.
+//! The geometry at the centers of pixels, compared with rational arithmetic.
 
 mod scenes;
 

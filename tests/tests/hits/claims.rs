@@ -1,4 +1,4 @@
-//! What [`Sphere::hit`] promises, over every family, and on each of its floors alone.
+//! The promises of [`Sphere::hit`], over every family, and on each of its floors alone.
 
 use marbles_core::{Floor, Hit, Ray, Sphere};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use marbles_tests::hits::verdict::verdict;
 
 const FLOORS: [Floor; 3] = [Floor::Fast, Floor::Double, Floor::Exact];
 
-/// What came of the cases of a family: of whoever answered, then of each floor alone.
+/// The results of the cases of a family: of whoever answered, then of each floor alone.
 #[derive(Clone, Default)]
 struct Record {
     all: Tally,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use super::order::{Layers, level};
 use super::tree::{Import, Tree};
 
-/// What is wrong with the imports of a crate, for people.
+/// The faults in the imports of a crate, for people.
 pub(crate) fn faults(tree: &Tree, layers: &Layers) -> Vec<String> {
     let imports = tree.imports();
     let mut faults = unlisted(tree, layers);

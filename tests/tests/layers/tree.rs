@@ -31,7 +31,7 @@ pub(crate) struct Import {
     pub(crate) path: String,
 }
 
-/// What a path leads to: nothing of this crate where both are absent.
+/// The target of a path: nothing of this crate where both are absent.
 #[derive(Clone, Copy, Debug, Default)]
 struct Found {
     module: Option<usize>,
@@ -179,7 +179,7 @@ impl Tree {
         own.into_iter().chain(handed_on).collect()
     }
 
-    /// What the path, written in this module, leads to.
+    /// The target of the path, written in this module.
     fn resolve(&self, module: usize, path: &[String], steps: usize) -> Found {
         let mut current = module;
         let mut is_own = false;
@@ -217,7 +217,7 @@ impl Tree {
         }
     }
 
-    /// What the name means in this module.
+    /// The meaning of the name in this module.
     fn look_up(&self, module: usize, name: &str, is_last: bool, steps: usize) -> Found {
         let Module {
             children,

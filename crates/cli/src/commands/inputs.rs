@@ -47,7 +47,7 @@ impl Inputs {
     }
 }
 
-/// Where files are. What is gone since it was read can be replaced.
+/// The places of files. A file that is gone since it was read can be replaced.
 fn places(files: impl IntoIterator<Item = impl AsRef<Path>>) -> impl Iterator<Item = PathBuf> {
     let places = files.into_iter().map(fs::canonicalize);
     places.filter_map(Result::ok)

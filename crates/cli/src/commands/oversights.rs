@@ -1,4 +1,4 @@
-//! What makes a picture black, or all of one color, by an oversight.
+//! Oversights that make a picture black, or all of one color.
 
 use marbles_core::{Sphere, View, World};
 use rayon::prelude::*;

@@ -132,7 +132,7 @@ impl Encoder {
         }
     }
 
-    /// What an image's pixels have to see for its file; the settings are those of the format's numbers.
+    /// The geometry that an image has to contain for its file; the settings are those of the format's numbers.
     pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
         let centers = self.form.centers?;
         let precision = match self.layout {

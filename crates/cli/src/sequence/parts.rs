@@ -65,7 +65,7 @@ impl PicturePart {
         }
     }
 
-    /// What the picture shows of a world.
+    /// The part of a world that the picture shows.
     pub(crate) fn of(&self, world: &World) -> World {
         match self.light {
             Some(light) => world.under(light),

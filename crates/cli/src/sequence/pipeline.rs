@@ -44,7 +44,7 @@ pub(super) struct Pipeline<'a> {
 /// A picture that is on its way to its file.
 pub(super) struct Order {
     pub(super) facts: Facts,
-    /// Which of the frame's pictures it is.
+    /// The number of this picture among the frame's pictures.
     pub(super) part: usize,
     pub(super) path: PathBuf,
     /// The file to write; `None` where all frames are one file.

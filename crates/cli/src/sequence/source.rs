@@ -43,7 +43,7 @@ pub(super) struct Source<'a> {
 #[derive(Clone, Copy, Debug)]
 struct Shot {
     frame: i32,
-    /// Which of the frame's pictures it is.
+    /// The number of this picture among the frame's pictures.
     part: usize,
 }
 

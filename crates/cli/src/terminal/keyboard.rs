@@ -47,7 +47,7 @@ mod system {
 
     use rustix::termios::{LocalModes, OptionalActions, Termios, tcgetattr, tcsetattr};
 
-    /// What is to be restored.
+    /// The settings of the terminal to restore.
     static BEFORE: Mutex<Option<Termios>> = Mutex::new(None);
 
     pub(super) fn listen(press: impl Fn(&[u8]) + Send + 'static) {

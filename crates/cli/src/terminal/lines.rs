@@ -58,7 +58,7 @@ impl Frame<'_> {
     }
 }
 
-/// What programs read about a frame.
+/// A report about a frame, for programs.
 #[derive(Serialize)]
 struct Event<'a> {
     event: &'static str,

@@ -3,7 +3,7 @@
 /// Calls `handle` for each signal that asks the process to end, from now on, in a thread of its own: SIGINT, SIGTERM and
 /// SIGHUP, but for those that were ignored when the process began, as `nohup` has it.
 ///
-/// Where no handler can be installed, the signals end the process as they always do.
+/// If no handler can be installed, the signals end the process as they always do.
 #[cfg(unix)]
 pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};

@@ -281,7 +281,7 @@ fn no_output_replaces_an_input() {
     assert_eq!(folder.read("scene.png"), cloud.as_bytes());
 }
 
-/// What the system says is told in our manner, without its number.
+/// Messages of the system are told in our manner, without their numbers.
 #[test]
 #[cfg(unix)]
 fn links_in_a_circle_are_told() {

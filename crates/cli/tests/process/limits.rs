@@ -1,4 +1,4 @@
-//! What the system takes away: descriptors, room in files, signals.
+//! Limits of the system: descriptors, room in files, signals.
 
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;

@@ -123,7 +123,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// What a script prints, and its exit code, with `marbles` among the programs.
+/// Runs a script, and returns its output and its exit code, with `marbles` among the programs.
 fn run(folder: &Path, script: &str) -> (String, i32) {
     let script = script.replace("cargo run --release -- ", "marbles ");
     let program = Path::new(env!("CARGO_BIN_EXE_marbles")).parent().unwrap();

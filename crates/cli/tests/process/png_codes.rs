@@ -13,7 +13,7 @@ fn bright() -> Folder {
     folder
 }
 
-/// What `render` prints.
+/// The output of `render`.
 fn printed(folder: &Folder, arguments: &str) -> String {
     let is_sequence = arguments.contains("--frames");
     let scene = if is_sequence { "roll" } else { "ball" };

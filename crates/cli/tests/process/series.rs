@@ -144,7 +144,7 @@ fn a_step_that_is_broken_does_not_stop_the_others() {
     assert_eq!(folder.names("out").len(), STEPS - 1);
 }
 
-/// What another program writes over meanwhile ends the sequence: its frames would be those of two tables.
+/// A table that another program overwrites ends the sequence: its frames would be those of two tables.
 #[test]
 fn a_table_that_changes_ends_the_sequence() {
     const FRAMES: usize = 400;
@@ -223,7 +223,7 @@ fn pipes_with_names_are_refused() {
     }
 }
 
-/// What is in doubt is said by every command, and an error where warnings are.
+/// Every command tells doubts, and they are errors where warnings are.
 #[test]
 fn what_is_left_out_of_a_series_is_said() {
     let folder = Folder::new();

@@ -42,7 +42,7 @@ fn end_on_terminal(
     }
 }
 
-/// What is shown from the start of a line, without colors and the like.
+/// The visible text from the start of a line, without colors and the like.
 fn visible_lines(shown: &str) -> Vec<String> {
     let lines = shown.split(['\r', '\n']).map(|line| {
         let parts = line.split("\x1b[").enumerate();

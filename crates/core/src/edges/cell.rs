@@ -14,7 +14,7 @@ use crate::numeric::polynomial::{Linear, Quadratic};
 pub(crate) struct Cell {
     /// The ray through the middle.
     pub(crate) middle: DVec3,
-    /// What one unit of x adds to the ray, and one of y; positive.
+    /// The changes of the ray per unit of x, and per unit of y; positive.
     pub(crate) size: [f64; 2],
     pub(crate) projection: Projection,
 }
@@ -41,7 +41,7 @@ impl Ball {
         self.projection == Projection::Parallel
     }
 
-    /// How far from the eye, or from the plane of parallel rays, it begins.
+    /// The distance from the eye, or from the plane of parallel rays, at which it begins.
     pub(crate) fn begin(&self) -> f64 {
         if self.is_parallel() {
             self.center.z - self.radius

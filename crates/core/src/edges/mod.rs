@@ -1,4 +1,4 @@
-//! Where light changes abruptly on the retina: outlines, seams, terminators and edges of shadows,
+//! Curves on the retina across which light changes abruptly: outlines, seams, terminators and edges of shadows,
 //! as curves in the coordinates of a [`Cell`].
 //!
 //! Outlines, seams and terminators are conics there, and cross a line in two places at most. An

@@ -80,7 +80,7 @@ pub(crate) fn place(cell: &Cell, point: DVec3) -> (f64, f64) {
     (at(0), at(1))
 }
 
-/// Where a ray first meets a ball that the eye is outside of.
+/// The first point in which a ray meets a ball that the eye is outside of.
 pub(crate) fn first_hit(ray: DVec3, ball: &Ball) -> Option<DVec3> {
     let ray = ray.normalize();
     let along = ray.dot(ball.center);
@@ -109,7 +109,7 @@ pub(crate) fn value(q: &Quadratic, x: f64, y: f64) -> (f64, f64) {
     )
 }
 
-/// What the polynomial grows by in the direction of x.
+/// The derivative of the polynomial along x.
 pub(crate) fn slope(q: &Quadratic, x: f64, y: f64) -> f64 {
     q.x + 2.0 * q.xx * x + q.xy * y
 }

@@ -53,8 +53,8 @@ pub(crate) struct Scratch {
     shares: Shares,
 }
 
-/// How deep pixels are quartered where boxes do not meet the tolerance: what is left of an edge is less than 1e-3 of a
-/// pixel.
+/// The depth to which pixels are quartered where boxes do not meet the tolerance: what is left of an edge is less than
+/// 1e-3 of a pixel.
 const DEEPEST: u32 = 10;
 
 /// Between which x and y the quarters of a cell lie.
@@ -322,7 +322,7 @@ trait Found {
     fn add(&mut self, place: usize, sphere: usize, part: [f64; 2]);
 }
 
-/// What is seen of the candidates of a tile, in the order of their numbers.
+/// The visible areas of the candidates of a tile, in the order of their numbers.
 #[derive(Debug)]
 struct Sums(Vec<(usize, VisibleArea)>);
 
@@ -336,7 +336,7 @@ impl Found for Sums {
     }
 }
 
-/// What the pixels of a tile see, part by part: the place of the pixel, the sphere, the area and its error.
+/// The visible parts in the pixels of a tile: the place of the pixel, the sphere, the area and its error.
 #[derive(Debug, Default)]
 struct Parts(Vec<(usize, usize, [f64; 2])>);
 

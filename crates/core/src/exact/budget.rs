@@ -44,7 +44,7 @@ pub(crate) struct Budget {
     looked: u64,
 }
 
-/// What a pixel may be off by so far.
+/// The error of a pixel so far, as claimed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Doubt {
     pub(crate) error: f64,
@@ -64,9 +64,9 @@ pub(crate) const MOST_OVER_TIME: u64 = MOST / 24;
 /// The units that a pixel may cost.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Allowance {
-    /// Where it sees no bumps.
+    /// For a pixel that sees no bumps.
     ordinary: u64,
-    /// Where it sees bumps.
+    /// For a pixel that sees bumps.
     pub(crate) bumpy: u64,
 }
 
@@ -235,7 +235,7 @@ impl Budget {
     /// Returns whether the work ends: it has cost all that it may, or rounding alone exceeds the tolerance and
     /// stays as it is however small the cells become.
     pub(crate) fn is_over(&mut self, now: Doubt, tolerance: f64) -> bool {
-        /// What falls by less than this while the work doubles stays.
+        /// A number that falls by a smaller factor while the work doubles stays.
         const SAME: f64 = 0.9;
         if self.spent >= self.most || self.looking > self.most_looking {
             return true;

@@ -1,4 +1,4 @@
-//! What rules may miss of the light of a surface where it changes too fast for them.
+//! Estimates of the light that rules miss on a surface where it changes too fast for them.
 
 use fearless_simd::Simd;
 use glam::DVec3;
@@ -78,7 +78,7 @@ impl Finish {
         falloff.of_clamped(highest) * brightest
     }
 
-    /// How many times as fast as the sphere's the shading normals turn, where they turn fast: half of the bound,
+    /// The factor by which the shading normals turn faster than the sphere's, where they turn fast: half of the bound,
     /// and four times the root of the mean square over bumps. Not tuned.
     pub(crate) fn usual_slope(&self) -> f64 {
         let slope = self.shading_normal.slope_bound();

@@ -23,9 +23,9 @@ const OF_TILE: u64 = 4;
 /// The units that the crowds of a tile may cost: those that it sees, and those in whose shadows it lies.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UnitsOfTile {
-    /// Where the tile may see a crowd.
+    /// For a tile that may see a crowd.
     crowded: u64,
-    /// Where it may not.
+    /// For any other tile.
     other: u64,
 }
 

@@ -29,7 +29,7 @@ struct Level {
     seen: Arc<[OnceLock<Seen>]>,
 }
 
-/// What a block may see.
+/// The spheres that a block may see.
 #[derive(Clone, Debug, Default)]
 struct Seen {
     /// The spheres, about from front to back, if they are fewer than those of the block around it.
@@ -66,7 +66,7 @@ impl CrowdBlocks {
         index: &ViewIndex<'_>,
         tile: Tile,
     ) -> OfTile {
-        /// How many times more than a pixel's most the spheres are that are left of a block if those of its tiles are too
+        /// The number of spheres left in a block, in multiples of a pixel's limit, if those of its tiles are too
         /// many. Half as large a tile sees about a quarter of them.
         const HOPELESS: usize = 8;
         let (mut around, mut is_covered) = (None, false);

@@ -27,7 +27,7 @@ impl Part {
         self.rounding += other.rounding * share;
     }
 
-    /// How far another integral over the same is from this one.
+    /// The distance of another integral over the same cell from this one.
     fn distance_from(&self, other: &Self) -> f64 {
         let off = (self.value - other.value).abs().max_element();
         off.max((self.covered - other.covered).abs())

@@ -17,7 +17,7 @@ pub(crate) struct Points<S: Simd> {
     pub(crate) t: f64x8<S>,
     /// Unit outward normals.
     pub(crate) normal: Vectors<S>,
-    /// Where parallel rays begin, in the plane across them.
+    /// The places where parallel rays begin, in the plane across them.
     begin: Option<[f64x8<S>; 2]>,
 }
 

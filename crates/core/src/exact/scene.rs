@@ -54,7 +54,7 @@ pub(crate) struct InCamera<'scene> {
     strokes: Option<StrokeView>,
     /// Whether strokes are black, as in all groups but the first.
     are_strokes_black: bool,
-    /// What their colors are multiples of.
+    /// The unit of their colors.
     stroke_unit: f64,
 }
 
@@ -267,7 +267,7 @@ impl<'scene> InCamera<'scene> {
         self.strokes.is_some()
     }
 
-    /// What is seen of a sphere inside of its stroke: a ball with the same center; none for a sphere without a stroke.
+    /// The visible part of a sphere inside of its stroke: a ball with the same center; none for a sphere without a stroke.
     pub(crate) fn inside_stroke(&self, sphere: usize, ball: &Ball) -> Option<Ball> {
         let view = self.strokes?;
         let stroke = self.world.material(sphere).stroke?;

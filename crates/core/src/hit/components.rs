@@ -1,4 +1,4 @@
-//! Where a ray meets a sphere, each coordinate to its own last places.
+//! The point in which a ray meets a sphere, each coordinate to its own last places.
 //!
 //! [`Hit`](super::outcome::Hit) has the distance and the normal to within a unit in the last place of their
 //! lengths. A coordinate that is small beside them needs more: on a floor with a radius of 1e9, the normal

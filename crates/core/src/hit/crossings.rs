@@ -1,4 +1,4 @@
-//! Where eight rays meet spheres, each coordinate to its own last places.
+//! The points in which eight rays meet spheres, each coordinate to its own last places.
 //!
 //! [`components`](super::components) answers for one ray with numbers of twice the precision throughout. Here a distance
 //! of common precision takes one Newton step, whose residual alone has twice the precision: with v = f − d t and the
@@ -34,7 +34,7 @@ const TOLERANCE: f64 = UNIT_ROUNDOFF / 32.0;
 /// More than all that underflow takes, as long as lengths are [`MODERATE`]; numbers near it are not proved.
 const TINY: f64 = 1e-250;
 
-/// Where d·v is less than this part of Σ |dⱼ| Sⱼ, little of it is left by rounding.
+/// If d·v is less than this part of Σ |dⱼ| Sⱼ, little of it is left by rounding.
 const LEAST_ALONG: f64 = 1.0 / (1_u64 << 26) as f64;
 
 /// Sums of squares that neither overflow nor underflow in what follows.
@@ -65,7 +65,7 @@ pub(crate) struct Crossings<S: Simd, const FUSED: bool> {
     inward: [Vectors<S>; 2],
     inward_error: Vectors<S>,
     inverse_radius: [f64x8<S>; 2],
-    /// Where the bounds of the distance hold.
+    /// The rays for which the bounds of the distance hold.
     is_sound: mask64x8<S>,
     is_proved: mask64x8<S>,
 }

@@ -153,7 +153,7 @@ pub(super) fn components(sphere: &Sphere, ray: &Ray, axes: &[DVec3; 3]) -> Optio
 
 /// (a + b √q) / c · 2ᵉ for q ≥ 0 and c > 0, rounded once after a relative error of 2⁻¹⁵⁷ at most.
 ///
-/// Where the terms would cancel, by way of (a² − b² q) / (a − b √q).
+/// Computed, if the terms would cancel, by way of (a² − b² q) / (a − b √q).
 fn surd(a: BigInt, b: &BigInt, q: &BigInt, c: &BigInt, exponent: i32) -> f64 {
     let Ok(under_root) = BigUint::try_from(q.clone()) else {
         return f64::NAN;

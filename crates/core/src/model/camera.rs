@@ -89,8 +89,8 @@ impl Camera {
         }
     }
 
-    /// Where parallel rays begin that go through the plane across the axis of view at the distance `along` from the
-    /// world's origin: a point on the axis of view.
+    /// The place where parallel rays begin that go through the plane across the axis of view at the distance `along` from
+    /// the world's origin: a point on the axis of view.
     ///
     /// # Accuracy
     /// Across the axis it is off by rounding of the nearer one of the viewpoint and the point on the axis, and of how
@@ -135,8 +135,8 @@ impl Camera {
     }
 }
 
-/// How far aside a point on the axis of view may be, relative to its distance, for rounding alone: 32 units of a
-/// double's precision.
+/// The distance by which a point on the axis of view may be aside, relative to its distance, for rounding alone: 32 units
+/// of a double's precision.
 const MOST_ASIDE: f64 = 16.0 * f64::EPSILON;
 
 /// The point on the axis of view that is nearest to the world's origin; the position where numbers are too large for
@@ -172,7 +172,7 @@ pub struct Lens {
     pub shift: DVec2,
 }
 
-/// How the rays of a lens lie to each other.
+/// The way in which the rays of a lens lie to each other.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Projection {
     /// They go through one point.

@@ -11,7 +11,7 @@ use super::view::View;
 /// downward.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outline {
-    /// Where the sphere's center is seen, which is not the middle of the outline; none where it is not in front of the
+    /// The image of the sphere's center, which is not the middle of the outline; none if it is not in front of the
     /// viewpoint.
     pub center: Option<DVec2>,
     /// The distance of the center along the axis of view, in scene units.

@@ -29,7 +29,7 @@ pub enum RotationError {
 /// N. J. Higham, Computing the polar decomposition, SIAM J. Sci. Stat. Comput. 7 (1986): Newton's
 /// iteration R ← (R + R⁻ᵀ) / 2 leads to the nearest orthogonal matrix, and squares the deviation.
 pub fn nearest_rotation(matrix: DMat3) -> Result<DMat3, RotationError> {
-    /// What seven decimals of the entries leave.
+    /// The deviation that seven decimals of the entries leave.
     const LARGEST_DEVIATION: f64 = 1e-6;
     /// More than what rounding leaves of a product of three rotations.
     const ROUNDED: f64 = 1e-14;

@@ -54,7 +54,7 @@ impl View {
         )
     }
 
-    /// What the strokes of spheres depend on.
+    /// The part of the view that the strokes of spheres depend on.
     pub(crate) fn of_strokes(&self) -> StrokeView {
         StrokeView {
             pixel: 1.0 / self.pixels_per_unit(),

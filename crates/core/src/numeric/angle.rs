@@ -12,7 +12,7 @@ pub struct Angle {
     pub sin: f64,
     /// Cosine of the angle.
     pub cos: f64,
-    /// What sine and cosine lack to twice the precision of a double; 0 where it is not known.
+    /// The second halves of sine and cosine in twice the precision of a double; 0 if they are not known.
     pub(crate) rest: [f64; 2],
 }
 

@@ -69,7 +69,7 @@ struct Recurrence {
 }
 
 impl Recurrence {
-    /// What is subtracted from x, and the factor of the polynomial before the last, which for the first is
+    /// The number that is subtracted from x, and the factor of the polynomial before the last, which for the first is
     /// not used.
     fn coefficients(&self, degree: usize) -> (f64, f64) {
         let (degree, power) = (degree as f64, self.power);

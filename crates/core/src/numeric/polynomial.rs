@@ -52,7 +52,7 @@ impl Quadratic {
         }
     }
 
-    /// Where the zeros cross a line y = const: once with the polynomial rising in the direction of x, once
+    /// The places where the zeros cross a line y = const: once with the polynomial rising in the direction of x, once
     /// with it falling; NaN, infinite or far off where they do not.
     ///
     /// The root that adds numbers of one sign is computed as it stands, the other from the product

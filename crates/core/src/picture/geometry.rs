@@ -1,4 +1,4 @@
-//! What is seen through the centers of pixels, and averages over what pixels see of spheres.
+//! Geometry seen through the centers of pixels, and averages over the visible parts of spheres.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use super::quantities::{GeometrySettings, Precision, Quantities, Quantity};
 use super::tile::Tile;
 use super::window::Window;
 
-/// What the rays through the centers of a picture's pixels see.
+/// The geometry that the rays through the centers of a picture's pixels see.
 ///
 /// The ray of a pixel is [`View::ray`](crate::View::ray) through
 /// [`View::cell_center`](crate::View::cell_center) with one division, in the doubles that these return. It is
@@ -225,7 +225,7 @@ const SIDE: usize = Tile::SIDE as usize;
 /// Numbers of a row of a tile's pixels, for each component of all quantities.
 const COMPONENTS: usize = 13;
 
-/// What the pixels of a tile see.
+/// The geometry that the pixels of a tile see.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct TileGeometry {
     pub(crate) rows: [RowGeometry; SIDE],
@@ -240,7 +240,7 @@ impl TileGeometry {
     }
 }
 
-/// What a row of a tile's pixels sees.
+/// The geometry that a row of a tile's pixels sees.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RowGeometry {
     /// False where no sphere is seen; the numbers then mean nothing.

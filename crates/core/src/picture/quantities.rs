@@ -2,7 +2,7 @@
 
 use super::averages::AverageSettings;
 
-/// What a [`Geometry`](crate::Geometry) tells, and how.
+/// The contents of a [`Geometry`](crate::Geometry), and their conventions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GeometrySettings {
     /// The quantities that are wanted; which sphere is seen is always told.

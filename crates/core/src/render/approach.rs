@@ -67,7 +67,7 @@ const PREVIEWS: [Preview; 4] = [
     },
 ];
 
-/// What samples claim, in parts of the contrast times their spacing in pixels.
+/// The claim of samples, in parts of the contrast times their spacing in pixels.
 const OF_SPACING: f64 = 1.2;
 
 impl Approach {

@@ -1,4 +1,4 @@
-//! How much of each sphere a picture shows.
+//! The visible area of each sphere in a picture.
 
 use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 

@@ -29,7 +29,7 @@ struct MeanNormals<'scene> {
     sides: [Exact<'scene>; 2],
     /// The wanted axes from the world's.
     axes: DMat3,
-    /// How many times as large errors may be in them.
+    /// The factor by which errors may be larger in them.
     spread: f64,
 }
 

@@ -1,5 +1,5 @@
-//! What the rays through the centers of pixels see, beside the samples of a picture or apart from its light, and averages
-//! over what pixels see.
+//! The geometry that the rays through the centers of pixels see, beside the samples of a picture or apart from its light,
+//! and averages over what pixels see.
 
 use std::num::NonZeroU32;
 
@@ -66,7 +66,7 @@ impl<'scene> Centers<'scene> {
 }
 
 impl Renderer<'_> {
-    /// What the rays through the centers of a view's pixels see, without its light.
+    /// Renders the geometry that the rays through the centers of a view's pixels see, without its light.
     pub fn geometry(&self, view: &View, settings: &GeometrySettings) -> Geometry {
         let centers = Centers {
             settings: *settings,

@@ -37,7 +37,7 @@ pub(super) struct Scratch {
     pub(super) sampled: sampling::Scratch,
 }
 
-/// What was found out of the spheres of a view, for others who look at the same.
+/// Facts about the spheres of a view, for others with the same view.
 #[derive(Default)]
 pub(super) struct Indices<'scene>(Vec<(RayPoints, ViewIndex<'scene>)>);
 

@@ -42,7 +42,7 @@ pub trait Strip {
     /// `part`.
     fn add(&mut self, col: u32, part: &Image);
 
-    /// What the rays through the centers of these columns' pixels see, where it was asked for; comes before
+    /// Receives the geometry at the centers of these columns' pixels, if it was asked for; comes before
     /// the columns are added.
     fn add_geometry(&mut self, _col: u32, _part: &Geometry) {}
 

@@ -1,4 +1,4 @@
-//! What the rays through the centers of pixels see, beside its light.
+//! The geometry that the rays through the centers of pixels see.
 
 use fearless_simd::Simd;
 
@@ -234,7 +234,7 @@ impl Centers {
     }
 }
 
-/// Where every component is known to [`SINGLE`], from errors of any sign.
+/// The lanes in which every component is known to [`SINGLE`], from errors of any sign.
 #[inline(always)]
 fn is_small<S: Simd>(simd: S, error: Vectors<S>, vector: Vectors<S>) -> mask64x8<S> {
     let (error, size) = (error.sizes(), vector.sizes());

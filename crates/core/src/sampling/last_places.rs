@@ -1,4 +1,4 @@
-//! What center rays see, to the last places of doubles.
+//! The geometry that center rays see, to the last places of doubles.
 
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3};

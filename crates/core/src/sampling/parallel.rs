@@ -1,4 +1,4 @@
-//! What parallel rays see, eight pixels of a row at a time.
+//! The spheres that parallel rays see, eight pixels of a row at a time.
 
 use std::cmp::Ordering;
 

@@ -48,7 +48,7 @@ pub(crate) struct Supersampling<'scene> {
     samples: NonZeroU32,
     channels: Channels,
     alpha: bool,
-    /// What an error of alpha counts as, in light; 0 where nobody asks for alpha.
+    /// The light that an error of alpha counts as; 0 if nobody asks for alpha.
     of_alpha: f64,
     rays: Rays,
     shading: Shading<'scene>,
@@ -97,7 +97,7 @@ impl<'scene> Supersampling<'scene> {
         }
     }
 
-    /// What the rays through the centers of pixels see, without its light.
+    /// Samples the geometry that the rays through the centers of pixels see, without light.
     pub(crate) fn of_centers(
         world: &'scene World,
         view: &View,
@@ -425,7 +425,7 @@ struct Sampler<'tile> {
     tracer: Tracer<'tile>,
     groups: Groups<'tile>,
     looks: Looks<'tile>,
-    /// What is seen, where somebody asks.
+    /// The geometry that is seen, if somebody asks.
     geometry: &'tile mut TileGeometry,
     shadows: Option<Shadows<'tile>>,
 }

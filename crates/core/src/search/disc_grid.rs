@@ -88,7 +88,7 @@ pub(super) struct DiscGrid {
     /// Spheres reach as far as discs that are so much smaller, and their centers lie no lower than that much
     /// below those of the discs.
     excess: f64,
-    /// Where the groups of each part begin; one more for the end.
+    /// The starts of the groups of each part; one more for the end.
     starts: Vec<u32>,
     groups: Vec<DiscGroup>,
     /// Memory to work in: what each disc reaches into.

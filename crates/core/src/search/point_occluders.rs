@@ -46,7 +46,7 @@ pub(crate) struct Beam {
 const SLACK: f64 = 1e-11;
 
 impl Beam {
-    /// What lies between `apex` and the ball around a point.
+    /// The space between `apex` and the ball around a point.
     pub(crate) fn new(apex: DVec3, middle: DVec3, around: f64) -> Self {
         let way = middle - apex;
         let length = way.length();
@@ -208,7 +208,7 @@ fn reaching_spheres<S: Simd>(simd: S, group: &Group, beam: &Beam) -> u8 {
     reached_lanes(simd, beam, center, f64x8::from_array(simd, group.radius)).0
 }
 
-/// What [`Beam::is_reached_by`] says of eight balls, as bits, and where along the beam they begin.
+/// The answers of [`Beam::is_reached_by`] for eight balls, as bits, and the places along the beam where they begin.
 #[inline(always)]
 fn reached_lanes<S: Simd>(
     simd: S,

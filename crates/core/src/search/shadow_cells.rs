@@ -17,8 +17,8 @@ use crate::model::ray::Ray;
 /// they cannot be told apart.
 const MARGIN: f64 = 1.0 / 256.0;
 
-/// Cells with more discs are left to smaller ones. Tuned for a million spheres alone: it bounds the memory of a cell, and what is in
-/// vain where points lie in few of its parts.
+/// Cells with more discs are left to smaller ones. Tuned for a million spheres alone: it bounds the memory of a cell, and
+/// what is in vain where points lie in few of its parts.
 const MOST_DISCS: usize = 1024;
 
 /// As much for columns: most points that come so far are not in the dark, and go through all of it.
@@ -30,7 +30,7 @@ const FEW_DISCS: usize = 64;
 /// After so many cells of a layer, larger ones are tried all the same. Not tuned: it keeps long ways short.
 const MOST_PASSED: u32 = 4;
 
-/// How many layers a point's cell may lie below the layer that it should; points that find too much in all of
+/// The number of layers by which a point's cell may lie too low; points that find too much in all of
 /// them are looked up alone. Not tuned: in the last one cells are about a pixel.
 const MOST_HALVINGS: i32 = 6;
 
@@ -91,7 +91,7 @@ impl Key {
     }
 }
 
-/// What is known of a cell.
+/// The facts known about a cell.
 #[derive(Clone, Debug)]
 struct Cell {
     key: Key,
@@ -127,7 +127,7 @@ pub(crate) struct SurfacePoint {
 }
 
 impl ShadowCells {
-    /// What [`Visibility::is_blocked`] says of a point of a sphere and a light.
+    /// The answer of [`Visibility::is_blocked`] for a point of a sphere and a light.
     #[inline(always)]
     pub(crate) fn is_blocked<S: Simd>(
         &mut self,

@@ -51,7 +51,7 @@ struct OuterSpheres<'world> {
     visibility: Visibility<'world>,
 }
 
-/// What may keep a light from points.
+/// The spheres that may keep a light from points.
 #[derive(Clone, Debug)]
 enum Occlusion<'world> {
     Discs(DiscCache<'world>),
@@ -141,7 +141,7 @@ impl<'world> Visibility<'world> {
         Some(OuterSpheres { nested, visibility })
     }
 
-    /// What a view is to be found out with: without nested spheres, where nothing of them is seen.
+    /// The visibility to use for a view: without nested spheres, if it sees nothing of them.
     pub(super) fn of_view(&self, view: &View) -> &Self {
         match &self.outer {
             Some(outer) if outer.nested.are_hidden_from(view) => &outer.visibility,

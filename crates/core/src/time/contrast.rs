@@ -1,4 +1,4 @@
-//! How far the light of things in a world may lie apart.
+//! The range of the light of things in a world.
 
 use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 

@@ -77,7 +77,7 @@ pub(crate) enum TakenFrames {
     All,
 }
 
-/// What rows have whose element is unknown.
+/// The radius and the color of rows whose element is unknown.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Others {
@@ -97,7 +97,7 @@ pub(crate) enum Up {
     Z,
 }
 
-/// What a cloud shows behind its last step.
+/// The look of a cloud after its last step.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, PartialEq)]
 pub(crate) enum End {
     /// The last step.

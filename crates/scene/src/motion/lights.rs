@@ -185,7 +185,7 @@ impl Kind {
         matches!(self, Self::Point { falloff, reference: None } if falloff == falls_off)
     }
 
-    /// What is wrong with a light of this kind that has no place.
+    /// The fault of a light of this kind that has no place.
     fn fault(self, index: usize) -> FrameFault {
         match self {
             Self::Directional => FrameFault::LightNowhere(index),

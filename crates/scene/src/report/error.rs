@@ -18,7 +18,7 @@ pub struct SceneError {
     path: PathBuf,
     faults: Vec<SceneFault>,
     located: Vec<LocatedFault>,
-    /// What follows the messages of the faults.
+    /// The text after the messages of the faults.
     end: String,
     is_of_changed_table: bool,
 }

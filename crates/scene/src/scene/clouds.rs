@@ -54,7 +54,7 @@ impl Scene {
         Ok(step)
     }
 
-    /// What may be an oversight in steps that were read after the first, one line each, and was not yet handed over.
+    /// Returns possible oversights in steps read after the first, one line each, that were not handed over yet.
     pub fn take_late_warnings(&self) -> Vec<String> {
         let Some(series) = &self.series else {
             return Vec::new();
@@ -166,7 +166,7 @@ fn scale_lens(lens: &mut Lens, scale: f64) {
     lens.shift *= scale;
 }
 
-/// What the colors of a step mean.
+/// The meaning of the colors of a step.
 fn colors(scale: &Scale, step: &Step) -> Option<ColorDescription> {
     let Learned {
         low, categories, ..

@@ -25,7 +25,7 @@ pub struct CloudDescription {
     pub colors: Option<ColorDescription>,
 }
 
-/// What the colors of a table's spheres mean.
+/// The meaning of the colors of a table's spheres.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColorDescription {
     /// The column; the length of a vector has none.

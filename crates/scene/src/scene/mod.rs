@@ -36,7 +36,7 @@ pub struct Scene {
     clouds: Vec<CloudDescription>,
     warnings: Vec<String>,
     hints: Vec<String>,
-    /// Where some clouds change over time.
+    /// Present if some clouds change over time.
     series: Option<Arc<Series>>,
     /// Cameras that frame the spheres of each step alone.
     framed: Vec<(StepKey, CameraMotion, Lens)>,
@@ -91,12 +91,12 @@ impl Scene {
         })
     }
 
-    /// What may be an oversight, one line each.
+    /// Returns possible oversights, one line each.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// What is rather meant otherwise, one line each, though nothing is wrong with it.
+    /// Returns hints, one line each: values that are valid but were probably meant otherwise.
     pub fn hints(&self) -> &[String] {
         &self.hints
     }
@@ -205,7 +205,7 @@ impl Scene {
         self.tables.iter().flat_map(|table| table.files()).collect()
     }
 
-    /// What is in the columns of a table's first step, the first dozens of them; `cloud` is its place in
+    /// Returns the contents of the columns of a table's first step, the first dozens of them; `cloud` is its place in
     /// [`Self::clouds`]. Reads the table once for each.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::table::Format;
 use crate::text::{quoted, token};
 
-/// What a file at `path` with these bytes is instead of a scene, and what to do; `None` where it may be one.
+/// Tells the kind of a file at `path` with these bytes that is no scene, and what to do; `None` where it may be one.
 pub(super) fn explain(path: &Path, bytes: &[u8]) -> Option<String> {
     let text = match str::from_utf8(bytes) {
         Ok(text) => text,

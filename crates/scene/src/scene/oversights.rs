@@ -1,4 +1,4 @@
-//! What a scene file says that may be an oversight.
+//! Possible oversights in a scene file.
 
 use std::collections::HashSet;
 use std::ops::Range;

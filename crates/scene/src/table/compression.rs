@@ -19,7 +19,7 @@ pub(crate) enum Compression {
     Zstandard,
 }
 
-/// What compressed files may hold without more ado.
+/// The bytes that any compressed file may hold.
 const FREE_BYTES: u64 = 1 << 26;
 const FREE_COUNT: u64 = 1 << 17;
 /// Bytes, and rows or steps, that they may hold for each byte that they have: many times what any table of different

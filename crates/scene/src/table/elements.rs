@@ -38,7 +38,7 @@ pub(crate) struct Elements {
     other_radius: f64,
 }
 
-/// What a scene gives to a name.
+/// A value that a scene gives to a name.
 #[derive(Clone, Debug)]
 struct Own<T> {
     name: Box<[u8]>,

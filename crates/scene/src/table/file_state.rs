@@ -1,4 +1,4 @@
-//! What tells that a file is still the one that was read.
+//! The state of a file, which tells whether it is still the one that was read.
 
 use std::fs::{self, Metadata};
 use std::io;

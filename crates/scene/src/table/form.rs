@@ -14,7 +14,7 @@ pub(crate) struct Form {
     pub(crate) may_be_longer: bool,
     /// Numbers have commas where others have points.
     pub(crate) has_decimal_commas: bool,
-    /// What lines are, where the header does not tell how many rows follow.
+    /// The kind of a line, used if the header does not tell how many rows follow.
     pub(crate) kind: fn(&[u8]) -> LineKind,
     /// The atomic number that a line tells in this field.
     pub(crate) element: ElementOf,
@@ -27,7 +27,7 @@ pub(crate) struct Form {
 /// The atomic number that a line tells in a field.
 pub(crate) type ElementOf = fn(&[u8], Range<usize>) -> Option<u8>;
 
-/// What a line is.
+/// The kind of a line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum LineKind {
     Row,
@@ -66,7 +66,7 @@ impl Form {
     }
 }
 
-/// What a line of a table is that may have comments.
+/// The kind of a line in a table that may have comments.
 pub(crate) fn of_table(line: &[u8]) -> LineKind {
     match line.trim_ascii_start().first() {
         None | Some(b'#' | b'%') => LineKind::Other,

@@ -105,7 +105,7 @@ impl Format {
         }
     }
 
-    /// What a file surely is, by what it begins with or the ending of its name: a table, or a file of another kind.
+    /// The certain kind of a file, by its first bytes or the ending of its name: a table, or a file of another kind.
     pub(crate) fn evident(path: &Path, head: &[u8]) -> Option<Result<Self, &'static Foreign>> {
         let ending = ending(path);
         let known = ENDINGS.iter().find(|known| known.0 == ending);

@@ -165,7 +165,7 @@ impl<'watch> Frames<'watch> {
         !is_binary && self.input.can_seek()
     }
 
-    /// What may be wrong in the file, as far as it was read.
+    /// Takes possible faults in the file, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         self.input.take_doubts()
     }

@@ -1,4 +1,4 @@
-//! What a text says of its rows before they come.
+//! Facts about the rows of a text that come before them.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -16,7 +16,7 @@ use super::rows::Rows;
 use super::{text, time};
 use crate::text::LocatedFault;
 
-/// What a text says of its rows before they come.
+/// Facts about the rows of a text that come before them.
 #[derive(Clone, Debug)]
 pub(crate) struct Header {
     pub(crate) names: Vec<String>,
@@ -29,7 +29,7 @@ pub(crate) struct Header {
     pub(crate) angstrom: f64,
     /// The axes and the origin of positions that are parts of a box.
     pub(crate) scaled: Option<(DMat3, DVec3)>,
-    /// What is taken for granted of the elements, unless the scene file says which column tells them.
+    /// The assumption about the elements, unless the scene file says which column tells them.
     pub(crate) guess: Option<Guess>,
     /// Columns of text; `None` where the first row tells them.
     pub(crate) texts: Option<Vec<bool>>,

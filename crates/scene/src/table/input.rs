@@ -27,7 +27,7 @@ pub(crate) struct Input<'watch> {
     pub(crate) position: u64,
     /// The last line that was handed out is the file's, and nothing ends it.
     is_open_at_end: bool,
-    /// What may be wrong in the file, where the format cannot tell.
+    /// Possible faults in the file that the format leaves in doubt.
     doubts: Vec<LocatedFault>,
     /// The bytes of all blocks, those that were taken back as often as they were handed out.
     #[cfg(test)]
@@ -100,7 +100,7 @@ impl<'watch> Input<'watch> {
         ));
     }
 
-    /// What may be wrong in the file, as far as it was read.
+    /// Takes possible faults in the file, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         std::mem::take(&mut self.doubts)
     }

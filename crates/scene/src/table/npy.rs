@@ -20,7 +20,7 @@ pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 /// The longest header that is read, in bytes.
 const LONGEST_HEADER: u64 = 1 << 20;
 
-/// What the header of an array says.
+/// The contents of an array's header.
 #[derive(Clone, Debug)]
 pub(crate) struct Header {
     pub(crate) elements: Elements,
@@ -61,7 +61,7 @@ pub(crate) fn read(
 /// An array of one table, or of several one behind another.
 #[derive(Clone, Debug)]
 pub(crate) struct Array {
-    /// What is said of each.
+    /// The header of each.
     header: Header,
     /// The byte at which the first begins.
     start: u64,

@@ -111,7 +111,7 @@ fn arrays(file: File, stored: u64) -> Result<Vec<Array>, TableError> {
     Ok(arrays)
 }
 
-/// What the members of an archive may still hold.
+/// The bytes and columns that the members of an archive may still hold.
 struct Allowance {
     bytes: u64,
     columns: u64,
@@ -287,7 +287,7 @@ fn refused(error: rawzip::Error) -> TableError {
     }
 }
 
-/// What is wrong with the data of an array.
+/// The error for the damaged data of an array.
 fn damaged(error: io::Error) -> TableError {
     match error.downcast::<rawzip::Error>() {
         Ok(error) => match error.kind() {

@@ -69,7 +69,7 @@ pub(super) struct Model {
     pub(super) close: Close,
 }
 
-/// What has to stand behind the rows of a frame, the last line of which may be one of them.
+/// Checks the lines after the rows of a frame, the last line of which may be one of them.
 pub(super) type Close = fn(&mut Input<'_>, bool) -> Result<(), TableError>;
 
 /// Goes on to the next model of lines that are of these kinds; `None` behind the last one.

@@ -1,11 +1,11 @@
-//! What reading a table left open, or had to guess.
+//! Doubts and guesses while a table was read.
 
 use std::ops::Range;
 
 use super::element;
 use crate::text::{LocatedFault, Place, show};
 
-/// What reading a table left open, or had to guess.
+/// Doubts and guesses while a table was read.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Remarks {
     /// Names of atoms that tell no element, and how many rows have each.
@@ -14,7 +14,7 @@ pub(crate) struct Remarks {
     others: u64,
     /// The first of these rows.
     first: Option<Place>,
-    /// What was guessed.
+    /// The guesses.
     guesses: Vec<LocatedFault>,
     /// The names of `radii` that a row had.
     used_radii: Vec<bool>,
@@ -103,7 +103,7 @@ impl Remarks {
         self.unknown.iter().map(|(name, _)| &**name)
     }
 
-    /// What was guessed, and, with `unknown`, the names that tell no element; each with its place.
+    /// The guesses, and, with `unknown`, the names that tell no element; each with its place.
     pub(crate) fn told(&self, unknown: bool) -> Vec<LocatedFault> {
         let mut told = self.guesses.clone();
         if let Some(place) = self.first.as_ref().filter(|_| unknown) {

@@ -56,7 +56,7 @@ pub(crate) fn is_standard(residue: &[u8]) -> bool {
 
 /// The atomic number that a name in the four columns of PDB tells, in which symbols of one letter begin at the second.
 ///
-/// Where the names of a file all begin at the first column, only [`of_atom`] tells them.
+/// If all names of a file begin at the first column, only [`of_atom`] tells them.
 pub(crate) fn of_aligned_atom(name: &[u8], residue: &[u8]) -> Option<u8> {
     let by_place = match name {
         [first, second, _, b' '] if first.is_ascii_alphabetic() && second.is_ascii_alphabetic() => {

@@ -28,7 +28,7 @@ pub(crate) struct Rows {
     pub(crate) columns: Arc<Vec<String>>,
     /// The column that tells elements, where one does.
     pub(crate) element_column: Option<usize>,
-    /// What was left open or guessed.
+    /// Doubts and guesses.
     pub(crate) remarks: Remarks,
     /// The format has right-handed axes.
     pub(crate) is_right_handed: bool,
@@ -48,7 +48,7 @@ pub(crate) struct Row<'a> {
     pub(crate) category: &'a [u8],
 }
 
-/// What became of a row.
+/// The outcome of a row.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Pushed {
     /// It is a sphere, or was left out because its value is missing.

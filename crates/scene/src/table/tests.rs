@@ -285,7 +285,7 @@ fn reading_tells_how_far_it_is() {
     }
 }
 
-/// What a header multiplies has a limit before memory is taken for it.
+/// Products of numbers in a header have a limit before memory is taken for them.
 #[test]
 fn headers_do_not_multiply() {
     let fields: String = (0..11)

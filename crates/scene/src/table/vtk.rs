@@ -19,7 +19,7 @@ use crate::text::LocatedFault;
 
 pub(crate) const MAGIC: &[u8] = b"# vtk DataFile";
 
-/// What was read of a dataset.
+/// The parts of a dataset that were read.
 #[derive(Default)]
 struct Dataset {
     is_binary: bool,

@@ -59,7 +59,7 @@ pub(crate) fn header(
     }))
 }
 
-/// What the numbers are that stand where symbols of elements should: types, as LAMMPS writes them, or atomic numbers.
+/// The meaning of numbers in place of symbols of elements: types, as LAMMPS writes them, or atomic numbers.
 /// `None` where there are symbols.
 fn guess(
     input: &mut Input<'_>,

@@ -22,7 +22,7 @@ struct Item<'t> {
     value: Range<usize>,
 }
 
-/// What stands between brackets.
+/// The text between brackets.
 struct Inside<'t> {
     items: Vec<Item<'t>>,
     /// The place of the closing bracket, and whether a comma has to come before another item.
@@ -117,7 +117,7 @@ fn parts(path: &str) -> Result<Vec<Part<'_>>, String> {
     }
 }
 
-/// What stands in the brackets of the value at this place; `None` where it has none.
+/// The text in the brackets of the value at this place; `None` where it has none.
 fn inside(text: &str, place: Range<usize>) -> Option<Inside<'_>> {
     let is_open = |at: usize| text[at..].starts_with(['(', '[', '{']);
     let mut open = place.start;

@@ -35,7 +35,7 @@ pub(crate) enum Part {
 #[derive(Clone, Debug, Eq, Hash, PartialEq)]
 pub struct StepKey(Vec<Option<usize>>);
 
-/// What was wrong with the cloud at this place of the scene file.
+/// The fault of the cloud at this place of the scene file.
 pub(crate) type Refused = (std::ops::Range<usize>, CloudError);
 
 impl Series {

@@ -28,7 +28,7 @@ pub(super) struct Draft {
     pub(super) alpha: bool,
     /// True for the picture of the first light alone.
     pub(super) per_light: bool,
-    /// What it is a scene of, within its family.
+    /// The kind of the scene, within its family.
     pub(super) kind: String,
 }
 

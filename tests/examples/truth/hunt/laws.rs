@@ -13,7 +13,7 @@ use super::subject::Subject;
 /// Powers of two by which lengths, and light, are multiplied.
 const UNITS: [(i32, i32); 5] = [(-12, 0), (-33, 0), (17, 0), (0, -40), (0, 34)];
 
-/// What is said of each scene of which a picture is another one in another unit.
+/// Prints each scene with a picture that differs in another unit.
 pub(super) fn search(
     family: &Family,
     scenes: u64,

@@ -1,4 +1,4 @@
-//! What a hunt may give up: it may not grow.
+//! Limits of the pixels that a hunt may give up, which may not grow.
 
 use std::fmt::Write;
 use std::path::Path;

@@ -78,7 +78,7 @@ impl fmt::Display for Broken {
     }
 }
 
-/// What scenes came to.
+/// The results of scenes.
 #[derive(Clone, Debug)]
 struct Found {
     /// Pixels that were judged.

@@ -1,9 +1,9 @@
-//! What is asked of a hunt.
+//! The options of a hunt.
 
 /// The tolerances of a hunt that names no others.
 const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// What is asked of a hunt.
+/// The options of a hunt.
 #[derive(Clone, Debug)]
 pub(super) struct Options {
     pub(super) scenes: u64,

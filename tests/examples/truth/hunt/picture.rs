@@ -6,14 +6,14 @@ use glam::{DVec3, DVec4};
 use marbles_core::{Image, LightPart, Method, Renderer, Settings, View, Work, World};
 use marbles_scene::Scene;
 
-/// What a picture shows of a scene.
+/// The part of a scene that a picture shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mode {
     /// True for alpha in place of the background.
     pub(super) alpha: bool,
     /// True for the first light alone.
     pub(super) per_light: bool,
-    /// How many times as bright the light is as what judges have.
+    /// The brightness of the light, in multiples of that of the judges' scene.
     pub(super) light: f64,
     /// An error of alpha counts as so many times as much light, in the unit of judges.
     pub(super) of_alpha: f64,
@@ -44,7 +44,7 @@ impl Picture {
         Some(Self { image, mode })
     }
 
-    /// What it took to render it.
+    /// The work of rendering it.
     pub(super) fn work(&self) -> Work {
         self.image.work()
     }
@@ -74,7 +74,7 @@ impl Picture {
         (value.truncate() / self.mode.light).extend(alpha)
     }
 
-    /// What a pixel claims to be off by.
+    /// The error that a pixel claims.
     pub(super) fn claimed(&self, col: u32, row: u32) -> f64 {
         self.image.error(col, row) / self.mode.light
     }

@@ -12,7 +12,7 @@ use marbles_tests::numbers::Numbers;
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-6;
 
-/// How many times its tolerance a pixel of the finer picture may seem off before the truth is asked: what
+/// The error that a pixel may seem to have against the finer picture, in tolerances, before the truth is asked: what
 /// both pictures claim is below that.
 const SUSPECT: f64 = 0.9;
 
@@ -32,7 +32,7 @@ const TELLING_OF_CLAIMS: f64 = 10.0;
 const FALSE: f64 = 20.0;
 const FALSE_OF_TOLERANCE: f64 = 0.02;
 
-/// Where the difference does not tell, the truth is asked of one of so many pixels.
+/// If the difference does not tell, the truth is asked of one of so many pixels.
 const SHARE: u32 = 256;
 
 /// The pixels of a scene that fall short, and how far its pixels are off.
@@ -80,7 +80,7 @@ struct Pixel {
     is_confessed: bool,
     /// The distance from the mean of its parts.
     apart: f64,
-    /// What that mean claims to be off by.
+    /// The error that this mean claims.
     uncertain: f64,
 }
 
@@ -110,7 +110,7 @@ impl Pixel {
         self.place
     }
 
-    /// What the pixel may be off by.
+    /// The largest error that the pixel may have.
     fn allowed(&self) -> f64 {
         if self.is_confessed {
             self.claimed

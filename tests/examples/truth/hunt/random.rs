@@ -29,7 +29,7 @@ const STRATA: [u32; 2] = [64, 400];
 const PARTS: i32 = 32;
 const DEVIATIONS: f64 = 6.0;
 
-/// What the mean over time of bumps of pixels may be off by.
+/// The largest error of the mean over time of bumps of pixels.
 const FINE_OVER_TIME: f64 = 1e-5;
 
 /// Returns whether a scene has surfaces whose pixels finer pictures tell nothing of.

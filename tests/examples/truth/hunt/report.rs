@@ -102,7 +102,7 @@ fn counts(tolerances: &[f64], sum: &Found) -> String {
     text
 }
 
-/// What a hunt tells of a family when it is done with it.
+/// The line of a hunt about a family when it is done with it.
 pub(super) fn line(family: &str, scenes: u64, tolerances: &[f64], sum: &Found) -> String {
     format!(
         "{family}: {scenes} scenes, {} pixels, fell short |{} given up {:?}, unjudged {}",

@@ -11,8 +11,8 @@ use super::subject::Subject;
 /// Samples along each side of a pixel.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
 
-/// How far, beside its tolerance, a pixel may be from all that samples find in it and beside it: they miss thin
-/// spheres and small highlights. In units of light, and of what they find; more where the truth takes long.
+/// The distance, in addition to its tolerance, that a pixel may have from all that samples find in it and beside it: they
+/// miss thin spheres and small highlights. In units of light, and of what they find; more where the truth takes long.
 const MISSED: f64 = 0.01;
 const MISSED_OF_SLOW: f64 = 0.1;
 const OF_RANGE: f64 = 0.1;

@@ -11,7 +11,7 @@ use super::draft::{Draft, MOMENTS};
 use super::picture::{Mode, Picture};
 use super::{Broken, random};
 
-/// What the last digits of sums cost the truth.
+/// The error of the truth from the last digits of sums.
 const ROUNDING: f64 = 1e-13;
 
 /// A scene, one that judges can tell and that shows the same in another unit, and that with many frames for one,
@@ -128,7 +128,7 @@ impl Subject {
         self.moments.as_ref()
     }
 
-    /// How far a pixel's light is from the truth, and what that may be off by.
+    /// The distance of a pixel's light from the truth, and the error of this distance.
     ///
     /// A pixel that seems to be off by more than is allowed is held against the sum of its quarters, too: what hides
     /// from lines through it hardly hides in them as well.

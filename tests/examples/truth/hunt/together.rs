@@ -67,7 +67,7 @@ struct Sight {
     shift: [f64; 2],
     /// The size of a pixel of a parallel lens.
     size: f64,
-    /// How many times as far away as in other scenes everything is.
+    /// The distance of everything, in multiples of that in other scenes.
     near: f64,
     /// The distance and the radius of the surface that the eye is near.
     wall: Option<[f64; 2]>,

@@ -12,14 +12,14 @@ use super::picture::Picture;
 use super::subject::Subject;
 use super::{Broken, Found};
 
-/// What an edge that moves by a pixel changes, in units of the light in sight: an edge in a pixel is at most as long
+/// The change by an edge that moves by a pixel, in units of the light in sight: an edge in a pixel is at most as long
 /// as two of its sides, some edges may cross it, and edges of shadows move farther than what casts them.
 ///
 /// An estimate: shadows move as many times as far as the sphere as the light is steep, and where it grazes what they
 /// fall on, that is more. Of large spheres, whose ulps are long, [`reach`] counts it.
 const EDGES: f64 = 100.0;
 
-/// What rounding of what is seen comes to, in units of the light in sight, beside edges: powers multiply it by their
+/// The rounding of visible light, in units of the light in sight, beside edges: powers multiply it by their
 /// exponents.
 const ROUNDING: f64 = 1e-11;
 
@@ -100,7 +100,7 @@ pub(super) fn still_moves(draft: &Draft, grown: usize, broken: &Broken) -> bool 
     pictures() == Some(true)
 }
 
-/// How many pixels edges move by where a sphere grows to that of another scene; none where the picture may be another
+/// The pixels that edges move by if a sphere grows to that of another scene; none where the picture may be another
 /// one.
 fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let world = subject.plain().world();
@@ -139,7 +139,7 @@ fn reach(subject: &Subject, eye: glam::DVec3) -> f64 {
     ways.fold(f64::INFINITY, f64::min)
 }
 
-/// How many times as far shadows move as a large sphere that they fall on.
+/// The distance by which shadows move, in multiples of that of the large sphere that they fall on.
 fn grazing(subject: &Subject, index: usize, near: f64) -> f64 {
     let world = subject.plain().world();
     let sphere = &world.spheres()[index];

@@ -9,7 +9,7 @@ use marbles_core::{Ray, Sphere};
 use super::super::judge;
 use super::{Draft, Random};
 
-/// How near: from well within the first floor's reach to beyond the second's.
+/// The distance: from well within the first floor's reach to beyond the second's.
 fn gap(random: &mut Random) -> f64 {
     random.sign() * random.power_of_two(-110, -20) * random.between(1.0, 2.0)
 }

@@ -1,4 +1,4 @@
-//! How far found distances and normals are from the exact ones.
+//! Errors of found distances and normals.
 
 use glam::DVec3;
 use num_bigint::BigInt;
@@ -54,7 +54,7 @@ impl ExactHit {
         libm::atan2(DVec3::new(x, y, z).length(), cosine) * TO_UNITS
     }
 
-    /// How far the length of a found normal is from 1, in units of 2⁻⁵³.
+    /// The difference of the length of a found normal from 1, in units of 2⁻⁵³.
     pub fn excess_length(found: DVec3) -> f64 {
         if !found.is_finite() {
             return f64::INFINITY;

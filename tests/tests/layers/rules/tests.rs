@@ -4,7 +4,7 @@ use super::super::order::layers;
 use super::super::tree::Tree;
 use super::faults;
 
-/// What is wrong in a crate of these files with this list.
+/// The faults in a crate of these files with this list.
 fn wrong(list: &str, files: &[(&str, &str)]) -> Vec<String> {
     let document = format!("```layers\nx: {list}\n```");
     let own = |&(name, text): &(&str, &str)| (name.to_owned(), text.to_owned());

@@ -92,7 +92,7 @@ pub(crate) struct DatasetArguments {
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
-    /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
+    /// The form in which progress is reported [default: a bar on a terminal, plain elsewhere]
     #[arg(long, value_name = "FORM")]
     pub(crate) progress: Option<ProgressForm>,
 

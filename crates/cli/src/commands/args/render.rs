@@ -63,7 +63,8 @@ pub(crate) struct RenderArguments {
 
     /// File names, with ####, %04d or {frame:04} in place of the frame number, and {scene} in place of
     /// the scene's name; the ending .png, .exr or .npy chooses the format, and .apng has all frames in
-    /// one file, an animated PNG that plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
+    /// one file, an animated PNG that plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the
+    /// current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
@@ -183,7 +184,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) scale_bar: Option<PathBuf>,
 
-    /// How to tell how far the work is [default: a bar on a terminal, plain elsewhere]
+    /// The form in which progress is reported [default: a bar on a terminal, plain elsewhere]
     #[arg(long, value_name = "FORM")]
     pub(crate) progress: Option<ProgressForm>,
 

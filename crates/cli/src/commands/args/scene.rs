@@ -3,7 +3,7 @@
 use clap::Args;
 use marbles_scene::Setting;
 
-/// What changes a scene, and how it is looked at.
+/// Options that change a scene, and the checks on it.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneOptions {
     /// Put VALUE into the scene in place of its own, or beside it: --set 'lights[0].toward=(1, 1, -1)',

@@ -1,4 +1,4 @@
-//! What in a scene costs much, or cannot be known to small tolerances.
+//! Warnings of whatever in a scene costs much, or cannot be known to small tolerances.
 
 use marbles_core::{Grain, Sphere, View, World};
 

@@ -12,7 +12,7 @@ use crate::formats::picture::Picture;
 pub(super) struct Pair {
     pub(super) a: Picture,
     pub(super) b: Picture,
-    /// Where they are.
+    /// The paths of both.
     pub(super) paths: [PathBuf; 2],
 }
 

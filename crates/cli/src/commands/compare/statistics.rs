@@ -197,7 +197,7 @@ impl<T> Largest<T> {
         self.least.map_or(0.0, |(bits, _)| f64::from_bits(bits))
     }
 
-    /// What is known about those that are kept, the largest first, equal ones in their order.
+    /// The values that are kept, the largest first, equal ones in their order.
     fn into_values(self) -> Vec<T> {
         self.kept.into_values().rev().collect()
     }

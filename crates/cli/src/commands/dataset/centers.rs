@@ -1,4 +1,4 @@
-//! What the rays through the centers of pixels see, in files of several kinds.
+//! The geometry at the centers of pixels, in files of several kinds.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -21,7 +21,7 @@ pub(super) struct Centers {
     normals: Vec<[f64; 3]>,
     /// Along the axis of view; 0 where nothing is seen.
     depths: Vec<f64>,
-    /// Where something is seen.
+    /// The pixels that see something.
     mask: Vec<bool>,
 }
 

@@ -155,7 +155,7 @@ fn notes(report: &Report) -> Vec<String> {
 /// The lines of a table in Markdown, of which the first row has the titles, the first column to the left and
 /// the others to the right, in columns that are as wide as their widest cell.
 ///
-/// What is wider than the limit becomes several tables, each with the first column.
+/// A table in Markdown. If it is wider than the limit, it becomes several tables, each with the first column.
 fn markdown<const N: usize>(rows: &[[String; N]], limit: Option<usize>) -> Vec<String> {
     let mut widths = [0; N];
     for row in rows {

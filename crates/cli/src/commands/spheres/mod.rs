@@ -90,7 +90,7 @@ fn named_after(scene: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// What the table is made of.
+/// The data from which the table is made.
 struct Table<'a> {
     scene: &'a Scene,
     /// A size in place of the scene's.

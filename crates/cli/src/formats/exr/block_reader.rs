@@ -33,7 +33,7 @@ const MOST_BYTES: u64 = 1 << 28;
 /// Source: zlib, "Maximum Compression Factor" in its technical details.
 const MOST_FOR_A_BYTE: u64 = 1032;
 
-/// What a file tells before its blocks; it is read up to there.
+/// Reads the header of a file, up to its blocks.
 pub(super) fn meta_of(file: &mut impl Input) -> Result<MetaData, String> {
     guarded(|| MetaData::read_from_buffered(file, false))
 }

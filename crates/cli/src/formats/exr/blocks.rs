@@ -52,7 +52,7 @@ enum Content {
     /// Red, green, blue or alpha.
     Light(usize),
     Error,
-    /// What the rays through the centers of pixels see.
+    /// Geometry at the centers of pixels.
     Center(Source),
 }
 

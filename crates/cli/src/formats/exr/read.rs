@@ -135,7 +135,7 @@ impl Numbers {
         format!(", data window {width} x {height} at column {col}, row {row}")
     }
 
-    /// What `of` makes of the numbers of a pixel; outside the data window there is no light.
+    /// Applies `of` to the numbers of a pixel; outside the data window there is no light.
     fn of_pixel(&self, col: u32, of: fn(SampleType, f64) -> f64) -> [f64; 4] {
         let place = self.window.place(col);
         let of = |channel: &Channel| {

@@ -146,7 +146,7 @@ fn samples_of_an_exr_are_as_good_as_their_checksum() {
     }
 }
 
-/// Where the samples lie of blocks that are not compressed, in a file whose header ends at `start`.
+/// The ranges of samples in blocks that are not compressed, in a file whose header ends at `start`.
 fn plain_blocks(file: &[u8], start: usize, header: &Header) -> Vec<Range<usize>> {
     const BEFORE_SAMPLES: usize = 8;
     let row_bytes = header.layer_size.width() * header.channels.bytes_per_pixel;

@@ -18,7 +18,7 @@ const ALIGNMENT: usize = 64;
 /// The longest header that is read, in bytes; NumPy's own limit for strangers is a sixth of it.
 const LONGEST: usize = 1 << 16;
 
-/// What a header tells.
+/// The contents of a header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Header {
     pub(super) array: Array,

@@ -90,7 +90,7 @@ enum Projection {
         matrix: [[f64; 3]; 3],
     },
     Parallel {
-        /// What a length of 1 across the axis of view spans.
+        /// The pixels that a length of 1 across the axis of view spans.
         pixels_per_unit: f64,
         /// The pixel that the axis of view passes.
         principal_point: [f64; 2],

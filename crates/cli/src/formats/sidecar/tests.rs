@@ -28,7 +28,7 @@ fn scene() -> Scene {
     Scene::parse(SCENE, Path::new("a.ron")).unwrap()
 }
 
-/// What is known before rendering.
+/// The fields that are known before rendering.
 fn known() -> Value {
     json!({
         "scene": "wall.ron",

@@ -23,7 +23,7 @@ impl InVain {
 
     /// Begins with parts of the next size.
     pub(super) fn end_size(&mut self) {
-        /// What falls by less than this stays.
+        /// A number that falls by a smaller factor counts as constant.
         const SAME: f64 = 0.9;
         let stays = self.before > 0.0 && self.share > SAME * self.before;
         self.sizes = if stays { self.sizes + 1 } else { 0 };

@@ -10,7 +10,7 @@ const FEWEST: usize = 16;
 
 /// A sphere that covers a cell, and is the nearest in its middle.
 ///
-/// What it hides is found before spheres are compared pair by pair: many that overlap would otherwise intersect in as
+/// The hidden spheres are found before spheres are compared pair by pair: many that overlap would otherwise intersect in as
 /// many curves as they have pairs, in each part of a pixel, however small it is.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cover {

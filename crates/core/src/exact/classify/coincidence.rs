@@ -29,8 +29,8 @@ pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
         && (one.center * far[1] - other.center * far[0]).length() <= slack
 }
 
-/// How far apart in a cell, on the retina at distance 1 or across parallel rays, the outline of a ball and another may be that
-/// count as the same.
+/// The distance in a cell, on the retina at distance 1 or across parallel rays, the outline of a ball and another may be
+/// that count as the same.
 ///
 /// The sine of the angle of an outline, r / |c|, changes the angle by 1 / cos = |c| / √K times as much, and an angle moves a
 /// ray that is |d| long by |d|² times as much at distance 1.
@@ -67,9 +67,9 @@ pub(super) fn is_at_eye(toward: DVec3) -> bool {
     toward.z < 0.0 && toward.truncate().length() < ALONG
 }
 
-/// How much nearer to a light, in radii, a sphere with the same outline is at least that hides all of another one: what
-/// outlines that differ by 10⁻¹² then leave lit is less than the square of 10⁻⁶. One that is closer to the other may be as
-/// well behind it.
+/// The least distance toward a light, in radii, by which a sphere with the same outline is at least that hides all of
+/// another one: what outlines that differ by 10⁻¹² then leave lit is less than the square of 10⁻⁶. One that is closer to
+/// the other may be as well behind it.
 pub(super) const FARTHER: f64 = 1e-6;
 
 /// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow

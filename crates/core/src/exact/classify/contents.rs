@@ -1,4 +1,4 @@
-//! What may be seen in a cell: spheres, their edges, and what keeps the light from them.
+//! The contents of a cell: the spheres that it may see, their edges, and the casters of shadows on them.
 
 use super::active::{Active, Terminators};
 use super::behind::Cover;
@@ -42,11 +42,11 @@ pub(crate) struct Contents {
     /// For every active sphere and every light.
     pub(crate) reach: Vec<Reach>,
     pub(crate) occluders: Vec<Caster>,
-    /// What is seen of each active sphere inside of its stroke; empty where none is seen.
+    /// The visible part of each active sphere inside of its stroke; empty where none is seen.
     pub(super) faces: Vec<Face>,
     /// The pixel that the cell belongs to.
     pub(crate) pixel: PixelKey,
-    /// How far, in sides of the cell, rounding may move an edge; and the area of spheres that are too small to
+    /// The distance, in sides of the cell, by which rounding may move an edge; and the area of spheres that are too small to
     /// be resolved, which are left out.
     pub(crate) rounding: f64,
     /// Whether all parallel rays of the cell begin inside of a sphere that casts shadows, so that no directional light
@@ -75,7 +75,7 @@ pub(super) const NARROWEST: f64 = 1e-7;
 /// some units in the last place.
 pub(super) const ROUNDINGS: f64 = 8.0 * UNIT_ROUNDOFF;
 
-/// How near to the eye, in radii, the plane of a circle passes that is seen as a line, and what
+/// The distance from the eye, in radii, at which the plane of a circle passes that is seen as a line, and what
 /// rounding moves such a line by, in sides of a cell: it is a double root.
 const SEEN_EDGE_ON: f64 = 1e-5;
 const ROOT_OF_ROUNDING: f64 = 1e-7;

@@ -9,7 +9,7 @@ use crate::exact::scene::{InCamera, Light};
 use crate::numeric::polynomial::Quadratic;
 use crate::numeric::rounding::GEOMETRY_SLACK;
 
-/// Where the parallel rays of a cell begin, as a sphere sees it that the plane of their beginnings cuts.
+/// The place where the parallel rays of a cell begin, as seen by a sphere that the plane of their beginnings cuts.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 enum Begin {
     Inside,
@@ -41,7 +41,7 @@ impl Begin {
 struct Cap {
     ball: Ball,
     discriminant: Quadratic,
-    /// What rounding moves its outline by, times the radius.
+    /// A bound of how far rounding moves its outline, times the radius.
     moved: f64,
 }
 

@@ -3,12 +3,13 @@
 use crate::edges::cell::Ball;
 use crate::numeric::polynomial::Quadratic;
 
-/// Which part of an active sphere is seen in a cell.
+/// The part of an active sphere that a cell sees.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Face {
     /// All of it: no stroke.
     All,
-    /// Where this is not negative, inside of a stroke: the outline of a smaller sphere, which is the ball.
+    /// The part where this polynomial is not negative, inside of a stroke: the outline of a smaller sphere, which is the
+    /// ball.
     Inside(Ball, Quadratic),
     /// The stroke alone.
     Nothing,

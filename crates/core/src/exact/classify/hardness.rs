@@ -1,4 +1,4 @@
-//! What makes light in a cell hard: how bright highlights may be, and how fine bumps are.
+//! The hardness of light in a cell: the largest brightness of highlights, and the fineness of bumps.
 
 use fearless_simd::Simd;
 use glam::{DVec2, DVec3};

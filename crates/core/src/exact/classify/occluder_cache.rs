@@ -199,7 +199,7 @@ impl OccluderCache {
         first..self.spheres.len()
     }
 
-    /// What the tile sees of a ball; all of a small one.
+    /// The part of a ball that the tile sees; all of a small one.
     fn patch_of_tile(&self, ball: &Ball) -> Patch {
         if self.is_small(ball) {
             return Patch {

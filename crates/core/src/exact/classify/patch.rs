@@ -113,7 +113,7 @@ impl Patch {
         distance_from_cone(self.ends, [self.width_at_start(), self.around], point)
     }
 
-    /// How wide it is where it begins and where it ends, if it is far wider there: seen from afar, such as the row of a
+    /// Its widths where it begins and where it ends, if it is far wider there: seen from afar, such as the row of a
     /// floor at the horizon.
     pub(super) fn widths_of_cone(&self) -> Option<[f64; 2]> {
         const FAR: f64 = 2.0;
@@ -121,7 +121,7 @@ impl Patch {
         (FAR * start < self.around).then_some([start, self.around])
     }
 
-    /// How wide it is where it begins: of an eye's rays the width grows with the distance.
+    /// Its width where it begins: for rays from an eye, the width grows with the distance.
     fn width_at_start(&self) -> f64 {
         let [start, end] = self.ends;
         if self.is_parallel {

@@ -1,4 +1,4 @@
-//! What a light reaches of a sphere in a cell.
+//! The part of a sphere in a cell that a light reaches.
 
 use std::ops::Range;
 

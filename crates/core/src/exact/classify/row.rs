@@ -269,7 +269,7 @@ pub(crate) fn sight(
 /// Pairs of spheres of a pixel that are compared at most: of what is not compared nothing is left out.
 const MOST_PAIRS: usize = 200_000;
 
-/// What stands in place of the number of a sphere that others hide.
+/// Stands in place of the number of a sphere that others hide.
 const HIDDEN: usize = usize::MAX;
 
 /// Adds the spheres that the pixel with this number may see to `spheres`, which must be empty: without

@@ -1,4 +1,4 @@
-//! What up to eight pixels of a row see, whatever light there is.
+//! The spheres that up to eight pixels of a row see, in any light.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::exact::context::Context;
 use crate::exact::crowd::{CrowdWork, FEWEST};
 use crate::picture::tile::Tile;
 
-/// What up to eight pixels of a row see: the same under all lights.
+/// The spheres that up to eight pixels of a row see: the same under all lights.
 #[derive(Debug, Default)]
 pub(crate) struct SeenRow {
     coverages: Vec<Coverage>,

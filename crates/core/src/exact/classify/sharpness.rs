@@ -1,4 +1,4 @@
-//! How fast light changes over a cell: what rules along its lines cannot follow.
+//! The rate of change of light over a cell, which rules along its lines may be unable to follow.
 
 use fearless_simd::Simd;
 use glam::DVec3;

@@ -34,14 +34,14 @@ impl Contents {
         !self.faces.is_empty()
     }
 
-    /// What is seen of an active sphere inside of its stroke.
+    /// The visible part of an active sphere inside of its stroke.
     #[inline]
     pub(crate) fn face(&self, position: usize) -> &Face {
         self.faces.get(position).unwrap_or(&Face::All)
     }
 }
 
-/// What a cell sees of a sphere inside of its stroke.
+/// The part of a sphere inside of its stroke that a cell sees.
 fn face(scene: &InCamera<'_>, cell: &Cell, (sphere, ball): (usize, &Ball)) -> Face {
     let Some(inside) = scene.inside_stroke(sphere, ball) else {
         return Face::All;

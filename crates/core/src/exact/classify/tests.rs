@@ -1,4 +1,4 @@
-//! What is left out of a cell, against many of its points.
+//! Spheres left out of a cell, checked against many of its points.
 
 use fearless_simd::Level;
 use glam::{DVec2, DVec3};

@@ -27,7 +27,7 @@ pub(crate) struct Workspace {
     pub(crate) work: Work,
     /// The largest difference of light that something in the pixel may make.
     pub(super) contrast: f64,
-    /// What the pixel has cost so far.
+    /// The budget of the pixel, less its cost so far.
     pub(crate) budget: Budget,
     /// Whether what its tile leaves to it limits all of its work.
     pub(crate) is_crowd: bool,
@@ -35,7 +35,7 @@ pub(crate) struct Workspace {
     pub(crate) left_by_tile: u64,
     /// Whether parts of the pixel are known by random samples.
     is_random: bool,
-    /// What the lights of a row of pixels have in common.
+    /// The mean normals that the lights of a row of pixels have in common.
     pub(crate) normals: Normals,
 }
 
@@ -49,14 +49,15 @@ pub(crate) struct EdgedPixel<'a, 'scene> {
     pub(crate) spheres: &'a [(usize, Ball)],
 }
 
-/// What boxes claim at least, of the contrast: one pixel in some ten thousand was off by so much that claimed less.
+/// The least claim of boxes, as a share of the contrast: one pixel in some ten thousand was off by so much that claimed
+/// less.
 const LEAST_OF_BOXES: f64 = 5e-5;
 
 /// Into how many parts pieces of curves are cut before events are looked for on them, in the whole
 /// pixel and in parts of it: into more where something does not fit.
 pub(super) const FINER: [&[usize]; 2] = [&[1, 2, 4], &[1, 2]];
 
-/// How deep pixels are quartered: what is left of an edge in cells of the last depth is less than
+/// The depth to which pixels are quartered: what is left of an edge in cells of the last depth is less than
 /// 2⁻¹² of the contrast.
 pub(super) const DEEPEST: i32 = 12;
 
@@ -73,7 +74,7 @@ const MOST_CELLS: f64 = 4.0;
 /// The same up to which boxes are tried.
 const MOST_CELLS_OF_BOXES: f64 = 2.0;
 
-/// How far pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
+/// The distance by which pixels are moved aside, in their sides: planes through the eye, such as that of a terminator
 /// in the middle of a picture, must not coincide with sides of cells. It is far more than rounding, and
 /// costs an edge no more than the sum of both.
 const ASIDE: [f64; 2] = [1.3e-10, -0.9e-10];

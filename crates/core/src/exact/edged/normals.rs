@@ -5,7 +5,7 @@ use crate::exact::interior::mean_normals::MeanNormals;
 use crate::exact::part::Part;
 use crate::model::roughness::PixelKey;
 
-/// What the pictures of a row of pixels under one light each have in common.
+/// The data that the pictures of a row of pixels, under one light each, have in common.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Normals {
     /// Of pixels that a sphere fills.

@@ -11,7 +11,7 @@ use crate::exact::budget::Doubt;
 use crate::exact::classify::occluder_cache::OccluderCache;
 use crate::exact::part::{GiveUp, Part};
 
-/// What parts of a pixel that were given up may cost before samples know more, and rounding, which moves edges
+/// The error, from parts that were given up, above which samples know more, and rounding, which moves edges
 /// but hides none.
 const LOST: f64 = 0.01;
 const LOST_TO_ROUNDING: f64 = 0.25;
@@ -128,7 +128,7 @@ struct Quarter {
     cell: Cell,
     depth: i32,
     part: Part,
-    /// What it adds to the pixel's error.
+    /// Its contribution to the pixel's error.
     cost: f64,
 }
 

@@ -59,7 +59,7 @@ pub(crate) static RULE: Rule = {
 /// the next degree; chosen by `cargo truth hunt`, which finds no broken pixel from 0.05 on.
 pub(crate) const OF_ODD: f64 = 0.1;
 
-/// What tells how far an integrand is from what both rules integrate alike: the difference of the rules, and a
+/// A measure of the distance of an integrand from those that both rules integrate alike: the difference of the rules, and a
 /// share of the sum that is blind where that is not. A difference alone vanishes by chance in one integral of
 /// some hundred thousand, and its power with it; both together do not.
 pub(crate) fn doubt(difference: f64, odd: f64) -> f64 {
@@ -67,7 +67,7 @@ pub(crate) fn doubt(difference: f64, odd: f64) -> f64 {
     (difference * difference + odd * odd).sqrt()
 }
 
-/// How much larger than its power the difference of the rules is taken to be.
+/// The factor on the difference of the rules, before its power is taken.
 pub(crate) const CAUTION: f64 = 2.0;
 
 /// An estimate of the error of Kronrod's rule, by its difference to Gauss's and the integrand's

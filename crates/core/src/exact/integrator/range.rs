@@ -1,4 +1,4 @@
-//! What a tile may show at all: the claims of pixels that are known by samples, or hardly known.
+//! The range of light that a tile may show: the claims of pixels that are known by samples, or hardly known.
 
 use super::{Exact, FEW_SAMPLES, SAMPLES};
 use crate::exact::budget::MOST_SPHERES;
@@ -12,7 +12,7 @@ use crate::picture::pixel::{Evidence, Pixel, Status};
 /// against all in more than doubles, and against all their shadows.
 const MOST_OF_SAMPLES: usize = 256;
 
-/// How far spheres may be, in radii, for rays to be decided without integers: the square of this is what
+/// The largest distance of spheres, in radii, for rays to be decided without integers: the square of this is what
 /// numbers of twice the precision may lose and still have all places of a double.
 const FAR: f64 = (1_u64 << 25) as f64;
 
@@ -59,7 +59,7 @@ impl Exact<'_> {
         pixel
     }
 
-    /// How far a pixel is at most from any mixture of light in a range.
+    /// The largest distance of a pixel from any mixture of light in a range.
     fn farthest(&self, pixel: &Pixel, [least, most]: [Color; 2]) -> f64 {
         let above = (most - pixel.value).max_element();
         let below = (pixel.value - least).max_element();

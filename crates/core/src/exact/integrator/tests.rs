@@ -228,8 +228,8 @@ fn crowd(spheres: impl Iterator<Item = Sphere>, light: Option<Light>) -> World {
     world
 }
 
-/// What cannot be told apart is given up after a part of what a pixel may cost: each part would be looked at as well, and
-/// pairs of spheres, and of their shadows, cost more than the spheres.
+/// Spheres that cannot be told apart are given up after a share of a pixel's budget: each part would be looked at as
+/// well, and pairs of spheres, and of their shadows, cost more than the spheres.
 #[test]
 fn pixels_of_spheres_that_nearly_coincide_end_soon() {
     let sun = || Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::ONE);
@@ -319,7 +319,7 @@ fn claims_are_no_larger_than_what_a_tile_may_show() {
     }
 }
 
-/// Where all of a picture sees crowds that nearly coincide, the work on a tile ends soon after what is its share.
+/// In a picture of crowds that nearly coincide, the work on a tile ends soon after its share.
 #[test]
 fn pictures_of_crowds_end() {
     const COUNT: u64 = 1500;

@@ -28,7 +28,7 @@ pub(super) struct Averages {
 /// Samples of eight pixels, and what their rules claim.
 struct Sampled<S: Simd> {
     lights: [Radiance<S>; GAUSS_SAMPLES],
-    /// Where the surface needs them.
+    /// Only if the surface needs them.
     cosines: Option<LightCosines<S>>,
     /// Of one sample of bumps, of five and of nine.
     middle: Estimate<S>,
@@ -69,15 +69,15 @@ impl<S: Simd> Sampled<S> {
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// The averages: by one sample where a bound, or an estimate on bumps, tells that it suffices; where light is smooth by a rule with five
-    /// points, elsewhere by Gauss's with three points a side.
+    /// The averages: by one sample where a bound, or an estimate on bumps, tells that it suffices; where light is smooth
+    /// by a rule with five points, elsewhere by Gauss's with three points a side.
     ///
     /// # Accuracy
-    /// A bound where there is one, and else an estimate. Where light is smooth, how much it bends tells what to expect: the error of an
-    /// exponential function that bends so. Elsewhere Gauss's rule is held against Kronrod's along both
-    /// diagonals, which reach where an edge may be near. A rough surface has terminators inside its
-    /// bumps: what they may cost is estimated where it may avert itself from a light between samples
-    /// that face it, or face it between those that do not.
+    /// A bound where there is one, and else an estimate. Where light is smooth, how much it bends tells what to expect:
+    /// the error of an exponential function that bends so. Elsewhere Gauss's rule is held against Kronrod's along both
+    /// diagonals, which reach where an edge may be near. A rough surface has terminators inside its bumps: what they may
+    /// cost is estimated where it may avert itself from a light between samples that face it, or face it between those
+    /// that do not.
     #[inline(never)]
     pub(super) fn averages(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Averages {
         simd.vectorize(

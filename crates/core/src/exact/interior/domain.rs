@@ -62,12 +62,12 @@ const HALF_KAPPA: f64 = 0.455;
 /// The least Q₀ over A r (r + |c|): Q₀ is off by 40 roundoffs of that or less, which is 0.5 % of this.
 const SOUND: f64 = 1e-12;
 
-/// The least B₀ over (√A + h) |c|. The center in the camera's frame is off by 10 roundoffs of |c|: so B₀ is known to 1.2e-10,
-/// and so is b, beside it. Of spheres that the eye is not near, K is r² or more, and B₀, which is √(A K) or more, is
-/// more than that.
+/// The least B₀ over (√A + h) |c|. The center in the camera's frame is off by 10 roundoffs of |c|: so B₀ is known to
+/// 1.2e-10, and so is b, beside it. Of spheres that the eye is not near, K is r² or more, and B₀, which is √(A K) or
+/// more, is more than that.
 const LEAST_ALONG: f64 = 1e-5;
 
-/// What rounding makes wrong in G h + S h² may be this share of Q₀: a fifth of what κ leaves.
+/// The error of rounding in G h + S h² may be this share of Q₀: a fifth of what κ leaves.
 const OF_TERMS: f64 = 0.002;
 
 /// 1 / √(1 − z) − 1 ≤ 0.83 z for z ≤ ½, and √2 or less.
@@ -95,7 +95,7 @@ pub(super) struct Domain<'a, S: Simd> {
     root: f64x8<S>,
     /// Half of the derivatives of Q along both axes.
     half_slopes: [f64x8<S>; 2],
-    /// What |l_x| + |l_y| and |d₀·l| are multiplied by for the change of n·l.
+    /// The factors on |l_x| + |l_y| and |d₀·l| in the change of n·l.
     factors: [f64x8<S>; 2],
     /// A bound of what rounding makes wrong in normals, anywhere in the pixel.
     pub(super) rounding: f64x8<S>,
@@ -108,7 +108,7 @@ pub(super) struct Domain<'a, S: Simd> {
 pub(super) struct Change<S: Simd> {
     pub(super) value: f64x8<S>,
     pub(super) change: f64x8<S>,
-    /// Where that holds in a part of the domain only, a half over that part, which changes by this part of the
+    /// If that holds only in a part of the domain: a half over that part, which changes by this part of the
     /// change.
     pub(super) limit: Option<f64x8<S>>,
     /// A bound of what rounding makes wrong in it.
@@ -260,7 +260,7 @@ impl<'a, S: Simd> Domain<'a, S> {
         }
     }
 
-    /// What the light of all lights depends on.
+    /// The functions that light depends on, whatever the light.
     ///
     /// Where A changes by half of A₀ at most, 1 / √A changes by 0.83 of that, relatively, and n·v = √Q / (r √A).
     #[inline(always)]

@@ -17,7 +17,7 @@ pub(super) const MOST_NEARNESS: f64 = 0.25;
 /// The same on bumps, whose parts are many: there the terms of a root's series that are left out are counted.
 const MOST_NEARNESS_OF_BUMPS: f64 = 0.5;
 
-/// What errors of bumps are multiplied by: one pixel in some ten thousand was off by up to four times what the bend
+/// The factor on errors of bumps: one pixel in some ten thousand was off by up to four times what the bend
 /// told.
 pub(super) const CAUTION: f64 = 3.0;
 

@@ -1,4 +1,4 @@
-//! How far directions toward the eye turn in pixels, and half vectors with them: also where normals do not turn.
+//! The turn of directions toward the eye in pixels, and of half vectors with them: also where normals do not turn.
 
 use fearless_simd::Simd;
 
@@ -10,7 +10,7 @@ use crate::numeric::lanes::f64x8;
 /// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
-/// How far directions toward the eye turn at most from the middles of pixels, whose rays have this length, to the corners; 0
+/// The largest turn of directions toward the eye from the middles of pixels, whose rays have this length, to the corners; 0
 /// where they count as still, so that it is no bound.
 ///
 /// Rays on the retina at distance 1 are at least 1 long, and at least as long as that of the middle less half of the
@@ -36,7 +36,7 @@ pub(super) fn nearness_of_silhouette<S: Simd>(
 }
 
 impl<S: Simd> Filled<'_, S> {
-    /// How far the half vectors of a light far away turn from the middles of pixels to the corners: as far as the view, over
+    /// The turn of the half vectors of a light far away from the middles of pixels to the corners: as far as the view, over
     /// the least length of l + v. An estimate, as the turn of the view is.
     #[inline(always)]
     pub(super) fn half_turn(&self, simd: S, light: &Light) -> f64x8<S> {

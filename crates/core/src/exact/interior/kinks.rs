@@ -15,25 +15,26 @@ use crate::numeric::lanes::f64x8;
 /// Bumps in eight pixels, or parts of one, as far as rules may miss something of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kinks<S: Simd> {
-    /// How much second derivatives of shading normals jump in a pixel, with its sides as units, all jumps together.
+    /// The jump of second derivatives of shading normals in a pixel, with its sides as units, all jumps together.
     jump: f64x8<S>,
     /// The fourth powers of how many cells the pixels span, times the amplitude.
     span: f64x8<S>,
 }
 
-/// What is missed of a jump of the second derivative by 1 across a line, wherever it lies, with the length of the
+/// The error at a jump of the second derivative by 1 across a line, wherever it lies, with the length of the
 /// line's gradient as the unit: half of the largest error for the squares of distances on one side of it. Along
 /// diagonals the star sees least. The test `rules_miss_no_more_of_jumps` computes both.
 const OF_JUMP_BY_STAR: f64 = 0.003;
 const OF_JUMP_BY_GRID: f64 = 0.0008;
 
 impl<S: Simd> Kinks<S> {
-    /// What a rule may miss of light that goes with shading normals as fast as `slope` says.
+    /// The error of a rule for light whose slope by the shading normal is `slope`.
     #[inline(always)]
     pub(super) fn missed(&self, rule: Rule, slope: f64x8<S>) -> f64x8<S> {
-        /// How much larger than in the middle of a pixel jumps are taken to be, with what third derivatives jump by.
+        /// The factor by which jumps are taken to be larger than in the middle of a pixel, with what third derivatives
+        /// jump by.
         const CAUTION: f64 = 2.0;
-        /// What the star misses of smooth bumps, over the fourth power of cells from the middle to the corners: 1/720
+        /// The error of the star for smooth bumps, over the fourth power of cells from the middle to the corners: 1/720
         /// of the mixed fourth derivative, which is taken to be 14 in cells, three times the root of its mean square.
         const OF_SPAN: f64 = 0.08;
         match rule {
@@ -59,7 +60,7 @@ impl<S: Simd> Filled<'_, S> {
     /// fool it.
     #[inline(never)]
     pub(super) fn kinks(&self, simd: S, noise: &mut Option<Box<NoiseCells>>) -> Option<Kinks<S>> {
-        /// What jumps change by for each cell: as much as the root of their mean square, and twice that.
+        /// The change of jumps for each cell: as much as the root of their mean square, and twice that.
         const CHANGE: f64 = 6.0;
         let ShadingNormal::Bumpy(bumps) = &self.finish.shading_normal else {
             return None;
@@ -118,7 +119,7 @@ impl<S: Simd> Filled<'_, S> {
         )
     }
 
-    /// How fast light may go with the shading normal, in the brightest channel, by its cosines at samples from which no
+    /// The largest slope of light by the shading normal, in the brightest channel, by its cosines at samples from which no
     /// point is farther than `from_samples` half diagonals.
     #[inline(always)]
     pub(super) fn slope_of_light(

@@ -16,7 +16,7 @@ const LOOSE_ON_BUMPS: f64 = 5e-4;
 /// The average of squares over a pixel, with the distance of its corners as the unit.
 const OF_SQUARES: f64 = 1.0 / 3.0;
 
-/// What the square of the turn of half vectors is multiplied by for what it adds to their second derivatives, where
+/// The factor on the square of the turn of half vectors for its addition to their second derivatives, where
 /// |l + v| changes with it.
 const OF_LENGTH: f64 = 1.5;
 
@@ -27,7 +27,7 @@ const LEAST_COSINE: f64 = 1e-3;
 /// of a ramp along one axis.
 const OF_CLAMPING: f64 = 0.25;
 
-/// How far normals move from that of the middle, alone or beside half vectors.
+/// The moves of normals from that of the middle, alone or relative to half vectors.
 #[derive(Clone, Copy, Debug)]
 struct Moves<S: Simd> {
     /// To the corners, where they turn as fast as they do as a rule; and where they turn as fast as they may.
@@ -83,7 +83,7 @@ impl<S: Simd> Filled<'_, S> {
         }
     }
 
-    /// How far normals move from half vectors, which move with the view.
+    /// The moves of normals from half vectors, which move with the view.
     #[inline(always)]
     fn beside_half_vectors(&self, simd: S, light: &Light, moves: &Moves<S>) -> Moves<S> {
         let aside = self.half_turn(simd, light);

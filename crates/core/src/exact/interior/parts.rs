@@ -48,7 +48,7 @@ struct Piece {
     cost: f64,
 }
 
-/// What parts are off by together.
+/// The error of all parts together.
 ///
 /// # Accuracy
 /// An estimate: the errors of parts are taken to have one sign as far as light's bend tells them. What they are multiplied
@@ -245,13 +245,13 @@ impl<S: Simd> Filled<'_, S> {
         )
     }
 
-    /// How far normals and directions toward the eye turn from the middles of parts to their corners, and how near the
+    /// The turns of normals and of directions toward the eye from the middles of parts to their corners, and how near the
     /// outline is, as [`Filled`] has it.
     ///
     /// Where the ray d moves by e, the point p = t d moves by t (e − d (n·e) / (n·d)), along the surface. With
     /// the cosine g = |n·d| / |d| this is at most t (|e| + |n·e| / g). Toward the outline g falls, like a root: to
-    /// g √(1 − ν), with ν twice the turn over g, that of the view included, so that normals turn by g (1 − √(1 − ν)) instead of
-    /// g ν / 2; for ν up to ½ that is less than 1 + ν / 2 times as far.
+    /// g √(1 − ν), with ν twice the turn over g, that of the view included, so that normals turn by g (1 − √(1 − ν))
+    /// instead of g ν / 2; for ν up to ½ that is less than 1 + ν / 2 times as far.
     #[inline(always)]
     fn turn_of_parts(
         &self,

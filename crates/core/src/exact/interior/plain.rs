@@ -22,7 +22,7 @@ pub(super) struct Plain<'a, S: Simd> {
     pub(super) light: &'a Light,
     pub(super) analytic: &'a Analytic<'a, S>,
     ambient: Color,
-    /// What the surface reflects of the light where it faces it, and the largest of its channels.
+    /// The light reflected by a surface that faces the light, and the largest of its channels.
     color: Color,
     brightest: f64,
 }

@@ -35,7 +35,7 @@ pub(super) struct Reached<S: Simd> {
     pub(super) nearness: f64x8<S>,
 }
 
-/// Where the normals of eight pixels are analytic, and the side of a pixel on the retina at distance 1.
+/// The domains in which the normals of eight pixels are analytic, and the side of a pixel on the retina at distance 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Analytic<'a, S: Simd> {
     pub(super) domain: Domain<'a, S>,
@@ -43,7 +43,7 @@ pub(crate) struct Analytic<'a, S: Simd> {
     pub(super) size: f64,
 }
 
-/// Where eight pixels see a sphere that fills them: the same under all lights.
+/// The extents of a sphere that fills eight pixels: the same under all lights.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Extents<'a, S: Simd> {
     /// The rays through the middles, and the side of a pixel on the retina at distance 1.
@@ -53,12 +53,12 @@ pub(crate) struct Extents<'a, S: Simd> {
     /// The least and the largest distance, in multiples of the rays, and how far other points lie from the rays.
     depths: [f64x8<S>; 2],
     around: f64x8<S>,
-    /// How far normals and directions toward the eye turn in a pixel, and how near its light is to a singularity at the
-    /// silhouette.
+    /// The turn of normals and of directions toward the eye in a pixel, and the distance of its light from a singularity
+    /// at the silhouette.
     turn: f64x8<S>,
     view_turn: f64x8<S>,
     nearness: f64x8<S>,
-    /// Where normals are analytic, if lights may have them in common.
+    /// The domains in which normals are analytic, if lights may have them in common.
     pub(super) analytic: Option<Analytic<'a, S>>,
 }
 

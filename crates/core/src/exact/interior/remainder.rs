@@ -58,7 +58,7 @@ pub(super) const GRID: Remainder = Remainder {
 pub(super) const MOST: f64 = 0.5;
 
 impl Remainder {
-    /// What it misses, over M, by p: the first term, and a geometric series of others.
+    /// Its error, over M, by p: the first term, and a geometric series of others.
     #[inline(always)]
     pub(super) fn of<S: Simd>(&self, p: f64x8<S>) -> f64x8<S> {
         let mut power = p;
@@ -90,7 +90,7 @@ pub(super) enum Rules<S: Simd> {
 }
 
 impl<S: Simd> Rules<S> {
-    /// What they miss, over M, by p.
+    /// Their error, over M, by p.
     #[inline(always)]
     fn remainder(&self, p: f64x8<S>) -> f64x8<S> {
         match self {

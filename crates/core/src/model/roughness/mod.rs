@@ -184,7 +184,7 @@ impl Bumps {
         1.0 + self.amplitude * (3.0 + 18.0 * self.cells * self.cells).sqrt()
     }
 
-    /// How much the second derivative of the tilted normal along a lattice axis jumps where the cell of the point
+    /// The jump of the second derivative of the tilted normal along a lattice axis where the cell of the point
     /// with this normal meets the next one on a side, 1 or −1, of that axis: a (Δ − (Δ·n) n), with Δ the noise's.
     pub(crate) fn jump(
         &self,
@@ -201,7 +201,7 @@ impl Bumps {
         self.amplitude * (jump - normal * jump.dot(normal))
     }
 
-    /// How far components of normals are from the lattice planes next to them, in cells, which end halfway between
+    /// The distances of components of normals from the lattice planes next to them, in cells, which end halfway between
     /// planes.
     #[inline(always)]
     pub(crate) fn offset<L: Lanes>(&self, component: L) -> L {

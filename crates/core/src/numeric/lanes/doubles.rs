@@ -108,7 +108,7 @@ impl<S: Simd> f64x8<S> {
     }
 }
 
-/// What may stand beside eight doubles in a comparison.
+/// An operand of a comparison with eight doubles.
 pub(crate) trait Operand<S: Simd> {
     fn operand(self, simd: S) -> f64x8<S>;
 }

@@ -1,4 +1,4 @@
-//! How operations on lanes are compiled.
+//! The compilation of operations on lanes.
 
 /// One operation on lanes, as a function of its own that is compiled for a level of the processor.
 ///

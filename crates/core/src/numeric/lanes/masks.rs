@@ -58,7 +58,7 @@ impl<S: Simd> mask64x8<S> {
     }
 }
 
-/// What a mask can choose from, lane by lane.
+/// Values that a mask can choose from, lane by lane.
 pub(crate) trait Selectable<S: Simd> {
     fn select(mask: mask64x8<S>, holds: Self, otherwise: Self) -> Self;
 }

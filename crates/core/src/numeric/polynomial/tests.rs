@@ -210,7 +210,7 @@ fn extremes_are_zeros_with_level_tangents() {
     assert!(checked > 500, "{checked}");
 }
 
-/// Where values of both signs are found a zero is admitted, and elsewhere denied as a rule.
+/// A zero is admitted where values of both signs are found, and denied elsewhere as a rule.
 #[test]
 fn no_zero_of_the_cell_is_denied() {
     let mut random = Random(5);

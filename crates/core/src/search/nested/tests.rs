@@ -1,4 +1,4 @@
-//! What is taken for nested is, and hidden from the eyes that it is said to be hidden from.
+//! Spheres taken for nested are nested, and hidden from the eyes that they are said to be hidden from.
 
 use glam::DVec3;
 

@@ -28,7 +28,7 @@ fn lights(random: &mut Random) -> Vec<DVec3> {
     vec![random.point(), axis, -axis + random.point() * 1e-9]
 }
 
-/// What cells say of a point, which is what all spheres say.
+/// The answer of cells for a point, which agrees with that of all spheres.
 fn agrees(visibility: &Visibility<'_>, cells: &mut ShadowCells, asked: &SurfacePoint) -> bool {
     let mut dark = false;
     for light in 0..3 {

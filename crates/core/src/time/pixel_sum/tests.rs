@@ -56,7 +56,7 @@ fn what_was_cut_off_at_a_moment_is_over() {
     assert!(found.error >= 0.7);
 }
 
-/// Where anything may pass between two moments, the claim is all that may be seen.
+/// If anything may pass between two moments, the claim is all that may be seen.
 #[test]
 fn what_is_blind_claims_all() {
     let mut sum = sum(1.0, false, 1e-4, Status::Met);

@@ -24,7 +24,7 @@ impl Random {
     }
 }
 
-/// How far outlines reach from the middle of the picture, in halves of its sides: 1 at its edge.
+/// The reach of outlines from the middle of the picture, in halves of its sides: 1 at its edge.
 ///
 /// Not by planes, but by points all along the outlines, which a view projects.
 fn reach(scene: &Scene, view: &View) -> f64 {

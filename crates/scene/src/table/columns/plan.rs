@@ -31,7 +31,7 @@ pub(crate) enum ValueSource {
     Length,
 }
 
-/// What is known of columns beside their names.
+/// The facts about columns besides their names.
 pub(crate) struct Nature<'a> {
     /// Numbers from 0 to 255 that are sRGB where they are colors.
     pub(crate) is_byte: &'a dyn Fn(usize) -> bool,
@@ -84,7 +84,7 @@ pub(crate) struct Plan {
     pub(crate) element_column: Option<usize>,
     /// The categories are those of elements.
     pub(crate) has_element_categories: bool,
-    /// What the numbers may be.
+    /// The numbers that are allowed.
     pub(crate) allowed: Allowed,
     /// Rows whose value is missing are left out.
     pub(crate) hides_missing: bool,

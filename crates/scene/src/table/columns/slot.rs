@@ -18,7 +18,7 @@ pub(crate) enum Slot {
     Filter(u8),
 }
 
-/// What numbers may be.
+/// The numbers that are allowed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Allowed {
     /// Values may be missing: they are NaN.

@@ -3,7 +3,7 @@
 /// A kind of file that is not read.
 #[derive(Debug, Eq, PartialEq)]
 pub(crate) struct Foreign {
-    /// What it is, with its article.
+    /// Its name, with its article.
     pub(crate) kind: &'static str,
     /// A program that makes a table of it, and how.
     pub(crate) remedy: &'static str,

@@ -1,4 +1,4 @@
-//! What palettes and categories leave out, or show alike.
+//! Palettes and categories that leave something out, or show it alike.
 
 use super::*;
 

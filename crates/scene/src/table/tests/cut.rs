@@ -161,7 +161,7 @@ fn ends_that_formats_do_not_tell_are_said() {
     );
 }
 
-/// What stands behind the rows of small frames is not read for each of them.
+/// The lines after the rows of small frames are not read again for each frame.
 #[test]
 fn many_small_frames_are_read_once_each() {
     use crate::table::{Frames, Request};

@@ -229,7 +229,7 @@ fn all_frames_take_numbers_for_the_same() {
     assert_eq!(scene.world_at(2).unwrap().spheres()[0].radius(), 1.1);
 }
 
-/// What the first step does not have is told when it is read, once.
+/// An unknown element of a later step is told when the step is read, once.
 #[test]
 fn unknown_elements_of_later_steps_are_told() {
     let folder = Folder::new();

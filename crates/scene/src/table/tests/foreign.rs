@@ -165,7 +165,7 @@ fn crystals_say_what_their_coordinates_are() {
     }
 }
 
-/// What has the ending of another kind and rows of numbers is read all the same.
+/// A file with the ending of another kind and rows of numbers is read all the same.
 #[test]
 fn tables_with_other_endings_are_tables() {
     for (name, text) in [

@@ -64,7 +64,7 @@ fn the_first_row_that_is_kept_tells_texts() {
     assert!(matches!(&colors.meaning, crate::ColorMeaning::Categories(all) if all.len() == 2));
 }
 
-/// What is wrong in the columns of conditions is said, and in kept rows as before.
+/// Faults in the columns of conditions are told, and faults in kept rows as before.
 #[test]
 fn rows_are_refused_where_they_are_looked_at() {
     let keep = "keep: [(\"n\", Is(1))]";

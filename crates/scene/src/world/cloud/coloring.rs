@@ -38,7 +38,7 @@ pub enum ScaleKind {
     Diverging(f64),
 }
 
-/// What is known of the numbers and categories of all steps.
+/// The numbers and categories of all steps, as far as they are known.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Learned {
     pub(crate) low: f64,

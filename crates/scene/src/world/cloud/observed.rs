@@ -1,4 +1,4 @@
-//! What was seen of a cloud's files while they were read.
+//! Observations of a cloud's files while they were read.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};

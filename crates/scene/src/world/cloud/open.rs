@@ -25,7 +25,7 @@ pub(crate) struct OpenCloud {
     folder: PathBuf,
     pub(super) steps: Steps,
     learned: Learned,
-    /// What was left open or guessed in all steps, where all were read, and the step that has the first place.
+    /// Doubts and guesses in all steps, if all were read, and the step that has the first place.
     pub(super) remarks: (Remarks, usize),
     pub(super) late: Mutex<LateRemarks>,
     /// The file of frames, ready for one of them.
@@ -42,13 +42,13 @@ pub(crate) struct Step {
     pub(crate) rows: u64,
     /// The column of the numbers or names that colors stand for.
     pub(crate) value_name: Option<String>,
-    /// What the colors mean.
+    /// The meaning of the colors.
     pub(crate) learned: Learned,
     /// The table has frames that are not read.
     pub(crate) has_more: bool,
     /// The axes of the table are right-handed.
     pub(crate) is_right_handed: bool,
-    /// What was left open or guessed.
+    /// Doubts and guesses.
     pub(super) remarks: Remarks,
     /// The values are times, in seconds.
     pub(crate) has_times: bool,
@@ -116,7 +116,7 @@ impl OpenCloud {
         }
     }
 
-    /// What is left out or in doubt, as far as it is known.
+    /// Takes the warnings of everything left out or in doubt, as far as it is known.
     pub(crate) fn take_warnings(&self) -> Vec<String> {
         self.observed.take_warnings()
     }

@@ -1,4 +1,4 @@
-//! What the colors and radii of a cloud leave out, or show alike.
+//! Categories and names that the colors and radii of a cloud leave out, or show alike.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::PoisonError;
@@ -42,7 +42,7 @@ impl OpenCloud {
         std::mem::take(&mut late.oversights)
     }
 
-    /// What may be an oversight about the first step, which is given, or about all that were read for it.
+    /// Possible oversights about the first step, which is given, or about all that were read for it.
     pub(crate) fn oversights(&self, first: &Step) -> Vec<Oversight> {
         let Cloud { request, scale, .. } = &self.cloud;
         let (remarks, step) = match self.has_to_learn() {
@@ -74,7 +74,7 @@ impl OpenCloud {
 }
 
 impl Scale {
-    /// What of the palette matches nothing, and categories that share colors.
+    /// Names of the palette that match nothing, and categories that share colors.
     fn oversights(&self, learned: &Learned, column: Option<&str>) -> Vec<String> {
         let column = column.map_or_else(|| String::from("the table"), quoted);
         let names = self.categories(learned);

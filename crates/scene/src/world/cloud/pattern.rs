@@ -95,7 +95,7 @@ impl Numbered {
         }
     }
 
-    /// What is left out of the steps of `name`, those with these numbers.
+    /// Warnings of files left out of the steps of `name`, which have these numbers.
     pub(super) fn warnings(&self, name: &str, numbers: &[i64]) -> Vec<String> {
         let mut warnings = Vec::new();
         if !self.left_out.is_empty() {

@@ -1,4 +1,4 @@
-//! What may be an oversight about a cloud, with its place.
+//! Possible oversights about a cloud, with their places.
 
 use std::collections::HashSet;
 use std::path::PathBuf;
@@ -14,7 +14,7 @@ pub(crate) enum Oversight {
     Table(PathBuf, LocatedFault),
 }
 
-/// What is left open in steps that are read after the first.
+/// Doubts in steps that are read after the first.
 #[derive(Debug, Default)]
 pub(super) struct LateRemarks {
     /// The names that tell no element of the steps that were read.

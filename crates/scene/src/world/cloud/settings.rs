@@ -1,4 +1,4 @@
-//! What a scene file says of a cloud.
+//! The settings of a cloud in a scene file.
 
 use std::ops::Range;
 

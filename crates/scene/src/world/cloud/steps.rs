@@ -21,7 +21,7 @@ pub(super) enum Steps {
 }
 
 impl Steps {
-    /// What is in doubt in the last of several files, which a program may still write when it is read. What is wrong in it
+    /// Doubts in the last of several files, which a program may still write when it is read. What is wrong in it
     /// is told when its turn comes.
     pub(super) fn doubts_of_last(&self) -> Option<(PathBuf, Vec<LocatedFault>)> {
         let Self::Files(files) = self else {
@@ -57,7 +57,7 @@ pub(super) struct Timeline {
     pub(super) every: u32,
     /// Steps that a frame is on from the one before.
     pub(super) speed: f64,
-    /// What comes behind the last one.
+    /// The look after the last one.
     pub(super) end: End,
 }
 

@@ -1,4 +1,4 @@
-//! What is in the columns of a table.
+//! The contents of the columns of a table.
 
 use glam::DVec3;
 
@@ -19,11 +19,11 @@ pub struct ColumnSummary {
     pub name: String,
     /// The unit that the table has behind the name.
     pub unit: Option<String>,
-    /// What is in it.
+    /// Its contents.
     pub contents: ColumnContents,
 }
 
-/// What is in a column.
+/// The contents of a column.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColumnContents {
     /// Numbers.
@@ -72,7 +72,7 @@ impl ColumnContents {
 }
 
 impl OpenCloud {
-    /// What is in each column of the first step.
+    /// The contents of each column of the first step.
     pub(crate) fn columns(&self) -> Result<Vec<ColumnSummary>, CloudError> {
         let request = |column: usize, coloring| Request {
             radius: Some(1.0),

@@ -1,4 +1,4 @@
-//! What covers are said to hide, against rays through many points of cells.
+//! The spheres that covers are said to hide, against rays through many points of cells.
 
 use glam::DVec3;
 
@@ -16,7 +16,7 @@ fn ray_of(cell: &Cell, x: f64, y: f64) -> (DVec3, DVec3) {
     }
 }
 
-/// How far along a ray it meets the near side of a ball.
+/// The distance along a ray at which it meets the near side of a ball.
 fn near_side((origin, direction): (DVec3, DVec3), ball: &Ball) -> Option<f64> {
     let to_center = ball.center - origin;
     let along = to_center.dot(direction);

@@ -1,4 +1,4 @@
-//! Which parts of curves are seen, and what lies on either side of them.
+//! The visible parts of curves, and the surfaces on either side of them.
 
 use fearless_simd::Simd;
 
@@ -9,7 +9,7 @@ use super::strokes::strokes;
 use crate::exact::classify::contents::Contents;
 use crate::numeric::lanes::f64x8;
 
-/// What is in front, or next behind a curve, at eight places.
+/// The surface in front of a curve, or next behind it, at eight places.
 #[derive(Clone, Copy)]
 pub(super) struct Front<S: Simd> {
     /// In multiples of the ray, whose third component is 1.
@@ -342,7 +342,7 @@ impl Boundary {
     }
 }
 
-/// Where a curve lies on the far side of its own spheres, out of the cell, or above its caster.
+/// The places where a curve lies on the far side of its own spheres, out of the cell, or above its caster.
 #[inline(never)]
 fn own_hidden<S: Simd>(
     simd: S,

@@ -6,7 +6,7 @@ use crate::numeric::lanes::f64x8;
 use crate::numeric::polynomial::{Linear, Quadratic};
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
-/// Where chords of a sphere begin: at x = `start` + `slope` · y.
+/// The line on which chords of a sphere begin: at x = `start` + `slope` · y.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reference {
     start: f64,
@@ -165,7 +165,7 @@ pub(super) struct Homogeneous<S: Simd> {
     pub(super) x: f64x8<S>,
     /// The root w, times the denominator.
     pub(super) root: f64x8<S>,
-    /// How fast x goes with the parameter, times the square of the denominator.
+    /// The derivative of x by the parameter, times the square of the denominator.
     pub(super) slope: f64x8<S>,
     pub(super) denominator: f64x8<S>,
 }
@@ -236,7 +236,7 @@ impl<S: Simd> Chord<S> {
         self.half.simd_eq(0.0).to_bitmask() == 0xff
     }
 
-    /// Where on the lines the parameter is, and how fast it goes there.
+    /// The place x of the parameter on the lines, and the derivative of x by it.
     #[inline(always)]
     pub(super) fn at(&self, sigma: f64x8<S>) -> (f64x8<S>, f64x8<S>) {
         let one = sigma * 0.0 + 1.0;

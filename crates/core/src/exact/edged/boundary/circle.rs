@@ -29,7 +29,7 @@ impl Circle {
         }
     }
 
-    /// Where the rays touch a ball that they begin outside of.
+    /// The circle in which rays touch a ball that they begin outside of.
     pub(super) fn limb(ball: &Ball) -> Self {
         if ball.is_parallel() {
             return Self::across(ball.center, DVec3::Z, ball.radius);
@@ -40,8 +40,8 @@ impl Circle {
         Self::across(ball.center * share, axis, ball.radius * share.sqrt())
     }
 
-    /// Where rays meet a ball that touch a smaller one with the same center: at K / (√K' + √(r² − s²)) of unit rays,
-    /// with the radii r and s, and K' of the smaller one.
+    /// The circle in which rays meet a ball that touch a smaller one with the same center: at K / (√K' + √(r² − s²)) of
+    /// unit rays, with the radii r and s, and K' of the smaller one.
     pub(super) fn stroke(ball: &Ball, inside: &Ball) -> Self {
         let (radius, smaller) = (ball.radius, inside.radius);
         let half_chord = ((radius - smaller) * (radius + smaller)).sqrt();
@@ -56,7 +56,7 @@ impl Circle {
         Self::across(axis * along, axis, way * smaller / distance)
     }
 
-    /// Where two balls meet.
+    /// The circle in which two balls meet.
     pub(super) fn seam(one: &Ball, other: &Ball) -> Option<Self> {
         let plane = SeamPlane::new(one, other);
         let radius_sq = plane.radius_sq();
@@ -64,7 +64,7 @@ impl Circle {
         (radius_sq > 0.0).then(|| Self::across(middle, plane.normal, radius_sq.sqrt()))
     }
 
-    /// Where a light grazes a ball, in this plane.
+    /// The circle in which a light grazes a ball, in this plane.
     pub(super) fn terminator(ball: &Ball, plane: &Plane) -> Self {
         if plane.offset == 0.0 {
             return Self::across(ball.center, plane.axis, ball.radius);
@@ -93,10 +93,10 @@ impl Circle {
 pub(super) struct Trace<S: Simd> {
     /// In space; of a side, on the plane of the retina at distance 1.
     pub(super) point: Vectors<S>,
-    /// Where they are seen in the cell.
+    /// Their places in the cell.
     pub(super) x: f64x8<S>,
     pub(super) y: f64x8<S>,
-    /// How the place changes with the parameter.
+    /// The derivatives of the place by the parameter.
     pub(super) dx: f64x8<S>,
     pub(super) dy: f64x8<S>,
 }

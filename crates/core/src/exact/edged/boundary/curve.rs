@@ -10,7 +10,7 @@ use crate::edges::shadow::{Caster, Cone};
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
-/// What a curve is.
+/// The shape of a curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Shape {
     /// An upright side of the cell, at this x.

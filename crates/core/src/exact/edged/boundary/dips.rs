@@ -1,4 +1,4 @@
-//! Where functions that are looked at in eight places may vanish between two of them, though they have one sign there.
+//! Functions, looked at in eight places, that may vanish between two of them, though they have one sign there.
 
 use crate::numeric::lanes::f64x8;
 use fearless_simd::Simd;
@@ -28,7 +28,7 @@ pub(super) fn around(values: &[f64; 8], interval: usize) -> [f64; 4] {
     [before, values[interval], values[interval + 1], after]
 }
 
-/// How much farther than a parabola values may go, in what it falls by and in what it bends by: found by
+/// The factor by which values may go farther than a parabola, in what it falls by and in what it bends by: found by
 /// limbs of balls that dip below a horizon.
 const FARTHER: f64 = 1.5;
 const BENT: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! What changes along curves, and where.
+//! Events along curves, and the places of these.
 
 use fearless_simd::Simd;
 
@@ -29,7 +29,7 @@ pub(super) const STEPS: [f64; 8] = [
 ];
 pub(super) const INTERVALS: u64 = 0x7f;
 
-/// What changes its sign where something may happen.
+/// A function that changes its sign at an event.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// The discriminant of an active sphere.
@@ -40,17 +40,17 @@ pub(super) enum Function {
     Stroke(usize),
     /// On which side of an active sphere on which they lie points lie.
     Facing(usize),
-    /// How far above the middle of a caster, toward a light, points lie.
+    /// The height of points above the middle of a caster, toward a light.
     Above(usize, usize),
     /// Whether points lie inside an active sphere.
     Inside(usize),
-    /// How far from the plane through the eye and a side of the cell, across an axis, points lie.
+    /// The distance of points from the plane through the eye and a side of the cell, across an axis.
     Across(usize, f64),
-    /// How fast the curve itself rises in the cell.
+    /// The slope of the curve itself in the cell.
     Rise,
-    /// How far what is seen of an active sphere faces a light.
+    /// The cosine toward a light on the visible part of an active sphere.
     Lit(usize, usize),
-    /// How far that lies in the disc of a caster.
+    /// The depth of that part in the disc of a caster.
     Shaded(usize, usize),
 }
 
@@ -187,7 +187,7 @@ pub(super) fn is_beyond<S: Simd>(
     }
 }
 
-/// How far normals of a ball are on the lit side of the plane of a terminator: the cosine of the angle to a
+/// The distance of a ball's normals on the lit side of the plane of a terminator: the cosine of the angle to a
 /// directional light.
 #[inline(always)]
 pub(super) fn facing<S: Simd>(plane: &Plane, ball: &Ball, normal: &Vectors<S>) -> f64x8<S> {
@@ -400,11 +400,11 @@ impl Stretch<'_> {
     }
 }
 
-/// Where, between 0 and 1, a straight line with these values at the ends vanishes.
+/// The place, between 0 and 1, where a straight line with these values at the ends vanishes.
 fn share_of_root(values: &[f64; 2]) -> f64 {
     let share = values[0] / (values[0] - values[1]);
     if share.is_finite() { share } else { 0.5 }
 }
 
-/// How often a dip is looked at closer.
+/// The number of closer looks at a dip.
 const CLOSER: u32 = 2;

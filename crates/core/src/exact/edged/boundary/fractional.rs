@@ -21,7 +21,7 @@ use crate::numeric::bits::set_bits;
 use crate::numeric::lanes::{f64x8, mask64x8};
 use fearless_simd::Simd;
 
-/// What is integrated: the diffuse light of a light, for an intensity and an albedo of 1.
+/// The integrand: the diffuse light of a light, for an intensity and an albedo of 1.
 #[derive(Clone, Copy)]
 struct Integrand<'a, 'scene, S: Simd> {
     sender: &'a Sender<'a, 'scene>,
@@ -58,7 +58,7 @@ struct Integral<S: Simd> {
 /// A root that is farther than this in multiples of a chord is as good as none.
 const FAR: f64 = 1e4;
 
-/// How much farther from its root each stretch of a part reaches than the one before.
+/// The factor by which each stretch of a part reaches farther from its root than the one before.
 const LONGER: f64 = 3.0;
 
 /// Stretches of a part at most: where roots are nearer to each other than 10⁻⁵ of the chord, the last one is

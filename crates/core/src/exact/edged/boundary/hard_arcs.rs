@@ -1,4 +1,4 @@
-//! What makes an arc hard for a rule along it.
+//! Properties of an arc that make it hard for a rule along it.
 
 use fearless_simd::Simd;
 use glam::DVec3;

@@ -31,13 +31,13 @@ struct Passage {
     sigma: f64,
 }
 
-/// What Kronrod's rule misses of a jump of the second derivative by 1, wherever it lies in an interval of length 1:
+/// The error of Kronrod's rule for a jump of the second derivative by 1, wherever it lies in an interval of length 1:
 /// half of the largest error for the squares of distances on one side of it. The test `rules_miss_no_more_of_jumps`
 /// computes it.
 const OF_JUMP: f64 = 1e-4;
 
 impl Sender<'_, '_> {
-    /// What rules miss on chords that are divided into so many parts because second derivatives of bumps jump there:
+    /// The error of rules on chords that are divided into so many parts because second derivatives of bumps jump there:
     /// nothing where the chords are to be divided there, too, which is noted.
     ///
     /// # Accuracy

@@ -28,7 +28,7 @@ struct Stretch<S: Simd> {
     is_followed: bool,
 }
 
-/// How closely chords are looked at.
+/// The closeness of the looks at chords.
 #[derive(Clone, Copy, Debug)]
 struct Search {
     /// Into so many parts they are divided in any case.
@@ -39,7 +39,7 @@ struct Search {
     steps: u32,
 }
 
-/// How far beyond zero a value may go between neighboring lines on which it has one sign: it is a smaller part of
+/// The distance beyond zero that a value may go between neighboring lines on which it has one sign: it is a smaller part of
 /// what the value changes by beside them than half. Then all lines miss what lies there, and their sums agree.
 #[inline(always)]
 fn beyond_zero(values: &[f64; 8]) -> f64 {
@@ -64,7 +64,7 @@ const MOST_PARTS: usize = 16;
 /// Tolerances that are small enough for a search in earnest.
 const FINE: f64 = 4.5e-5;
 
-/// What it costs the sum across lines that some of them turn otherwise than others, in what they
+/// The error of the sum across lines if some of them turn otherwise than others, in what they
 /// differ by: where light bends, and where it jumps.
 const UNEVEN: f64 = 0.02;
 const JUMPY: f64 = 0.2;
@@ -201,8 +201,8 @@ impl Sender<'_, '_> {
         light
     }
 
-    /// Finds where the chords are to be divided; whether all of them begin alike and are so at like places, and how far n·l may
-    /// go beyond zero between them.
+    /// Finds where the chords are to be divided; whether all of them begin alike and are so at like places, and how far
+    /// n·l may go beyond zero between them.
     #[inline(always)]
     fn find<S: Simd>(
         &self,

@@ -1,4 +1,4 @@
-//! Where light summed up along lines is singular on arcs.
+//! The places on arcs where light summed up along lines is singular.
 //!
 //! What begins with a power that is not whole at a terminator begins at a level of y: there the terminator meets the
 //! reference of the lines, or no line beyond. The reference also leads to the highest and to the lowest point of an

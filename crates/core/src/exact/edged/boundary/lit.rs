@@ -1,4 +1,4 @@
-//! Where along curves lights begin and end on either side of them.
+//! The places along curves where lights begin and end on either side of them.
 
 use fearless_simd::Simd;
 
@@ -191,7 +191,7 @@ impl Boundary {
         )
     }
 
-    /// Which lights reach an active sphere where it is seen at some places, but for the event that the
+    /// The lights that reach an active sphere at some visible places, but for the event that the
     /// curve is.
     #[inline(never)]
     fn lit<S: Simd>(

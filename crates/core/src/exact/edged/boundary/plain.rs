@@ -9,7 +9,7 @@ use crate::edges::cell::{Ball, Cell};
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
-/// What the rules are off by for n·l on a way of the parameter that is 1 long, wherever it lies: the
+/// The errors of the rules for n·l on a way of the parameter that is 1 long, wherever it lies: the
 /// largest that a test finds, made larger. It falls with the power of the way that is twice the nodes and
 /// one.
 const OFF: [f64; 4] = [2e-2, 2e-3, 1.6e-5, 1e-7];

@@ -57,7 +57,7 @@ pub(super) struct Sender<'a, 'scene> {
     pub(super) cell: &'a Cell,
     pub(super) active: &'a Active,
     pub(super) finish: &'a Finish,
-    /// Where sums begin.
+    /// The line on which sums begin.
     pub(super) reference: &'a Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
@@ -66,7 +66,7 @@ pub(super) struct Sender<'a, 'scene> {
     pub(super) tolerance: f64,
 }
 
-/// Where light is summed up: on lines of the cell with these y, to these x.
+/// The places where light is summed up: on lines of the cell with these y, to these x.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lines<S: Simd> {
     pub(super) x: f64x8<S>,

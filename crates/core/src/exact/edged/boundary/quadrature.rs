@@ -15,10 +15,10 @@ use crate::model::camera::Projection;
 use crate::model::color::Color;
 use crate::numeric::lanes::f64x8;
 
-/// How much larger than what the rules differ by their error is taken to be.
+/// The factor between the error that the rules are taken to have and their difference.
 const CAUTION: f64 = 3.0;
 
-/// How often arcs are halved: towards an end where light goes with a root, or a small power, of the
+/// The number of times that arcs are halved: towards an end where light goes with a root, or a small power, of the
 /// distance, only the last half is.
 const DEEPEST: u32 = 12;
 
@@ -39,17 +39,17 @@ const SHARE_OF_TIP: f64 = 0.1;
 /// by all of it; a power of the difference claims a fiftieth, which one pixel in ten million found out.
 const LEAST_OF_DIFFERENCE: f64 = 0.4;
 
-/// What lies on both sides of an arc, at the nodes of the rule: light summed up from references.
+/// The light on both sides of an arc, at the nodes of the rule: summed up from references.
 struct Sides<S: Simd> {
     light: [f64x8<S>; 3],
     doubt: f64x8<S>,
     unevenness: f64,
     tip: f64,
-    /// How often nothing is seen on the inner side, less how often on the outer one.
+    /// 1 if nothing is seen on the inner side, less 1 if nothing is seen on the outer one.
     empty: f64,
 }
 
-/// What a rule is taken to be off by, from what two of them differ by and from how far a function spreads.
+/// The error that a rule is taken to have, from the difference of two rules and the spread of the function.
 #[inline(always)]
 fn claim(difference: f64, spread: f64) -> f64 {
     error_estimate(difference, spread).max(LEAST_OF_DIFFERENCE * difference)

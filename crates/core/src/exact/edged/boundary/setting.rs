@@ -39,7 +39,7 @@ impl Curve {
     }
 }
 
-/// What lies on both sides of a curve.
+/// The kind of a curve, which decides what lies on both sides of it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(super) enum Edge {
     /// The cell, to the left.
@@ -51,7 +51,7 @@ pub(super) enum Edge {
     Seam,
     /// A sphere inside of its stroke, and the stroke.
     Stroke,
-    /// What a light reaches and what it does not.
+    /// Between the part that a light reaches and the part that faces away from it.
     Terminator(usize),
     /// The light, and which of the casters.
     Shadow(usize, usize),
@@ -69,7 +69,7 @@ pub(super) struct Path<'a> {
 pub(super) struct Arc {
     pub(super) start: f64,
     pub(super) end: f64,
-    /// Where the ends are seen in the cell.
+    /// The heights of the ends in the cell.
     pub(super) y: [f64; 2],
     pub(super) inner: usize,
     pub(super) outer: usize,
@@ -86,7 +86,7 @@ impl Arc {
     }
 }
 
-/// What is seen on one side of an arc: a sphere or [`NONE`], whether it is the stroke, and the lights that reach there.
+/// The view on one side of an arc: a sphere or [`NONE`], whether it is the stroke, and the lights that reach there.
 pub(super) type Region = (usize, bool, u64);
 
 /// Memory to work in.
@@ -96,9 +96,9 @@ pub(crate) struct Boundary {
     pub(super) breaks: Vec<f64>,
     pub(super) arcs: Vec<Arc>,
     pub(super) lit_arcs: Vec<Arc>,
-    /// What is seen, and how far its edges are from closing.
+    /// The regions, each with the gap that its edges leave open.
     pub(super) regions: Vec<(Region, f64)>,
-    /// Where curves cross the left side of the cell, and the right one.
+    /// The heights at which curves cross the left side of the cell, and the right one.
     pub(super) crossings: [Vec<f64>; 2],
     pub(super) noise: Noise,
     /// For each active sphere, the y at which sums of light along its lines are singular.
@@ -110,7 +110,7 @@ pub(crate) struct Boundary {
     pub(crate) lines: u64,
 }
 
-/// How much is asked of a cell.
+/// The accuracy asked of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
     pub(crate) tolerance: f64,
@@ -130,7 +130,7 @@ pub(crate) struct Goal {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
     pub(super) finish: Finish,
-    /// Where chords begin.
+    /// The line on which chords begin.
     pub(super) reference: Reference,
     /// The lights, bit by bit, whose terminators may lie in the cell.
     pub(super) terminators: u64,
@@ -149,10 +149,10 @@ impl Surface {
 /// a cell has about two arcs for each curve, and two for its sides, so that their sum stays within it.
 pub(super) const SHARE_OF_ALL: f64 = 0.15;
 
-/// Where curves are many most arcs take less than theirs: chosen by `cargo truth promise`.
+/// The least share for an arc among many, most of which take less than theirs: chosen by `cargo truth promise`.
 pub(super) const LEAST_SHARE: f64 = 0.02;
 
-/// What does not change in a cell.
+/// The data that do not change in a cell.
 #[derive(Clone, Copy)]
 pub(super) struct Setting<'a, 'scene> {
     pub(super) scene: &'a InCamera<'scene>,
@@ -178,7 +178,7 @@ impl Setting<'_, '_> {
     }
 }
 
-/// What arcs contribute so far, by nodes of the rule.
+/// The sum over arcs so far, by nodes of the rule.
 #[derive(Clone, Copy)]
 pub(super) struct Sum<S: Simd> {
     pub(super) value: [f64x8<S>; 3],

@@ -10,7 +10,7 @@ use crate::light::reflection::NearLight;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
 
-/// What vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).
+/// The function that vanishes where light begins or ends: n·l, or, for a highlight, n·(l + v).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     /// Unit vector toward the light.
@@ -124,7 +124,7 @@ impl<S: Simd> Seeker<'_, '_, S> {
         self.turn.value(&normal, &points)
     }
 
-    /// Where between two places light begins or ends: by the rule of false position, with the value
+    /// The place between two others where light begins or ends: by the rule of false position, with the value
     /// of an end halved that stays once more (Illinois).
     #[inline(never)]
     fn root(&self, simd: S, mut low: Look<S>, mut high: Look<S>, noise: &mut Noise) -> f64x8<S> {

@@ -20,7 +20,7 @@ use crate::model::color::Color;
 use crate::model::roughness::noise::NoiseCells;
 use crate::numeric::lanes::{f64x8, mask64x8};
 
-/// What the boxes of a cell have in common.
+/// The data that the boxes of a cell have in common.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Setting<'a, 'scene> {
     pub(super) scene: &'a InCamera<'scene>,
@@ -70,7 +70,7 @@ impl Averages {
     }
 }
 
-/// What is seen in boxes, summed up sphere by sphere.
+/// The light seen in boxes, summed up sphere by sphere.
 #[derive(Clone, Copy, Debug)]
 struct Sum<S: Simd> {
     channels: usize,
@@ -171,7 +171,7 @@ impl<S: Simd> Sum<S> {
     }
 }
 
-/// What is asked of eight boxes.
+/// The result asked of eight boxes.
 enum Wanted<'a> {
     /// Their averages, with noise to work with.
     Light(&'a mut Averages, &'a mut Option<Box<NoiseCells>>),

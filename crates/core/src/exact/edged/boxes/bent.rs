@@ -18,7 +18,7 @@ pub(super) struct Bends<S: Simd> {
 const OF_HEIGHT: f64 = 0.08;
 const OF_HEIGHT_IN_SIDES: f64 = 2.5;
 
-/// How much of a box is in doubt that both sides of a narrow curve cross.
+/// The share of a box that is in doubt if both sides of a narrow curve cross it.
 const OF_NARROW: f64 = 0.35;
 
 /// A little more than from the middle of a box to a corner.
@@ -50,8 +50,8 @@ impl<S: Simd> Bends<S> {
         )
     }
 
-    /// Where a function with these values and changes in the middles falls below 0 on both sides of the middle: a narrow
-    /// strip may run through the box there, whose own gradient leads along it.
+    /// The boxes in which a function with these values and changes in the middles falls below 0 on both sides of the
+    /// middle: a narrow strip may run through the box there, whose own gradient leads along it.
     #[inline(always)]
     fn fall_on_both_sides(&self, value: f64x8<S>, [x, y]: [f64x8<S>; 2]) -> mask64x8<S> {
         let sum = self.xx + self.yy;
@@ -77,20 +77,20 @@ impl<S: Simd> Bends<S> {
     }
 }
 
-/// Where a function with this value, change and term of the second degree along some direction is below 0 a little more
-/// than half a side away, both ways.
+/// The boxes in which a function with this value, change and term of the second degree along some direction is below 0 a
+/// little more than half a side away, both ways.
 #[inline(always)]
 fn falls_aside<S: Simd>(value: f64x8<S>, term: f64x8<S>, change: f64x8<S>) -> mask64x8<S> {
     const FAR: f64 = 0.6;
     (value + term * (FAR * FAR) + change.abs() * FAR).simd_lt(0.0)
 }
 
-/// Where a tangent crosses a box.
+/// The chord of a tangent in a box.
 struct Chord<S: Simd> {
     /// The average of the squares of the ways from the point where it touches to its points in the box, and the largest.
     mean_sq: f64x8<S>,
     most_sq: f64x8<S>,
-    /// How far the line is inside of the farthest corner, as the function says.
+    /// The depth of the line inside of the farthest corner, in values of the function.
     depth: f64x8<S>,
 }
 

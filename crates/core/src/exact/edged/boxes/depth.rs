@@ -44,7 +44,7 @@ pub(super) struct Depth {
     middle: Eight,
     across: [Eight; 2],
     bends: [Eight; 3],
-    /// How much they differ from a polynomial of the second degree.
+    /// Their difference from a polynomial of the second degree.
     rest: Eight,
     /// The least and the largest in the boxes.
     range: [Eight; 2],

@@ -41,7 +41,7 @@ const QUARTERS: [[f64; 2]; 4] = [[-0.25, -0.25], [-0.25, 0.25], [0.25, 0.25], [0
 /// the tolerance allows.
 pub(super) const SHARE: f64 = 0.5;
 
-/// How many times more than what is left of the tolerance boxes claim that are quartered, not halved. Not tuned finely.
+/// The claims, in multiples of the tolerance that is left, of boxes that are quartered, not halved. Not tuned finely.
 const FAR: f64 = 2.5;
 
 impl Division {
@@ -94,7 +94,7 @@ impl Division {
         }
     }
 
-    /// What the boxes that were just done claim together.
+    /// The sum of the claims of the boxes just done.
     fn claims(&self) -> f64 {
         let sum: f64 = self.known.iter().map(|(_, average)| average.error).sum();
         sum * self.size[0] * self.size[1]

@@ -17,7 +17,7 @@ pub(super) struct Faced<S: Simd> {
     pub(super) across: [f64x8<S>; 2],
     /// Half of the most that they change.
     pub(super) width: f64x8<S>,
-    /// What their second derivatives add to their average over what is lit, and the error of the average with it.
+    /// The contribution of their second derivatives to their average over what is lit, and the error of the average with it.
     pub(super) bend: f64x8<S>,
     pub(super) error: f64x8<S>,
 }
@@ -29,9 +29,9 @@ pub(super) struct Power<S: Simd> {
     pub(super) value: f64x8<S>,
     pub(super) most: f64x8<S>,
     pub(super) doubt: f64x8<S>,
-    /// How far it may be from the average beside an edge.
+    /// The largest difference from the average next to an edge.
     pub(super) spread: f64x8<S>,
-    /// What may be hidden or seen of it together, where the light ends in the box.
+    /// The light that may be hidden or seen together, where the light ends in the box.
     pub(super) ambiguity: f64x8<S>,
 }
 
@@ -213,18 +213,18 @@ impl<S: Simd> Faced<S> {
     }
 }
 
-/// How much of what a ramp adds to the light of its middle may depend on what is seen of the box: all of it, and as
-/// much again where the parts that are seen lie apart.
+/// The share of a ramp's addition to the light of its middle that may depend on the visible part of the box: all of it,
+/// and as much again where the parts that are seen lie apart.
 const OF_RAMP: f64 = 2.0;
 
-/// How much higher a cosine may be than a linear function says, over the error of the average: near silhouettes it is
+/// The excess of a cosine over its linear function, over the error of the average: near silhouettes it is
 /// the root of one.
 const OF_HIGHEST: f64 = 4.0;
 
 /// The least share of a box that its own middle is found of.
 const LEAST_FACING: f64 = 1e-6;
 
-/// What the error of highlights is multiplied by: one pixel in millions was off by more without it.
+/// The factor on the error of highlights: one pixel in millions was off by more without it.
 const CAUTION: f64 = 1.5;
 
 /// The shininess from which on highlights are nothing where cosines are not near 1.

@@ -15,7 +15,7 @@ pub(super) struct HalfPlane<S: Simd> {
     pub(super) share: f64x8<S>,
     /// The integrals over them of the coordinates from the middle of a box, in its sides.
     pub(super) moments: [f64x8<S>; 2],
-    /// How much the shares of functions may differ that are not quite linear.
+    /// The error of the shares, for functions that are not quite linear.
     pub(super) doubt: f64x8<S>,
 }
 
@@ -59,7 +59,7 @@ impl StoredHalfPlane {
     }
 }
 
-/// What does not change along the lines: the larger and the smaller change of the function across the box,
+/// The data that do not change along the lines: the larger and the smaller change of the function across the box,
 /// and the reciprocals of both.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes<S: Simd> {

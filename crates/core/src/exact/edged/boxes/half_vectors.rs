@@ -33,14 +33,14 @@ pub(super) struct HalfCosines<S: Simd> {
     pub(super) across: [f64x8<S>; 2],
     /// The angle by which normals and half vectors turn toward each other across a box.
     pub(super) turn: f64x8<S>,
-    /// What second derivatives change the average by.
+    /// The change of the average by second derivatives.
     pub(super) second: f64x8<S>,
 }
 
 /// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
-/// What |h'|² is multiplied by for what it adds to |h''|, where |l + v| changes with it.
+/// The factor on |h'|² for what it adds to |h''|, where |l + v| changes with it.
 const OF_LENGTH: f64 = 1.5;
 
 impl<S: Simd> Views<S> {

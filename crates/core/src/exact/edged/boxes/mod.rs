@@ -55,7 +55,7 @@ pub(crate) struct Boxes {
     pub(crate) work: CellWork,
 }
 
-/// How much is asked of a cell.
+/// The accuracy asked of a cell.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Goal {
     pub(crate) tolerance: f64,

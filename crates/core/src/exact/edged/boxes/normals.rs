@@ -22,7 +22,7 @@ pub(super) struct Normals<S: Simd> {
     /// The error of taking one normal for the average, and what is left of it when second derivatives are integrated.
     pub(super) second: f64x8<S>,
     pub(super) third: f64x8<S>,
-    /// How much the normals of bumps differ in a box from linear functions; and those of smooth spheres near
+    /// The difference of the normals of bumps in a box from linear functions; and those of smooth spheres near
     /// silhouettes, where that matters.
     pub(super) bow: f64x8<S>,
     /// Whether second derivatives say more than the error without them.
@@ -32,7 +32,7 @@ pub(super) struct Normals<S: Simd> {
     pub(super) samples: u64,
 }
 
-/// How much cosines may differ from linear functions near a silhouette, over the square of the turn of normals and the
+/// The difference of cosines from linear functions near a silhouette, over the square of the turn of normals and the
 /// cosine toward the eye: twice what boxes need that touch it.
 const OF_BEND: f64 = 0.75;
 
@@ -49,12 +49,12 @@ const OF_BOW: f64 = 0.125;
 /// Half of the most cells of the noise across a box in which five samples know bumps.
 const MOST_CELLS: f64 = 0.55;
 
-/// What samples do not know of the second derivatives of bumps, as a share: where cells of the noise meet, they jump.
+/// The error of second derivatives of bumps that samples tell, as a share: where cells of the noise meet, they jump.
 /// And as a share of what they are on average, which they may be less than by chance. Not tuned finely.
 const OF_BUMPS: f64 = 0.3;
 const BY_CHANCE: f64 = 0.2;
 
-/// How fast bumps turn where a silhouette cuts them, over how fast they turn where they do: twice the root of the mean
+/// The turn of bumps where a silhouette cuts them, over their largest turn: twice the root of the mean
 /// square.
 const OF_SPHERE: f64 = 0.5;
 

@@ -18,9 +18,9 @@ pub(super) struct Outline {
     pub(super) position: usize,
     /// Whether it fills all boxes.
     fills: bool,
-    /// What is inside of its silhouette.
+    /// The part inside of its silhouette.
     inside: StoredHalfPlane,
-    /// How far a point must be moved along both axes, in sides, from the middle of what is seen to where the root of
+    /// The steps along both axes, in sides, from the middle of the visible part to a point where the root of
     /// the discriminant is the average.
     inward: [Eight; 2],
     /// The position of its depth among those that are known, if it intersects another sphere.
@@ -35,14 +35,14 @@ pub(super) struct Outlines {
     depths: Vec<Depth>,
 }
 
-/// What is seen of a sphere in eight boxes.
+/// The visible part of a sphere in eight boxes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Visible<S: Simd> {
     pub(super) position: usize,
     pub(super) region: Region<S>,
     pub(super) share: Share<S>,
     pub(super) middle: [f64x8<S>; 2],
-    /// How much its share may be off because its edges are no lines.
+    /// The error of its share because its edges are no lines.
     pub(super) doubt: f64x8<S>,
     /// From the middle of what is seen to the point whose light is about the average, in sides.
     pub(super) inward: [f64x8<S>; 2],
@@ -147,7 +147,7 @@ impl Outlines {
 }
 
 impl Outline {
-    /// What is seen of it behind others; `None` where they hide it in all boxes.
+    /// The part of it that others do not hide; `None` where they hide it in all boxes.
     #[inline(always)]
     pub(super) fn visible<S: Simd>(
         &self,
@@ -228,7 +228,7 @@ impl Outline {
     }
 }
 
-/// How much of what an edge leaves in doubt counts where another outline hides it: all of it, but where the edge is
+/// The share of an edge's doubt that counts where another outline hides it: all of it, but where the edge is
 /// nearly hidden.
 ///
 /// The line leaves the area that the curve does, on the whole way through a box. On a part of the way they may be apart

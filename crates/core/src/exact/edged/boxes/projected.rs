@@ -28,13 +28,13 @@ pub(super) struct Projected<S: Simd> {
     /// The square of half of what points move across a box, and what second derivatives add to it.
     pub(super) moved_sq: f64x8<S>,
     pub(super) more: f64x8<S>,
-    /// How much larger the rest of the series is than its terms of the second degree.
+    /// The ratio of the rest of the series to its terms of the second degree.
     pub(super) further: f64x8<S>,
-    /// How far points may lie from where second derivatives say, where a box comes near the silhouette.
+    /// The distance of points from where second derivatives put them, where a box comes near the silhouette.
     pub(super) rest: f64x8<S>,
-    /// How far the silhouette is behind the points, along the view, as seen from the side: R g.
+    /// The distance of the silhouette behind the points, along the view: R g.
     pub(super) depth: f64x8<S>,
-    /// How far second derivatives are from those of the middle of the box in its corners, over themselves.
+    /// The relative change of second derivatives from the middle of the box to its corners.
     pub(super) third: f64x8<S>,
     /// Heights in a box differ by no more from that in its middle.
     pub(super) of_box: f64x8<S>,
@@ -91,7 +91,7 @@ impl<S: Simd> Projected<S> {
         }
     }
 
-    /// How far points are inside of the disc of a caster: the square of its radius minus that of their distance from its
+    /// The depth of points inside of the disc of a caster: the square of its radius minus that of their distance from its
     /// axis, in the middles of boxes, its changes there, and its terms of the second degree.
     #[inline(always)]
     pub(super) fn depth_in(

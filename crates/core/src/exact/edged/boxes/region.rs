@@ -13,7 +13,7 @@ const LEAST_AMBIGUITY: f64 = 1e-9;
 /// loses.
 pub(super) const OF_AMBIGUITY: f64 = 0.5;
 
-/// What is inside of several half-planes. The two that cut a box most evenly are known by their lines, so that their
+/// The intersection of several half-planes. The two that cut a box most evenly are known by their lines, so that their
 /// intersection is; the shares of the others are multiplied.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Region<S: Simd> {
@@ -35,7 +35,7 @@ pub(super) struct Region<S: Simd> {
 pub(super) struct Share<S: Simd> {
     pub(super) area: f64x8<S>,
     pub(super) moments: [f64x8<S>; 2],
-    /// How much the area may be off because shares were multiplied: a bound, if edges are lines.
+    /// The error of the area because shares were multiplied: a bound, if edges are lines.
     pub(super) ambiguity: f64x8<S>,
 }
 

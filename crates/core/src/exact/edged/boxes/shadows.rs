@@ -10,18 +10,18 @@ use crate::edges::shadow::Caster;
 use crate::exact::scene::Light;
 use crate::numeric::lanes::{f64x8, mask64x8};
 
-/// What casters leave to a light of a region.
+/// The part of a region that casters leave to a light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left<S: Simd> {
     pub(super) region: Region<S>,
-    /// How much its share may be off because edges of shadows are no lines.
+    /// The error of its share because edges of shadows are no lines.
     pub(super) doubt: f64x8<S>,
     /// The boxes that no shadow touches.
     pub(super) is_free: mask64x8<S>,
 }
 
 impl<S: Simd> Surroundings<S> {
-    /// What casters leave to a light of a region.
+    /// The part of a region that casters leave to a light.
     #[inline(always)]
     pub(super) fn left_by(
         &self,
@@ -93,11 +93,11 @@ impl<S: Simd> Surroundings<S> {
     }
 }
 
-/// What the third derivatives of shadows' edges are multiplied by, of which corners of boxes tell little: one in thousands
+/// The factor on the third derivatives of shadows' edges, of which corners of boxes tell little: one in thousands
 /// was off by three times as much.
 const CAUTION: f64 = 4.0;
 
-/// What second derivatives leave of a root at its end: its value in the middle is 1.
+/// The share of a root at its end that second derivatives leave: its value in the middle is 1.
 const DEEPEST: f64 = 0.375;
 
 /// The way in sides of a box from its middle along the gradient to where a linear function vanishes, as far as that

@@ -163,7 +163,7 @@ impl<S: Simd> Surroundings<S> {
     ) -> (f64x8<S>, f64x8<S>) {
         const OF_TOUCHED: f64 = 0.06;
         const OF_CUT: f64 = 0.025;
-        /// What is left of second derivatives that are integrated over parts of boxes by the middles of the parts.
+        /// The share left of second derivatives that are integrated over parts of boxes by the middles of the parts.
         const OF_KNOWN: f64 = 0.3;
         let by_steepest = f64x8::splat(simd, 1.0) / steepest;
         let steeper = grazing * by_steepest;

@@ -8,7 +8,7 @@ use crate::numeric::lanes::{f64x8, mask64x8};
 /// Lines whose directions differ by less than this, the sine squared, are parallel: where they cross is not known.
 const PARALLEL: f64 = 1e-12;
 
-/// What changes along lines are divided by at least, for a largest change of 1.
+/// The least divisor of changes along lines, for a largest change of 1.
 const LEAST_CHANGE: f64 = 1e-30;
 
 /// A line whose changes across the box are divided by.
@@ -21,8 +21,8 @@ struct Line<S: Simd> {
     by_size_sq: f64x8<S>,
 }
 
-/// What parts of the rim of a figure add to its area and to the integrals of the coordinates over it: triangles with
-/// the middle of the box.
+/// The contributions of parts of the rim of a figure to its area and to the integrals of the coordinates over it:
+/// triangles with the middle of the box.
 struct Triangles<S: Simd> {
     area: f64x8<S>,
     moments: [f64x8<S>; 2],

@@ -54,7 +54,7 @@ fn parabolas_below_zero_at_the_ends_are_found() {
     }
 }
 
-/// What changes its sign, goes by, or stays far from zero is not looked at closer.
+/// Functions that change their sign, go by, or stay far from zero are not looked at closer.
 #[test]
 fn nothing_else_is() {
     assert_eq!(dips_of(|at| at - 3.4), 0);

@@ -8,7 +8,7 @@ use crate::edges::silhouette::silhouette;
 use crate::exact::edged::boundary::chord::Reference;
 use crate::numeric::lanes::f64x8;
 
-/// What a rule is off by for a part of n·l along a chord, which is the integral of cos² φ, sin φ cos φ
+/// The error of a rule for a part of n·l along a chord, which is the integral of cos² φ, sin φ cos φ
 /// or cos φ around some angle, on a way of 2 tan(φ / 2).
 fn error(rule: &[(f64, f64)], around: f64, way: f64, part: usize) -> f64 {
     let light = |sigma: f64| {

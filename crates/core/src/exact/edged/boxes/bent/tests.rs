@@ -23,7 +23,7 @@ fn found(middle: [f64; 2], radius: f64) -> [f64; 2] {
     })
 }
 
-/// Where a function is the same everywhere, its sign says all, in any unit.
+/// The sign of a constant function says all, in any unit.
 #[test]
 fn functions_without_a_gradient_have_one_sign() {
     for unit in [1e-9, 1.0, 1e9] {

@@ -143,7 +143,7 @@ impl Place {
         places.iter().all(|&v| places.iter().all(|&u| is_lit(u, v)))
     }
 
-    /// How far a number is from the average.
+    /// The distance of a number from the average.
     pub(super) fn distance_from_average(&self, nodes: &[(Fixed, Fixed)], value: f64) -> f64 {
         let toward = self.toward.to_array().map(Fixed::new);
         let length = dot(&toward, &toward).sqrt();
