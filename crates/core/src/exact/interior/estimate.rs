@@ -102,12 +102,14 @@ impl<S: Simd> Filled<'_, S> {
             _ => zero,
         };
         let mut error = zero;
+        let mut most_light = zero;
         for channel in 0..self.scene.channels {
             let (mut highest, mut lowest) = (lights[0][channel], lights[0][channel]);
             for light in &lights[..rule.samples()] {
                 highest = highest.max(light[channel]);
                 lowest = lowest.min(light[channel]);
             }
+            most_light = most_light.max(highest);
             let bend = if is_star {
                 bend_of_star(lights, channel)
             } else {
@@ -137,6 +139,9 @@ impl<S: Simd> Filled<'_, S> {
         }
         if let Some(cosines) = cosines {
             error = error.max(self.of_lobes(simd, rule, cosines));
+            if is_rough {
+                error += self.of_powers(simd, rule, cosines) * most_light;
+            }
         }
         let mut is_known = self.nearness.simd_lt(MOST_NEARNESS);
         if is_rough {

@@ -13,6 +13,7 @@ pub(crate) mod mean_normals;
 mod middle;
 pub(crate) mod parts;
 mod plain;
+mod powers;
 mod ramps;
 pub(crate) mod reached;
 mod remainder;
