@@ -51,8 +51,8 @@ impl Power {
     ///
     /// # Source
     /// With the cosine c (1 + z), z = a x + b y, x and y from −1 to 1 and |a| + |b| = ρ in a corner, the terms of the series of
-    /// (1 + z)^e are C(e, k) zᵏ. Nine samples miss 0.0229 C(e, 6) ρ⁶ at most, where a or b is 0, and five 0.0243 of that and C(e, 4) ρ⁴ / 30 more,
-    /// where a = b. Each further term is about ρ² times the one before.
+    /// (1 + z)^e are C(e, k) zᵏ. Nine samples miss 0.0229 C(e, 6) ρ⁶ at most, where a or b is 0. Five samples miss
+    /// C(e, 4) ρ⁴ / 30 and 0.0243 C(e, 6) ρ⁶ at most, where a = b. Each further term is about ρ² times the one before.
     #[inline(always)]
     fn share<S: Simd>(&self, rule: Rule, range: &CosineRange<S>) -> f64x8<S> {
         const OF_FOURTH: f64 = 0.0334;
