@@ -40,7 +40,7 @@ fn image(scene: &Scene, tolerance: f64) -> Image {
         alpha: false,
     };
     Renderer::new(scene.world())
-        .render(scene.exposure(&view), &settings, &|_| {
+        .render_with_progress(scene.exposure(&view), &settings, &|_| {
             ControlFlow::Continue(())
         })
         .unwrap()

@@ -47,7 +47,7 @@ fn picture(scene: &Scene, tolerance: f64) -> Image {
     let go_on = |_| ControlFlow::Continue(());
     let view = view(scene);
     Renderer::new(scene.world())
-        .render(scene.exposure(&view), &settings, &go_on)
+        .render_with_progress(scene.exposure(&view), &settings, &go_on)
         .unwrap()
 }
 

@@ -16,7 +16,7 @@ fn image(path: &Path, tolerance: f64, alpha: bool) -> Image {
         alpha,
     };
     Renderer::new(scene.world())
-        .render(scene.exposure(&view), &settings, &|_| {
+        .render_with_progress(scene.exposure(&view), &settings, &|_| {
             ControlFlow::Continue(())
         })
         .unwrap()

@@ -222,7 +222,7 @@ fn image(seed: u64, units: Units, size: [u32; 2], method: Method) -> Image {
     let go_on = |_| ControlFlow::Continue(());
     let settings = Settings { method, alpha };
     Renderer::new(scene.world())
-        .render(scene.exposure(&view), &settings, &go_on)
+        .render_with_progress(scene.exposure(&view), &settings, &go_on)
         .unwrap()
 }
 

@@ -28,7 +28,9 @@ fn render(world: &World, view: &View, tolerance: f64) -> Image {
         alpha: true,
     };
     let go = |_| std::ops::ControlFlow::Continue(());
-    Renderer::new(world).render(view, &settings, &go).unwrap()
+    Renderer::new(world)
+        .render_with_progress(view, &settings, &go)
+        .unwrap()
 }
 
 /// A world of white balls under a light of intensity 1.

@@ -32,7 +32,7 @@ fn render<'a>(scene: &Scene, exposure: impl Into<Exposure<'a>>, method: Method) 
         alpha: true,
     };
     Renderer::new(scene.world())
-        .render(exposure, &settings, &|_| ControlFlow::Continue(()))
+        .render_with_progress(exposure, &settings, &|_| ControlFlow::Continue(()))
         .unwrap()
 }
 

@@ -85,7 +85,7 @@ pub(crate) fn picture(world: &World, view: &View, samples: u32, alpha: bool) -> 
         alpha,
     };
     Renderer::new(world)
-        .render(view, &settings, &|_| ControlFlow::Continue(()))
+        .render_with_progress(view, &settings, &|_| ControlFlow::Continue(()))
         .unwrap()
 }
 
@@ -102,6 +102,6 @@ pub(crate) fn exact_picture(world: &World, view: &View, tolerance: f64, alpha: b
         alpha,
     };
     Renderer::new(world)
-        .render(view, &settings, &|_| ControlFlow::Continue(()))
+        .render_with_progress(view, &settings, &|_| ControlFlow::Continue(()))
         .unwrap()
 }

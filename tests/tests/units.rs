@@ -34,7 +34,7 @@ fn image(scene: &Scene, tolerance: f64, alpha: bool) -> Image {
     };
     let go_on = |_| ControlFlow::Continue(());
     Renderer::new(scene.world())
-        .render(scene.exposure(&view), &settings, &go_on)
+        .render_with_progress(scene.exposure(&view), &settings, &go_on)
         .unwrap()
 }
 

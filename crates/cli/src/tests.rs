@@ -97,7 +97,7 @@ fn pixels_over_their_budget_are_counted_and_told() {
     };
     let go = |_| std::ops::ControlFlow::Continue(());
     let picture = marbles_core::Renderer::new(loaded.world())
-        .render(&loaded.view(1).unwrap(), &settings, &go)
+        .render_with_progress(&loaded.view(1).unwrap(), &settings, &go)
         .unwrap();
     let over = picture.summary().over_tolerance;
     assert!(over > 20);

@@ -1,9 +1,32 @@
 //! The maths of marbles: spheres lit by directional and point lights, seen through a pinhole or by parallel rays, and the
 //! average of their light over each pixel.
 //!
-//! A [`World`] is what is rendered, a [`View`] is from where; a [`Renderer`] turns both into an
-//! [`Image`] whose every pixel says its value, its error and its [`Status`], or into strips of one
-//! for a [`Sink`].
+//! A [`World`] holds the spheres and lights, and a [`View`] the camera. A [`Renderer`] turns both into an [`Image`], which has the
+//! value, the error and the [`Status`] of every pixel, or into strips of an image for a [`Sink`].
+//!
+//! # Example
+//! ```
+//! use marbles_core::glam::DVec3;
+//! use marbles_core::{Angle, Camera, Lens, Light, Material, Renderer, Settings, Sphere, View, World};
+//!
+//! let mut world = World::new();
+//! let white = world.add_material(Material::default());
+//! world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+//! world.lights.extend(Light::directional(DVec3::NEG_Z, DVec3::ONE));
+//! let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+//! let view = View::new(Camera::default(), lens, 32, 32);
+//! let image = Renderer::new(&world).render(&view, &Settings::default());
+//!
+//! let summary = image.summary();
+//! assert!(summary.largest_error <= 1e-3);
+//! assert_eq!(summary.over_tolerance, 0);
+//! let codes = image.to_srgb8(); // red, green, blue, alpha of each pixel
+//! assert_eq!(codes[..4], [0, 0, 0, 255]);
+//! # Ok::<(), marbles_core::SphereError>(())
+//! ```
+//! The folder `examples` has a picture with its errors, a sequence, exact hits and visible areas.
+//!
+//! # Conventions
 //!
 //! World axes are left-handed: x right, y up, z forward. Lengths are scene units. Color is
 //! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
@@ -23,6 +46,8 @@ mod render;
 mod sampling;
 mod search;
 mod time;
+
+pub use glam;
 
 pub use exact::areas::VisibleArea;
 pub use hit::outcome::{Floor, Hit};
@@ -47,6 +72,7 @@ pub use picture::image::{Channels, Image, Summary};
 pub use picture::pixel::{Evidence, Method, Status, Work};
 pub use picture::progress::Cancelled;
 pub use picture::quantities::{Axes, Depth, GeometrySettings, Precision, Quantities, Quantity};
+pub use picture::srgb;
 pub use picture::window::Window;
 pub use render::renderer::Renderer;
 pub use render::settings::Settings;

@@ -1,11 +1,24 @@
 //! The scene files of marbles: format, checks, messages, animation.
 //!
-//! [`Scene::load`] reads a file in RON. A [`Scene`] is a [`World`](marbles_core::World), the same
-//! in every frame, and a [`View`](marbles_core::View) for each frame. A file that is refused says
-//! in a [`SceneError`] at which line and column, what was expected there and what was found; all
-//! the faults that can be told at once are told.
+//! [`Scene::load`] reads a file in RON, and the tables that it names. A [`Scene`] has a [`World`](marbles_core::World), the same in
+//! every frame, and a [`View`](marbles_core::View) for each frame. If a file has faults, a [`SceneError`] tells the line and the
+//! column of each, what was expected there and what was found.
 //!
-//! [`Scene::load`] reads the tables that the file names, too.
+//! # Example
+//! ```
+//! use std::path::Path;
+//!
+//! use marbles_core::{Renderer, Settings};
+//! use marbles_scene::Scene;
+//!
+//! let text = "(image: (width: 32, height: 32), lens: Fov(40), camera: Free(), ambient: 0.5,
+//!     spheres: [(center: (0, 0, 5), radius: 1)])";
+//! let scene = Scene::parse(text, Path::new("ball.ron"))?;
+//! let view = scene.view(1)?;
+//! let image = Renderer::new(scene.world()).render(scene.exposure(&view), &Settings::default());
+//! assert_eq!(image.rgba(16, 16)[0], 0.5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 //!
 //! From the bottom: `text` is how every value knows its place in the file, and how faults are
 //! gathered; `values` are the numbers, colors and names; `table` reads tables; `file` is the format

@@ -101,7 +101,7 @@ pub(crate) fn judge(path: &str, arguments: &[&str]) -> Result<String, String> {
     let start = Instant::now();
     let render = |view: &View| {
         let go = |_| ControlFlow::Continue(());
-        let image = renderer.render(view, &settings, &go);
+        let image = renderer.render_with_progress(view, &settings, &go);
         image.map_err(|error| error.to_string())
     };
     let whole = if options.single {
@@ -307,7 +307,7 @@ pub(crate) fn pixel(path: &str, col: &str, row: &str, rest: &[&str]) -> Result<S
         };
         let go = |_| ControlFlow::Continue(());
         let image = Renderer::new(scene.world())
-            .render(&single_pixel(&view, col, row), &settings, &go)
+            .render_with_progress(&single_pixel(&view, col, row), &settings, &go)
             .map_err(|error| error.to_string())?;
         let (value, claimed, status) = of_image(&image, 0, 0);
         let error = (value - truth.value).abs().max_element();

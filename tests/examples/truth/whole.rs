@@ -208,7 +208,9 @@ fn picture(renderer: &Renderer<'_>, scene: &Scene, view: &View, tolerance: f64) 
         alpha: false,
     };
     let go = |_| ControlFlow::Continue(());
-    renderer.render(scene.exposure(view), &settings, &go).ok()
+    renderer
+        .render_with_progress(scene.exposure(view), &settings, &go)
+        .ok()
 }
 
 /// The results of the pixels of a picture.

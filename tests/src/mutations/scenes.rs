@@ -54,7 +54,11 @@ fn render(scene: &Scene) {
                 alpha: false,
             };
             let exposure = scene.exposure(&view);
-            assert!(renderer.render(exposure, &settings, &go_on).is_ok());
+            assert!(
+                renderer
+                    .render_with_progress(exposure, &settings, &go_on)
+                    .is_ok()
+            );
         }
     }
 }

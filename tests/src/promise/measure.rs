@@ -56,7 +56,9 @@ pub fn score(scene: &Path, tolerance: f64, whole: bool) -> Score {
             alpha,
         };
         let go = |_| ControlFlow::Continue(());
-        renderer.render(view, &settings, &go).expect("not stopped")
+        renderer
+            .render_with_progress(view, &settings, &go)
+            .expect("not stopped")
     };
     let image = whole.then(|| render(&view, true));
     let one = |(index, pixel): (usize, &ExactPixel)| {

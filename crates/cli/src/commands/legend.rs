@@ -12,7 +12,7 @@ use super::svg::{Anchor, Style, Svg};
 use crate::base::failure::Failure;
 use crate::base::numbers::short;
 use crate::base::shown::Shown;
-use crate::formats::srgb;
+use marbles_core::srgb;
 
 /// The width of the drawing, and the space around everything, in pixels.
 const WIDTH: f64 = 340.0;

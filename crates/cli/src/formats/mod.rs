@@ -16,6 +16,5 @@ pub(crate) mod png;
 pub(crate) mod rows;
 pub(crate) mod sidecar;
 mod source;
-pub(crate) mod srgb;
 #[cfg(test)]
 pub(crate) mod tests;

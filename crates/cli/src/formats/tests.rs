@@ -141,6 +141,6 @@ pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
         alpha,
     };
     marbles_core::Renderer::new(&world)
-        .render(&view(), &settings, &|_| ControlFlow::Continue(()))
+        .render_with_progress(&view(), &settings, &|_| ControlFlow::Continue(()))
         .unwrap()
 }

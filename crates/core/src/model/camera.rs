@@ -21,6 +21,13 @@ pub struct Camera {
     pub world_from_camera: DMat3,
 }
 
+/// The camera at the origin that looks along z.
+impl Default for Camera {
+    fn default() -> Self {
+        Self::free(DVec3::ZERO, Angle::ZERO, Angle::ZERO, Angle::ZERO)
+    }
+}
+
 impl Camera {
     /// The camera at `position`, turned by `pan` toward +x, then `tilt` toward +y, then `roll`
     /// clockwise as seen from behind it.
@@ -182,11 +189,11 @@ pub(crate) enum Projection {
 }
 
 impl Lens {
-    /// The lens whose picture spans the horizontal angle `field_of_view` in radians, between 0
-    /// and π; its retina stands at distance 1.
-    pub fn from_field_of_view(field_of_view: f64) -> Self {
+    /// Creates the lens with this horizontal field of view, between 0 and 180°. Its retina is at distance 1.
+    pub fn from_field_of_view(field_of_view: Angle) -> Self {
         Self {
-            width: 2.0 * libm::tan(0.5 * field_of_view),
+            // Twice the tangent of the half.
+            width: 2.0 * field_of_view.sin / (1.0 + field_of_view.cos),
             distance: 1.0,
             shift: DVec2::ZERO,
         }
@@ -201,7 +208,7 @@ impl Lens {
         }
     }
 
-    /// True where all rays have one direction.
+    /// Returns whether all rays have one direction.
     pub fn is_parallel(&self) -> bool {
         self.projection() == Projection::Parallel
     }

@@ -31,6 +31,23 @@ impl Material {
     };
 }
 
+/// Matte white.
+impl Default for Material {
+    fn default() -> Self {
+        Self::MATTE_WHITE
+    }
+}
+
+/// The strength 0.5 and the shininess 40, as in scene files.
+impl Default for Highlight {
+    fn default() -> Self {
+        Self {
+            strength: 0.5,
+            shininess: 40.0,
+        }
+    }
+}
+
 /// A highlight, `strength · max(0, n·h)^shininess` with h half-way between light and viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Highlight {

@@ -24,6 +24,18 @@ pub struct View {
 }
 
 impl View {
+    /// Creates the view through a lens into a picture of so many columns and rows, without zoom, as frame 1.
+    pub fn new(camera: Camera, lens: Lens, width: u32, height: u32) -> Self {
+        Self {
+            camera,
+            lens,
+            zoom: 1.0,
+            width,
+            height,
+            frame: 1,
+        }
+    }
+
     /// Side of a pixel on the retina, in scene units.
     pub fn pixel_size(&self) -> f64 {
         self.lens.width / f64::from(self.width)

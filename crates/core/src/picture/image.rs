@@ -8,6 +8,7 @@ use rayon::slice::ParallelSliceMut;
 use super::band::Band;
 use super::pixel::{Evidence, Status, Work};
 use super::plane::Plane;
+use super::srgb;
 use super::tile::Tile;
 use super::window::Window;
 use crate::model::world::World;
@@ -201,6 +202,27 @@ impl Image {
         let first = self.index(0, row);
         let stride = self.stride();
         &self.values[first * stride..][..self.width as usize * stride]
+    }
+
+    /// Returns the picture as a viewer wants it: red, green, blue and alpha of each pixel, row by row from the top, as 8 bit
+    /// sRGB codes with straight alpha.
+    ///
+    /// Light above 1 becomes white. The codes are those of the PNG that `marbles render` writes.
+    pub fn to_srgb8(&self) -> Vec<u8> {
+        let pixels = (0..self.height).flat_map(|row| (0..self.width).map(move |col| (col, row)));
+        let codes = |(col, row)| {
+            let [red, green, blue, alpha] = self.rgba(col, row);
+            let code =
+                |light: f64| srgb::encode_8(if alpha == 1.0 { light } else { light / alpha });
+            // The cast saturates.
+            [
+                code(red),
+                code(green),
+                code(blue),
+                (255.0 * alpha + 0.5) as u8,
+            ]
+        };
+        pixels.flat_map(codes).collect()
     }
 
     /// The largest distance of a pixel's numbers from the exact area average; infinite where nothing

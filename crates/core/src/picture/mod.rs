@@ -8,5 +8,6 @@ pub(crate) mod pixel;
 pub(crate) mod plane;
 pub(crate) mod progress;
 pub(crate) mod quantities;
+pub mod srgb;
 pub(crate) mod tile;
 pub(crate) mod window;

@@ -14,6 +14,13 @@ pub enum Method {
     Tolerance(f64),
 }
 
+/// The tolerance 1e-3.
+impl Default for Method {
+    fn default() -> Self {
+        Self::Tolerance(1e-3)
+    }
+}
+
 /// The average of a pixel, and how well it is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pixel {

@@ -17,7 +17,23 @@ use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
 use crate::search::visibility::Visibility;
 
-/// A world that is ready to be rendered: what does not depend on the view is done once.
+/// A world that is ready to be rendered. It does the work that no view changes once.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Angle, Camera, Lens, Material, Renderer, Settings, Sphere, View, World};
+///
+/// let mut world = World::new();
+/// let white = world.add_material(Material::default());
+/// world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// world.ambient = DVec3::splat(0.5);
+/// let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+/// let view = View::new(Camera::default(), lens, 16, 16);
+/// let image = Renderer::new(&world).render(&view, &Settings::default());
+/// assert_eq!(image.rgba(8, 8)[0], 0.5);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Renderer<'world> {
     /// A copy that shares the spheres, for its light may be a part of theirs.
@@ -62,16 +78,30 @@ impl<'world> Renderer<'world> {
         }
     }
 
-    /// Renders what a view sees of the world, or a camera that moves while the shutter is open, on the
-    /// threads of the current rayon pool.
+    /// Renders a [`View`](crate::View) of the world, or an [`Exposure`] with a camera that moves while the shutter is open, on
+    /// the threads of the current rayon pool.
     ///
-    /// The picture does not depend on the number of threads. `progress` is called, from any of
-    /// them, with the number of pixels that were just finished; when it breaks, the rendering ends
-    /// soon. A world without color makes a picture with one channel.
+    /// The picture does not depend on the number of threads. A world without color makes a picture with one channel.
+    pub fn render<'motion>(
+        &self,
+        exposure: impl Into<Exposure<'motion>>,
+        settings: &Settings,
+    ) -> Image {
+        let go_on = |_| ControlFlow::Continue(());
+        match self.picture(None, &exposure.into(), settings, &go_on) {
+            Ok(image) => image,
+            Err(Cancelled) => unreachable!("nothing cancels it"),
+        }
+    }
+
+    /// Renders as [`Self::render`] does, and reports progress.
+    ///
+    /// marbles calls `progress`, from any thread, with the number of pixels that it just finished. If `progress` breaks, the
+    /// rendering ends soon.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` broke.
-    pub fn render<'motion>(
+    /// [`Cancelled`] if `progress` broke.
+    pub fn render_with_progress<'motion>(
         &self,
         exposure: impl Into<Exposure<'motion>>,
         settings: &Settings,
@@ -80,11 +110,11 @@ impl<'world> Renderer<'world> {
         self.render_over(None, exposure, settings, progress)
     }
 
-    /// Renders as [`Self::render`] does, in the memory of a picture that is no longer needed:
-    /// memory that was just written is several times as quick as what the system hands out.
+    /// Renders as [`Self::render_with_progress`] does, in the memory of a picture that is no longer needed. This memory is
+    /// several times as fast as new memory from the system.
     ///
     /// # Errors
-    /// [`Cancelled`] when `progress` broke.
+    /// [`Cancelled`] if `progress` broke.
     pub fn render_over<'motion>(
         &self,
         spent: Option<Image>,

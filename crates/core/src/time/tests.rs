@@ -162,6 +162,6 @@ fn breaking_progress_ends_the_work() {
         alpha: false,
     };
     let renderer = crate::Renderer::new(&world);
-    let ended = renderer.render(&exposure, &settings, &|_| ControlFlow::Break(()));
+    let ended = renderer.render_with_progress(&exposure, &settings, &|_| ControlFlow::Break(()));
     assert_eq!(ended, Err(crate::Cancelled));
 }

@@ -20,10 +20,13 @@ pub(crate) fn lens(lens: &Placed<file::Lens>, image: &Placed<file::Image>) -> Op
             shift: shift.get()?.0,
         }),
         file::Lens::Fov(degrees) => {
-            let lens = Lens::from_field_of_view(degrees.get()?.0.to_radians());
-            // The smallest angles vanish in radians.
-            let width = lens.width.max(f64::MIN_POSITIVE);
-            Some(Lens { width, ..lens })
+            let width = 2.0 * libm::tan(0.5 * degrees.get()?.0.to_radians());
+            Some(Lens {
+                // The smallest angles vanish in radians.
+                width: width.max(f64::MIN_POSITIVE),
+                distance: 1.0,
+                shift: DVec2::ZERO,
+            })
         }
         file::Lens::Matrix { fx, fy, cx, cy } => {
             let focal_length = focal_length(fx, fy)?;

@@ -40,7 +40,9 @@ impl Picture {
         if let Some(part) = mode.part(scene.world()) {
             renderer = renderer.under(part);
         }
-        let image = renderer.render(scene.exposure(view), &settings, &go).ok()?;
+        let image = renderer
+            .render_with_progress(scene.exposure(view), &settings, &go)
+            .ok()?;
         Some(Self { image, mode })
     }
 

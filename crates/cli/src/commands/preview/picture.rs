@@ -6,9 +6,9 @@ use marbles_core::{Cancelled, Method, Renderer, Settings, View, World};
 use marbles_scene::Scene;
 
 use crate::base::size::Size;
-use crate::formats::srgb;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
+use marbles_core::srgb;
 
 /// A picture of sRGB codes of red, green and blue, row by row.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ pub(super) fn render(
         method: Method::Tolerance(tolerance),
         alpha: false,
     };
-    let image = renderer.render(scene.exposure(view), &settings, &|pixels| {
+    let image = renderer.render_with_progress(scene.exposure(view), &settings, &|pixels| {
         if let Some(progress) = progress {
             progress.advance(pixels);
         }

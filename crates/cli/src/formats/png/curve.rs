@@ -2,7 +2,7 @@
 
 use png::Info;
 
-use crate::formats::srgb;
+use marbles_core::srgb;
 
 /// A gAMA chunk counts in these units.
 const GAMMA_UNIT: f64 = 100_000.0;

@@ -9,7 +9,7 @@ use super::curve::Curve;
 use crate::base::size::Size;
 use crate::formats::encoding::PngOptions;
 use crate::formats::form::{Form, color_count};
-use crate::formats::srgb;
+use marbles_core::srgb;
 
 /// The size of a file's picture, and the kind of its samples.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

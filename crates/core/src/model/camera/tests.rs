@@ -71,8 +71,13 @@ fn orbit_stands_behind_and_above_its_target() {
 
 #[test]
 fn field_of_view_is_the_angle_across_the_retina() {
-    let lens = Lens::from_field_of_view(std::f64::consts::FRAC_PI_2);
+    let lens = Lens::from_field_of_view(Angle::from_degrees(90.0));
     assert!((lens.width - 2.0).abs() < 1e-15);
+    for degrees in [1e-3, 40.0, 120.0, 179.0] {
+        let lens = Lens::from_field_of_view(Angle::from_degrees(degrees));
+        let width = 2.0 * libm::tan(0.5 * f64::to_radians(degrees));
+        assert!((lens.width / width - 1.0).abs() < 1e-13, "{degrees}");
+    }
 }
 
 /// The middle of a turned picture is where the axis of view, to 60 digits, comes nearest to the world's origin.

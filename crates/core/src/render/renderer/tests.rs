@@ -54,7 +54,7 @@ fn progress_counts_every_pixel_once() {
         ControlFlow::Continue(())
     };
     let image = Renderer::new(&world)
-        .render(&view, &settings, &count)
+        .render_with_progress(&view, &settings, &count)
         .unwrap();
     assert_eq!(done.into_inner(), 37 * 21);
     assert_eq!(image.summary().pixels, 37 * 21);
@@ -65,7 +65,7 @@ fn progress_counts_every_pixel_once() {
 fn breaking_progress_cancels() {
     let (world, view, settings) = ball();
     assert_eq!(
-        Renderer::new(&world).render(&view, &settings, &|_| ControlFlow::Break(())),
+        Renderer::new(&world).render_with_progress(&view, &settings, &|_| ControlFlow::Break(())),
         Err(Cancelled)
     );
 }
@@ -91,7 +91,9 @@ fn nothing_of_a_spent_picture_shows() {
         for view in [view, small] {
             for (world, settings) in [orders[first], orders[second]] {
                 let renderer = Renderer::new(world);
-                let fresh = renderer.render(&view, &settings, &go).unwrap();
+                let fresh = renderer
+                    .render_with_progress(&view, &settings, &go)
+                    .unwrap();
                 let image = renderer.render_over(spent, &view, &settings, &go).unwrap();
                 assert_eq!(image, fresh);
                 spent = Some(image);
@@ -104,10 +106,14 @@ fn nothing_of_a_spent_picture_shows() {
 fn grey_and_colored_rendering_agree_to_the_bit() {
     let (mut world, view, settings) = ball();
     let go = |_| ControlFlow::Continue(());
-    let grey = Renderer::new(&world).render(&view, &settings, &go).unwrap();
+    let grey = Renderer::new(&world)
+        .render_with_progress(&view, &settings, &go)
+        .unwrap();
     // A second light behind the ball adds color to the world, but none to the picture.
     world.lights.extend(Light::directional(DVec3::Z, Color::X));
-    let colored = Renderer::new(&world).render(&view, &settings, &go).unwrap();
+    let colored = Renderer::new(&world)
+        .render_with_progress(&view, &settings, &go)
+        .unwrap();
     assert_eq!(
         (grey.channels(), colored.channels()),
         (Channels::Grey, Channels::Rgb)
@@ -152,8 +158,11 @@ fn albedos_of_their_own_look_as_those_of_materials() {
     let go = |_| ControlFlow::Continue(());
     for method in [settings.method, Method::Tolerance(1e-3)] {
         settings.method = method;
-        let [one, other] = [&painted, &plain]
-            .map(|world| Renderer::new(world).render(&view, &settings, &go).unwrap());
+        let [one, other] = [&painted, &plain].map(|world| {
+            Renderer::new(world)
+                .render_with_progress(&view, &settings, &go)
+                .unwrap()
+        });
         for row in 0..view.height {
             for col in 0..view.width {
                 assert_eq!(one.rgba(col, row), other.rgba(col, row), "{method:?}");

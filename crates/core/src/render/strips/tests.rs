@@ -147,7 +147,9 @@ fn strips_are_the_picture_whatever_their_height() {
             let renderer = Renderer::new(&world);
             for settings in settings() {
                 let go = |_| ControlFlow::Continue(());
-                let image = renderer.render(&view, &settings, &go).unwrap();
+                let image = renderer
+                    .render_with_progress(&view, &settings, &go)
+                    .unwrap();
                 let places = (0..height).flat_map(|row| (0..width).map(move |col| (col, row)));
                 let expected: Vec<String> =
                     places.map(|(col, row)| pixel(&image, col, row)).collect();
@@ -180,7 +182,9 @@ fn windows_show_what_the_picture_does() {
     let renderer = Renderer::new(&world);
     let go = |_| ControlFlow::Continue(());
     for settings in settings() {
-        let image = renderer.render(&view, &settings, &go).unwrap();
+        let image = renderer
+            .render_with_progress(&view, &settings, &go)
+            .unwrap();
         for (col, row, width, height) in [
             (0, 0, width, height),
             (8, 16, 16, 8),
@@ -227,7 +231,7 @@ fn parts_have_the_channels_of_the_world() {
             ..settings()[0]
         };
         let go = |_| ControlFlow::Continue(());
-        let image = Renderer::new(&world).render(&view, &settings, &go);
+        let image = Renderer::new(&world).render_with_progress(&view, &settings, &go);
         assert_eq!(image.map(|image| image.channels()), Ok(expected));
     }
 }
@@ -302,7 +306,9 @@ fn a_thread_goes_on_while_another_ends_the_picture_before() {
         }
     });
     for (view, sink) in [(view, first), (zoomed, second)] {
-        let image = renderer.render(&view, &settings, &go).unwrap();
+        let image = renderer
+            .render_with_progress(&view, &settings, &go)
+            .unwrap();
         let places = (0..60).flat_map(|row| (0..37).map(move |col| (col, row)));
         let expected: Vec<String> = places.map(|(col, row)| pixel(&image, col, row)).collect();
         assert!(sink.pixels.into_inner().unwrap() == expected);

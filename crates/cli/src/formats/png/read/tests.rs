@@ -4,8 +4,8 @@ use super::*;
 use crate::base::size::Size;
 use crate::formats::encoding::PngOptions;
 use crate::formats::picture::tests::Whole;
-use crate::formats::srgb;
 use crate::formats::tests::{Scene, png_bytes, render, size};
+use marbles_core::srgb;
 
 fn decode(bytes: &[u8]) -> Result<Picture, String> {
     begin(&Source::Memory(bytes.into()))

@@ -77,7 +77,9 @@ fn together(world: &World, view: &View, settings: &Settings) -> (Vec<Vec<String>
 
 fn alone(world: &World, view: &View, settings: &Settings) -> Image {
     let go = |_| ControlFlow::Continue(());
-    Renderer::new(world).render(view, settings, &go).unwrap()
+    Renderer::new(world)
+        .render_with_progress(view, settings, &go)
+        .unwrap()
 }
 
 fn places(view: &View) -> impl Iterator<Item = (u32, u32)> + use<> {

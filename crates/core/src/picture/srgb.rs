@@ -10,18 +10,18 @@ use std::sync::LazyLock;
 const INDEX_BITS: u32 = 7;
 const CELL_SHIFT: u32 = f64::MANTISSA_DIGITS - 1 - INDEX_BITS;
 
-/// The 8 bit code nearest to the sRGB value of linear light.
+/// Returns the 8 bit code nearest to the sRGB value of linear light.
 ///
 /// # Accuracy
 /// The nearest code, except that light within 3 units in the last place of the middle between two
 /// codes may go either way; `every_threshold_is_exact_to_a_few_units` settles that in whole
 /// numbers.
-pub(crate) fn encode_8(linear: f64) -> u8 {
+pub fn encode_8(linear: f64) -> u8 {
     encoder_8().encode(linear)
 }
 
-/// As [`encode_8`], for many numbers.
-pub(crate) fn encode_all_8(linear: &[f64], codes: &mut [u8]) {
+/// Encodes many numbers as [`encode_8`] does.
+pub fn encode_all_8(linear: &[f64], codes: &mut [u8]) {
     let encoder = encoder_8();
     for (code, &linear) in codes.iter_mut().zip(linear) {
         *code = encoder.encode(linear);
@@ -33,8 +33,8 @@ fn encoder_8() -> &'static Encoder {
     &ENCODER
 }
 
-/// The 16 bit code nearest to the sRGB value of linear light.
-pub(crate) fn encode_16(linear: f64) -> u16 {
+/// Returns the 16 bit code nearest to the sRGB value of linear light.
+pub fn encode_16(linear: f64) -> u16 {
     // The cast saturates, and takes NaN to 0.
     (encode(linear) * f64::from(u16::MAX) + 0.5) as u16
 }
@@ -48,8 +48,8 @@ fn encode(linear: f64) -> f64 {
     }
 }
 
-/// The linear light of an sRGB value; the curve goes on above 1.
-pub(crate) fn decode(encoded: f64) -> f64 {
+/// Returns the linear light of an sRGB value from 0 to 1; the curve goes on above 1.
+pub fn decode(encoded: f64) -> f64 {
     if encoded <= 0.040_45 {
         encoded / 12.92
     } else {
