@@ -54,7 +54,7 @@ pub(crate) enum PerLight {
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// Scene file; several are rendered one after another
+    /// Scene file; you can give several, which are rendered one after another
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
 
@@ -77,7 +77,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "FPS", value_parser = above_zero, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
 
-    /// Leave out frames whose files are complete and made from the same scene and settings
+    /// Skip frames whose files are complete and made from the same scene and settings
     #[arg(long)]
     pub(crate) skip_existing: bool,
 
@@ -108,7 +108,7 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "X,Y,W,H", value_parser = window_of, allow_hyphen_values = true)]
     pub(crate) region: Option<Window>,
 
-    /// Leave the background out, and store how much of each pixel the spheres cover
+    /// Leave out the background, and store the share of each pixel that spheres cover
     #[arg(long)]
     pub(crate) alpha: bool,
 
@@ -170,16 +170,16 @@ pub(crate) struct RenderArguments {
     /// Axes of the normals and positions that --channels stores [default: world]
     #[arg(long, value_name = "AXES", requires = "channels")]
     pub(crate) axes: Option<AxesForm>,
-    /// Write NAME.json beside each picture NAME.png or NAME.exr: the camera as OpenCV's K, R and t, the
-    /// lights, and what is known of the error
+    /// Write NAME.json next to each picture NAME.png or NAME.exr: the camera as OpenCV's K, R and t, the
+    /// lights, and the error
     #[arg(long)]
     pub(crate) sidecar: bool,
 
-    /// Draw what the colors of clouds stand for, a colormap's numbers or categories
+    /// Draw a legend for the colors of clouds: a colormap with its numbers, or categories
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) legend: Option<PathBuf>,
 
-    /// Draw a round length and the pixels that it takes: anywhere through a parallel lens, else at the distance of
+    /// Draw a scale bar: a round length and its pixels, anywhere with a parallel lens, else at the distance of
     /// the camera's target
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) scale_bar: Option<PathBuf>,

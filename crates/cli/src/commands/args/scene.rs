@@ -6,8 +6,8 @@ use marbles_scene::Setting;
 /// Options that change a scene, and the checks on it.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneOptions {
-    /// Put VALUE into the scene in place of its own, or beside it: --set 'lights[0].toward=(1, 1, -1)',
-    /// --set materials.candy.exponent=2; several times for several values
+    /// Replace a value of the scene, or add one: --set 'lights[0].toward=(1, 1, -1)',
+    /// --set materials.candy.exponent=2; repeat it for several values
     #[arg(long, value_name = "PATH=VALUE")]
     pub(crate) set: Vec<Setting>,
 
