@@ -41,7 +41,7 @@ fn world(change: Change, rough: bool) -> World {
                 shininess: 21.5,
             }),
             roughness: roughness.filter(|_| rough),
-            stroke: None,
+            outline: None,
         })
     });
     let balls = [

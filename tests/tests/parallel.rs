@@ -143,7 +143,7 @@ fn zoom_and_shift_are_those_of_other_lenses() {
             assert!((a - b).abs() <= claimed + 1e-12, "{col} {row}: {a} {b}");
         }
     }
-    let outline = wide.outline(&world.spheres()[0]);
+    let outline = wide.contour(&world.spheres()[0]);
     let ellipse = outline.ellipse.unwrap();
     let pixels = f64::from(SIDE) / 3.0;
     assert!((ellipse.semi_axes[0] - 0.8 * pixels).abs() < 1e-12 * pixels);

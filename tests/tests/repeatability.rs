@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use marbles_core::{
-    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Roughness, Sphere, Stroke,
-    StrokeWidth, World,
+    Angle, Camera, Color, Grain, Highlight, Image, Light, Material, Outline, OutlineWidth,
+    Roughness, Sphere, World,
 };
 
 use crate::studio::{exact_picture, looking_forward, picture};
@@ -24,8 +24,8 @@ fn everything() -> World {
                 grain,
                 seed: 7,
             }),
-            stroke: (index == 1).then_some(Stroke {
-                width: StrokeWidth::Pixels(3.0),
+            outline: (index == 1).then_some(Outline {
+                width: OutlineWidth::Pixels(3.0),
                 color: Color::Y,
             }),
         });

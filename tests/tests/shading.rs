@@ -53,7 +53,7 @@ fn every_term_of_the_formula_counts() {
                 shininess,
             }),
             roughness: None,
-            stroke: None,
+            outline: None,
         };
         let mut world = World::new();
         let id = world.add_material(material);

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
-    Angle, Camera, Color, Image, Lens, Light, LightPart, Material, Sphere, Stroke, StrokeWidth,
+    Angle, Camera, Color, Image, Lens, Light, LightPart, Material, Outline, OutlineWidth, Sphere,
     View, World,
 };
 use marbles_tests::reference::Reference;
@@ -13,10 +13,10 @@ use crate::studio::{exact_picture, looking_forward, picture, pixels};
 
 const SIDE: u32 = 48;
 
-fn stroke(width: StrokeWidth) -> Material {
+fn stroke(width: OutlineWidth) -> Material {
     Material {
         albedo: Color::new(0.9, 0.6, 0.3),
-        stroke: Some(Stroke {
+        outline: Some(Outline {
             width,
             color: Color::new(0.1, 0.2, 2.0),
         }),
@@ -31,7 +31,7 @@ fn light(image: &Image, col: u32, row: u32) -> Color {
 }
 
 /// Balls that intersect and shade each other, under two lights.
-fn balls(width: StrokeWidth) -> World {
+fn balls(width: OutlineWidth) -> World {
     let mut world = World::new();
     let lined = world.add_material(stroke(width));
     let plain = world.add_material(Material::MATTE_WHITE);
@@ -67,10 +67,10 @@ fn parallel(scale: f64) -> View {
 #[test]
 fn a_ring_has_its_area() {
     for (width, ring) in [
-        (StrokeWidth::Units(2.5), 15.3 * 15.3 - 12.8 * 12.8),
-        (StrokeWidth::Pixels(1.5), 15.3 * 15.3 - 13.8 * 13.8),
-        (StrokeWidth::Units(0.001), 15.3 * 15.3 - 15.299 * 15.299),
-        (StrokeWidth::Units(99.0), 15.3 * 15.3),
+        (OutlineWidth::Units(2.5), 15.3 * 15.3 - 12.8 * 12.8),
+        (OutlineWidth::Pixels(1.5), 15.3 * 15.3 - 13.8 * 13.8),
+        (OutlineWidth::Units(0.001), 15.3 * 15.3 - 15.299 * 15.299),
+        (OutlineWidth::Units(99.0), 15.3 * 15.3),
     ] {
         let mut world = World::new();
         let lined = world.add_material(Material {
@@ -113,9 +113,9 @@ fn pixels_keep_their_tolerance() {
     };
     for view in [far, turned, parallel(0.1)] {
         for width in [
-            StrokeWidth::Pixels(1.5),
-            StrokeWidth::Pixels(0.1),
-            StrokeWidth::Units(0.2),
+            OutlineWidth::Pixels(1.5),
+            OutlineWidth::Pixels(0.1),
+            OutlineWidth::Units(0.2),
         ] {
             let world = balls(width);
             let reference = Reference::new(&world, &view);
@@ -148,7 +148,7 @@ fn pixels_keep_their_tolerance() {
 #[test]
 fn samples_see_the_same_lines() {
     for view in [looking_forward(SIDE, SIDE, 150.0), parallel(0.1)] {
-        let world = balls(StrokeWidth::Pixels(2.5));
+        let world = balls(OutlineWidth::Pixels(2.5));
         let reference = Reference::new(&world, &view);
         let image = picture(&world, &view, 4, false);
         for (col, row) in pixels(&image) {
@@ -161,7 +161,7 @@ fn samples_see_the_same_lines() {
 
 #[test]
 fn lights_alone_leave_lines_black() {
-    let world = balls(StrokeWidth::Pixels(2.5));
+    let world = balls(OutlineWidth::Pixels(2.5));
     let view = looking_forward(SIDE, SIDE, 150.0);
     let pictures: Vec<_> = world
         .light_parts()
@@ -189,7 +189,7 @@ fn lights_alone_leave_lines_black() {
 #[test]
 fn there_are_no_lines_inside_of_spheres() {
     let mut world = World::new();
-    let lined = world.add_material(stroke(StrokeWidth::Units(0.9)));
+    let lined = world.add_material(stroke(OutlineWidth::Units(0.9)));
     world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).unwrap(), lined);
     world.ambient = Color::splat(0.5);
     for (view, is_parallel) in [(looking_forward(8, 8, 8.0), false), (parallel(0.03), true)] {

@@ -91,7 +91,7 @@ impl Patch<'_> {
             signature.is_inner = true;
             return (signature, (albedo * world.ambient).extend(1.0));
         }
-        if let (Some(stroke), Some(inside)) = (&material.stroke, &candidate.inside)
+        if let (Some(stroke), Some(inside)) = (&material.outline, &candidate.inside)
             && inside.chord_sq(direction) < 0.0
         {
             signature.is_stroke = true;

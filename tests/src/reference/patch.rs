@@ -1,7 +1,7 @@
 //! A rectangle of the retina, and the spheres that matter to it.
 
 use glam::{DVec2, DVec3};
-use marbles_core::{StrokeWidth, View, World};
+use marbles_core::{OutlineWidth, View, World};
 
 use super::ball::Ball;
 use super::lamp::Lamp;
@@ -49,16 +49,16 @@ impl<'world> Stage<'world> {
 impl Stage<'_> {
     /// A sphere without its stroke.
     fn inside_stroke(&self, sphere: usize) -> Option<Ball> {
-        let stroke = self.world.material(sphere).stroke?;
+        let stroke = self.world.material(sphere).outline?;
         let ball = &self.balls[sphere];
         if ball.has_eye_inside() || ball.cut_radius().is_some() {
             return None;
         }
         let pixel = self.view.lens.width / (f64::from(self.view.width) * self.view.zoom);
         let width = match (stroke.width, self.forward) {
-            (StrokeWidth::Units(width), _) => width,
-            (StrokeWidth::Pixels(width), Some(_)) => width * pixel,
-            (StrokeWidth::Pixels(width), None) => {
+            (OutlineWidth::Units(width), _) => width,
+            (OutlineWidth::Pixels(width), Some(_)) => width * pixel,
+            (OutlineWidth::Pixels(width), None) => {
                 // At these angles from the center both edges are seen.
                 let (distance, ahead) = (ball.center.length(), self.view.camera.forward());
                 let outer = (ball.radius / distance).asin();

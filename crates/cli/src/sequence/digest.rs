@@ -6,8 +6,8 @@
 use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
 use marbles_core::{
-    Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Pose,
-    Roughness, Settings, Sphere, Stroke, StrokeWidth, View, World,
+    Camera, Exposure, Grain, Highlight, Lens, Light, LightFalloff, Material, Method, Outline,
+    OutlineWidth, Pose, Roughness, Settings, Sphere, View, World,
 };
 use rayon::prelude::*;
 
@@ -178,7 +178,7 @@ impl Feed {
             exponent,
             highlight,
             roughness,
-            stroke,
+            outline,
         } = *material;
         self.vector(albedo);
         self.number(exponent);
@@ -204,10 +204,10 @@ impl Feed {
             feed.maybe(size, Self::number);
             feed.0.update(&seed.to_le_bytes());
         });
-        self.maybe(stroke, |feed, Stroke { width, color }| {
+        self.maybe(outline, |feed, Outline { width, color }| {
             let (kind, width) = match width {
-                StrokeWidth::Pixels(width) => (0, width),
-                StrokeWidth::Units(width) => (1, width),
+                OutlineWidth::Pixels(width) => (0, width),
+                OutlineWidth::Units(width) => (1, width),
             };
             feed.integer(kind);
             feed.number(width);

@@ -12,8 +12,8 @@ use crate::light::reflection::NearLight;
 use crate::model::camera::{Camera, Projection};
 use crate::model::color::Color;
 use crate::model::light::Light as WorldLight;
+use crate::model::outline::OutlineView;
 use crate::model::sphere::Sphere;
-use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::rounding::{GEOMETRY_SLACK, WIDER};
@@ -51,7 +51,7 @@ pub(crate) struct InCamera<'scene> {
     /// Whether the light of spheres is their normals: see [`Self::of_normals`].
     pub(crate) is_of_normals: bool,
     /// The view of strokes, where any are seen.
-    strokes: Option<StrokeView>,
+    strokes: Option<OutlineView>,
     /// Whether strokes are black, as in all groups but the first.
     are_strokes_black: bool,
     /// The unit of their colors.
@@ -198,7 +198,7 @@ impl<'scene> InCamera<'scene> {
                 Color::ZERO
             },
             is_of_normals: false,
-            strokes: world.has_strokes().then(|| view.of_strokes()),
+            strokes: world.has_outlines().then(|| view.of_strokes()),
             are_strokes_black: group > 0,
             stroke_unit: 1.0,
         }
@@ -270,7 +270,7 @@ impl<'scene> InCamera<'scene> {
     /// The visible part of a sphere inside of its stroke: a ball with the same center; none for a sphere without a stroke.
     pub(crate) fn inside_stroke(&self, sphere: usize, ball: &Ball) -> Option<Ball> {
         let view = self.strokes?;
-        let stroke = self.world.material(sphere).stroke?;
+        let stroke = self.world.material(sphere).outline?;
         // The ball may be one that a cell sees of a sphere that the plane of parallel rays cuts.
         if ball.outside <= 0.0 || self.ball(sphere).outside <= 0.0 {
             return None;
@@ -291,7 +291,7 @@ impl<'scene> InCamera<'scene> {
 
     /// The light of a sphere's stroke.
     pub(crate) fn stroke_color(&self, sphere: usize) -> Color {
-        let stroke = self.world.material(sphere).stroke;
+        let stroke = self.world.material(sphere).outline;
         match stroke {
             Some(stroke) if !self.are_strokes_black => stroke.color / self.stroke_unit,
             _ => Color::ZERO,

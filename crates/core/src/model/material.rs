@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::color::Color;
-use super::stroke::Stroke;
+use super::outline::Outline;
 
 /// The answer of a surface to light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub struct Material {
     /// The bumps, if any.
     pub roughness: Option<Roughness>,
     /// A line of one color along the outline, if any.
-    pub stroke: Option<Stroke>,
+    pub outline: Option<Outline>,
 }
 
 impl Material {
@@ -27,7 +27,7 @@ impl Material {
         exponent: 1.0,
         highlight: None,
         roughness: None,
-        stroke: None,
+        outline: None,
     };
 }
 

@@ -3,6 +3,7 @@
 pub(crate) mod albedos;
 pub(crate) mod camera;
 pub(crate) mod color;
+pub(crate) mod contour;
 pub(crate) mod exposure;
 pub(crate) mod light;
 pub(crate) mod light_unit;
@@ -14,6 +15,5 @@ pub(crate) mod ray;
 pub(crate) mod rotation;
 pub(crate) mod roughness;
 pub(crate) mod sphere;
-pub(crate) mod stroke;
 pub(crate) mod view;
 pub(crate) mod world;

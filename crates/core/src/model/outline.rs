@@ -1,190 +1,64 @@
-//! The outlines of spheres on the retina.
+//! Lines along the outlines of spheres.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
-use super::sphere::Sphere;
-use super::view::View;
+use super::camera::Projection;
+use super::color::Color;
 
-/// The outline of a sphere in a picture.
+/// A line inside the outline of a sphere, as an eye outside of it sees it.
 ///
-/// Places are pixel coordinates as [`View::project`] has them: the picture's upper left corner is (0, 0), y grows
-/// downward.
+/// It is what is seen of the sphere beside a smaller one with the same center, where rays pass that one. It sends its color
+/// whatever the light. Where the eye is inside of the sphere, or the plane of a parallel lens cuts it, there is none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outline {
-    /// The image of the sphere's center, which is not the middle of the outline; none if it is not in front of the
-    /// viewpoint.
-    pub center: Option<DVec2>,
-    /// The distance of the center along the axis of view, in scene units.
-    pub depth: f64,
-    /// The ellipse that the sphere fills, unless others hide it; none where the plane through the viewpoint, across
-    /// the axis of view, touches the sphere: then the outline is a parabola or a hyperbola, or there is none. Through a
-    /// parallel lens it is a circle, of what lies before that plane.
-    pub ellipse: Option<Ellipse>,
+    /// Its width.
+    pub width: OutlineWidth,
+    /// The radiance that it sends.
+    pub color: Color,
 }
 
-/// An ellipse in a picture.
+/// The width of a [`Outline`], greater than 0. A sphere that is not wider than two of it has one color.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ellipse {
-    /// The middle.
-    pub center: DVec2,
-    /// The longer half axis, and the shorter one, in pixels.
-    pub semi_axes: [f64; 2],
-    /// The unit vector along the longer one, toward +x, or toward +y if it is upright.
-    pub along: DVec2,
+pub enum OutlineWidth {
+    /// In pixels. Perspective stretches spheres that lie away from the axis of view, and widens their strokes alike: the
+    /// width counts across the direction to the axis.
+    Pixels(f64),
+    /// By how much, in scene units, the smaller sphere's radius is smaller.
+    Units(f64),
 }
 
-impl View {
-    /// The outline of a sphere.
+/// A view as far as strokes depend on it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OutlineView {
+    /// The side of a pixel on the plane at distance 1, or of parallel rays on any plane.
+    pub(crate) pixel: f64,
+    pub(crate) projection: Projection,
+}
+
+impl OutlineWidth {
+    /// The radius of the smaller sphere inside of one that the eye is outside of. Its center is in the camera's frame.
     ///
-    /// # Accuracy
-    /// Some units in the last place of the lengths that a coordinate is made of, over the share of the depth by which the
-    /// sphere is off the plane through the viewpoint.
-    ///
-    /// # Source
-    /// With the center (x, y, z) from the eye, ρ² = x² + y², the radius r and w = z² − r² > 0, rays at (u, v) on the
-    /// retina at distance 1 touch the sphere where (u x + v y + z)² = (u² + v² + 1) (ρ² + w): an ellipse about
-    /// (x, y) z / w with the half axes r √(ρ² + w) / w, in the direction of (x, y), and r / √w across it.
-    pub fn outline(&self, sphere: &Sphere) -> Outline {
-        let from_eye = sphere.center() - self.camera.position;
-        let center = self.camera.world_from_camera.transpose() * from_eye;
-        let radius = sphere.radius();
-        if self.lens.is_parallel() {
-            return self.circle(sphere, center);
-        }
-        let apart = (center.z - radius) * (center.z + radius);
-        let scale = self.lens.distance * self.zoom / self.pixel_size();
-        let is_ahead = center.z > radius && apart > 0.0;
-        let ellipse = is_ahead.then(|| {
-            let aside = center.truncate();
-            let on_unit = aside * (center.z / apart);
-            let long = radius * (aside.length_squared() + apart).sqrt() / apart;
-            let short = radius / apart.sqrt();
-            let along = aside.try_normalize().unwrap_or(DVec2::X);
-            Ellipse {
-                center: self.pixel_of(on_unit * self.lens.distance * self.zoom),
-                semi_axes: [long * scale, short * scale],
-                along: folded(DVec2::new(along.x, -along.y)),
+    /// # Formula
+    /// With the distance d of the center, the outline is seen at an angle from it whose tangent is r / √(d² − r²). A
+    /// length s across the way there and across the direction to the axis spans s / c_z of the plane at distance 1.
+    pub(crate) fn inner_radius(self, view: OutlineView, center: DVec3, radius: f64) -> f64 {
+        let inner = match (self, view.projection) {
+            (Self::Units(width), _) => radius - width,
+            (Self::Pixels(width), Projection::Parallel) => radius - width * view.pixel,
+            (Self::Pixels(width), Projection::Central) => {
+                let distance = center.length();
+                let outside = (distance - radius) * (distance + radius);
+                let width = width * view.pixel * center.z.max(0.0) / distance;
+                let tangent = radius / outside.sqrt() - width;
+                distance * tangent / (1.0 + tangent * tangent).sqrt()
             }
-        });
-        Outline {
-            center: self.project(sphere.center()),
-            depth: center.z,
-            ellipse: ellipse.filter(Ellipse::is_finite),
-        }
-    }
-
-    /// The outline of a sphere with this center in the camera's frame, through a parallel lens: a circle, behind
-    /// whose plane nothing is seen.
-    fn circle(&self, sphere: &Sphere, center: DVec3) -> Outline {
-        let radius = sphere.radius();
-        let in_plane = if center.z >= 0.0 {
-            radius
-        } else {
-            ((radius + center.z) * (radius - center.z)).max(0.0).sqrt()
         };
-        let in_pixels = in_plane * (self.zoom / self.pixel_size());
-        let ellipse = (in_plane > 0.0).then(|| Ellipse {
-            center: self.pixel_of(center.truncate() * self.zoom),
-            semi_axes: [in_pixels; 2],
-            along: DVec2::X,
-        });
-        Outline {
-            center: self.project(sphere.center()),
-            depth: center.z,
-            ellipse: ellipse.filter(Ellipse::is_finite),
+        // Where the eye is as good as on the sphere, it is not a number.
+        if inner.is_nan() {
+            return radius;
         }
+        inner.clamp(0.0, radius)
     }
-
-    /// The area of an ellipse that lies within the picture, in pixels.
-    pub fn area_of(&self, ellipse: &Ellipse) -> f64 {
-        ellipse.area_within(DVec2::new(f64::from(self.width), f64::from(self.height)))
-    }
-}
-
-impl Ellipse {
-    /// Its angle from the x axis toward +y, which is down: more than −90° and at most 90°.
-    pub fn angle_degrees(&self) -> f64 {
-        libm::atan2(self.along.y, self.along.x).to_degrees()
-    }
-
-    /// The corners of the box around it: the upper left one and the lower right one.
-    pub fn bounds(&self) -> [DVec2; 2] {
-        let [long, short] = self.semi_axes;
-        let (x, y) = (self.along.x, self.along.y);
-        let half = DVec2::new(
-            libm::hypot(long * x, short * y),
-            libm::hypot(long * y, short * x),
-        );
-        [self.center - half, self.center + half]
-    }
-
-    fn is_finite(&self) -> bool {
-        self.center.is_finite() && self.semi_axes.iter().all(|half| half.is_finite())
-    }
-
-    /// The area that it has in common with the rectangle from (0, 0) to `size`.
-    ///
-    /// A map that makes the ellipse the unit disc makes the rectangle a parallelogram.
-    fn area_within(&self, size: DVec2) -> f64 {
-        let [long, short] = self.semi_axes;
-        let corners = [
-            DVec2::ZERO,
-            DVec2::new(size.x, 0.0),
-            size,
-            DVec2::new(0.0, size.y),
-        ];
-        let on_disc = corners.map(|corner| {
-            let from_center = corner - self.center;
-            DVec2::new(
-                from_center.dot(self.along) / long,
-                from_center.perp_dot(self.along) / short,
-            )
-        });
-        let sum: f64 = (0..4)
-            .map(|index| beside_chord(on_disc[index], on_disc[(index + 1) % 4]))
-            .sum();
-        sum.abs() * long * short
-    }
-}
-
-/// A direction or its opposite, whichever leads to the right, or down.
-fn folded(direction: DVec2) -> DVec2 {
-    if direction.x < 0.0 || direction.x == 0.0 && direction.y < 0.0 {
-        -direction
-    } else {
-        direction
-    }
-}
-
-/// The area that the unit disc and the triangle from its middle to two points have in common; negative where the way
-/// around goes the other way.
-fn beside_chord(from: DVec2, to: DVec2) -> f64 {
-    let sector = |one: DVec2, other: DVec2| 0.5 * libm::atan2(one.perp_dot(other), one.dot(other));
-    let way = to - from;
-    // |from + t way|² = 1 in t.
-    let (a, b) = (way.length_squared(), from.dot(way));
-    let c = from.length_squared() - 1.0;
-    let discriminant = b * b - a * c;
-    if a == 0.0 || discriminant <= 0.0 {
-        return sector(from, to);
-    }
-    let root = discriminant.sqrt();
-    let (enter, leave) = ((-b - root) / a, (-b + root) / a);
-    if enter >= 1.0 || leave <= 0.0 {
-        return sector(from, to);
-    }
-    let mut area = 0.0;
-    let mut first = from;
-    if enter > 0.0 {
-        first = from + way * enter;
-        area += sector(from, first);
-    }
-    let mut last = to;
-    if leave < 1.0 {
-        last = from + way * leave;
-        area += sector(last, to);
-    }
-    area + 0.5 * first.perp_dot(last)
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::camera::{Camera, Lens, Projection};
+use super::outline::OutlineView;
 use super::ray::Ray;
-use super::stroke::StrokeView;
 
 /// One picture to take: camera, lens, and the pixels of the retina.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,8 +67,8 @@ impl View {
     }
 
     /// The part of the view that the strokes of spheres depend on.
-    pub(crate) fn of_strokes(&self) -> StrokeView {
-        StrokeView {
+    pub(crate) fn of_strokes(&self) -> OutlineView {
+        OutlineView {
             pixel: 1.0 / self.pixels_per_unit(),
             projection: self.lens.projection(),
         }

@@ -90,7 +90,7 @@ impl World {
     }
 
     /// The same spheres under a part of the light, with all else off. Without ambient light the background is black, and
-    /// so are strokes.
+    /// so are outlines.
     ///
     /// # Panics
     /// When there is no light with that index.
@@ -101,9 +101,9 @@ impl World {
             LightPart::Light(index) => (vec![self.lights[index]], [Color::ZERO; 2]),
         };
         let mut materials = Arc::clone(&self.materials);
-        if part != LightPart::Ambient && self.has_strokes() {
+        if part != LightPart::Ambient && self.has_outlines() {
             for material in Arc::make_mut(&mut materials) {
-                if let Some(stroke) = &mut material.stroke {
+                if let Some(stroke) = &mut material.outline {
                     stroke.color = Color::ZERO;
                 }
             }
@@ -252,13 +252,13 @@ impl World {
     }
 
     /// True where some sphere has a line along its outline.
-    pub fn has_strokes(&self) -> bool {
-        self.used_materials().any(|one| one.stroke.is_some())
+    pub fn has_outlines(&self) -> bool {
+        self.used_materials().any(|one| one.outline.is_some())
     }
 
     /// The light that strokes send, of each material that has one.
     pub(crate) fn stroke_colors(&self) -> impl Iterator<Item = Color> {
-        let strokes = self.used_materials().filter_map(|one| one.stroke);
+        let strokes = self.used_materials().filter_map(|one| one.outline);
         strokes.map(|stroke| stroke.color)
     }
 

@@ -10,9 +10,9 @@ use super::trace::Sight;
 use crate::light::reflection::{NearLight, Reflectance, ViewedPoints};
 use crate::model::color::Color;
 use crate::model::light::{Light as WorldLight, PointLight};
+use crate::model::outline::OutlineView;
 use crate::model::roughness::noise::NoiseCells;
 use crate::model::roughness::{PixelKey, unit};
-use crate::model::stroke::StrokeView;
 use crate::model::view::View;
 use crate::model::world::World;
 use crate::numeric::bits::set_bits;
@@ -42,7 +42,7 @@ pub(super) struct Shading<'scene> {
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
     /// The view, and the camera's directions, where spheres have strokes.
-    pub(super) strokes: Option<(StrokeView, DMat3)>,
+    pub(super) strokes: Option<(OutlineView, DMat3)>,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,
 }
@@ -70,7 +70,7 @@ impl<'scene> Shading<'scene> {
                 .iter()
                 .all(|material| material.roughness.is_none()),
             strokes: world
-                .has_strokes()
+                .has_outlines()
                 .then(|| (view.of_strokes(), view.camera.world_from_camera.transpose())),
             reflectances: materials.iter().map(Reflectance::new).collect(),
         }

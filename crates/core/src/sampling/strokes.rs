@@ -27,7 +27,7 @@ impl Shading<'_> {
         };
         for Group { ball, lanes } in groups.as_slice() {
             let (index, lanes) = (ball.index(), lanes & !sight.inner);
-            let (Some(stroke), 1..) = (self.world.material(index).stroke, lanes) else {
+            let (Some(stroke), 1..) = (self.world.material(index).outline, lanes) else {
                 continue;
             };
             let sphere = &self.world.spheres()[index];

@@ -7,7 +7,7 @@ mod series;
 mod steps;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Grain, Highlight, Material, Roughness, Stroke, StrokeWidth};
+use marbles_core::{Angle, Camera, Grain, Highlight, Material, Outline, OutlineWidth, Roughness};
 
 use super::*;
 
@@ -140,8 +140,8 @@ fn every_field_of_a_surface_is_read() {
             grain: Grain::Surface(12.0),
             seed: u64::MAX,
         }),
-        stroke: Some(Stroke {
-            width: StrokeWidth::Units(0.25),
+        outline: Some(Outline {
+            width: OutlineWidth::Units(0.25),
             color: DVec3::X,
         }),
     };
@@ -154,15 +154,15 @@ fn outlines_are_black_and_in_pixels_by_default() {
         let material = format!(
             r#"materials: {{"a": (outline: ({outline}))}}, spheres: [(center: (0, 0, 3), radius: 1, material: "a")]"#
         );
-        scene(&material).world().material(0).stroke
+        scene(&material).world().material(0).outline
     };
     for (outline, width, color) in [
         ("", 1.5, DVec3::ZERO),
         ("width: 2", 2.0, DVec3::ZERO),
         ("color: 0.5", 1.5, DVec3::splat(0.5)),
     ] {
-        let width = StrokeWidth::Pixels(width);
-        assert_eq!(stroke(outline), Some(Stroke { width, color }));
+        let width = OutlineWidth::Pixels(width);
+        assert_eq!(stroke(outline), Some(Outline { width, color }));
     }
 }
 

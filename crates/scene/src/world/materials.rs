@@ -3,7 +3,9 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use marbles_core::{Grain, Highlight, Material, MaterialId, Roughness, Stroke, StrokeWidth, World};
+use marbles_core::{
+    Grain, Highlight, Material, MaterialId, Outline, OutlineWidth, Roughness, World,
+};
 
 use crate::file;
 use crate::text::{Placed, did_you_mean, list, optional, quoted, refuse};
@@ -98,7 +100,7 @@ fn material(material: &Placed<file::Material>) -> Option<Material> {
         exponent: material.exponent.get()?.0,
         highlight: optional(&material.highlight, highlight)?,
         roughness: optional(&material.rough, roughness)?,
-        stroke: optional(&material.outline, stroke)?,
+        outline: optional(&material.outline, stroke)?,
     })
 }
 
@@ -109,11 +111,11 @@ fn highlight(highlight: &file::Highlight) -> Option<Highlight> {
     })
 }
 
-fn stroke(outline: &file::Outline) -> Option<Stroke> {
-    Some(Stroke {
+fn stroke(outline: &file::Outline) -> Option<Outline> {
+    Some(Outline {
         width: match *outline.width.value.as_ref()? {
-            file::Width::Pixels(width) => StrokeWidth::Pixels(width),
-            file::Width::Units(width) => StrokeWidth::Units(width),
+            file::Width::Pixels(width) => OutlineWidth::Pixels(width),
+            file::Width::Units(width) => OutlineWidth::Units(width),
         },
         color: outline.color.get()?.0,
     })

@@ -118,7 +118,7 @@ fn unit(world: &World) -> f64 {
     let strokes = world
         .materials()
         .iter()
-        .filter_map(|it| Some(it.stroke?.color));
+        .filter_map(|it| Some(it.outline?.color));
     let largest = |sum: f64, light: DVec3| sum + light.max_element();
     let contrast = lights
         .chain([world.ambient, world.background])

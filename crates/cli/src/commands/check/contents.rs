@@ -1,6 +1,6 @@
 //! The surfaces of a scene as JSON: with camera and lights all that another renderer needs.
 
-use marbles_core::{Grain, Material, StrokeWidth, World, right_handed};
+use marbles_core::{Grain, Material, OutlineWidth, World, right_handed};
 use marbles_scene::Scene;
 use serde_json::{Value, json};
 
@@ -38,10 +38,10 @@ fn material(name: &str, material: &Material) -> Value {
         };
         json!({"amplitude": rough.amplitude, "size": size, "seed": rough.seed})
     });
-    let outline = material.stroke.map(|stroke| {
+    let outline = material.outline.map(|stroke| {
         let (width, unit) = match stroke.width {
-            StrokeWidth::Pixels(width) => (width, "pixels"),
-            StrokeWidth::Units(width) => (width, "units"),
+            OutlineWidth::Pixels(width) => (width, "pixels"),
+            OutlineWidth::Units(width) => (width, "units"),
         };
         json!({"width": width, "unit": unit, "color": stroke.color.to_array()})
     });

@@ -18,7 +18,7 @@ pub(super) fn write_row(
     (id, sphere): (usize, &Sphere),
     visible: &VisibleArea,
 ) -> io::Result<()> {
-    let outline = view.outline(sphere);
+    let outline = view.contour(sphere);
     write!(to, "{},{id}", view.frame)?;
     let center = outline.center.map(|center| (center - MIDDLE).to_array());
     write_numbers(to, center)?;

@@ -114,7 +114,7 @@ impl Exact<'_> {
             let dark = albedo * world.ambient;
             least = least.min(dark);
             most = most.max(dark + albedo * lights + lights * strength);
-            if let Some(stroke) = world.material(sphere).stroke {
+            if let Some(stroke) = world.material(sphere).outline {
                 least = least.min(stroke.color);
                 most = most.max(stroke.color);
             }

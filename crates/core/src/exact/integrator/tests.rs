@@ -9,8 +9,8 @@ use crate::model::camera::{Camera, Lens};
 use crate::model::color::Color;
 use crate::model::light::{Light, LightFalloff, PointLight};
 use crate::model::material::{Grain, Highlight, Material, Roughness};
+use crate::model::outline::{Outline, OutlineWidth};
 use crate::model::sphere::Sphere;
-use crate::model::stroke::{Stroke, StrokeWidth};
 use crate::numeric::angle::Angle;
 use crate::numeric::lanes::tests::levels;
 use crate::picture::pixel::Evidence;
@@ -35,8 +35,8 @@ fn world(lights: usize) -> World {
                 grain: Grain::Surface(0.5),
                 seed: 3,
             }),
-            stroke: (number == 1).then_some(Stroke {
-                width: StrokeWidth::Pixels(2.5),
+            outline: (number == 1).then_some(Outline {
+                width: OutlineWidth::Pixels(2.5),
                 color: Color::X,
             }),
         })

@@ -54,7 +54,7 @@ fn what_nothing_hides_is_seen_as_its_ellipse() {
     let world = world(&spheres);
     for tolerance in [1e-3, 1e-5] {
         for (found, sphere) in areas(&world, &view, tolerance).iter().zip(world.spheres()) {
-            let ellipse = view.outline(sphere).ellipse.unwrap();
+            let ellipse = view.contour(sphere).ellipse.unwrap();
             let off = (found.area - view.area_of(&ellipse)).abs();
             assert!(off <= found.error + 1e-9, "{off:e} {:e}", found.error);
             assert!(found.error < 200.0 * tolerance, "{:e}", found.error);

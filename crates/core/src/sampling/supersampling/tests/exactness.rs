@@ -272,7 +272,7 @@ fn lit_world(random: &mut Random, count: usize, shadows: bool) -> World {
                     grain: crate::Grain::Surface(0.1),
                     seed: 3,
                 }),
-                stroke: None,
+                outline: None,
             })
         })
         .collect();
