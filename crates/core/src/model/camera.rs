@@ -191,9 +191,15 @@ pub(crate) enum Projection {
 impl Lens {
     /// Creates the lens with this horizontal field of view, between 0 and 180°. Its retina is at distance 1.
     pub fn from_field_of_view(field_of_view: Angle) -> Self {
+        let Angle { sin, cos, .. } = field_of_view;
+        // Of both forms the one in which nothing cancels.
+        let tangent_of_half = if cos > 0.0 {
+            sin / (1.0 + cos)
+        } else {
+            (1.0 - cos) / sin
+        };
         Self {
-            // Twice the tangent of the half.
-            width: 2.0 * field_of_view.sin / (1.0 + field_of_view.cos),
+            width: 2.0 * tangent_of_half,
             distance: 1.0,
             shift: DVec2::ZERO,
         }
