@@ -77,3 +77,8 @@ pub use picture::window::Window;
 pub use render::renderer::Renderer;
 pub use render::settings::Settings;
 pub use render::strips::{BAND_ROWS, Rendering, Sink, Strip};
+
+/// Runs the program of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../../../README.md")]
+mod readme {}
