@@ -44,8 +44,8 @@ pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String>
     {
         let radius = short(spheres[index].radius());
         warnings.push(format!(
-            "frame {frame}: the camera is inside of sphere {}, whose radius is {radius}: its inner side hides all \
-             outside",
+            "frame {frame}: the camera is inside sphere {}, whose radius is {radius}: its inner side hides \
+             everything outside",
             index + 1
         ));
     }

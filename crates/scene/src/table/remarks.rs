@@ -133,8 +133,8 @@ impl Remarks {
             told.push(LocatedFault {
                 place: place.clone(),
                 message: format!(
-                    "expected elements with known radii and colors, found {}{meant} (what is unknown of them is as in \
-                     `others: (radius: 1, color: \"#ff80c0\")`)",
+                    "expected elements with known radii and colors, found {}{meant} (marbles uses \
+                     `others: (radius: 1, color: \"#ff80c0\")` for them)",
                     names.join(", "),
                 ),
             });

@@ -19,7 +19,7 @@ fn palettes_that_match_nothing_are_told() {
     };
     assert_eq!(
         told("palette: {\"fist\": 1, \"second\": 0}"),
-        "scene.ron:2:62: `palette` has colors for \"fist\", which no row of \"chain\" is called: its categories \
+        "scene.ron:2:62: `palette` has colors for \"fist\", which no row of \"chain\" has: its categories \
          are \"first\" and \"second\", did you mean \"first\"?"
     );
     assert_eq!(told("palette: {\"first\": 1, \"second\": 0}"), "");
@@ -30,7 +30,7 @@ fn palettes_that_match_nothing_are_told() {
         "palette: {\"o\": 1, \"Zn\": 0}",
     ));
     assert!(
-        of_elements.contains("\"Zn\", which no row of \"element\" is called"),
+        of_elements.contains("\"Zn\", which no row of \"element\" has"),
         "{of_elements}"
     );
 }

@@ -47,8 +47,8 @@ fn what_is_no_element_is_shown_as_others_and_said() {
     assert_eq!(albedos(&scene)[3], from_srgb(0xff80c0));
     assert_eq!(
         warnings(&scene),
-        "a.gro:6:14: expected elements with known radii and colors, found `MW` (2 rows) (what is unknown of them is as in \
-         `others: (radius: 1, color: \"#ff80c0\")`)"
+        "a.gro:6:14: expected elements with known radii and colors, found `MW` (2 rows) (marbles uses \
+         `others: (radius: 1, color: \"#ff80c0\")` for them)"
     );
     assert_eq!(names(&scene), ["others", "H", "O"]);
     // Whoever says what others have knows of them.

@@ -95,7 +95,7 @@ impl Scale {
                 "categories"
             };
             told.push(format!(
-                "`palette` has colors for {}, which no row of {column} is called: its {what} are {}{}",
+                "`palette` has colors for {}, which no row of {column} has: its {what} are {}{}",
                 listed(&unmatched),
                 listed(&known.clone().map(str::to_owned).collect::<Vec<_>>()),
                 did_you_mean(first, known, quoted),
