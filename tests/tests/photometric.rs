@@ -20,14 +20,27 @@ fn data_set(name: &str, layout: &str) -> PathBuf {
     folder
 }
 
+/// The page that contains the scripts.
+fn page() -> String {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR"));
+    fs::read_to_string(manifest.join("../docs/ground-truth.md")).unwrap()
+}
+
+/// Fails if the page does not show what a script printed.
+fn page_shows(output: Option<String>) {
+    let Some(output) = output else { return };
+    let shown = format!("```text\n{output}```\n");
+    assert!(page().contains(&shown), "the page does not show\n{output}");
+}
+
 fn least_squares_find_the_normals_of_a_data_set() {
     let folder = data_set("photometric", "diligent");
-    python::run("photometric_stereo.py", &PACKAGES, &[&folder]);
+    page_shows(python::run("photometric_stereo.py", &PACKAGES, &[&folder]));
 }
 
 fn lights_normals_and_depths_predict_the_pictures_under_near_lights() {
     let folder = data_set("near_lights", "luces");
-    python::run("near_lights.py", &PACKAGES, &[&folder]);
+    page_shows(python::run("near_lights.py", &PACKAGES, &[&folder]));
 }
 
 /// The lines of a page of the documents between the last fence of Python and its end.
@@ -44,8 +57,7 @@ fn the_recipe_for_lens_noise_and_response_runs() {
     arguments.extend(["-o".into(), folder.join("first.npy").into_os_string()]);
     arguments.extend(["--size", "240x160", "--sidecar", "--quiet"].map(Into::into));
     assert_eq!(marbles_cli::run(arguments), ExitCode::SUCCESS);
-    let page = fs::read_to_string(repository.join("docs/ground-truth.md")).unwrap();
-    fs::write(folder.join("recipe.py"), last_python(&page)).unwrap();
+    fs::write(folder.join("recipe.py"), last_python(&page())).unwrap();
     python::run(
         "run_in_folder.py",
         &["numpy"],
@@ -64,7 +76,7 @@ fn pictures_are_what_others_make_of_them() {
 #[test]
 fn the_page_shows_the_scripts_that_are_run() {
     let tests = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let page = fs::read_to_string(tests.join("../docs/ground-truth.md")).unwrap();
+    let page = page();
     for script in ["photometric_stereo.py", "near_lights.py"] {
         let script = fs::read_to_string(tests.join("tests").join(script)).unwrap();
         assert!(page.contains(script.trim()));

@@ -9,11 +9,11 @@ use std::sync::{Mutex, PoisonError};
 /// True once packages could not be had. The virtual environment is made by one test at a time.
 static UNAVAILABLE: Mutex<bool> = Mutex::new(false);
 
-/// Runs a script of this folder with packages from PyPI, and fails where it fails.
+/// Runs a script of this folder with packages from PyPI, fails where it fails, and returns its output.
 ///
 /// The packages are installed once, in a virtual environment in Cargo's folder for temporary files. Where there
-/// is no Python, or no package can be had, the script is skipped with a word on stderr.
-pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) {
+/// is no Python, or no package can be had, the script is skipped with a word on stderr, and there is no output.
+pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) -> Option<String> {
     let mut unavailable = UNAVAILABLE.lock().unwrap_or_else(PoisonError::into_inner);
     let python = match *unavailable {
         true => None,
@@ -26,7 +26,7 @@ pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) {
             script,
             "there is no Python 3 with venv, or no package index",
         );
-        return;
+        return None;
     };
     let script = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests")
@@ -36,6 +36,7 @@ pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) {
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     let (out, err) = (text(&output.stdout), text(&output.stderr));
     assert!(output.status.success(), "{}\n{out}{err}", script.display());
+    Some(out)
 }
 
 #[expect(
