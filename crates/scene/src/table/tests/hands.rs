@@ -13,7 +13,7 @@ const CORNERS: [[f64; 3]; 4] = [
 ];
 
 /// The corners as a table of this ending, and whether its axes are right-handed unless the scene says otherwise.
-fn table(ending: &str) -> (Vec<u8>, bool) {
+pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
     let lines = |line: fn(usize, [f64; 3]) -> String| -> String {
         let rows = CORNERS.iter().enumerate();
         rows.map(|(index, corner)| line(index + 1, *corner))
