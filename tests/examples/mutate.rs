@@ -7,8 +7,9 @@ use std::time::Duration;
 
 use marbles_tests::mutations::{Limit, TARGETS, folder, most_memory, search_all};
 
-/// The memory that all of them together may take, in bytes.
+/// The memory that all of them together may take, in bytes, and that the process may have with an input.
 const MOST_MEMORY: u64 = 1_000_000_000;
+const MOST_WITH_AN_INPUT: u64 = 256_000_000;
 
 #[expect(
     clippy::print_stdout,
@@ -52,7 +53,12 @@ fn main() -> ExitCode {
             }
         }
     });
-    let all = search_all(seed, Limit::Seconds(seconds), only);
+    let all = search_all(
+        seed,
+        Limit::Seconds(seconds),
+        only,
+        Some(MOST_WITH_AN_INPUT),
+    );
     for (target, found) in &all {
         println!(
             "{}: {} inputs, {} taken, the slowest {:.2} s, {} faults",

@@ -5,7 +5,7 @@ use marbles_tests::mutations::{Limit, TARGETS, search_all};
 #[test]
 fn altered_files_are_read_or_refused() {
     const INPUTS: u64 = 300;
-    let all = search_all(20261124, Limit::Inputs(INPUTS), None);
+    let all = search_all(20261124, Limit::Inputs(INPUTS), None, None);
     assert_eq!(all.len(), TARGETS.len());
     for (target, found) in all {
         assert!(found.faults.is_empty(), "{}: {found:?}", target.name);

@@ -1,12 +1,13 @@
 //! Broken input: files that are altered at random, and what becomes of them.
 //!
-//! Whatever a file holds, it is read or refused: a panic is a fault, and so is what takes long.
+//! Whatever a file holds, it is read or refused: a panic is a fault, and so is what takes long or much memory.
 
 mod mutate;
 mod program;
 mod rays;
 mod scenes;
 mod seeds;
+mod sums;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -91,7 +92,7 @@ pub struct Found {
     pub taken: u64,
     /// The seconds that the slowest took.
     pub slowest: f64,
-    /// Files on which reading panicked, or took longer than it may.
+    /// Files on which reading panicked, or took longer or more memory than it may.
     pub faults: Vec<PathBuf>,
 }
 
@@ -116,7 +117,8 @@ impl Limit {
     }
 }
 
-/// Searches with all kinds of input, or with one of them, as many at a time as there are processors.
+/// Searches with all kinds of input, or with one of them, as many at a time as there are processors. An input with which the
+/// process takes more memory than `memory` is faulty.
 ///
 /// # Panics
 /// When files cannot be written.
@@ -124,6 +126,7 @@ pub fn search_all(
     seed: u64,
     limit: Limit,
     only: Option<&'static Target>,
+    memory: Option<u64>,
 ) -> Vec<(&'static Target, Found)> {
     let targets = only.map_or(&TARGETS[..], slice::from_ref);
     let threads = thread::available_parallelism().map_or(1, usize::from);
@@ -133,7 +136,7 @@ pub fn search_all(
         for _ in 0..threads {
             scope.spawn(|| {
                 while let Some(target) = targets.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let of_target = search(target, seed, limit);
+                    let of_target = search(target, seed, limit, memory);
                     found
                         .lock()
                         .expect("nobody panics")
@@ -156,7 +159,7 @@ pub fn folder() -> PathBuf {
 /// Alters the seeds of a target.
 ///
 /// Searches a target. Faulty inputs are kept next to other temporary files.
-fn search(target: &Target, seed: u64, limit: Limit) -> Found {
+fn search(target: &Target, seed: u64, limit: Limit, memory: Option<u64>) -> Found {
     let folder = folder().join(target.name.replace(' ', "-"));
     fs::create_dir_all(&folder).expect("a folder can be made");
     let seeds = (target.seeds)(&folder);
@@ -175,6 +178,7 @@ fn search(target: &Target, seed: u64, limit: Limit) -> Found {
         };
         // For those who look for what ended the process.
         fs::write(folder.join(CURRENT), &bytes).expect("a file can be written");
+        let memory_before = most_memory();
         let timed = || {
             let (start, worked) = (Instant::now(), processor_seconds());
             let read = catch_unwind(AssertUnwindSafe(|| (target.read)(&input)));
@@ -193,7 +197,11 @@ fn search(target: &Target, seed: u64, limit: Limit) -> Found {
         found.inputs += 1;
         found.taken += u64::from(matches!(read, Ok(true)));
         found.slowest = found.slowest.max(seconds);
-        if read.is_err() || seconds > LONGEST {
+        // Later inputs have as much without more of it.
+        let is_large = memory.is_some_and(|most| {
+            most_memory().is_some_and(|memory| memory > most) && most_memory() > memory_before
+        });
+        if read.is_err() || seconds > LONGEST || is_large {
             let kept = folder.join(format!("fault-{}-{}", found.inputs, seed.name));
             fs::write(&kept, &bytes).expect("a file can be written");
             found.faults.push(kept);

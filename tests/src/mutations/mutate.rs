@@ -1,5 +1,6 @@
 //! Ways to alter a file.
 
+use super::sums::mend_sums;
 use crate::numbers::Numbers;
 
 /// Pieces of text that readers look for, or that are at the ends of what numbers can be.
@@ -52,27 +53,6 @@ pub(super) fn mutated(numbers: &mut Numbers, file: &[u8], other: &[u8]) -> Vec<u
         mend_sums(&mut bytes);
     }
     bytes
-}
-
-/// Gives the chunks of a PNG the sums that fit their bytes: what is altered is read no further else.
-fn mend_sums(bytes: &mut [u8]) {
-    const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
-    if !bytes.starts_with(MAGIC) {
-        return;
-    }
-    let mut rest = &mut bytes[MAGIC.len()..];
-    // A chunk has the length of its data, its name, its data and its sum.
-    while let Some((length, named)) = rest.split_first_chunk_mut::<4>() {
-        let length = 4 + u32::from_be_bytes(*length) as usize;
-        let Some((data, sum)) = named.split_at_mut_checked(length) else {
-            return;
-        };
-        let Some((sum, after)) = sum.split_first_chunk_mut::<4>() else {
-            return;
-        };
-        *sum = crc32fast::hash(data).to_be_bytes();
-        rest = after;
-    }
 }
 
 fn mutate(numbers: &mut Numbers, bytes: &mut Vec<u8>, other: &[u8]) {

@@ -49,6 +49,57 @@ pub(crate) fn run(folder: &Folder, arguments: &str) -> String {
 
 const KEYS: [&str; 4] = ["light-1", "light-2", "light-3", "ambient"];
 
+/// Who sorts the names of files or layers has them in the order of the lights, however many there are.
+#[test]
+fn names_of_many_lights_sort_as_the_lights_do() {
+    const LAMPS: usize = 11;
+    let folder = Folder::new();
+    // Each is weaker than the one before.
+    let lamp = |number: usize| {
+        format!(
+            "Directional(toward: (0, 0, -1), intensity: {})",
+            1.0 / number as f64
+        )
+    };
+    let lamps: Vec<String> = (1..=LAMPS).map(lamp).collect();
+    fs::write(
+        folder.path("many.ron"),
+        balls(&format!("lights: [{}],", lamps.join(", "))),
+    )
+    .unwrap();
+    run(
+        &folder,
+        "render many.ron -o out/a.npy --per-light --size 5x5 --samples 1",
+    );
+    let mut names = folder.names("out");
+    names.sort();
+    let names: Vec<&String> = names.iter().filter(|name| name.contains("light")).collect();
+    let brightest = |name: &&String| {
+        let bytes = folder.read(&format!("out/{name}"));
+        let numbers = bytes[bytes.len() - 5 * 5 * 3 * 8..]
+            .as_chunks::<8>()
+            .0
+            .iter();
+        numbers
+            .map(|number| f64::from_le_bytes(*number))
+            .fold(0.0, f64::max)
+    };
+    let all: Vec<f64> = names.iter().map(brightest).collect();
+    assert_eq!(all.len(), LAMPS, "{names:?}");
+    assert!(
+        all.windows(2).all(|pair| pair[0] > pair[1]),
+        "{names:?}: {all:?}"
+    );
+    run(
+        &folder,
+        "render many.ron -o all.exr --per-light=layers --size 5x5 --samples 1",
+    );
+    let header = String::from_utf8_lossy(&folder.read("all.exr")).into_owned();
+    let place = |number: usize| header.find(&format!("light-{number:02}.R"));
+    let places: Vec<usize> = (1..=LAMPS).filter_map(place).collect();
+    assert!(places.len() == LAMPS && places.is_sorted(), "{places:?}");
+}
+
 #[test]
 fn each_file_is_that_of_the_scene_with_this_light() {
     let folder = folder();

@@ -17,6 +17,7 @@ mod farm;
 mod files;
 mod folder;
 mod frames;
+mod left_out;
 #[cfg(target_os = "linux")]
 mod lights;
 mod limits;

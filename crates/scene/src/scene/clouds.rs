@@ -13,10 +13,15 @@ use crate::motion::Framed;
 use crate::report::{SceneError, in_a_line, locate};
 use crate::table;
 use crate::text::{Fault, harmless};
-use crate::world::{CloudError, Learned, OpenCloud, Oversight, Progress, Scale, Step};
+use crate::world::{
+    CloudError, FIRST_OF_SEVERAL, Learned, OpenCloud, Oversight, Progress, Scale, Step,
+};
 
 /// The most frames whose steps are framed one by one.
 const MOST_FRAMES: i64 = 100_000;
+
+/// The most warnings about steps read after the first that are told one by one.
+const MOST_LATE_WARNINGS: usize = 20;
 
 impl Scene {
     /// Reads the first step of a cloud, behind so many spheres, and describes it.
@@ -33,10 +38,8 @@ impl Scene {
         let step = cloud.read(0, watch)?;
         let file = PathBuf::from(&cloud.cloud.name);
         if step.has_more {
-            self.warnings.push(format!(
-                "{}: the first frame of several is shown (`frames: All` shows them one after another)",
-                harmless(&cloud.cloud.name)
-            ));
+            let name = harmless(&cloud.cloud.name);
+            self.warnings.push(format!("{name}: {FIRST_OF_SEVERAL}"));
         }
         let told = cloud.oversights(&step).into_iter();
         let told = told.map(|oversight| told_in_a_line(oversight, path, text));
@@ -54,15 +57,23 @@ impl Scene {
         Ok(step)
     }
 
-    /// Returns possible oversights in steps read after the first, one line each, that were not handed over yet.
+    /// Returns possible oversights in steps read after the first, one line each, that were not handed over yet; of very many
+    /// the first, and how many there are.
     pub fn take_late_warnings(&self) -> Vec<String> {
         let Some(series) = &self.series else {
             return Vec::new();
         };
         let (path, text) = &series.source;
         let late = series.changing().flat_map(OpenCloud::take_late_oversights);
-        late.map(|oversight| told_in_a_line(oversight, path, text))
-            .collect()
+        let late = late.map(|oversight| told_in_a_line(oversight, path, text));
+        let of_files = series.changing().flat_map(OpenCloud::take_warnings);
+        let mut all: Vec<String> = late.chain(of_files).collect();
+        if all.len() > MOST_LATE_WARNINGS {
+            let more = all.len() - MOST_LATE_WARNINGS;
+            all.truncate(MOST_LATE_WARNINGS);
+            all.push(format!("{more} more warnings about later steps"));
+        }
+        all
     }
 
     /// Places the camera where it has spheres in its picture; `None` where there are none.

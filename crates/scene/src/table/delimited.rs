@@ -45,9 +45,26 @@ pub(crate) fn header(input: &mut Input<'_>, is_csv: bool) -> Result<Header, Tabl
                 return with_commas(input, self::header_of(&comment, number, division));
             }
             input.next()?;
+            if line.contains(&b'\r') {
+                let at = memchr::memchr(b'\r', &line).unwrap_or(0);
+                let message =
+                    "expected lines that end with a line feed, found carriage returns alone";
+                return Err(
+                    LocatedFault::in_line(number, &line, at..at, message.to_owned()).into(),
+                );
+            }
             return with_commas(input, named(&line, number, is_csv));
         }
         let count = first.len();
+        if counts_columns(&first) && matches!(division, Division::Between(_)) {
+            let told = "the first line counts its columns, and is taken for a sphere: names of columns are no numbers";
+            input.leave_out(LocatedFault::in_line(
+                number,
+                &line,
+                0..line.len(),
+                told.to_owned(),
+            ));
+        }
         if let Some((number, comment)) = comment
             && names(&comment, &division).len() == count
         {
@@ -105,12 +122,24 @@ fn is_number(field: &[u8], division: &Division) -> bool {
     parse(field, *division == Division::Between(b';')).is_some() || is_missing(field)
 }
 
-/// The same header, which knows whether numbers have commas.
+/// Says whether fields are the numbers of their columns from 0 on, which some programs write in place of names.
+fn counts_columns(fields: &[&[u8]]) -> bool {
+    let mut numbers = (0..fields.len()).map(|number| number.to_string());
+    fields.iter().all(|field| {
+        numbers
+            .next()
+            .is_some_and(|number| number.as_bytes() == *field)
+    })
+}
+
+/// The same header, which knows whether numbers have commas: the first row that has commas or points tells it.
 fn with_commas(input: &mut Input<'_>, mut header: Header) -> Result<Header, TableError> {
-    if header.form.division == Division::Between(b';')
-        && let Some(row) = input.peek()?
-    {
-        header.form.has_decimal_commas = row.contains(&b',') && !row.contains(&b'.');
+    if header.form.division == Division::Between(b';') && input.peek()?.is_some() {
+        let rows = input.head().split(|byte| *byte == b'\n');
+        let mut rows = rows.filter(|line| of_table(line) == LineKind::Row);
+        let telling = rows.find(|row| row.contains(&b',') || row.contains(&b'.'));
+        header.form.has_decimal_commas =
+            telling.is_some_and(|row| row.contains(&b',') && !row.contains(&b'.'));
     }
     Ok(header)
 }

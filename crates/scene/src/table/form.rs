@@ -20,12 +20,19 @@ pub(crate) struct Form {
     pub(crate) element: ElementOf,
     /// The place of what atoms are called where nothing is in the field of the element.
     pub(crate) name: Range<usize>,
+    /// The place of coordinates that have so many columns each, where they have.
+    pub(crate) coordinates: Range<usize>,
+    /// The part of a row whose fields are not where the form has them, and what was expected there.
+    pub(crate) check: Check,
     /// Rows end before one that has something else in this column.
     pub(crate) same: Option<(usize, Vec<u8>)>,
 }
 
 /// The atomic number that a line tells in a field.
 pub(crate) type ElementOf = fn(&[u8], Range<usize>) -> Option<u8>;
+
+/// The part of a row that is not as the form has it, and what was expected.
+pub(crate) type Check = fn(&Form, &[u8]) -> Option<(Range<usize>, &'static str)>;
 
 /// The kind of a line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -47,6 +54,8 @@ impl Form {
             kind: of_table,
             element: |line, field| element::of_label(&line[field]),
             name: 0..0,
+            coordinates: 0..0,
+            check: |_, _| None,
             same: None,
         }
     }
@@ -64,6 +73,35 @@ impl Form {
             label: label.trim_ascii(),
         }
     }
+}
+
+/// Finds coordinates that have left their columns: numbers that are too long for them push those that follow to the
+/// right, so that digits of one are read as those of the next. Numbers that fill their columns have equally many decimals.
+pub(crate) fn coordinates_run_together(
+    form: &Form,
+    line: &[u8],
+) -> Option<(Range<usize>, &'static str)> {
+    let all = form.coordinates.clone();
+    let width = all.len() / 3;
+    let is_of_number = |at: usize| {
+        let byte = line.get(at);
+        byte.is_some_and(|byte| byte.is_ascii_digit() || *byte == b'.')
+    };
+    let ends = (1..=3).map(|number| all.start + number * width);
+    let mut touching = ends.filter(|end| is_of_number(end - 1) && is_of_number(*end));
+    touching.next()?;
+    let decimals = |number: usize| {
+        let field = line.get(all.start + number * width..all.start + (number + 1) * width)?;
+        let field = field.trim_ascii();
+        let point = field.iter().position(|byte| *byte == b'.')?;
+        Some(field.len() - point)
+    };
+    let is_even = decimals(0) == decimals(1) && decimals(1) == decimals(2);
+    let end = all.end.min(line.len());
+    (!is_even).then_some((
+        all.start.min(end)..end,
+        "coordinates that end where their columns do",
+    ))
 }
 
 /// The kind of a line in a table that may have comments.

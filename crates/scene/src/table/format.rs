@@ -69,6 +69,8 @@ impl Format {
         let by_name = known.map(|known| match known.1 {
             // Clouds of points call tables without a count so.
             Format::Xyz if begins_with_numbers(head) => Format::Text,
+            // What has charges and radii is called so, too.
+            Format::Pdb if pqr::is_like(head) => Format::Pqr,
             format => format,
         });
         // What others call a dump may be a table of any kind.
@@ -87,6 +89,13 @@ impl Format {
             }
             (_, found) => found.ok_or(None),
         }
+    }
+
+    /// The format that the ending of a name tells.
+    pub(crate) fn by_ending(path: &Path) -> Option<Self> {
+        let ending = ending(path);
+        let mut known = ENDINGS.iter();
+        known.find(|known| known.0 == ending).map(|known| known.1)
     }
 
     /// Says whether tables of this format have right-handed axes, as those of other programs do. The numbers of plain
@@ -220,7 +229,7 @@ fn by_contents(head: &[u8]) -> Option<Format> {
     let mut next = || lines.next().unwrap_or_default();
     let [first, second, third] = [next(), next(), next()];
     if RECORDS.iter().any(|record| first.starts_with(record)) {
-        return Some(match pqr::is_named(head) {
+        return Some(match pqr::is_named(head) || pqr::is_like(head) {
             true => Format::Pqr,
             false => Format::Pdb,
         });

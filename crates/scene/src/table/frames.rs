@@ -72,6 +72,11 @@ impl<'watch> Frames<'watch> {
             );
             return Err(LocatedFault::of_file(message).into());
         }
+        let mut input = input;
+        if format == Format::Pqr && Format::by_ending(path) == Some(Format::Pdb) {
+            let guess = "its columns are those of PQR and not those of PDB: it is read as PQR";
+            input.leave_out(LocatedFault::of_file(guess));
+        }
         Ok(Self {
             path: path.to_owned(),
             format,
@@ -110,7 +115,10 @@ impl<'watch> Frames<'watch> {
                     None => self.array.insert(npy::Array::new(input)?),
                 };
                 let rows = npy::read(input, array, request)?;
-                self.is_at_end |= array.tables == 1;
+                if array.tables == 1 {
+                    self.is_at_end = true;
+                    array.check_end(input)?;
+                }
                 return Ok(rows);
             }
             Format::Npz => npz::read(&self.path, request),
@@ -141,7 +149,11 @@ impl<'watch> Frames<'watch> {
                 Some(array) => array,
                 None => self.array.insert(npy::Array::new(&mut self.input)?),
             };
-            return array.skip(&mut self.input);
+            let is_one = array.skip(&mut self.input)?;
+            if !is_one {
+                array.check_end(&mut self.input)?;
+            }
+            return Ok(is_one);
         }
         let Some(header) = self.header()? else {
             return Ok(false);
@@ -165,7 +177,7 @@ impl<'watch> Frames<'watch> {
         !is_binary && self.input.can_seek()
     }
 
-    /// Takes possible faults in the file, as far as it was read.
+    /// Takes possible faults in the file and what is left out of it, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         self.input.take_doubts()
     }
@@ -211,16 +223,24 @@ impl<'watch> Frames<'watch> {
         Ok(self.input.check_count(count as u64, "frames")?)
     }
 
-    /// Says whether another frame follows.
-    pub(crate) fn has_next(&mut self) -> Result<bool, TableError> {
-        if self.is_at_end {
-            return Ok(false);
-        }
+    /// Says whether another frame follows. What follows and is no frame is noted as left out.
+    pub(crate) fn has_more(&mut self) -> bool {
         if let Some(array) = &self.array {
-            return Ok(array.tables > 1);
+            return array.tables > 1;
         }
-        self.next = self.header()?;
-        Ok(self.next.is_some())
+        if self.is_at_end {
+            return false;
+        }
+        match self.header() {
+            Ok(next) => self.next = next,
+            Err(TableError::Fault(mut fault)) => {
+                fault.message = format!("no frame follows the first one here: {}", fault.message);
+                self.input.leave_out(fault);
+            }
+            // What cannot be read is told where the file is read to its end.
+            Err(_) => {}
+        }
+        self.next.is_some()
     }
 
     /// The place of the next frame, before anything of it was read.
@@ -233,7 +253,7 @@ impl<'watch> Frames<'watch> {
 
     /// Continues with the frame at this place, which must not lie before the next one in a compressed file.
     pub(crate) fn go_to(&mut self, place: FramePlace) -> io::Result<()> {
-        self.next = None;
+        (self.next, self.is_at_end) = (None, false);
         if self.format == Format::Npy && self.array.is_none() {
             self.array = npy::Array::new(&mut self.input).ok();
         }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::error::TableError;
 use super::fields::{self, Division};
-use super::form::Form;
+use super::form::{Form, coordinates_run_together};
 use super::header::Header;
 use super::input::Input;
 use super::number::parse;
@@ -67,6 +67,8 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             let residue = line.get(5..10).unwrap_or_default();
             residue::of_atom(&line[field], residue)
         },
+        coordinates: 20..20 + 3 * width,
+        check: coordinates_run_together,
         ..Form::new(Division::Fixed(places.into()))
     };
     let names = NAMES.map(String::from).into();

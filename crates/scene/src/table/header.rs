@@ -8,7 +8,8 @@ use glam::{DMat3, DVec3};
 use super::columns::{Nature, Plan, Slot};
 use super::error::TableError;
 use super::fields;
-use super::form::{ElementOf, Form, LineKind};
+use super::form::{Form, LineKind};
+use super::guess::{self, Guess};
 use super::input::{Input, without_return};
 use super::number::{is_missing, parse};
 use super::request::{Coloring, ColumnRef, Columns, Request};
@@ -35,15 +36,6 @@ pub(crate) struct Header {
     pub(crate) texts: Option<Vec<bool>>,
     /// The line that names the columns, for messages, and the part of it that does.
     pub(crate) place: (u64, Vec<u8>, Range<usize>),
-}
-
-/// A guess about the numbers in the column of elements.
-#[derive(Clone, Debug)]
-pub(crate) struct Guess {
-    /// The way in which they are read by it.
-    pub(crate) element: ElementOf,
-    /// Its words and its place.
-    pub(crate) told: LocatedFault,
 }
 
 impl Header {
@@ -76,16 +68,13 @@ impl Header {
             is_byte: &|_| false,
             is_text: &|column| texts.get(column).copied().unwrap_or(false),
             angstrom: self.angstrom,
+            cell: self.scaled,
         };
         let plan = Plan::new(self.names.clone(), request, &nature);
-        let mut plan = plan.map_err(|message| {
+        let plan = plan.map_err(|message| {
             let (number, line, span) = &self.place;
             LocatedFault::in_line(*number, line, span.clone(), message)
         })?;
-        let is_scaled = plan
-            .name_of(Slot::X)
-            .is_some_and(|name| name.starts_with("xs"));
-        plan.axes = self.scaled.filter(|_| is_scaled);
         let mut form = Cow::Borrowed(&self.form);
         // Whoever names the column knows what is in it.
         let guess = self.guess.as_ref();
@@ -93,6 +82,10 @@ impl Header {
         if let Some(guess) = guess {
             form.to_mut().element = guess.element;
         }
+        let doubt = match guess {
+            Some(_) => None,
+            None => self.doubt_numbers(input, &plan, request)?,
+        };
         let mut rows = match self.count {
             Some((count, noun)) => text::read_count(input, &plan, &form, count, noun)?,
             None => text::read(input, &plan, &form, None)?,
@@ -102,8 +95,37 @@ impl Header {
         {
             rows.remarks.add_guess(guess.told.clone());
         }
+        if let Some(doubt) = doubt {
+            rows.remarks.add_guess(doubt);
+        }
         (self.close)(input, rows.ends_with_row)?;
         Ok(rows)
+    }
+
+    /// Doubts atomic numbers that may be those of types, unless the scene file says which column tells elements.
+    fn doubt_numbers(
+        &self,
+        input: &mut Input<'_>,
+        plan: &Plan,
+        request: &Request,
+    ) -> Result<Option<LocatedFault>, TableError> {
+        const ROWS: usize = 1000;
+        let column = plan.element_column;
+        let column = column.filter(|_| plan.name_of(Slot::Element).is_some());
+        let column = column.filter(|_| request.columns.element.is_none() && self.guess.is_none());
+        let (Some(column), Some(first)) = (column, input.peek()?.map(<[u8]>::to_vec)) else {
+            return Ok(None);
+        };
+        let (division, kind) = (&self.form.division, self.form.kind);
+        let rows = self.count.map_or(ROWS, |(count, _)| {
+            usize::try_from(count).unwrap_or(ROWS).min(ROWS)
+        });
+        let numbers = guess::numbers(input, column, division, kind, rows);
+        let are_of_types = numbers.is_some_and(|numbers| guess::are_of_types(&numbers));
+        let told = guess::as_atomic_numbers(&self.names[column]);
+        let place = 0..first.len();
+        let doubt = LocatedFault::in_line(input.number + 1, &first, place, told);
+        Ok(are_of_types.then_some(doubt))
     }
 
     /// Passes over the rows behind the header, and what belongs to them.
@@ -162,6 +184,7 @@ impl Header {
             is_byte: &|_| false,
             is_text: &|_| false,
             angstrom: self.angstrom,
+            cell: self.scaled,
         };
         let plan = Plan::new(self.names.clone(), &of_conditions, &nature).ok()?;
         let lines = input

@@ -27,7 +27,7 @@ pub(crate) struct Input<'watch> {
     pub(crate) position: u64,
     /// The last line that was handed out is the file's, and nothing ends it.
     is_open_at_end: bool,
-    /// Possible faults in the file that the format leaves in doubt.
+    /// Possible faults in the file that the format leaves in doubt, and what of it is left out.
     doubts: Vec<LocatedFault>,
     /// The bytes of all blocks, those that were taken back as often as they were handed out.
     #[cfg(test)]
@@ -90,6 +90,11 @@ impl<'watch> Input<'watch> {
         }
     }
 
+    /// Notes what is left out of the file.
+    pub(crate) fn leave_out(&mut self, left_out: LocatedFault) {
+        self.doubts.push(left_out);
+    }
+
     /// Notes what may be wrong at the line that was handed out last.
     pub(crate) fn doubt_line(&mut self, doubt: &str) {
         self.doubt(LocatedFault::in_line(
@@ -100,9 +105,15 @@ impl<'watch> Input<'watch> {
         ));
     }
 
-    /// Takes possible faults in the file, as far as it was read.
+    /// Takes possible faults in the file and what is left out of it, as far as it was read.
     pub(crate) fn take_doubts(&mut self) -> Vec<LocatedFault> {
         std::mem::take(&mut self.doubts)
+    }
+
+    /// Says whether bytes follow that were not handed out.
+    pub(crate) fn has_rest(&mut self) -> Result<bool, TableError> {
+        self.refill()?;
+        Ok(self.start < self.end)
     }
 
     /// Says whether nothing ends the last line that was handed out.

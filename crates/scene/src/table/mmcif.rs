@@ -1,4 +1,4 @@
-//! mmCIF: the loop `_atom_site` of a file of the Protein Data Bank, whose models are frames.
+//! mmCIF: the loop `_atom_site` of a file of the Protein Data Bank, whose models and data blocks are frames.
 //!
 //! # Source
 //! Hall, Allen and Brown, "The crystallographic information file (CIF)", 1991; the dictionary PDBx/mmCIF.
@@ -21,23 +21,29 @@ pub(crate) fn header(
     previous: Option<&Header>,
 ) -> Result<Option<Header>, TableError> {
     if let Some(previous) = previous {
-        let row = input.peek()?.filter(|line| kind(line) == LineKind::Row);
-        return Ok(row.map(|row| {
+        while input
+            .peek()?
+            .is_some_and(|line| kind(line) == LineKind::Other)
+        {
+            input.next()?;
+        }
+        if let Some(row) = input.peek()?.filter(|line| kind(line) == LineKind::Row) {
             let mut header = previous.clone();
             header.form.same = same(&header.names, row);
-            header
-        }));
+            return Ok(Some(header));
+        }
     }
     let mut is_crystal = false;
     let mut is_in_text = false;
     loop {
         let number = input.number + 1;
         let Some(line) = input.next()? else {
-            return Err(match is_crystal {
-                true => LocatedFault::in_line(number, b"", 0..0, foreign::crystal()),
-                false => LocatedFault::at_end(number, "a loop of `_atom_site.…`"),
+            return match (previous, is_crystal) {
+                (Some(_), _) => Ok(None),
+                (None, true) => Err(LocatedFault::in_line(number, b"", 0..0, foreign::crystal())),
+                (None, false) => Err(LocatedFault::at_end(number, "a loop of `_atom_site.…`")),
             }
-            .into());
+            .map_err(TableError::from);
         };
         // Lines between two that begin with a semicolon are text.
         is_in_text ^= line.starts_with(b";");
@@ -46,15 +52,31 @@ pub(crate) fn header(
         if is_in_text || !starts_with(line, CATEGORY) {
             continue;
         }
+        if let [_, value, ..] = fields::all(line, &Division::QuotedWords)[..]
+            && !value.starts_with(b"#")
+        {
+            let expected = "a loop of `_atom_site.…`, whose rows are atoms";
+            return Err(LocatedFault::expected(number, line, 0..line.len(), expected).into());
+        }
         let first = (number, line.to_vec());
         let mut names = vec![name(line)];
         while let Some(line) = input.peek()? {
             let line = line.trim_ascii();
-            if !starts_with(line, CATEGORY) {
+            if starts_with(line, CATEGORY) {
+                names.push(name(line));
+            } else if kind(line) != LineKind::Other {
                 break;
             }
-            names.push(name(line));
             input.next()?;
+        }
+        // Any frame may be read after any other.
+        if let Some(previous) = previous
+            && previous.names != names
+        {
+            let expected = "the columns of the atoms before, in their order";
+            return Err(
+                LocatedFault::expected(first.0, &first.1, 0..first.1.len(), expected).into(),
+            );
         }
         let mut form = Form {
             kind,
@@ -70,16 +92,27 @@ pub(crate) fn header(
 
 /// Doubts a file that ends with an atom: programs write a line `#` behind the loop.
 fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
-    if ends_with_row && input.peek()?.is_none() {
-        let doubt = "the file ends with an atom, without a line `#`: others may have been cut off";
-        input.doubt_line(doubt);
+    let number = input.number + 1;
+    match input.peek()? {
+        None if ends_with_row => {
+            let doubt =
+                "the file ends with an atom, without a line `#`: others may have been cut off";
+            input.doubt_line(doubt);
+        }
+        Some(line) if line.starts_with(b";") => {
+            let expected = "an atom in a line, without texts of several lines";
+            return Err(LocatedFault::expected(number, line, 0..line.len(), expected).into());
+        }
+        _ => {}
     }
     Ok(())
 }
 
 /// The model of a row, which all rows of a frame have.
 fn same(names: &[String], row: &[u8]) -> Option<(usize, Vec<u8>)> {
-    let column = names.iter().position(|name| name == MODEL)?;
+    let column = names
+        .iter()
+        .position(|name| name.eq_ignore_ascii_case(MODEL))?;
     let fields = fields::all(row, &Division::QuotedWords);
     Some((column, fields.get(column)?.to_vec()))
 }
@@ -99,10 +132,12 @@ fn name(line: &[u8]) -> String {
 }
 
 fn kind(line: &[u8]) -> LineKind {
-    match line {
-        [b'#' | b'_' | b';', ..] => LineKind::End,
-        _ if starts_with(line, "loop_") || starts_with(line, "data_") => LineKind::End,
-        _ if line.trim_ascii().is_empty() => LineKind::Other,
+    const RESERVED: [&str; 5] = ["loop_", "data_", "save_", "global_", "stop_"];
+    match line.trim_ascii_start() {
+        [] | [b'#', ..] => LineKind::Other,
+        _ if line.starts_with(b";") => LineKind::End,
+        [b'_', ..] => LineKind::End,
+        line if RESERVED.iter().any(|word| starts_with(line, word)) => LineKind::End,
         _ => LineKind::Row,
     }
 }

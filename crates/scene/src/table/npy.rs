@@ -105,6 +105,21 @@ impl Array {
             .saturating_add(self.tables.saturating_mul(self.size).max(1))
     }
 
+    /// Notes what comes behind the last table, which is none of them.
+    pub(crate) fn check_end(&self, input: &mut Input<'_>) -> Result<(), TableError> {
+        if input.has_rest()? {
+            let what = match input.head().starts_with(MAGIC) {
+                true => "another array follows the first one",
+                false => "bytes follow the array",
+            };
+            let at = input.position;
+            input.leave_out(LocatedFault::of_file(format!(
+                "{what} at byte {at}: they are not read"
+            )));
+        }
+        Ok(())
+    }
+
     /// The fault of a file that ends within its tables.
     fn cut(&self) -> TableError {
         let expected = format!("{} tables of {} bytes", self.tables, self.size);

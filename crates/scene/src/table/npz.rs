@@ -22,6 +22,7 @@ use super::kind::Kind;
 use super::npy::{self, Elements, Header};
 use super::request::Request;
 use super::rows::Rows;
+use super::unread_arrays;
 use crate::text::{LocatedFault, reason, show};
 
 pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
@@ -33,11 +34,14 @@ struct Array {
     bytes: Vec<u8>,
 }
 
+/// The name and the shape of an array that is no column.
+type Other = (String, Vec<u64>);
+
 /// Reads the arrays of the archive at `path`.
 pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
     let file = File::open(path)?;
     let stored = file.metadata()?.len();
-    let arrays = arrays(file, stored)?;
+    let (arrays, others) = arrays(file, stored)?;
     let rows = rows(&arrays).ok_or_else(|| {
         let names: Vec<&str> = arrays.iter().map(|array| &*array.name).collect();
         let expected = "arrays of as many rows as there are spheres";
@@ -45,20 +49,31 @@ pub(crate) fn read(path: &Path, request: &Request) -> Result<Rows, TableError> {
     })?;
     check_count(stored, rows, "rows")?;
     let (mut names, mut columns) = (Vec::new(), Vec::new());
-    let is_alone = arrays.len() == 1;
+    // A table by itself, unless another array is one that cannot be read.
+    let mut shapes = others.iter();
+    let is_alone =
+        arrays.len() == 1 && !shapes.any(|(name, shape)| unread_arrays::has_purpose(name, shape));
     for array in arrays.iter().filter(|array| array.header.shape[0] == rows) {
         add_columns(array, is_alone, &mut names, &mut columns)?;
     }
     let kinds: Vec<Kind> = columns.iter().map(|column| column.kind).collect();
     let plan = binary::plan(names, &kinds, request).map_err(LocatedFault::of_file)?;
-    binary::read_columns(&columns, rows, &plan)
+    let mut all = binary::read_columns(&columns, rows, &plan)?;
+    let shapes = arrays
+        .iter()
+        .map(|array| (&*array.name, &*array.header.shape));
+    let others = others.iter().map(|(name, shape)| (&**name, &**shape));
+    for unread in unread_arrays::of(shapes.chain(others), rows, request) {
+        all.remarks.add_guess(unread);
+    }
+    Ok(all)
 }
 
-/// Reads the arrays that may be columns, and the checksums of all members.
-fn arrays(file: File, stored: u64) -> Result<Vec<Array>, TableError> {
+/// Reads the arrays that may be columns, and the checksums of all members; returns also arrays that are none.
+fn arrays(file: File, stored: u64) -> Result<(Vec<Array>, Vec<Other>), TableError> {
     let mut buffer = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
     let archive = ZipArchive::from_file(file, &mut buffer).map_err(refused)?;
-    let mut arrays = Vec::new();
+    let (mut arrays, mut others) = (Vec::new(), Vec::new());
     let mut names = vec![0; MAX_CENTRAL_DIRECTORY_RECORD_SIZE];
     // Of all members together: they may share their bytes.
     let mut left = Allowance {
@@ -92,23 +107,27 @@ fn arrays(file: File, stored: u64) -> Result<Vec<Array>, TableError> {
         };
         let array = match name.strip_suffix(".npy") {
             Some(array) => self::array(&mut data, &mut left.columns)
-                .map(|found| found.map(|(header, bytes)| (array, header, bytes))),
+                .map(|(header, bytes)| Some((array, header, bytes))),
             None => Ok(None),
         };
         let array = array.map_err(|error| in_member(&name, error))?;
         io::copy(&mut data, &mut io::sink()).map_err(|error| in_member(&name, damaged(error)))?;
         left.bytes = data.left;
-        arrays.extend(array.map(|(name, header, bytes)| Array {
-            name: name.to_owned(),
-            header,
-            bytes,
-        }));
+        match array {
+            Some((name, header, Some(bytes))) => arrays.push(Array {
+                name: name.to_owned(),
+                header,
+                bytes,
+            }),
+            Some((name, header, None)) => others.push((name.to_owned(), header.shape)),
+            None => {}
+        }
     }
     if missing > 0 {
         let message = format!("expected {missing} more arrays in the archive, found its end");
         return Err(LocatedFault::of_file(message).into());
     }
-    Ok(arrays)
+    Ok((arrays, others))
 }
 
 /// The bytes and columns that the members of an archive may still hold.
@@ -158,18 +177,18 @@ fn check_copies(
     Err(LocatedFault::of_file(message).into())
 }
 
-/// An array that may be a column, or several; `None` of others.
+/// An array that may be a column, or several, and its bytes; `None` for those of others.
 fn array(
     file: &mut Counted<impl Read>,
     columns: &mut u64,
-) -> Result<Option<(Header, Vec<u8>)>, TableError> {
+) -> Result<(Header, Option<Vec<u8>>), TableError> {
     let header = npy::header_of(file)?;
     let is_known = match &header.elements {
         Elements::Plain(kind) => !matches!(kind, Kind::Other(_)),
         Elements::Records(_) => true,
     };
     if !is_known || !matches!(header.shape.len(), 1 | 2) {
-        return Ok(None);
+        return Ok((header, None));
     }
     let (size, count) = match &header.elements {
         Elements::Plain(kind) => (Some(kind.size()), 1),
@@ -199,7 +218,7 @@ fn array(
         let message = format!("expected an array of {all} bytes, found {}", bytes.len());
         return Err(LocatedFault::of_file(message).into());
     }
-    Ok(Some((header, bytes)))
+    Ok((header, Some(bytes)))
 }
 
 /// The number of spheres: of rows of positions, or else of those that most arrays have.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::element;
 use super::error::TableError;
 use super::fields::Division;
-use super::form::{Form, LineKind};
+use super::form::{Form, LineKind, coordinates_run_together};
 use super::header::Header;
 use super::input::Input;
 use super::number::parse;
@@ -49,6 +49,8 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
             false => |line, field| element(line, field, residue::of_atom),
         },
         name: 12..16,
+        coordinates: 30..54,
+        check: coordinates_run_together,
         ..Form::new(Division::Fixed(places.into()))
     };
     let names = COLUMNS.iter().map(|column| column.0.to_owned()).collect();
@@ -146,8 +148,25 @@ pub(super) fn kind(line: &[u8]) -> LineKind {
     match word {
         b"ATOM" | b"HETATM" => LineKind::Row,
         b"ENDMDL" | b"END" | b"MODEL" => LineKind::End,
+        _ if is_irregular_row(line) => LineKind::Row,
         _ => LineKind::Other,
     }
+}
+
+/// Says whether a line that does not begin as the format says is an atom all the same: in lower case, with spaces before it, or
+/// with a number that begins too early. Whether its fields are where they should be is found out when it is read.
+fn is_irregular_row(line: &[u8]) -> bool {
+    const RECORDS: [&[u8]; 2] = [b"ATOM", b"HETATM"];
+    /// Three coordinates have as many.
+    const POINTS: usize = 3;
+    let line = line.trim_ascii_start();
+    let mut records = RECORDS.iter();
+    let is_begun = records.any(|record| {
+        let (start, rest) = line.split_at_checked(record.len()).unwrap_or_default();
+        let is_end = |byte: &u8| byte.is_ascii_digit() || byte.is_ascii_whitespace();
+        start.eq_ignore_ascii_case(record) && rest.first().is_some_and(is_end)
+    });
+    is_begun && memchr::memchr_iter(b'.', line).count() >= POINTS
 }
 
 /// The element, or else what the name of the atom tells of it.

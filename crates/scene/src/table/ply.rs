@@ -57,11 +57,34 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             is_by_column: false,
             noun: "vertices",
         };
-        return binary::read(input, &layout, &plan);
+        let rows = binary::read(input, &layout, &plan)?;
+        if header.elements == 1 && input.has_rest()? && !input.head().trim_ascii().is_empty() {
+            let at = input.position;
+            input.leave_out(LocatedFault::of_file(format!(
+                "bytes follow the last vertex at byte {at}: they are not read"
+            )));
+        }
+        return Ok(rows);
     }
     let form = Form::new(Division::Words);
     let noun = "vertices, as the header says";
-    text::read_count(input, &plan, &form, header.rows, noun)
+    let rows = text::read_count(input, &plan, &form, header.rows, noun)?;
+    while header.elements == 1
+        && let Some(line) = input.next()?.map(<[u8]>::to_vec)
+    {
+        if !line.trim_ascii().is_empty() {
+            let told = "more lines follow than the header has vertices: they are not read";
+            let place = 0..line.len();
+            input.leave_out(LocatedFault::in_line(
+                input.number,
+                &line,
+                place,
+                told.to_owned(),
+            ));
+            break;
+        }
+    }
+    Ok(rows)
 }
 
 /// The line that ends a header.

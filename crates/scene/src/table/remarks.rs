@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::columns::Plan;
 use super::element;
 use crate::text::{LocatedFault, Place, show};
 
@@ -29,6 +30,17 @@ impl Remarks {
         Self {
             used_radii: vec![false; own_radii],
             ..Self::default()
+        }
+    }
+
+    /// The assumptions of the plan by which rows are read.
+    pub(crate) fn of_plan(plan: &Plan) -> Self {
+        let doubts = plan.doubts.iter();
+        Self {
+            guesses: doubts
+                .map(|doubt| LocatedFault::of_file(doubt.as_str()))
+                .collect(),
+            ..Self::new(plan.elements.own_radii())
         }
     }
 

@@ -68,7 +68,7 @@ impl Rows {
             columns: Arc::clone(&plan.names.0),
             value_name: plan.value_name().map(str::to_owned),
             element_column: plan.element_column,
-            remarks: Remarks::new(plan.elements.own_radii()),
+            remarks: Remarks::of_plan(plan),
             is_right_handed: false,
             has_times: false,
         }
@@ -128,6 +128,9 @@ impl Rows {
         let mut center = DVec3::new(number(Slot::X), number(Slot::Y), number(Slot::Z));
         if let Some((axes, origin)) = plan.axes {
             center = axes * center + origin;
+            for (axis, fixed) in plan.fixed.iter().enumerate() {
+                center[axis] = fixed.unwrap_or(center[axis]);
+            }
         }
         let sphere = Sphere::new(center, radius).map_err(|_| "a finite center and radius")?;
         match &mut self.paint {

@@ -110,7 +110,11 @@ pub(crate) fn read_count(
 /// Passes over rows as [`read`] does; says whether the last line is one.
 pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<bool, TableError> {
     let mut ends_with_row = false;
-    let is_of_this = |line: &[u8]| (form.kind)(line) != LineKind::End && !is_of_another(line, form);
+    let is_of_this = |line: &[u8]| match (form.kind)(line) {
+        LineKind::Row => !is_of_another(line, form),
+        LineKind::Other => true,
+        LineKind::End => false,
+    };
     while input.peek()?.is_some_and(is_of_this) {
         let line = input.next()?.unwrap_or_default();
         ends_with_row = (form.kind)(line) == LineKind::Row;
@@ -175,7 +179,11 @@ fn read_piece(text: &[u8], plan: &Plan, form: &Form, all_are_rows: bool) -> Piec
         } else {
             (form.kind)(line)
         };
-        piece.is_at_end = kind == LineKind::End || is_of_another(line, form);
+        piece.is_at_end = match kind {
+            LineKind::Row => is_of_another(line, form),
+            LineKind::Other => false,
+            LineKind::End => true,
+        };
         if piece.is_at_end {
             break;
         }
@@ -318,6 +326,9 @@ fn read_line(
     {
         let count = plan.uses.len();
         return refused(field, &format!("the end of the line after {count} columns"));
+    }
+    if let Some((part, expected)) = (form.check)(form, line) {
+        return refused(part, expected);
     }
     let row = Row {
         numbers,

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::io::Read;
 
 use super::binary::{self, Column};
-use super::columns::{MOST_COLUMNS, components};
+use super::columns::{MOST_COLUMNS, components, marked};
 use super::error::TableError;
 use super::fields::{self, Division};
 use super::input::Input;
@@ -71,7 +71,11 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             }
             [kind @ (b"POINT_DATA" | b"CELL_DATA"), rows] => {
                 data.rows = count(rows).ok_or_else(|| refuse("the number of points or cells"))?;
-                data.is_of_points = kind == b"POINT_DATA" && data.rows == data.points;
+                data.is_of_points = kind == b"POINT_DATA";
+                if data.is_of_points && data.rows != data.points {
+                    let expected = format!("numbers of all {} points", data.points);
+                    return Err(refuse(&expected));
+                }
                 announced = Some((number, line.clone()));
             }
             [b"SCALARS", name, kind, ref size @ ..] => {
@@ -85,6 +89,29 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             [b"VECTORS" | b"NORMALS", name, kind] => {
                 let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
                 data.attribute(input, &text(name), 3, kind)?;
+            }
+            [b"TENSORS", name, kind] => {
+                let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
+                data.attribute(input, &text(name), 9, kind)?;
+            }
+            [b"TENSORS6", name, kind] => {
+                let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
+                data.attribute(input, &text(name), 6, kind)?;
+            }
+            [b"TEXTURE_COORDINATES", name, size, kind] => {
+                let size = count(size).ok_or_else(|| refuse("the number of coordinates"))?;
+                let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
+                data.attribute(input, &text(name), size, kind)?;
+            }
+            [b"GLOBAL_IDS" | b"PEDIGREE_IDS", name, kind] => {
+                let kind = self::kind(kind).ok_or_else(|| refuse("a type of numbers"))?;
+                data.attribute(input, &text(name), 1, kind)?;
+            }
+            // Numbers from 0 to 1, or bytes.
+            [b"COLOR_SCALARS", name, size] => {
+                let size = count(size).ok_or_else(|| refuse("the number of components"))?;
+                let kind = Kind::Number(Number::U8, Order::Big);
+                data.attribute(input, &text(name), size, kind)?;
             }
             [b"FIELD", _, arrays] => {
                 let arrays = count(arrays).ok_or_else(|| refuse("the number of arrays"))?;
@@ -131,7 +158,12 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             }
             [b"DIMENSIONS", ..] => {}
             // Spheres need no more than what was read.
-            _ if !data.names.is_empty() => break,
+            _ if !data.names.is_empty() => {
+                let told = "no section of a legacy VTK file: it and what follows it are not read";
+                let place = 0..line.len();
+                input.leave_out(LocatedFault::in_line(number, &line, place, told.to_owned()));
+                break;
+            }
             _ => return Err(refuse("a section of a legacy VTK file")),
         }
     }
@@ -201,6 +233,14 @@ impl Dataset {
                 if rows == self.points && self.is_of_points {
                     self.take(input, &name, (size, rows), kind)
                 } else {
+                    if self.is_of_points {
+                        let (points, shown) = (self.points, marked(&name));
+                        let told = format!(
+                            "the array {shown} has {rows} rows, and there are {points} points: it is not read"
+                        );
+                        let place = 0..line.len();
+                        input.leave_out(LocatedFault::in_line(number, &line, place, told));
+                    }
                     self.skip(input, size.saturating_mul(rows), kind)
                 }
             }

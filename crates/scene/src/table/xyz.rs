@@ -3,16 +3,14 @@
 //! An extended comment says in `Properties=name:type:columns:…` what the columns are; without one
 //! they are the element and its place, and what follows is passed over.
 
-use std::collections::BTreeSet;
-
 use super::columns::{MOST_COLUMNS, Slot, components};
 use super::element;
 use super::error::TableError;
-use super::fields;
 use super::fields::Division;
-use super::form::{ElementOf, Form};
-use super::header::{Guess, Header};
-use super::input::{Input, without_return};
+use super::form::{ElementOf, Form, LineKind};
+use super::guess::{self, Guess};
+use super::header::Header;
+use super::input::Input;
 use crate::text::{LocatedFault, show};
 
 /// The header of the next frame, behind another one's where that is given; `None` behind the last one.
@@ -80,25 +78,12 @@ fn guess(
         return Ok(None);
     };
     let rows = usize::try_from(count).unwrap_or(ROWS).min(ROWS);
-    let lines = input.head().split(|byte| *byte == b'\n').take(rows);
-    let mut numbers = BTreeSet::new();
-    for line in lines {
-        let fields = fields::all(without_return(line), &Division::Words);
-        let Some(field) = fields.get(column) else {
-            break;
-        };
-        if field.is_empty() || !field.iter().all(u8::is_ascii_digit) {
-            return Ok(None);
-        }
-        numbers.extend(
-            str::from_utf8(field)
-                .ok()
-                .and_then(|field| field.parse::<u32>().ok()),
-        );
-    }
-    // Nothing has hydrogen and helium and all that follow, and nothing else.
+    let all_are_rows = |_: &[u8]| LineKind::Row;
+    let Some(numbers) = guess::numbers(input, column, &Division::Words, all_are_rows, rows) else {
+        return Ok(None);
+    };
     let is_by_lammps = comment.trim_ascii_start().starts_with(b"Atoms");
-    let are_types = is_by_lammps || numbers.iter().copied().eq(1..=numbers.len() as u32);
+    let are_types = is_by_lammps || guess::are_of_types(&numbers);
     let column = &columns[column];
     let (element, told): (ElementOf, _) = match are_types {
         true => (
@@ -111,10 +96,7 @@ fn guess(
         ),
         false => (
             |line, field| element::of_label(&line[field]),
-            format!(
-                "the numbers in the column `{column}` are taken for atomic numbers; \
-                 `columns: (element: {column:?})` says that they are"
-            ),
+            guess::as_atomic_numbers(column),
         ),
     };
     let told = LocatedFault::in_line(number, &first, 0..first.len(), told);
@@ -138,12 +120,22 @@ fn count(input: &mut Input<'_>) -> Result<u64, TableError> {
 
 /// The names of the columns that an extended comment lists.
 fn columns(comment: &[u8], number: u64) -> Result<Option<Vec<String>>, LocatedFault> {
-    const KEY: &[u8] = b"Properties=";
-    let mut parts = comment.windows(KEY.len());
-    let Some(key) = parts.position(|part| part.eq_ignore_ascii_case(KEY)) else {
+    const KEY: &[u8] = b"Properties";
+    let keys = comment.windows(KEY.len()).enumerate();
+    let mut keys = keys.filter(|(_, part)| part.eq_ignore_ascii_case(KEY));
+    // Spaces may stand around the sign.
+    let spaces = |from: usize| {
+        let rest = comment[from..].iter();
+        from + rest.take_while(|byte| **byte == b' ').count()
+    };
+    let sign = keys.find_map(|(at, _)| {
+        let sign = spaces(at + KEY.len());
+        (comment.get(sign) == Some(&b'=')).then_some(sign)
+    });
+    let Some(sign) = sign else {
         return Ok(None);
     };
-    let start = key + KEY.len();
+    let start = spaces(sign + 1);
     let is_quoted = comment.get(start) == Some(&b'"');
     let start = start + usize::from(is_quoted);
     let is_end = |byte: &u8| byte.is_ascii_whitespace() || *byte == b'"';

@@ -9,7 +9,9 @@ mod series;
 
 pub(crate) use assemble::world;
 pub use cloud::Progress;
-pub(crate) use cloud::{Cloud, CloudError, Learned, OpenCloud, Oversight, Scale, Step};
+pub(crate) use cloud::{
+    Cloud, CloudError, FIRST_OF_SEVERAL, Learned, OpenCloud, Oversight, Scale, Step,
+};
 pub use cloud::{ColumnContents, ColumnSummary, ScaleKind};
 pub(crate) use lens::{lens, lens_as_written};
 pub use series::StepKey;

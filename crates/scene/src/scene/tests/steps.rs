@@ -91,6 +91,47 @@ fn a_last_file_that_is_cut_is_in_doubt() {
     );
 }
 
+/// Doubts in files that are read when their frames are shown are told then, once each.
+#[test]
+fn doubts_in_later_files_are_told_when_they_are_read() {
+    let folder = Folder::new("later");
+    let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 10.00           N\n";
+    for number in 1..=40 {
+        let text = match number {
+            2 => atom.to_owned(),
+            3 => format!("{atom}END\n{atom}END\n"),
+            _ => format!("{atom}END\n"),
+        };
+        folder.write(&format!("a{number:02}.pdb"), &text);
+    }
+    let scene = folder.scene("(file: \"a##.pdb\")");
+    assert!(scene.warnings().is_empty() && scene.take_late_warnings().is_empty());
+    for frame in [1, 2, 3, 2, 4] {
+        scene.world_at(frame).unwrap();
+    }
+    let late = scene.take_late_warnings();
+    assert_eq!(late.len(), 2, "{late:?}");
+    let cut = "a02.pdb:1: the file ends with an atom";
+    let several = "a03.pdb: the first frame of several is shown";
+    assert!(
+        late[0].contains(cut) && late[1].contains(several),
+        "{late:?}"
+    );
+    scene.world_at(2).unwrap();
+    assert!(scene.take_late_warnings().is_empty());
+    // Of many the first, and how many there are.
+    for number in 2..40 {
+        folder.write(&format!("a{number:02}.pdb"), atom);
+    }
+    let scene = folder.scene("(file: \"a##.pdb\")");
+    (1..=40).for_each(|frame| drop(scene.world_at(frame).unwrap()));
+    let late = scene.take_late_warnings();
+    assert_eq!(
+        (late.len(), &*late[20]),
+        (21, "18 more warnings about later steps")
+    );
+}
+
 #[test]
 fn tables_without_frames_say_so() {
     let folder = Folder::new("frameless");

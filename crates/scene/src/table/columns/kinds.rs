@@ -20,6 +20,7 @@ pub(crate) fn plan_of_kinds(
         is_byte: &|column| kind(column).is_byte(),
         is_text: &|column| kind(column).is_text(),
         angstrom: 1.0,
+        cell: None,
     };
     let plan = Plan::new(names, request, &nature)?;
     for (column, uses) in plan.uses.iter().enumerate() {

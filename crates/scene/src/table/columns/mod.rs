@@ -4,10 +4,12 @@ mod filter;
 mod kinds;
 mod names;
 mod plan;
+mod positions;
 mod slot;
+mod units;
 
 pub(crate) use filter::Test;
 pub(crate) use kinds::plan_of_kinds;
-pub(crate) use names::{MOST_COLUMNS, components, unit};
+pub(crate) use names::{MOST_COLUMNS, components, marked, unit};
 pub(crate) use plan::{Nature, Plan, RadiusSource, Uses, ValueSource};
 pub(crate) use slot::{MOST_FILTERS, Slot};

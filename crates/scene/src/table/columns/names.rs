@@ -33,7 +33,7 @@ impl Names {
             ColumnRef::Name(name) => {
                 let found = self.find(name).or_else(|| self.find_synonym(name));
                 let index = found.ok_or_else(|| self.missing(name))?;
-                self.once(index)
+                self.once(index, name)
             }
         }
     }
@@ -45,7 +45,7 @@ impl Names {
     pub(super) fn of(&self, slot: Slot) -> Result<usize, String> {
         let found = self.find_slot(slot);
         let index = found.ok_or_else(|| self.missing(slot.names()[0]))?;
-        self.once(index)
+        self.once(index, bare(&self.0[index]))
     }
 
     /// The column for this purpose, if there is one.
@@ -114,10 +114,14 @@ impl Names {
         group.iter().find_map(|other| self.find(other))
     }
 
-    /// Refuses a column whose name another one has, too.
-    fn once(&self, column: usize) -> Result<usize, String> {
+    /// Refuses a column that was found by this name if another one has it, too, with the same unit or another one.
+    pub(super) fn once(&self, column: usize, wanted: &str) -> Result<usize, String> {
         let name = &self.0[column];
-        let same = |other: &&String| other.eq_ignore_ascii_case(name);
+        let is_exact = name.eq_ignore_ascii_case(wanted);
+        let same = |other: &&String| {
+            other.eq_ignore_ascii_case(name)
+                || !is_exact && bare(other).eq_ignore_ascii_case(bare(name))
+        };
         if self.0.iter().filter(same).count() > 1 {
             let name = marked(name);
             return Err(format!(
@@ -196,7 +200,7 @@ fn bare(name: &str) -> &str {
 }
 
 /// A name between marks, as a message shows it.
-pub(super) fn marked(name: &str) -> String {
+pub(crate) fn marked(name: &str) -> String {
     let shown = show(name);
     match shown.starts_with('`') {
         true => shown,

@@ -9,6 +9,7 @@ use super::super::request::{Coloring, ColumnRef, Missing, RadiusLaw, Request, Va
 use super::filter::Test;
 use super::names::{Names, marked};
 use super::slot::{Allowed, Slot};
+use super::{positions, units};
 use crate::values::linear;
 
 /// The source of radii.
@@ -39,6 +40,8 @@ pub(crate) struct Nature<'a> {
     pub(crate) is_text: &'a dyn Fn(usize) -> bool,
     /// The length of an ångström, in the table's unit.
     pub(crate) angstrom: f64,
+    /// The axes and the origin of the cell, where the table has one.
+    pub(crate) cell: Option<(DMat3, DVec3)>,
 }
 
 /// The purposes of a column.
@@ -92,6 +95,10 @@ pub(crate) struct Plan {
     pub(crate) constants: [f64; Slot::COUNT],
     /// The axes and the origin of the positions, where they are not those of the table's lengths.
     pub(crate) axes: Option<(DMat3, DVec3)>,
+    /// The coordinates that are constant, whatever the axes.
+    pub(crate) fixed: [Option<f64>; 3],
+    /// Sentences about what was assumed.
+    pub(crate) doubts: Vec<String>,
     /// The linear values of sRGB ones, where colors are.
     linear: Vec<f32>,
 }
@@ -132,7 +139,12 @@ impl Plan {
             hides_missing: request.missing == Missing::Hide,
             constants: [0.0; Slot::COUNT],
             axes: None,
+            fixed: columns.position.each_ref().map(|chosen| match chosen {
+                Some(ColumnRef::Constant(number)) => Some(*number),
+                _ => None,
+            }),
             linear: Vec::new(),
+            doubts: Vec::new(),
             names: Names(Arc::new(names)),
         };
         let [x, y, z] = &columns.position;
@@ -142,6 +154,9 @@ impl Plan {
                 chosen => plan.take(slot, chosen.as_ref())?,
             }
         }
+        let positions = [Slot::X, Slot::Y, Slot::Z].map(|slot| plan.name_of(slot));
+        let are_chosen = columns.position.iter().all(Option::is_some);
+        plan.axes = positions::axes(positions, are_chosen, nature.cell)?;
         let colors = [Slot::Red, Slot::Green, Slot::Blue];
         let has_colors = colors
             .into_iter()
@@ -209,6 +224,17 @@ impl Plan {
             plan.use_for(column, Slot::Filter(index));
             plan.filter_columns = plan.filter_columns.max(column + 1);
         }
+        let is_radius_scaled =
+            columns.radius_scale.is_some() || columns.radius_law != RadiusLaw::Linear;
+        let is_of_elements = matches!(plan.radius, RadiusSource::Element(_));
+        if is_of_elements && nature.angstrom == 1.0 && !is_radius_scaled {
+            let doubt = units::of_elements(plan.name_of(Slot::X));
+            plan.doubts.extend(doubt);
+        }
+        let radius = (!is_radius_scaled).then_some(Slot::Radius);
+        let lengths = [Slot::X, Slot::Y, Slot::Z].into_iter().chain(radius);
+        let doubt = units::unequal(lengths.filter_map(|slot| plan.name_of(slot)));
+        plan.doubts.extend(doubt);
         Ok(plan)
     }
 
@@ -229,11 +255,13 @@ impl Plan {
             self.take(Slot::Radius, Some(chosen))?;
             return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
-        if let Some(column) = self.find_radius(has_colors) {
+        if let Some((column, name)) = self.find_radius(has_colors) {
+            let column = self.names.once(column, name)?;
             self.use_for(column, Slot::Radius);
             return Ok(RadiusSource::Column(scale.unwrap_or(1.0), law));
         }
         if let Some(column) = self.names.find("diameter") {
+            let column = self.names.once(column, "diameter")?;
             self.use_for(column, Slot::Radius);
             return Ok(RadiusSource::Column(scale.unwrap_or(0.5), law));
         }
@@ -346,10 +374,10 @@ impl Plan {
     }
 
     /// The column of radii; one called `r` may be red instead.
-    fn find_radius(&self, has_colors: bool) -> Option<usize> {
+    fn find_radius(&self, has_colors: bool) -> Option<(usize, &'static str)> {
         let is_red = has_colors && self.names.find("red").is_none();
         let names = Slot::Radius.names().iter();
         let mut names = names.filter(|name| !(is_red && **name == "r"));
-        names.find_map(|name| self.names.find(name))
+        names.find_map(|name| Some((self.names.find(name)?, *name)))
     }
 }

@@ -7,14 +7,14 @@ use super::*;
 
 const TABLE: &str = "x,y,z,r\n1,-2.5,3e-3,0.5\n4,5,6,7\n";
 
-fn gzip(bytes: &[u8]) -> Vec<u8> {
+pub(super) fn gzip(bytes: &[u8]) -> Vec<u8> {
     let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
     gzip.write_all(bytes).unwrap();
     gzip.finish().unwrap()
 }
 
 /// A frame with its checksum.
-fn zstandard(bytes: &[u8]) -> Vec<u8> {
+pub(super) fn zstandard(bytes: &[u8]) -> Vec<u8> {
     ruzstd::encoding::compress_to_vec(bytes, ruzstd::encoding::CompressionLevel::Fastest)
 }
 

@@ -12,7 +12,11 @@ const VTK: &str = "# vtk DataFile Version 3.0\np\nASCII\nDATASET POLYDATA\nPOINT
 const PLY: &str = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\nproperty float radius\nend_header\n1 2 3 1.5\n4 5 6 1.5\n";
 
 /// Every step of a scene, and what is said of it.
-fn shown(name: &str, bytes: &[u8], fields: &str) -> Result<(Vec<Vec<Sphere>>, bool), String> {
+pub(super) fn shown(
+    name: &str,
+    bytes: &[u8],
+    fields: &str,
+) -> Result<(Vec<Vec<Sphere>>, bool), String> {
     let folder = Folder::new();
     fs::write(folder.0.join(name), bytes).unwrap();
     let text = format!(
@@ -23,6 +27,9 @@ fn shown(name: &str, bytes: &[u8], fields: &str) -> Result<(Vec<Vec<Sphere>>, bo
     let frames = scene.frames().unwrap_or(1..=1);
     let worlds = frames.map(|frame| {
         let world = scene.world_at(frame).map_err(|error| error.to_string())?;
+        // Again, as after another one.
+        let again = scene.world_at(frame).map_err(|error| error.to_string())?;
+        assert_eq!(world.spheres(), again.spheres());
         Ok(world.spheres().to_vec())
     });
     let worlds: Result<_, String> = worlds.collect();
@@ -31,7 +38,7 @@ fn shown(name: &str, bytes: &[u8], fields: &str) -> Result<(Vec<Vec<Sphere>>, bo
 
 /// Cuts a table everywhere behind `start`: it is refused, or what it shows is said to be in doubt, or every step that it
 /// shows is whole.
-fn check(name: &str, bytes: &[u8], start: usize, fields: &str) {
+pub(super) fn check(name: &str, bytes: &[u8], start: usize, fields: &str) {
     let (whole, is_doubted) = shown(name, bytes, fields).unwrap();
     assert!(!is_doubted, "{name} is whole");
     for end in start + 1..bytes.len() {

@@ -13,7 +13,7 @@ const CORNERS: [[f64; 3]; 4] = [
 ];
 
 /// The corners as a table of this ending, and whether its axes are right-handed unless the scene says otherwise.
-fn table(ending: &str) -> (Vec<u8>, bool) {
+pub(super) fn table(ending: &str) -> (Vec<u8>, bool) {
     let lines = |line: fn(usize, [f64; 3]) -> String| -> String {
         let rows = CORNERS.iter().enumerate();
         rows.map(|(index, corner)| line(index + 1, *corner))
@@ -102,6 +102,56 @@ fn tables_of_other_programs_are_right_handed_and_plain_ones_are_the_scenes_own()
                 );
             }
         }
+    }
+}
+
+/// A right-handed helix about an axis that points up: its strands in front rise to the right, whatever program wrote it.
+#[test]
+fn right_handed_helices_are_right_handed() {
+    let turn = |step: f64| {
+        let angle: f64 = 0.3 * step;
+        [5.0 * libm::cos(angle), 5.0 * libm::sin(angle), 0.4 * step]
+    };
+    let points: Vec<[f64; 3]> = (0..40).map(|step| turn(f64::from(step))).collect();
+    let count = points.len();
+    let rows = |row: fn([f64; 3]) -> String| points.iter().copied().map(row).collect::<String>();
+    let xyz = rows(|[x, y, z]| format!("C {x} {y} {z}\n"));
+    let pdb = rows(|[x, y, z]| {
+        format!("HETATM    1  C   LIG A   1    {x:8.3}{y:8.3}{z:8.3}  1.00  0.00           C\n")
+    });
+    let plain = rows(|[x, y, z]| format!("{x},{y},{z}\n"));
+    for (name, text, fields, is_right_handed) in [
+        ("a.xyz", format!("{count}\n\n{xyz}"), "up: Z", true),
+        (
+            "a.xyz",
+            format!("{count}\n\n{xyz}"),
+            "rotate_degrees: (-90, 0, 0)",
+            true,
+        ),
+        ("a.pdb", pdb + "END\n", "up: Z", true),
+        ("a.csv", format!("x,y,z\n{plain}"), "up: Z", false),
+        (
+            "a.csv",
+            format!("x,y,z\n{plain}"),
+            "up: Z, right_handed: true",
+            true,
+        ),
+    ] {
+        let scene = load_as_it_is(name, text, &format!("radius: 1, {fields}")).unwrap();
+        // Seen along z, x points to the right and y up.
+        let rises = spheres(&scene)
+            .windows(2)
+            .filter_map(|pair| match (pair[0], pair[1]) {
+                ([x, y, z, _], [next_x, next_y, ..]) => {
+                    (z < -4.0).then(|| (next_y - y) * (next_x - x) > 0.0)
+                }
+            })
+            .collect::<Vec<bool>>();
+        assert!(rises.len() > 5, "{name}");
+        assert!(
+            rises.iter().all(|rises| *rises == is_right_handed),
+            "{name}, {fields}: {rises:?}"
+        );
     }
 }
 

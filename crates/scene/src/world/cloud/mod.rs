@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 pub use coloring::ScaleKind;
 pub(crate) use coloring::{Learned, Scale};
-pub(crate) use open::{OpenCloud, Step};
+pub(crate) use open::{FIRST_OF_SEVERAL, OpenCloud, Step};
 pub(crate) use remarked::Oversight;
 pub(crate) use settings::Cloud;
 pub use summary::{ColumnContents, ColumnSummary};

@@ -1,6 +1,6 @@
 //! Observations of a cloud's files while they were read.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
@@ -12,7 +12,16 @@ use crate::text::{LocatedFault, Place, harmless};
 pub(super) struct Observed {
     /// The state of each file when it was opened first.
     states: Mutex<HashMap<PathBuf, FileState>>,
-    warnings: Mutex<Vec<String>>,
+    warnings: Mutex<Warnings>,
+}
+
+/// Sentences about files.
+#[derive(Debug, Default)]
+struct Warnings {
+    /// All that there ever were: a step may be read several times.
+    known: HashSet<String>,
+    /// Those that nobody took yet.
+    new: Vec<String>,
 }
 
 impl Observed {
@@ -28,10 +37,10 @@ impl Observed {
 
     /// Adds sentences, each of them once.
     pub(super) fn warn(&self, warnings: impl IntoIterator<Item = String>) {
-        let mut known = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut own = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
         for warning in warnings {
-            if !known.contains(&warning) {
-                known.push(warning);
+            if own.known.insert(warning.clone()) {
+                own.new.push(warning);
             }
         }
     }
@@ -47,6 +56,7 @@ impl Observed {
 
     /// The sentences that were added since they were taken.
     pub(super) fn take_warnings(&self) -> Vec<String> {
-        std::mem::take(&mut self.warnings.lock().unwrap_or_else(PoisonError::into_inner))
+        let mut own = self.warnings.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut own.new)
     }
 }

@@ -54,6 +54,10 @@ pub(crate) struct Step {
     pub(crate) has_times: bool,
 }
 
+/// The warning about a file whose first frame alone is shown.
+pub(crate) const FIRST_OF_SEVERAL: &str =
+    "the first frame of several is shown (`frames: All` shows them one after another)";
+
 /// Progress that nobody watches.
 pub(super) const UNWATCHED: &(dyn Fn(u64, u64) + Sync) = &|_, _| {};
 
@@ -313,8 +317,12 @@ impl OpenCloud {
         let rows = frames.read(&self.cloud.request);
         frames.check_unchanged()?;
         let rows = rows?.ok_or_else(gone)?;
-        // What is no frame behind the first one is passed over.
-        let has_more = frames.may_be_several() && frames.has_next().unwrap_or(false);
+        let has_more = frames.has_more();
+        if has_more && path != self.path(0) {
+            // That of the first step is told with the scene.
+            let name = harmless(&self.name_of(path));
+            self.observed.warn([format!("{name}: {FIRST_OF_SEVERAL}")]);
+        }
         frames.finish()?;
         self.note_doubts(path, &mut frames);
         Ok((rows, has_more))

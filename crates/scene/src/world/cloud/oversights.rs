@@ -3,6 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::PoisonError;
 
+use marbles_core::Albedos;
+
 use super::coloring::{Learned, Scale};
 use super::open::{OpenCloud, Step};
 use super::remarked::Oversight;
@@ -63,6 +65,7 @@ impl OpenCloud {
             false => &scale.palette_place,
         };
         all.extend(of_colors.into_iter().map(|told| of_scene(place, told)));
+        all.extend(look_like_bytes(first).map(|told| of_scene(&self.cloud.place, told)));
         let unused = remarks.unused_radii();
         let unused: Vec<String> = unused
             .map(|name| request.own_radii[name].0.clone())
@@ -137,6 +140,25 @@ impl Scale {
             names.len(),
             counts.len(),
         ))
+    }
+}
+
+/// Colors of a table above 1, as a warning tells them.
+fn look_like_bytes(step: &Step) -> Option<String> {
+    let Some(Albedos::Each(colors)) = &step.albedos else {
+        return None;
+    };
+    let channels = || colors.iter().flatten();
+    let most = channels().fold(0.0_f32, |most, channel| most.max(*channel));
+    let are_whole = channels().all(|channel| channel.fract() == 0.0);
+    match most {
+        ..=1.0 => None,
+        2.0..=255.0 if are_whole => Some(format!(
+            "the table's colors are numbers up to {most}, which look like bytes: they are taken as linear, and 1 is white"
+        )),
+        _ => Some(format!(
+            "the table's colors are numbers up to {most}: an albedo above 1 reflects more light than there is"
+        )),
     }
 }
 

@@ -1,0 +1,56 @@
+//! Numbers in the column of elements, which may be atomic numbers or the numbers of something else.
+
+use std::collections::BTreeSet;
+
+use super::fields::{self, Division};
+use super::form::{ElementOf, LineKind};
+use super::input::{Input, without_return};
+use crate::text::LocatedFault;
+
+/// A guess about the numbers in the column of elements.
+#[derive(Clone, Debug)]
+pub(crate) struct Guess {
+    /// The way in which they are read by it.
+    pub(crate) element: ElementOf,
+    /// Its words and its place.
+    pub(crate) told: LocatedFault,
+}
+
+/// The different numbers that stand in a column of the rows that come next, as far as they are looked at; `None` where one
+/// of them is no number.
+pub(super) fn numbers(
+    input: &Input<'_>,
+    column: usize,
+    division: &Division,
+    kind: fn(&[u8]) -> LineKind,
+    rows: usize,
+) -> Option<BTreeSet<u32>> {
+    let lines = input.head().split(|byte| *byte == b'\n');
+    let lines = lines.map(without_return);
+    let mut numbers = BTreeSet::new();
+    for line in lines.filter(|line| kind(line) == LineKind::Row).take(rows) {
+        let fields = fields::all(line, division);
+        let Some(field) = fields.get(column) else {
+            break;
+        };
+        if field.is_empty() || !field.iter().all(u8::is_ascii_digit) {
+            return None;
+        }
+        let number = str::from_utf8(field).ok();
+        numbers.extend(number.and_then(|number| number.parse::<u32>().ok()));
+    }
+    Some(numbers)
+}
+
+/// Says whether these are the numbers of types: nothing has hydrogen and helium and all that follow, and nothing else.
+pub(super) fn are_of_types(numbers: &BTreeSet<u32>) -> bool {
+    !numbers.is_empty() && numbers.iter().copied().eq(1..=numbers.len() as u32)
+}
+
+/// The words for numbers in this column that are taken for atomic numbers.
+pub(super) fn as_atomic_numbers(column: &str) -> String {
+    format!(
+        "the numbers in the column `{column}` are taken for atomic numbers; `columns: (element: {column:?})` says that \
+         they are"
+    )
+}
