@@ -319,7 +319,7 @@ fn random_samples_of_fine_bumps_are_within_their_claims() {
     let truth = picture(&world, &view, SIDE, false);
     // The deviation of a mean of so many samples between 0 and 1, six times.
     let doubt = 6.0 * 0.5 / f64::from(SIDE);
-    for tolerance in [0.25, 1e-3] {
+    for tolerance in [0.25, 1e-6] {
         let image = exact_picture(&world, &view, tolerance, false);
         for (col, row) in pixels(&image) {
             let off = (image.rgba(col, row)[0] - truth.rgba(col, row)[0]).abs();

@@ -32,6 +32,7 @@ mod python;
 mod reference;
 mod refused;
 mod repeatability;
+mod scattered;
 mod shading;
 mod shutter;
 mod sidecar;

@@ -98,14 +98,14 @@ impl Allowance {
 }
 
 /// Bumps side by side in a pixel up to which two thirds of the budget are theirs, and from which on nothing is: a
-/// hundred and more bumps are not followed one by one.
-const FEW_GRAINS: f64 = 0.5;
+/// hundred and more bumps are left to samples.
+const FEW_GRAINS: f64 = 2.0;
 const MANY_GRAINS: f64 = 12.0;
 
-/// The share of the budget that pixels with bumps may need, on average, to be worth it; and the shares that they
-/// have at least if they are, and if they are not.
-const MOST_NEED: f64 = 0.02;
-const HOPEFUL: f64 = 0.03;
+/// The share of the budget that pixels with bumps may need, on average, to be worth it; how many times that one of them
+/// may have; and the share that it may have if they are not worth it.
+const MOST_NEED: f64 = 0.1;
+const MOST_NEEDS: f64 = 20.0;
 const HOPELESS: f64 = 0.005;
 
 /// The share of the budget that a single part of a pixel may take.
@@ -139,8 +139,7 @@ const FIRST_LOOK: u64 = 512;
 impl Budget {
     /// The budget of a pixel with so many bumps side by side.
     ///
-    /// The finer bumps are, the less is to be had for the same work, and the more pixels of a picture are alike:
-    /// what most of them would need tells whether a pixel has much, or little.
+    /// The finer bumps are, the more pixels of a picture are alike: what most of them need tells how much a pixel has.
     pub(crate) fn new(allowance: Allowance, grains: f64, tolerance: f64) -> Self {
         if grains <= 0.0 {
             return Self {
@@ -151,22 +150,22 @@ impl Budget {
             };
         }
         let most = allowance.bumpy / 3 * 2;
-        let share = if grains > MANY_GRAINS {
+        let most = most as f64;
+        let most = if grains > MANY_GRAINS {
             0.0
         } else {
-            FEW_GRAINS / grains.max(FEW_GRAINS)
-        };
-        let is_hopeful = need(grains, tolerance) <= MOST_NEED * most as f64;
-        let least = if grains > MANY_GRAINS {
-            0.0
-        } else if is_hopeful {
-            HOPEFUL
-        } else {
-            HOPELESS
+            let share = (FEW_GRAINS / grains).min(1.0).powi(4);
+            let need = need(grains, tolerance);
+            let needed = if need <= MOST_NEED * most {
+                MOST_NEEDS * need
+            } else {
+                HOPELESS * most
+            };
+            (most * share).max(needed.min(most))
         };
         Self {
             spent: 0,
-            most: (most as f64 * (share * share).max(least)) as u64,
+            most: most as u64,
             rounding: None,
             next: FIRST_LOOK,
             looking: 0,
@@ -345,13 +344,15 @@ mod tests {
     }
 
     #[test]
-    fn finer_bumps_have_less() {
+    fn fine_bumps_have_what_they_need() {
         let still = Allowance::still(1);
         let most = |grains: f64, tolerance: f64| Budget::new(still, grains, tolerance).most;
         assert_eq!(most(0.5, 1e-5), MOST / 3 * 2);
-        assert_eq!(most(1.0, 1e-5), MOST / 6);
-        assert_eq!(most(7.0, 1e-3), 30_000);
-        assert_eq!(most(7.0, 1e-5), 5102);
+        assert_eq!(most(2.0, 1e-5), MOST / 3 * 2);
+        assert_eq!(most(4.0, 1e-2), MOST / 24);
+        assert_eq!(most(7.0, 1e-3), 123_472);
+        assert_eq!(most(7.0, 1e-5), 6663);
+        assert_eq!(most(10.0, 1e-5), 5000);
         assert!(Budget::new(still, 12.1, 1e-2).is_nothing());
     }
 }

@@ -26,6 +26,7 @@ use crate::sampling::Supersampling;
 use crate::search::view_index::ViewIndex;
 
 mod range;
+mod scattered;
 
 /// Averages to a tolerance.
 ///
@@ -202,16 +203,18 @@ impl<'scene> Exact<'scene> {
         }
     }
 
-    /// The sum of a tile's pixels under all groups of lights.
+    /// The sum of a tile's pixels under all groups of lights, and what the last rungs cost.
     fn sum<'lit>(
         &self,
         tile: Tile,
-        candidates: &[usize],
+        (candidates, is_moderate): (&[usize], bool),
         lit: &'lit mut [LitTile],
-    ) -> &'lit [Pixel] {
+    ) -> (&'lit [Pixel], Work) {
+        let mut work = Work::default();
         let Some((
             LitTile {
                 pixels,
+                costs,
                 unknown,
                 crowds,
                 cache,
@@ -220,7 +223,7 @@ impl<'scene> Exact<'scene> {
             others,
         )) = lit.split_first_mut()
         else {
-            return &[];
+            return (&[], work);
         };
         for other in others {
             *unknown |= other.unknown;
@@ -242,20 +245,43 @@ impl<'scene> Exact<'scene> {
             }
         }
 
-        // The last rung: samples, which see exactly but miss what lies between them.
-        if !candidates.is_empty() && *unknown != 0 {
+        // The last rungs: samples, which see exactly but miss what lies between them.
+        let unmet = self.unmet(pixels) | *unknown;
+        if !candidates.is_empty() && unmet != 0 {
             let range = range.unwrap_or_else(|| self.range_of_light(candidates));
             let most_occluders = cache.most_occluders();
-            for place in set_bits(*unknown).take_while(|&place| (place as u64) < tile.count()) {
+            let scattering = if is_moderate {
+                self.scattering(candidates, range, most_occluders)
+            } else {
+                None
+            };
+            for place in set_bits(unmet).take_while(|&place| (place as u64) < tile.count()) {
                 let key = PixelKey {
                     col: tile.col + place as u32 % tile.width,
                     row: tile.row + place as u32 / tile.width,
                     frame: self.groups[0].view.frame,
                 };
-                pixels[place] = self.sampled(key, candidates, range, (crowds, most_occluders));
+                let mut samples = 0;
+                let scattered =
+                    scattering.and_then(|of| self.scattered(key, of, crowds, &mut samples));
+                work.samples += samples;
+                costs.add(place, samples);
+                if let Some(scattered) = scattered {
+                    pixels[place] = scattered;
+                } else if *unknown >> place & 1 == 1 {
+                    pixels[place] = self.sampled(key, candidates, range, (crowds, most_occluders));
+                }
             }
         }
-        pixels
+        (pixels, work)
+    }
+
+    /// The pixels of a tile, bit by bit, that more work might know well enough.
+    fn unmet(&self, pixels: &[Pixel]) -> u64 {
+        let is_unmet = |pixel: &Pixel| pixel.status == Status::OutOfBudget;
+        let bits = pixels.iter().enumerate();
+        bits.map(|(place, pixel)| u64::from(is_unmet(pixel)) << place)
+            .sum()
     }
 
     /// A pixel that sees no sphere. Only the first group of lights has a background.
@@ -334,12 +360,14 @@ fn integrate_each(
             lit.unknown = !0;
         }
     }
-    let work = scratch.take_work();
+    let mut work = scratch.take_work();
     let mut rest = &mut scratch.lit[..];
     for (index, exact) in integrators.iter().enumerate() {
         let lit;
         (lit, rest) = std::mem::take(&mut rest).split_at_mut(exact.groups.len());
-        write(index, exact.sum(tile, candidates, lit));
+        let (pixels, more) = exact.sum(tile, (candidates, is_moderate), lit);
+        work += more;
+        write(index, pixels);
     }
     work
 }

@@ -12,7 +12,8 @@
 //! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
 //! | boxes with straight edges, to loose tolerances: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |
-//! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | pixels of which less than samples see is known |
+//! | parts of the pixel: [`edged`] | quarters, and theirs, until they cost too much | estimate | claims above the tolerance, pixels of which less than samples see is known |
+//! | random samples in strata of the pixel: [`integrator`] | their mean | estimate | pixels of which samples meet no tolerance |
 //! | 8 × 8 samples: [`integrator`] | the mean, off by the whole contrast | bound | nothing |
 //!
 //! Pixels under point lights begin at the rung along edges: those above know directional lights alone.

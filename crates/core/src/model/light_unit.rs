@@ -35,10 +35,11 @@ impl LightUnit {
     }
 }
 
-/// Light in the world's unit, of light in its own. What is next to nothing is nothing: numbers that are so small would be
-/// rounded otherwise in other units.
+/// Light, in units, below which there is none: numbers that are so small would be rounded otherwise in other units.
+pub(crate) const NOTHING: f64 = 1e-200;
+
+/// Light in the world's unit, of light in its own. What is next to nothing is nothing.
 pub(crate) fn in_world(light: Color, unit: f64) -> Color {
-    const NOTHING: f64 = 1e-200;
     Color::select(light.abs().cmplt(Color::splat(NOTHING)), Color::ZERO, light) * unit
 }
 

@@ -1,6 +1,7 @@
 //! Numbers: rounding, lanes, powers, polynomials, rules of integration.
 
 pub(crate) mod angle;
+pub(crate) mod bernstein;
 pub(crate) mod bits;
 pub(crate) mod double_double;
 pub(crate) mod fused;

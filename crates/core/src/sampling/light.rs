@@ -257,7 +257,7 @@ impl<'scene> Shading<'scene> {
                             let mut factors = Vectors::splat(simd, DVec3::ONE);
                             for lane in set_bits(lanes) {
                                 let key = PixelKey {
-                                    col: place.col + lane as u32,
+                                    col: place.col_of(lane),
                                     row: place.row,
                                     frame: self.frame,
                                 };

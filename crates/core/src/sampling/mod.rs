@@ -12,6 +12,7 @@ mod last_places;
 mod light;
 mod parallel;
 mod rays;
+mod scattered;
 mod shadow;
 mod strokes;
 mod sums;
@@ -19,4 +20,5 @@ mod supersampling;
 mod tile_balls;
 mod trace;
 
+pub(crate) use scattered::Pairs;
 pub(crate) use supersampling::{Scratch, Supersampling};

@@ -35,7 +35,7 @@ impl<'tile> Tracer<'tile> {
         place: Place,
         groups: &mut Groups<'tile>,
     ) -> Sight<S> {
-        let width = (self.tile.width as usize).min(LANES);
+        let width = self.rays.lanes(self.tile.width);
         let viewpoint = self.rays.viewpoint();
         let rays: [Ray; LANES] =
             std::array::from_fn(|lane| self.rays.ray(place, lane.min(width - 1)));

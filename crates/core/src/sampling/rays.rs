@@ -5,8 +5,9 @@ use glam::{DVec2, DVec3};
 
 use crate::model::camera::Projection;
 use crate::model::ray::Ray;
+use crate::model::roughness::noise::{hash, spread};
 use crate::model::view::View;
-use crate::numeric::lanes::{LANE_NUMBERS, f64x8};
+use crate::numeric::lanes::{LANE_NUMBERS, LANES, f64x8};
 use crate::numeric::vectors::Vectors;
 use crate::picture::tile::Tile;
 
@@ -35,15 +36,37 @@ pub(super) struct Rays {
     shift_rows: f64,
     /// The place of the first sample in a pixel.
     first: f64,
+    /// If samples are scattered, the number of strata on a side of a pixel.
+    strata: Option<u32>,
 }
 
+/// Cells on a side of a pixel, of which a scattered sample takes one at random: so many that the centers of cells are
+/// as good as random places.
+const FINE: u32 = 1 << 20;
+
 /// A sample of each of eight pixels in a row: which part of the pixels, and where the row starts.
+///
+/// If samples are scattered: two samples in each of four strata of one pixel. The cell is one of the squares of 2 × 2
+/// strata.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub(super) col: u32,
     pub(super) row: u32,
     pub(super) cell_col: u32,
     pub(super) cell_row: u32,
+    /// Whether all rays are samples of the first pixel.
+    pub(super) is_scattered: bool,
+}
+
+impl Place {
+    /// The column of the pixel that a ray belongs to.
+    pub(super) fn col_of(&self, lane: usize) -> u32 {
+        if self.is_scattered {
+            self.col
+        } else {
+            self.col + lane as u32
+        }
+    }
 }
 
 impl Rays {
@@ -68,6 +91,23 @@ impl Rays {
             rows_on_unit: magnification / view.pixel_size(),
             shift_rows: view.lens.shift.y / view.pixel_size(),
             first: 0.5 / f64::from(side),
+            strata: None,
+        }
+    }
+
+    /// The same for random samples in `side` × `side` strata of a pixel, a multiple of 2.
+    pub(super) fn scattered(&self, side: u32) -> Self {
+        Self {
+            strata: Some(side),
+            ..Self::new(&self.view, FINE)
+        }
+    }
+
+    /// How many of eight rays differ, in a tile of so many columns.
+    pub(super) fn lanes(&self, width: u32) -> usize {
+        match self.strata {
+            Some(_) => LANES,
+            None => (width as usize).min(LANES),
         }
     }
 
@@ -78,7 +118,11 @@ impl Rays {
 
     /// The number of samples side by side on a length of 1 at the distance of 1, or at any.
     pub(super) fn cells_on_unit(&self) -> f64 {
-        self.magnification / (2.0 * self.half_cell)
+        let cells = self.magnification / (2.0 * self.half_cell);
+        match self.strata {
+            Some(side) => cells * f64::from(side) / f64::from(FINE),
+            None => cells,
+        }
     }
 
     /// The side of a tile at the distance of 1, or at any.
@@ -139,13 +183,59 @@ impl Rays {
         }
     }
 
-    /// The ray of one of the eight pixels.
+    /// The directions of eight scattered samples, divided by that power.
+    #[inline(always)]
+    pub(super) fn scattered_directions<S: Simd>(&self, simd: S, place: Place) -> Vectors<S> {
+        let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
+        for lane in 0..LANES {
+            let [col, row] = self.cell_of(place, lane);
+            u[lane] = self.twice(place.col, col, self.view.width);
+            v[lane] = self.twice(place.row, row, self.view.height);
+        }
+        let shift = self.view.lens.shift;
+        let u = f64x8::from_array(simd, u) * self.half_cell + shift.x;
+        let v = f64x8::from_array(simd, v) * -self.half_cell + shift.y;
+        let axes = &self.view.camera.world_from_camera;
+        let forward = axes.z_axis * self.magnification;
+        Vectors {
+            x: (u * axes.x_axis.x + v * axes.y_axis.x + forward.x) * self.scale,
+            y: (u * axes.x_axis.y + v * axes.y_axis.y + forward.y) * self.scale,
+            z: (u * axes.x_axis.z + v * axes.y_axis.z + forward.z) * self.scale,
+        }
+    }
+
+    /// The column and row, in its pixel, of the cell of a sample.
+    fn cell_of(&self, place: Place, lane: usize) -> [u32; 2] {
+        let Some(side) = self.strata else {
+            return [place.cell_col, place.cell_row];
+        };
+        let stratum = [
+            2 * place.cell_col + (lane as u32 & 1),
+            2 * place.cell_row + (lane as u32 >> 1 & 1),
+        ];
+        // Both samples of a stratum have numbers of their own, in any division of the pixel.
+        let pixel = hash(
+            u64::from(place.col) << 32 | u64::from(place.row),
+            u64::from(side),
+        );
+        let name = u64::from(stratum[0]) << 32 | u64::from(stratum[1]) << 1;
+        let [x, y, _] = spread(hash(pixel, name | lane as u64 >> 2));
+        let size = f64::from(FINE) / f64::from(side);
+        let cell = |stratum: u32, offset: f64| {
+            let place = (f64::from(stratum) + 0.5 + 0.5 * offset) * size;
+            (place as u32).min(FINE - 1)
+        };
+        [cell(stratum[0], x), cell(stratum[1], y)]
+    }
+
+    /// The ray of one of the eight samples.
     pub(super) fn ray(&self, place: Place, lane: usize) -> Ray {
         let cell =
             |pixel: u32, cell: u32| u64::from(pixel) * u64::from(self.side) + u64::from(cell);
+        let [cell_col, cell_row] = self.cell_of(place, lane);
         let center = self.view.cell_center(
-            cell(place.col + lane as u32, place.cell_col),
-            cell(place.row, place.cell_row),
+            cell(place.col_of(lane), cell_col),
+            cell(place.row, cell_row),
             self.side,
         );
         self.view.ray(center)

@@ -15,11 +15,11 @@ pub(super) struct Sample<S: Simd, const CHANNELS: usize> {
 }
 
 impl<S: Simd, const CHANNELS: usize> Sample<S, CHANNELS> {
-    /// Stores the only sample that is taken.
+    /// Stores the only sample that is taken; light below `nothing` counts as none.
     #[inline(always)]
-    pub(super) fn store(&self, simd: S, pixels: &mut RowLight) {
+    pub(super) fn store(&self, simd: S, nothing: f64, pixels: &mut RowLight) {
         for channel in 0..CHANNELS {
-            pixels.channels[channel] = self.light[channel].into();
+            pixels.channels[channel] = without(self.light[channel], nothing).into();
         }
         let (one, zero) = (f64x8::splat(simd, 1.0), f64x8::splat(simd, 0.0));
         let covered = mask64x8::from_bitmask(simd, self.covered);
@@ -62,9 +62,15 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
     }
 
     /// The means, and their errors: the spread of the samples over twice the samples per side. Alpha is one more
-    /// channel, times what an error of it counts as.
+    /// channel, times what an error of it counts as. Numbers below `nothing` count as 0.
     #[inline(always)]
-    pub(super) fn store(self, simd: S, side: u32, of_alpha: f64, pixels: &mut RowLight) {
+    pub(super) fn store(
+        self,
+        simd: S,
+        side: u32,
+        (of_alpha, nothing): (f64, f64),
+        pixels: &mut RowLight,
+    ) {
         let count = (u64::from(side) * u64::from(side)) as f64;
         let zero = f64x8::splat(simd, 0.0);
         let mut spread = zero;
@@ -79,9 +85,16 @@ impl<S: Simd, const CHANNELS: usize> Sums<S, CHANNELS> {
             // Equal samples are their mean, which rounding would move.
             let mean = self.sum[channel] * (1.0 / count);
             let mean = range.simd_eq(zero).select(self.low[channel], mean);
-            pixels.channels[channel] = mean.into();
+            pixels.channels[channel] = without(mean, nothing).into();
         }
         pixels.alpha = (self.covered / count).into();
-        pixels.errors = (spread / (2.0 * f64::from(side))).into();
+        pixels.errors = without(spread / (2.0 * f64::from(side)), nothing).into();
     }
+}
+
+/// Numbers that are at least 0, those below `nothing` as 0.
+#[inline(always)]
+fn without<S: Simd>(number: f64x8<S>, nothing: f64) -> f64x8<S> {
+    let zero = f64x8::splat(number.simd(), 0.0);
+    number.simd_lt(nothing).select(zero, number)
 }

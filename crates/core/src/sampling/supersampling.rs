@@ -12,11 +12,11 @@ use super::light::{Light, Looks, Shading, splat};
 use super::rays::{Place, Rays};
 use super::shadow::{Scale, Shadows};
 use super::sums::{Sample, Sums};
-use super::tile_balls::{TileBall, TileBalls};
+use super::tile_balls::TileBalls;
 use super::trace::{RayRow, Tracer};
 use crate::model::camera::Projection;
 use crate::model::color::Color;
-use crate::model::light_unit::LightUnit;
+use crate::model::light_unit::{LightUnit, NOTHING};
 use crate::model::roughness::PixelKey;
 use crate::model::view::View;
 use crate::model::world::World;
@@ -32,7 +32,7 @@ use crate::search::shadow_cells::ShadowCells;
 use crate::search::view_index::ViewIndex;
 
 /// Rows of a tile.
-const ROWS: usize = Tile::SIDE as usize;
+pub(super) const ROWS: usize = Tile::SIDE as usize;
 
 /// The mean over the midpoints of a regular N × N division of every pixel.
 ///
@@ -46,19 +46,21 @@ const ROWS: usize = Tile::SIDE as usize;
 pub(crate) struct Supersampling<'scene> {
     index: ViewIndex<'scene>,
     samples: NonZeroU32,
-    channels: Channels,
+    pub(super) channels: Channels,
     alpha: bool,
     /// The light that an error of alpha counts as; 0 if nobody asks for alpha.
     of_alpha: f64,
-    rays: Rays,
-    shading: Shading<'scene>,
+    /// Light below which there is none: numbers that are so small would be rounded otherwise in other units.
+    nothing: f64,
+    pub(super) rays: Rays,
+    pub(super) shading: Shading<'scene>,
     view: View,
     /// Tells what the samples see, of which there is one a pixel.
     centers: Option<Centers>,
     /// True where nobody asks for light.
     is_dark: bool,
     /// The instructions that the processor has.
-    level: Level,
+    pub(super) level: Level,
 }
 
 impl<'scene> Supersampling<'scene> {
@@ -71,15 +73,14 @@ impl<'scene> Supersampling<'scene> {
         samples: NonZeroU32,
         alpha: bool,
     ) -> Self {
+        let LightUnit { unit, .. } = LightUnit::new(world, index.visibility.lights());
         Self {
             index: index.clone(),
             samples,
             channels: Channels::of(world, alpha),
             alpha,
-            of_alpha: match alpha {
-                true => LightUnit::new(world, index.visibility.lights()).unit,
-                false => 0.0,
-            },
+            of_alpha: if alpha { unit } else { 0.0 },
+            nothing: NOTHING * unit,
             rays: Rays::new(view, samples.get()),
             shading: Shading::new(world, view, index),
             view: *view,
@@ -140,7 +141,7 @@ impl<'scene> Supersampling<'scene> {
     }
 
     /// The light of rays that meet nothing.
-    fn background(&self) -> Color {
+    pub(super) fn background(&self) -> Color {
         if self.alpha {
             Color::ZERO
         } else {
@@ -215,14 +216,9 @@ impl<'scene> Supersampling<'scene> {
             cells: shadow_cells,
         }: &mut Scratch,
     ) -> Option<u64> {
-        let bundle = self.rays.bundle(tile);
-        let mut cells = self.rays.cells_on_unit();
-        if self.rays.projection() == Projection::Parallel {
-            cells *= libm::scalbn(1.0, self.index.length_exponent());
-        }
-        balls.gather(simd, cells, &bundle, self.index.balls(tile));
-        let first = balls.list.first()?;
-        let mut sampler = self.sampler(tile, balls, first, (shadow_cells, geometry));
+        self.gather(simd, &self.rays, tile, balls);
+        let memory = (shadow_cells, geometry);
+        let mut sampler = self.sampler(&self.rays, tile, balls, memory)?;
         let nothing = Sample {
             light: splat(simd, self.background()),
             covered: 0,
@@ -241,6 +237,7 @@ impl<'scene> Supersampling<'scene> {
                     row: tile.row,
                     cell_col,
                     cell_row,
+                    is_scattered: false,
                 };
                 self.sample_cell(simd, place, &nothing, &mut sampler, &mut samples);
                 if let Some(sums) = &mut sums {
@@ -253,25 +250,36 @@ impl<'scene> Supersampling<'scene> {
         for row in 0..height {
             let pixels = light.row_mut(row as u32);
             match &sums {
-                Some(sums) => sums[row].store(simd, side, self.of_alpha, pixels),
-                None => samples[row].store(simd, pixels),
+                Some(sums) => sums[row].store(simd, side, (self.of_alpha, self.nothing), pixels),
+                None => samples[row].store(simd, self.nothing, pixels),
             }
         }
         Some(sampler.tracer.tests)
     }
 
-    /// Prepares the search among the balls of a tile, of which `first` is one.
-    fn sampler<'tile>(
+    /// Finds the balls that rays of a tile may meet.
+    #[inline(always)]
+    pub(super) fn gather<S: Simd>(&self, simd: S, rays: &Rays, tile: Tile, balls: &mut TileBalls) {
+        let mut cells = rays.cells_on_unit();
+        if rays.projection() == Projection::Parallel {
+            cells *= libm::scalbn(1.0, self.index.length_exponent());
+        }
+        balls.gather(simd, cells, &rays.bundle(tile), self.index.balls(tile));
+    }
+
+    /// Prepares the search among the balls of a tile, if there is any.
+    pub(super) fn sampler<'tile>(
         &'tile self,
+        rays: &'tile Rays,
         tile: Tile,
         balls: &'tile TileBalls,
-        first: &'tile TileBall,
         (cells, geometry): (&'tile mut ShadowCells, &'tile mut TileGeometry),
-    ) -> Sampler<'tile> {
-        Sampler {
+    ) -> Option<Sampler<'tile>> {
+        let first = balls.list.first()?;
+        Some(Sampler {
             tracer: Tracer {
                 index: &self.index,
-                rays: &self.rays,
+                rays,
                 balls,
                 tile,
                 tests: 0,
@@ -283,13 +291,13 @@ impl<'scene> Supersampling<'scene> {
                 let length = libm::scalbn(1.0, self.index.length_exponent());
                 let size = Scale {
                     length,
-                    tile_side: self.rays.tile_side(),
-                    projection: self.rays.projection(),
+                    tile_side: rays.tile_side(),
+                    projection: rays.projection(),
                 };
                 let viewpoint = self.view.camera.position;
                 Shadows::new(&self.index.visibility, viewpoint, size, cells)
             }),
-        }
+        })
     }
 
     /// Takes a sample of each pixel of a tile, `nothing` where no sphere is seen.
@@ -414,20 +422,20 @@ impl<'scene> Supersampling<'scene> {
 /// Memory to work in, for one world.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    balls: TileBalls,
+    pub(super) balls: TileBalls,
     light: TileLight,
-    geometry: TileGeometry,
-    cells: ShadowCells,
+    pub(super) geometry: TileGeometry,
+    pub(super) cells: ShadowCells,
 }
 
 /// The search for what the rays of a tile see, and for its light.
-struct Sampler<'tile> {
-    tracer: Tracer<'tile>,
-    groups: Groups<'tile>,
-    looks: Looks<'tile>,
+pub(super) struct Sampler<'tile> {
+    pub(super) tracer: Tracer<'tile>,
+    pub(super) groups: Groups<'tile>,
+    pub(super) looks: Looks<'tile>,
     /// The geometry that is seen, if somebody asks.
     geometry: &'tile mut TileGeometry,
-    shadows: Option<Shadows<'tile>>,
+    pub(super) shadows: Option<Shadows<'tile>>,
 }
 
 #[cfg(test)]

@@ -191,7 +191,7 @@ impl<'tile> Tracer<'tile> {
     #[inline(never)]
     fn settle(&self, place: Place, open: u64, places: &mut [f64; LANES]) {
         for lane in set_bits(open) {
-            let lane_of_pixel = lane.min(self.tile.width as usize - 1);
+            let lane_of_pixel = lane.min(self.rays.lanes(self.tile.width) - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
             let nearest = self.index.nearest(self.tile, &ray);
             let place = nearest.and_then(|(index, _)| {
@@ -310,7 +310,7 @@ impl<'tile> Tracer<'tile> {
             let Some(group) = groups.as_slice().iter().find(|group| sees(group)) else {
                 continue;
             };
-            let lane_of_pixel = lane.min(self.tile.width as usize - 1);
+            let lane_of_pixel = lane.min(self.rays.lanes(self.tile.width) - 1);
             let ray = self.rays.ray(place, lane_of_pixel);
             let Some(hit) = spheres[group.ball.index()].hit_from_viewpoint(&ray) else {
                 continue;

@@ -10,7 +10,10 @@ use crate::picture::pixel::{Evidence, Pixel, Status};
 
 /// The spheres that a tile may see of which more have few samples: where these nearly coincide, each of them is held
 /// against all in more than doubles, and against all their shadows.
-const MOST_OF_SAMPLES: usize = 256;
+pub(super) const MOST_OF_SAMPLES: usize = 256;
+
+/// The units in which a ray is held against a sphere in more than doubles.
+pub(super) const OF_SPHERE: u64 = 8;
 
 /// The largest distance of spheres, in radii, for rays to be decided without integers: the square of this is what
 /// numbers of twice the precision may lose and still have all places of a double.
@@ -27,12 +30,7 @@ impl Exact<'_> {
         range: [Color; 2],
         (crowds, most_occluders): (&mut CrowdWork, usize),
     ) -> Pixel {
-        /// The units in which a ray is held against a sphere in more than doubles.
-        const OF_SPHERE: u64 = 8;
-        let is_far = |&sphere: &usize| {
-            let (center, radius) = self.groups[0].scene.center(sphere);
-            center.length() > FAR * radius
-        };
+        let is_far = |&sphere: &usize| self.is_far(sphere);
         let is_few = candidates.len() > MOST_OF_SAMPLES || candidates.iter().any(is_far);
         let rays = if is_few { FEW_SAMPLES } else { SAMPLES };
         let rays = u64::from(rays.get().pow(2));
@@ -57,6 +55,12 @@ impl Exact<'_> {
             Status::OutOfBudget
         };
         pixel
+    }
+
+    /// Returns whether a sphere is so far that each ray that may meet it costs thousands of others.
+    pub(super) fn is_far(&self, sphere: usize) -> bool {
+        let (center, radius) = self.groups[0].scene.center(sphere);
+        center.length() > FAR * radius
     }
 
     /// The largest distance of a pixel from any mixture of light in a range.

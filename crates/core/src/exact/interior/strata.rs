@@ -7,27 +7,18 @@ use super::parts::Average;
 use crate::exact::points::Points;
 use crate::model::color::Color;
 use crate::model::roughness::noise::{NoiseCells, hash, spread};
+use crate::numeric::bernstein::error_of_mean;
 use crate::numeric::lanes::f64x8;
 use crate::numeric::vectors::Vectors;
-
-/// ln(3/δ), where δ = 10⁻⁹ is the probability with which a claim may be too small.
-const CONFIDENCE: f64 = 21.822;
 
 impl<S: Simd> Filled<'_, S> {
     /// The average over one of the cells, by two random samples in each of `side` × `side` strata, a multiple
     /// of 2.
     ///
     /// # Accuracy
-    /// An estimate that holds with a probability: the samples are independent, and light lies between those of
-    /// the dark and of all lights at their brightest, R apart. With V the sum of the variances in the strata,
-    /// of which half the squared difference of both samples is an estimate without bias, the mean of N
-    /// samples is off by more than √(2 V L) / N + 3 R L / N with a probability of at most 3 exp(−L). The
-    /// second part counts what samples missed altogether, such as tops of highlights. Random places have
-    /// nothing in common with a lattice of bumps; they depend on the cell's own place alone.
-    ///
-    /// # Source
-    /// Audibert, Munos, Szepesvári, Exploration–exploitation tradeoff using variance estimates in multi-armed
-    /// bandits, Theoretical Computer Science 410, 2009, theorem 1.
+    /// An estimate that holds with a probability, as [`error_of_mean`] tells: the samples are independent, and light
+    /// lies between those of the dark and of all lights at their brightest. Random places have nothing in common
+    /// with a lattice of bumps; they depend on the cell's own place alone.
     #[inline(never)]
     pub(crate) fn by_strata(
         &self,
@@ -94,10 +85,7 @@ impl<S: Simd> Filled<'_, S> {
                 }
                 let count = 2.0 * f64::from(side) * f64::from(side);
                 let range = self.range_of_light();
-                // Both samples of a stratum have the variance.
-                let variance = squares.max_element();
-                let error =
-                    ((2.0 * CONFIDENCE * variance).sqrt() + 3.0 * CONFIDENCE * range) / count;
+                let error = error_of_mean(squares.max_element(), range, count);
                 Average {
                     value: value / count,
                     error: error.min(range),

@@ -60,6 +60,7 @@ fn rows_without_a_ball_do_not_see_it() {
                 row: tile.row + below(tile.height),
                 cell_col: below(side),
                 cell_row: below(side),
+                is_scattered: false,
             };
             rays.ray(place, below(8) as usize)
         };
@@ -94,6 +95,7 @@ fn rows_without_a_ball_do_not_see_it() {
                             row: tile.row + row,
                             cell_col,
                             cell_row,
+                            is_scattered: false,
                         };
                         assert!(sphere.hit(&rays.ray(place, lane)).is_none());
                     }

@@ -1,0 +1,114 @@
+//! Pixels that are over their tolerance, by as many random samples as it takes.
+
+use super::Exact;
+use super::range::{MOST_OF_SAMPLES, OF_SPHERE};
+use crate::exact::crowd::CrowdWork;
+use crate::model::color::Color;
+use crate::model::roughness::PixelKey;
+use crate::numeric::bernstein::{error_of_mean, least_error};
+use crate::picture::pixel::{Evidence, Pixel, Status};
+use crate::sampling::Pairs;
+
+/// Strata on a side of a pixel at the first look, and at most.
+const FIRST: u32 = 32;
+const MOST: u32 = 512;
+
+/// The number of samples in so many strata on a side.
+fn samples(side: u32) -> u64 {
+    2 * u64::from(side) * u64::from(side)
+}
+
+/// What tells whether random samples may meet a tolerance.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scattering {
+    /// How far light may differ, in any channel.
+    range: f64,
+    /// The units that a sample takes.
+    of_sample: u64,
+}
+
+impl Exact<'_> {
+    /// Tells how samples are scattered over pixels of a tile that may see some spheres, if they may meet the tolerance.
+    pub(super) fn scattering(
+        &self,
+        candidates: &[usize],
+        [least, most]: [Color; 2],
+        most_occluders: usize,
+    ) -> Option<Scattering> {
+        let range = (most - least).max_element();
+        let range = if self.alpha {
+            range.max(self.unit)
+        } else {
+            range
+        };
+        // At one moment of many a look must do.
+        let is_of_moment = self
+            .groups
+            .iter()
+            .any(|group| group.allowance.is_of_moment());
+        let may_meet = least_error(range, samples(MOST) as f64) < self.tolerance;
+        let is_few = candidates.len() <= MOST_OF_SAMPLES
+            && !candidates.iter().any(|&sphere| self.is_far(sphere));
+        (may_meet && !is_of_moment && is_few).then_some(Scattering {
+            range,
+            of_sample: OF_SPHERE * candidates.len() as u64 + most_occluders as u64,
+        })
+    }
+
+    /// A pixel by random samples in more and more strata, until they meet the tolerance; none if they do not. Counts the
+    /// samples.
+    ///
+    /// # Accuracy
+    /// An estimate that holds with a probability: see [`error_of_mean`]. Samples see exactly, and nothing that they may
+    /// overlook is brighter or darker than what the tile may show.
+    pub(super) fn scattered(
+        &self,
+        key: PixelKey,
+        of: Scattering,
+        crowds: &mut CrowdWork,
+        count: &mut u64,
+    ) -> Option<Pixel> {
+        let mut side = FIRST;
+        while crowds.affords(samples(side) * of.of_sample) {
+            let pairs = self.samples.scattered(key, side);
+            *count += samples(side);
+            let error = self.error_of_pairs(&pairs, of.range);
+            if error <= self.tolerance {
+                return Some(Pixel {
+                    value: pairs.value,
+                    alpha: pairs.alpha,
+                    error,
+                    evidence: Evidence::Estimate,
+                    status: Status::Met,
+                });
+            }
+            if side == MOST || self.expected(error, side, of.range) > self.tolerance {
+                return None;
+            }
+            side *= 2;
+        }
+        None
+    }
+
+    /// The error that may be expected of the most strata, from that of so many on a side.
+    ///
+    /// An estimate, which only decides how much is tried: the variance in strata of the side s is between that of edges,
+    /// which falls with s, and that of smooth light, which falls with s².
+    fn expected(&self, error: f64, side: u32, range: f64) -> f64 {
+        const POWER: f64 = -0.9;
+        let [now, most] = [side, MOST].map(|side| samples(side) as f64);
+        let of_range = |count| least_error(range, count);
+        of_range(most) + (error - of_range(now)) * libm::pow(most / now, POWER)
+    }
+
+    /// The error of the means of pairs of samples.
+    fn error_of_pairs(&self, pairs: &Pairs, range: f64) -> f64 {
+        let count = pairs.count as f64;
+        let of_light = error_of_mean(pairs.squares.max_element(), range, count);
+        if self.alpha {
+            of_light.max(self.unit * error_of_mean(pairs.squares_of_alpha, 1.0, count))
+        } else {
+            of_light
+        }
+    }
+}
