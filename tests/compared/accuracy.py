@@ -56,7 +56,7 @@ def time_to(goal: float, settings: list[Measured], error: str) -> tuple[float, s
     if len(last) < EXTRAPOLATED_FROM:
         return None
     slope = -np.polyfit(times, errors, 1)[0]
-    missing = (errors[-1] - np.log(goal)) / slope
-    if slope <= 0 or missing > np.log(FARTHEST):
+    missing = errors[-1] - np.log(goal)
+    if slope <= 0 or missing > slope * np.log(FARTHEST):
         return None
-    return float(np.exp(times[-1] + missing)), "\\*"
+    return float(np.exp(times[-1] + missing / slope)), "\\*"
