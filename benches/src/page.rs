@@ -10,7 +10,7 @@ use std::process::Command;
 const END: &str = "<!-- end -->\n";
 
 /// The files and folders that marbles is built from.
-const SOURCES: [&str; 4] = ["crates", "Cargo.toml", "Cargo.lock", ".cargo"];
+const SOURCES: [&str; 3] = ["crates", "Cargo.toml", "Cargo.lock"];
 
 /// A page with measured parts.
 pub struct Page {

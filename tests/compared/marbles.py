@@ -30,7 +30,7 @@ class Marbles(Program):
 
     def __init__(self, path: str):
         self.path = str(Path(path).resolve())
-        self.version = run([self.path, "--version"], Path())[0].split()[1]
+        self.version = run([self.path, "--version"], Path()).printed.split()[1]
 
     def render(self, scene: Scene, method: Method, setting, folder: Path) -> Rendered:
         return self.with_errors(scene, setting, folder)[0]
@@ -39,11 +39,12 @@ class Marbles(Program):
         """A picture, and what marbles claims that its pixels are off by at most."""
         write(scene, folder / "scene.ron")
         command = [self.path, "render", "scene.ron", "-o", "marbles.npy", "--error-channel"]
-        printed, share = run([*command, "--threads=1", "--progress=json", setting], folder)
-        events = [json.loads(line) for line in printed.splitlines() if line.startswith("{")]
-        seconds = next(event["seconds"] for event in events if event["event"] == "frame")
+        process = run([*command, "--threads=1", "--progress=json", setting], folder)
+        events = [json.loads(line) for line in process.printed.splitlines() if line.startswith("{")]
+        reported = next(event["seconds"] for event in events if event["event"] == "frame")
         picture, errors = np.load(folder / "marbles.npy"), np.load(folder / "marbles_error.npy")
-        return Rendered(picture, share * seconds), errors
+        # With reading and writing, the process has no less than rendering.
+        return Rendered(picture, min(reported, process.processor)), errors
 
 
 def write(scene: Scene, path: Path) -> None:

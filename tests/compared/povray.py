@@ -33,7 +33,7 @@ class PovRay(Program):
     methods = [FIXED, ADAPTIVE]
 
     def __init__(self):
-        self.version = re.search(r"POV-Ray ([0-9.]*[0-9])", run(["povray", "--version"], Path())[0])[1]
+        self.version = re.search(r"POV-Ray ([0-9.]*[0-9])", run(["povray", "--version"], Path()).printed)[1]
 
     @staticmethod
     def find() -> "PovRay | None":
@@ -49,8 +49,8 @@ class PovRay(Program):
         write(scene, window, folder / "scene.pov")
         side = grid * window[2]
         command = ["povray", "+Iscene.pov", "+Opovray.ppm", f"+W{side}", f"+H{side}", "+FP16", "File_Gamma=1.0"]
-        printed, _ = run([*command, "+WT1", "-D", "-V", *options], folder)
-        seconds = min(map(float, TIME.search(printed).groups()))
+        process = run([*command, "+WT1", "-D", "-V", *options], folder)
+        seconds = min(map(float, TIME.search(process.printed).groups()))
         return Rendered(averaged(read_ppm(folder / "povray.ppm"), grid), seconds)
 
 

@@ -51,19 +51,25 @@ def grids(sides: list[int]) -> dict:
     return {"settings": sides, "samples": [side**2 for side in sides], "labels": [f"{side} × {side}" for side in sides]}
 
 
-# Shorter processes are mostly start and end, and seldom interrupted.
-SHORT = 0.1
+@dataclass(frozen=True)
+class Process:
+    """A process that has ended."""
+
+    printed: str
+    wall: float
+    processor: float
+    """The seconds in which it had a processor."""
 
 
-def run(command: list[str], folder: Path) -> tuple[str, float]:
-    """Runs a command in a folder; returns all that it printed, and the share of its time in which it had a processor."""
+def run(command: list[str], folder: Path) -> Process:
+    """Runs a command in a folder."""
     start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
     wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode != 0:
         raise RuntimeError(f"{' '.join(command)}: {done.stdout}{done.stderr}")
     processor = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return done.stdout + done.stderr, min(processor / wall, 1) if wall > SHORT else 1
+    return Process(done.stdout + done.stderr, wall, processor)
 
 
 class Clock:
