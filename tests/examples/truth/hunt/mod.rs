@@ -10,6 +10,8 @@ mod families;
 mod laws;
 mod limits;
 mod options;
+#[path = "../../../../benches/src/page.rs"]
+#[expect(unreachable_pub, reason = "it belongs to the benchmarks' library")]
 mod page;
 mod parallel;
 mod picture;
@@ -38,6 +40,7 @@ use rayon::prelude::*;
 use self::draft::Draft;
 use self::families::{FAMILIES, Family, Maker};
 use self::options::Options;
+use self::page::Page;
 use self::reduce::Fault;
 use self::report::Report;
 use self::subject::Subject;
@@ -144,6 +147,10 @@ struct Scene {
 pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let mut report = Report::new(&options.tolerances);
+    let mut page = options
+        .page
+        .as_ref()
+        .map(|path| Page::open(path, &[&options.part()]));
     let mut examples = String::new();
     for (family, each) in families(&options)? {
         let start = Instant::now();
@@ -185,8 +192,11 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
         None => String::new(),
     };
     let text = report.text();
-    if let Some(page) = &options.page {
-        page::write(Path::new(page), &options, &text)?;
+    if let Some(page) = &mut page {
+        page.write(
+            &options.part(),
+            &format!("`{}`\n\n{text}", options.command()),
+        );
     }
     if examples.is_empty() && exceeded.is_empty() {
         Ok(text)

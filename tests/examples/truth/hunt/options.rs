@@ -58,8 +58,32 @@ impl Options {
         Ok(options)
     }
 
+    /// The part of the page that these options write: each list of tolerances has one of its own.
+    pub(super) fn part(&self) -> String {
+        match self.unusual_tolerances() {
+            Some(tolerances) => format!("hunt {tolerances}"),
+            None => "hunt".to_owned(),
+        }
+    }
+
+    /// The command that finds the same.
+    pub(super) fn command(&self) -> String {
+        let Self { scenes, seed, .. } = self;
+        let mut command = format!("cargo truth hunt --scenes {scenes} --seed {seed}");
+        if let Some(tolerances) = self.unusual_tolerances() {
+            command += &format!(" --tolerances {tolerances}");
+        }
+        if !self.family.is_empty() {
+            command += &format!(" --family '{}'", self.family);
+        }
+        if let Some(rows) = self.rows {
+            command += &format!(" --rows {rows}");
+        }
+        command
+    }
+
     /// The tolerances as they were asked for, if they are not the usual ones.
-    pub(super) fn unusual_tolerances(&self) -> Option<String> {
+    fn unusual_tolerances(&self) -> Option<String> {
         let names: Vec<_> = self.tolerances.iter().map(|it| format!("{it:e}")).collect();
         (self.tolerances != TOLERANCES).then(|| names.join(","))
     }
