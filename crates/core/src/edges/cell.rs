@@ -83,8 +83,8 @@ impl Ball {
         }
     }
 
-    /// The length that rounding moves the outline by which parallel rays see, in units of the roundoff.
-    pub(crate) fn outline_scale(&self, cell: &Cell) -> f64 {
+    /// The length that rounding moves the contour by which parallel rays see, in units of the roundoff.
+    pub(crate) fn contour_scale(&self, cell: &Cell) -> f64 {
         let aside = cell.extent();
         if self.is_apart() {
             return self.center.length() + self.radius;

@@ -218,7 +218,7 @@ impl Budget {
 
     /// Counts the tests that told what a part sees, and whether its quarters may see as much.
     ///
-    /// Of spheres side by side a quarter sees fewer. Of those whose outlines nearly coincide it sees as many, and half of
+    /// Of spheres side by side a quarter sees fewer. Of those whose contours nearly coincide it sees as many, and half of
     /// the quarters do: these are what more work is in vain for, and they count more. An estimate, which a crowd that
     /// thins out late fools: then a pixel is given up that might be known.
     pub(crate) fn count_looking(&mut self, tests: u64, is_in_vain: bool) {

@@ -16,7 +16,7 @@ pub struct Material {
     pub highlight: Option<Highlight>,
     /// The bumps, if any.
     pub roughness: Option<Roughness>,
-    /// A line of one color along the outline, if any.
+    /// The line of one color along the contour, if any.
     pub outline: Option<Outline>,
 }
 

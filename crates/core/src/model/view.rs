@@ -66,8 +66,8 @@ impl View {
         )
     }
 
-    /// The part of the view that the strokes of spheres depend on.
-    pub(crate) fn of_strokes(&self) -> OutlineView {
+    /// The part of the view that the outlines of spheres depend on.
+    pub(crate) fn outline_view(&self) -> OutlineView {
         OutlineView {
             pixel: 1.0 / self.pixels_per_unit(),
             projection: self.lens.projection(),

@@ -103,8 +103,8 @@ impl World {
         let mut materials = Arc::clone(&self.materials);
         if part != LightPart::Ambient && self.has_outlines() {
             for material in Arc::make_mut(&mut materials) {
-                if let Some(stroke) = &mut material.outline {
-                    stroke.color = Color::ZERO;
+                if let Some(outline) = &mut material.outline {
+                    outline.color = Color::ZERO;
                 }
             }
         }
@@ -251,15 +251,15 @@ impl World {
             .any(|material| material.roughness.is_some())
     }
 
-    /// True where some sphere has a line along its outline.
+    /// True if some sphere has a line along its contour.
     pub fn has_outlines(&self) -> bool {
         self.used_materials().any(|one| one.outline.is_some())
     }
 
-    /// The light that strokes send, of each material that has one.
-    pub(crate) fn stroke_colors(&self) -> impl Iterator<Item = Color> {
-        let strokes = self.used_materials().filter_map(|one| one.outline);
-        strokes.map(|stroke| stroke.color)
+    /// The light that outlines send, of each material that has one.
+    pub(crate) fn outline_colors(&self) -> impl Iterator<Item = Color> {
+        let outlines = self.used_materials().filter_map(|one| one.outline);
+        outlines.map(|outline| outline.color)
     }
 
     /// The materials that some sphere has.
@@ -294,9 +294,9 @@ impl World {
             dark = dark.min(albedo * self.ambient);
             bright = bright.max(albedo * (self.ambient + lights) + lights * strength);
         }
-        for stroke in self.stroke_colors() {
-            dark = dark.min(stroke);
-            bright = bright.max(stroke);
+        for outline in self.outline_colors() {
+            dark = dark.min(outline);
+            bright = bright.max(outline);
         }
         [dark, bright]
     }
@@ -324,7 +324,7 @@ impl World {
             && !self.has_colored_spheres
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && self.used_materials().all(|one| is_grey(one.albedo))
-            && self.stroke_colors().all(is_grey)
+            && self.outline_colors().all(is_grey)
             && self.painted.iter().all(|some| some.is_grey)
     }
 }

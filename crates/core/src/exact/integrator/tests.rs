@@ -140,7 +140,7 @@ fn nine_lights_add_up() {
     let found = pixels(&all, Level::new(), 1e-3, Tile::SIDE);
     let mut sum = vec![Color::ZERO; found.len()];
     let mut errors: Vec<f64> = found.iter().map(|pixel| pixel.error).collect();
-    // Strokes are in the part without lights.
+    // Outlines are in the part without lights.
     for part in all.light_parts() {
         let alone = pixels(&all.under(part), Level::new(), 1e-3, Tile::SIDE);
         for ((sum, error), pixel) in sum.iter_mut().zip(&mut errors).zip(alone) {

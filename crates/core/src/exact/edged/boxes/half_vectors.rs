@@ -37,7 +37,7 @@ pub(super) struct HalfCosines<S: Simd> {
     pub(super) second: f64x8<S>,
 }
 
-/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
+/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches contours alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
 /// The factor on |h'|² for what it adds to |h''|, where |l + v| changes with it.
