@@ -108,7 +108,7 @@ fn balls_with_one_contour_are_one() {
 fn contours_that_turn_within_pixels_are_known_well() {
     const SIDE: i32 = 24;
     const STEP: f64 = 3.0137;
-    /// Of the claims; without cuts where contours turn it is nearly twice that at 1e-4, seven times at 1e-5.
+    /// The worst error, in claims; without cuts where contours turn it is nearly twice that at 1e-4, seven times at 1e-5.
     const WORST: f64 = 0.1;
     let mut balls = Vec::new();
     for place in 0..SIDE * SIDE {

@@ -27,7 +27,7 @@ pub(crate) struct Ball {
     /// K for an eye. For parallel rays the center's distance from the plane in which they begin, where the sphere lies
     /// before it; not positive where the plane cuts it.
     ///
-    /// Of spheres that are apart the nearer has the smaller one, either way.
+    /// In both cases, if two spheres are apart, the nearer one has the smaller value.
     pub(crate) outside: f64,
     /// K = |center|² − radius², positive for an eye outside: rounded once, from the world's numbers.
     pub(crate) power: f64,

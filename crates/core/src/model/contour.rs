@@ -9,7 +9,22 @@ use super::view::View;
 ///
 /// Places are pixel coordinates as [`View::project`] has them: the picture's upper left corner is (0, 0), y grows
 /// downward.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::{DVec2, DVec3};
+/// use marbles_core::{Camera, Lens, Sphere, View};
+///
+/// // Parallel rays, 4 pixels in each unit of length.
+/// let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 32, 32);
+/// let contour = view.contour(&Sphere::new(DVec3::new(1.0, 0.0, 5.0), 2.0)?);
+/// assert_eq!(contour.center, Some(DVec2::new(20.0, 16.0)));
+/// assert_eq!(contour.depth, 5.0);
+/// assert_eq!(contour.ellipse.map(|ellipse| ellipse.semi_axes), Some([8.0, 8.0]));
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contour {
     /// The image of the sphere's center, which is not the middle of the contour; none if it is not in front of the
     /// viewpoint.
@@ -23,6 +38,20 @@ pub struct Contour {
 }
 
 /// An ellipse in a picture.
+///
+/// # Example
+/// ```
+/// use marbles_core::Ellipse;
+/// use marbles_core::glam::DVec2;
+///
+/// let ellipse = Ellipse {
+///     center: DVec2::new(3.0, 4.0),
+///     semi_axes: [2.0, 1.0],
+///     along: DVec2::Y,
+/// };
+/// assert_eq!(ellipse.bounds(), [DVec2::new(2.0, 2.0), DVec2::new(4.0, 6.0)]);
+/// assert_eq!(ellipse.angle_degrees(), 90.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// The middle.

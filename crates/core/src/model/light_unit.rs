@@ -19,7 +19,7 @@ pub(crate) struct LightUnit {
 }
 
 impl LightUnit {
-    /// Of a world under some lights.
+    /// The contrast and the unit of a world under some lights.
     pub(crate) fn new(world: &World, lights: &[Light]) -> Self {
         let lights = lights.iter().map(|light| light.intensity().max_element());
         let outlines = world.outline_colors().map(Color::max_element);

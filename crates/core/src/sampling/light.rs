@@ -36,7 +36,7 @@ pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     lights: Vec<WorldLight>,
     pub(super) viewpoint: DVec3,
-    /// Of the balls' unit of length, in those of the world.
+    /// The balls' unit of length, in those of the world.
     length: f64,
     pub(super) frame: i64,
     /// True if no surface is rough.

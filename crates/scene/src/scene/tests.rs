@@ -7,7 +7,9 @@ mod series;
 mod steps;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Grain, Highlight, Material, Outline, OutlineWidth, Roughness};
+use marbles_core::{
+    Angle, Camera, Channels, Grain, Highlight, Material, Outline, OutlineWidth, Roughness,
+};
 
 use super::*;
 

@@ -6,7 +6,7 @@ use super::*;
 use crate::edges::tests::{any_cell, ball, ball_in_front, cell_at, magnitude, ray, value, zeros};
 use crate::search::tests::Random;
 
-/// Of the ray from the ball's center, in radii.
+/// The distance of the ray from the ball's center, in radii.
 fn distance(ray: DVec3, ball: &Ball) -> f64 {
     ray.cross(ball.center).length() / ray.length() / ball.radius
 }

@@ -75,7 +75,7 @@ pub(super) const FARTHER: f64 = 1e-6;
 /// Returns whether an occluder keeps a light from a ball whose contour it has, seen along the light: its shadow
 /// ends where the ball's own dark side begins, which edges must not be left to tell.
 pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
-    /// Of the radius, more than rounding.
+    /// The difference, in radii, of lengths that count as equal: more than rounding.
     const ALIKE: f64 = 1e-12;
     let offset = center - ball.center;
     let ahead = offset.dot(toward);

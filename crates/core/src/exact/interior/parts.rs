@@ -56,9 +56,9 @@ struct Piece {
 /// that are alike in many parts could fool it; those of noise are not.
 #[derive(Clone, Copy, Debug, Default)]
 struct Claim {
-    /// Of parts that may be off by all light that there may be.
+    /// The claim of the parts that may be off by all light that there may be.
     unknown: f64,
-    /// Of the others, and the sum of squares.
+    /// The claim of the others, and the sum of the squares.
     known: f64,
     squares: f64,
 }

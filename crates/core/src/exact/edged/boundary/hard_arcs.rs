@@ -20,7 +20,7 @@ pub(super) fn roots_at_ends<S: Simd>(
     arc: &Arc,
     places: &Trace<S>,
 ) -> [bool; 2] {
-    /// Of the value in the middle; of a line that vanishes at the end it is 0.04.
+    /// The least value at an end, relative to that in the middle; for a line that vanishes at the end it is 0.04.
     const LEAST: f64 = 0.08;
     let (sphere, lit) = match curve.edge {
         Edge::Left | Edge::Right => (arc.inner, arc.lit[0]),

@@ -72,7 +72,7 @@ impl<S: Simd> Views<S> {
 }
 
 impl<S: Simd> HalfCosines<S> {
-    /// Of no highlight.
+    /// The cosines of no highlight.
     #[inline(always)]
     pub(super) fn nothing(simd: S) -> Self {
         let zero = f64x8::splat(simd, 0.0);
@@ -84,7 +84,7 @@ impl<S: Simd> HalfCosines<S> {
         }
     }
 
-    /// Of a light that surfaces face by `cosine`, where directions toward the eye count as still; `aside` leads from the
+    /// The cosines of a light that surfaces face by `cosine`, where directions toward the eye count as still; `aside` leads from the
     /// points to the middles of what is lit, in sides.
     #[inline(always)]
     pub(super) fn of_still_views(

@@ -13,7 +13,7 @@ use crate::model::camera::Projection;
 use crate::model::material::{Grain, Roughness};
 use crate::numeric::lanes::f64x8;
 
-/// Of the squares of distances on one side of a place.
+/// Rules for the squares of distances on one side of a place.
 #[test]
 fn rules_miss_no_more_of_jumps() {
     let mut worst = 0.0_f64;
