@@ -24,7 +24,7 @@ pub struct Hit {
     pub t: f64,
     /// Unit outward normal of the sphere.
     pub normal: DVec3,
-    /// True where the ray started inside the sphere or on its surface, and so meets its inner side.
+    /// True if the ray started inside the sphere or on its surface, and so meets its inner side.
     pub inner_side: bool,
 }
 

@@ -56,7 +56,7 @@ pub enum CameraError {
         /// The point that it was to look at.
         target: DVec3,
     },
-    /// The field of view, in degrees, is not between 0 and 180.
+    /// The field of view is not between 0 and 180 degrees: the angle from 0 to 360.
     #[error("expected a field of view between 0 and 180 degrees, found {0}")]
     FieldOfView(f64),
 }
@@ -254,7 +254,8 @@ impl Lens {
     pub fn from_field_of_view(field_of_view: Angle) -> Result<Self, CameraError> {
         let Angle { sin, cos, .. } = field_of_view;
         if !(sin > 0.0 && sin.is_finite() && cos.is_finite()) {
-            return Err(CameraError::FieldOfView(field_of_view.degrees()));
+            let degrees = field_of_view.degrees().rem_euclid(360.0);
+            return Err(CameraError::FieldOfView(degrees));
         }
         // Of both forms the one in which nothing cancels.
         let tangent_of_half = if cos > 0.0 {

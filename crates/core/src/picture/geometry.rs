@@ -137,7 +137,7 @@ impl Geometry {
         self.inside(self.blocks(row).flat_map(block))
     }
 
-    /// A component of a quantity in a row's pixels, from left to right; `None` where the quantity was not
+    /// A component of a quantity in a row's pixels, from left to right; `None` if the quantity was not
     /// wanted.
     ///
     /// # Panics
@@ -163,7 +163,7 @@ impl Geometry {
         is_wanted.then(|| self.inside(self.blocks(row).flat_map(block)))
     }
 
-    /// A component of an average in a row's pixels, from left to right; `None` where it was not wanted.
+    /// A component of an average in a row's pixels, from left to right; `None` if it was not wanted.
     ///
     /// # Panics
     /// Outside the picture, and for components that the average does not have.

@@ -55,7 +55,7 @@ impl Channels {
     }
 }
 
-/// A picture: linear light, premultiplied by coverage where it has an alpha channel, and for
+/// A picture: linear light, premultiplied by coverage if it has an alpha channel, and for
 /// every pixel the error of these numbers.
 ///
 /// Row 0 is the top row, column 0 the left one. Two pictures are equal if the values, errors, evidence and statuses of

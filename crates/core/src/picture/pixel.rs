@@ -155,7 +155,7 @@ pub enum Status {
 }
 
 impl Status {
-    /// True where a tolerance was asked for and not met.
+    /// Returns whether a tolerance was asked for and not met.
     pub fn is_over_tolerance(self) -> bool {
         match self {
             Self::NoTolerance | Self::Met => false,

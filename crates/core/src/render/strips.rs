@@ -75,7 +75,7 @@ pub trait Sink: Sync {
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>>;
 }
 
-/// A strip that is being rendered; dropped before its end where the rendering is cancelled.
+/// A strip that is being rendered; dropped before its end if the rendering is cancelled.
 ///
 /// # Example
 /// ```

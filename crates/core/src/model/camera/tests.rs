@@ -94,8 +94,8 @@ fn a_field_of_view_is_between_0_and_180_degrees() {
     for (degrees, found) in [
         (0.0, 0.0),
         (180.0, 180.0),
-        (200.0, -160.0),
-        (-40.0, -40.0),
+        (200.0, 200.0),
+        (-40.0, 320.0),
         (360.0, 0.0),
     ] {
         match Lens::from_field_of_view(Angle::from_degrees(degrees)) {
