@@ -15,7 +15,7 @@ const SIDE: u32 = 600;
 /// The width of a parallel lens through which the balls are about as large as before.
 const WIDTH: f64 = 350.0;
 /// Those of the strips of an EXR.
-const BANDS: u32 = 2;
+const ROWS: u32 = 16;
 
 /// Counts the pixels of the geometries that it gets.
 #[derive(Default)]
@@ -48,7 +48,7 @@ fn pixels(renderer: &Renderer<'_>, view: &View, geometry: Option<&GeometrySettin
     };
     let window = Window::whole(view);
     let counter = Counter::default();
-    let rendering = renderer.begin_with_geometry(view, window, &settings, BANDS, geometry);
+    let rendering = renderer.begin_with_geometry(view, window, &settings, ROWS, geometry);
     let helped = rendering.help(&counter, &|_| ControlFlow::Continue(()));
     helped.expect("nothing cancels it");
     counter.0.into_inner()

@@ -11,7 +11,7 @@ use std::{fs, process};
 
 use marbles_benches::page::Page;
 use marbles_benches::{Case, Folder, is_to_write, load, main as run, seconds, timed_table};
-use marbles_core::{Image, Method, Renderer, Settings, Sink, Strip, Window};
+use marbles_core::{Image, Method, Renderer, Rendering, Settings, Sink, Strip, Window};
 use marbles_scene::Scene;
 
 const FRAMES: u32 = 60;
@@ -89,7 +89,7 @@ fn render(scene: &Scene, side: u32) {
     for frame in 1..=FRAMES as i32 {
         let mut view = scene.view(frame).expect("the scene has this frame");
         (view.width, view.height) = (side, side);
-        let rendering = renderer.begin(&view, Window::whole(&view), &settings, 1);
+        let rendering = renderer.begin(&view, Window::whole(&view), &settings, Rendering::ROW_STEP);
         for work in rayon::broadcast(|_| rendering.help(&Nobody, &|_| ControlFlow::Continue(()))) {
             work.expect("nobody stops it");
         }

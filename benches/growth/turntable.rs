@@ -16,7 +16,7 @@ const ROUNDS: usize = 3;
 /// The times of a run, in seconds.
 struct Run {
     whole: f64,
-    /// Of each frame, the rendering alone.
+    /// The time of each frame, the rendering alone.
     frames: Vec<f64>,
 }
 

@@ -58,10 +58,10 @@ fn no_pixel_of_many_lights_is_over_that_claims_to_be_within() {
     }
 }
 
-/// Balls exactly behind another, and larger by as much as they are farther, have its outline: nothing of
+/// Balls exactly behind another, and larger by as much as they are farther, have its contour: nothing of
 /// them is seen.
 #[test]
-fn balls_with_one_outline_are_one() {
+fn balls_with_one_contour_are_one() {
     let toward = [DVec3::new(-1.0, 0.5, -1.0)];
     let (center, radius) = (DVec3::new(3.1, -2.3, 60.7), 7.3);
     let view = looking_forward(24, 24, 60.0);
@@ -102,13 +102,13 @@ fn balls_with_one_outline_are_one() {
     }
 }
 
-/// Balls about as large as pixels, at many places in these: light summed up to an outline has a singularity where that
+/// Balls about as large as pixels, at many places in these: light summed up to a contour has a singularity where that
 /// turns, which rules along all of it overlook while they agree.
 #[test]
-fn outlines_that_turn_within_pixels_are_known_well() {
+fn contours_that_turn_within_pixels_are_known_well() {
     const SIDE: i32 = 24;
     const STEP: f64 = 3.0137;
-    /// Of the claims; without cuts where outlines turn it is nearly twice that at 1e-4, seven times at 1e-5.
+    /// The worst error, in claims; without cuts where contours turn it is nearly twice that at 1e-4, seven times at 1e-5.
     const WORST: f64 = 0.1;
     let mut balls = Vec::new();
     for place in 0..SIDE * SIDE {
@@ -227,7 +227,7 @@ fn bounds_hold_among_other_balls() {
     }
 }
 
-/// Bumps from far larger to a little smaller than pixels, with outlines, seams, shadows and highlights on them, at loose
+/// Bumps from far larger to a little smaller than pixels, with contours, seams, shadows and highlights on them, at loose
 /// tolerances, against a grid of many samples.
 #[test]
 fn bumps_are_within_loose_claims() {

@@ -19,12 +19,12 @@ fn crossings(direction: DVec3, center: DVec3, radius: f64) -> Vec<f64> {
     vec![(b - discriminant.sqrt()) / a, (b + discriminant.sqrt()) / a]
 }
 
-/// The outline of a sphere on a flat retina: an ellipse whose long axis points at the middle.
+/// The contour of a sphere on a flat retina: an ellipse whose long axis points at the middle.
 ///
 /// From the tangent cone: with the center at (a, z) in the plane through the axis of view, the
 /// cone meets the retina between r² and a² + z² − r² as below.
 #[test]
-fn outline_of_a_sphere_off_the_axis_is_the_known_ellipse() {
+fn contour_of_a_sphere_off_the_axis_is_the_known_ellipse() {
     let distance = 100.0;
     let (center, radius) = (DVec3::new(1.2, -0.9, 4.0), 1.3);
     let view = looking_forward(240, 200, distance);
@@ -116,7 +116,7 @@ fn nearer_sphere_eclipses_the_farther() {
     for balls in [[near, far], [far, near]] {
         assert_eq!(picture(&glowing(&balls), &view, 2, false), alone);
     }
-    // A larger one shows around it: red inside the near outline, blue between the two.
+    // A larger one shows around it: red inside the near contour, blue between the two.
     let image = picture(&glowing(&[larger, near]), &view, 1, false);
     let mut seen = [0; 3];
     for (col, row) in pixels(&image) {

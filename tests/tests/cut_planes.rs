@@ -30,7 +30,7 @@ fn scene(width: f64, light: &str, shadows: bool, spheres: &[([f64; 3], f64)]) ->
 fn scenes() -> Vec<Scene> {
     let crossing = [([-12.6, 9.0, -0.7], 15.8), ([5.0, -3.7, 8.4], 8.4)];
     let ahead = [([-5.8, 5.6, 2.6], 15.8), ([-13.0, 8.0, 8.0], 14.4)];
-    // The floor's outline lies 4e-8 of a pixel above the curve.
+    // The floor's contour lies 4e-8 of a pixel above the curve.
     let floor = [([0.0, -1.7e7 - 9.0, 1.5], 1.7e7), ([3.0, -6.0, 6.0], 3.0)];
     let mut scenes = Vec::new();
     for light in [SUN, LAMP] {
@@ -50,7 +50,7 @@ fn pixels_along_a_cut_meet_their_tolerance() {
         let reference = Reference::new(scene.world(), &view);
         for tolerance in [1e-2, 1e-5] {
             let image = exact_picture(scene.world(), &view, tolerance, false);
-            // The outline of another ball crosses the cut in one.
+            // The contour of another ball crosses the cut in one.
             let most = if tolerance < 1e-4 { 1 } else { 0 };
             let over = image.summary().over_tolerance;
             assert!(over <= most, "{number} {tolerance:e}: {over}");

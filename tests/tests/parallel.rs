@@ -143,12 +143,12 @@ fn zoom_and_shift_are_those_of_other_lenses() {
             assert!((a - b).abs() <= claimed + 1e-12, "{col} {row}: {a} {b}");
         }
     }
-    let outline = wide.contour(&world.spheres()[0]);
-    let ellipse = outline.ellipse.unwrap();
+    let contour = wide.contour(&world.spheres()[0]);
+    let ellipse = contour.ellipse.unwrap();
     let pixels = f64::from(SIDE) / 3.0;
     assert!((ellipse.semi_axes[0] - 0.8 * pixels).abs() < 1e-12 * pixels);
     assert_eq!(ellipse.semi_axes[0], ellipse.semi_axes[1]);
-    assert_eq!(outline.center, Some(ellipse.center));
+    assert_eq!(contour.center, Some(ellipse.center));
 }
 
 /// The tests' own integrator, and plain midpoints, find the same pixels.

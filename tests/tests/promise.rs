@@ -51,8 +51,8 @@ const ALLOWANCES: [Allowance; 3] = [
     },
 ];
 
-/// Of all pixels of all scenes at a tolerance, so many may be off by more than they claim while
-/// within the tolerance, in parts; broken ones are counted above.
+/// The part of all pixels of all scenes at a tolerance that may be off by more than they claim while
+/// within the tolerance; broken ones are counted above.
 const BEYOND_CLAIM: f64 = 0.0025;
 
 /// The least median of true / claimed error over all scenes' medians, at each tolerance. At 1e-6 alpha, which is met to a

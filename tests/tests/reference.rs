@@ -79,7 +79,7 @@ fn midpoints_approach_it_and_quarters_sum_up_to_it() {
 #[test]
 fn areas_of_circles_are_exact() {
     for (radius_px, width) in [(0.4, 1), (0.003, 1), (7.3, 15), (1.5, 3)] {
-        // A ball on the axis of view: its outline on the retina has the radius
+        // A ball on the axis of view: its contour on the retina has the radius
         // distance · r / √(c² − r²).
         let (center, distance) = (10.0, 50.0);
         let ratio = radius_px / distance;

@@ -58,8 +58,8 @@ fn every_term_of_the_formula_counts() {
         let mut world = World::new();
         let id = world.add_material(material);
         world.add_sphere(Sphere::new(CENTER, RADIUS).unwrap(), id);
-        let add = |&(toward, intensity)| Light::directional(toward, intensity);
-        world.lights.extend(lights.iter().filter_map(add));
+        let light = |&(toward, intensity)| Light::directional(toward, intensity).unwrap();
+        world.lights.extend(lights.iter().map(light));
         world.ambient = ambient;
         let view = looking_forward(40, 40, 80.0);
         let image = picture(&world, &view, 1, true);

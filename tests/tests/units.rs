@@ -15,8 +15,8 @@ fn scene([material, lens, lights, more]: [&str; 4], factor: f64) -> Scene {
     let lights = lights
         .replace("BRIGHT", &bright(0.8125))
         .replace("DIM", &bright(0.25));
-    let [ambient, background, stroke] = [0.0625, 0.375, 0.5].map(bright);
-    let material = material.replace("STROKE", &stroke);
+    let [ambient, background, outline] = [0.0625, 0.375, 0.5].map(bright);
+    let material = material.replace("OUTLINE", &outline);
     let text = format!(
         "(image: (width: 20, height: 16), {lens}, ambient: {ambient}, background: {background}, lights: [{lights}],
         materials: {{ \"m\": ({material}) }},
@@ -44,7 +44,7 @@ const SUNS: &str = "Directional(toward: (-1, 1, -1), intensity: BRIGHT), Directi
 const LAMP: &str = "Point(position: (-9, 9, 25), intensity: BRIGHT, reference: 20)";
 const SHINY: &str = "exponent: 2, highlight: (strength: 0.5, shininess: 30)";
 const BUMPS: &str = "exponent: 1, rough: (amplitude: 0.4, grain: Surface(2), seed: 1)";
-const LINES: &str = "exponent: 1, outline: (width: 1.5, color: STROKE)";
+const LINES: &str = "exponent: 1, outline: (width: 1.5, color: OUTLINE)";
 const MOVES: &str = "animation: Keyframes(frames: (1, 3), shutter: 1, keys: [
     (frame: 1, position: (-1, 0, 0), ease: Linear), (frame: 3, position: (1, 0, 0))])";
 

@@ -13,9 +13,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         ..Material::default()
     });
     world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, red);
-    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE);
-    world.lights.extend(sun);
-    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE)?;
+    world.lights.push(sun);
+    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
     let view = View::new(Camera::default(), lens, 200, 200);
     let image = Renderer::new(&world).render(&view, &Settings::default());
 

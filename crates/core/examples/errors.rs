@@ -19,9 +19,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let white = world.add_material(Material::default());
     world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
     world.add_sphere(Sphere::new(DVec3::new(-0.6, 0.5, 3.9), 0.25)?, white);
-    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE);
-    world.lights.extend(sun);
-    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE)?;
+    world.lights.push(sun);
+    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
     let view = View::new(Camera::default(), lens, SIDE, SIDE);
     let settings = Settings {
         method: Method::Tolerance(TOLERANCE),

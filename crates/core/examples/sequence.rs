@@ -15,10 +15,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for x in [-1.0, 0.0, 1.0] {
         world.add_sphere(Sphere::new(DVec3::new(x, 0.0, 0.0), 0.4)?, white);
     }
-    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE);
-    world.lights.extend(sun);
+    let sun = Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE)?;
+    world.lights.push(sun);
     let renderer = Renderer::new(&world);
-    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+    let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
     for frame in 1..=FRAMES {
         let azimuth = Angle::from_degrees(360.0 * f64::from(frame - 1) / f64::from(FRAMES));
         let elevation = Angle::from_degrees(20.0);

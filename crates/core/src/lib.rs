@@ -12,8 +12,8 @@
 //! let mut world = World::new();
 //! let white = world.add_material(Material::default());
 //! world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
-//! world.lights.extend(Light::directional(DVec3::NEG_Z, DVec3::ONE));
-//! let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+//! world.lights.push(Light::directional(DVec3::NEG_Z, DVec3::ONE)?);
+//! let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
 //! let view = View::new(Camera::default(), lens, 32, 32);
 //! let image = Renderer::new(&world).render(&view, &Settings::default());
 //!
@@ -22,7 +22,7 @@
 //! assert_eq!(summary.over_tolerance, 0);
 //! let codes = image.to_srgb8(); // red, green, blue, alpha of each pixel
 //! assert_eq!(codes[..4], [0, 0, 0, 255]);
-//! # Ok::<(), marbles_core::SphereError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //! The folder `examples` has a picture with its errors, a sequence, exact hits and visible areas.
 //!
@@ -32,8 +32,8 @@
 //! linear with Rec. 709 primaries; 1 is the radiance of a white surface that faces a light of
 //! intensity 1.
 //!
-//! This crate knows no file, no clock and no terminal. Transcendental functions come from `libm` or
-//! are written out, so that a picture is the same, bit for bit, on every machine.
+//! This crate opens no file, reads no clock and prints nothing. Transcendental functions come from `libm` or are
+//! written out, so that a picture is the same, bit for bit, on every machine.
 
 mod edges;
 mod exact;
@@ -50,13 +50,15 @@ mod time;
 pub use glam;
 
 pub use exact::areas::VisibleArea;
-pub use hit::outcome::{Floor, Hit};
+#[doc(hidden)]
+pub use hit::outcome::Floor;
+pub use hit::outcome::Hit;
 pub use model::albedos::Albedos;
-pub use model::camera::{Camera, Lens};
+pub use model::camera::{Camera, CameraError, Lens};
 pub use model::color::Color;
 pub use model::contour::{Contour, Ellipse};
 pub use model::exposure::{Exposure, Motion, Pose};
-pub use model::light::{DirectionalLight, Light, LightFalloff, PointLight};
+pub use model::light::{DirectionalLight, Light, LightError, LightFalloff, PointLight};
 pub use model::material::{Grain, Highlight, Material, Roughness};
 pub use model::opencv::{Extrinsics, Intrinsics, right_handed};
 pub use model::outline::{Outline, OutlineWidth};
@@ -76,7 +78,7 @@ pub use picture::srgb;
 pub use picture::window::Window;
 pub use render::renderer::Renderer;
 pub use render::settings::Settings;
-pub use render::strips::{BAND_ROWS, Rendering, Sink, Strip};
+pub use render::strips::{Rendering, Sink, Strip};
 
 /// Runs the program of the README.
 #[cfg(doctest)]

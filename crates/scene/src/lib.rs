@@ -36,7 +36,9 @@ mod world;
 
 pub use motion::{FrameError, FrameFault};
 pub use report::{SceneError, SceneFault};
-pub use scene::{CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting};
+pub use scene::{
+    CloudDescription, ColorDescription, ColorMeaning, Description, Scene, Setting, SettingError,
+};
 pub use table::written_time;
 pub use text::harmless;
 pub use world::{ColumnContents, ColumnSummary, Progress, ScaleKind, StepKey};

@@ -126,7 +126,7 @@ impl<'patch> Across<'patch> {
         let mut places: Vec<f64> = self.border_events().into_iter().filter(within).collect();
         let (along, across) = self.way.axes(self.patch);
         let candidates = self.patch.candidates.iter();
-        for ball in candidates.flat_map(Candidate::outlines) {
+        for ball in candidates.flat_map(Candidate::contours) {
             let lines = touching_lines(ball, self.patch.origin, along, across);
             places.extend(lines.filter(within));
         }

@@ -12,8 +12,8 @@ pub(crate) struct Signature {
     pub(crate) seen: usize,
     /// Whether that is its inner side.
     is_inner: bool,
-    /// Whether that is its stroke.
-    is_stroke: bool,
+    /// Whether that is its outline.
+    is_outline: bool,
     /// The lights that reach the point, and those whose highlight does.
     lit: u64,
     shines: u64,
@@ -91,11 +91,11 @@ impl Patch<'_> {
             signature.is_inner = true;
             return (signature, (albedo * world.ambient).extend(1.0));
         }
-        if let (Some(stroke), Some(inside)) = (&material.outline, &candidate.inside)
+        if let (Some(outline), Some(inside)) = (&material.outline, &candidate.inside)
             && inside.chord_sq(direction) < 0.0
         {
-            signature.is_stroke = true;
-            return (signature, stroke.color.extend(1.0));
+            signature.is_outline = true;
+            return (signature, outline.color.extend(1.0));
         }
         let spot = self.spot(candidate, direction, t);
         signature.cell = spot.cell;

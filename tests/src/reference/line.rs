@@ -125,7 +125,7 @@ impl Line<'_> {
             if let Some(index) = front {
                 let candidate = &self.patch.candidates[index];
                 if let Some(inside) = &candidate.inside {
-                    self.outline_seeds(inside, &mut seeds);
+                    self.contour_seeds(inside, &mut seeds);
                 }
                 if !candidate.ball.has_eye_inside() {
                     self.seeds_on(candidate, start, end, &mut seeds);
@@ -150,7 +150,7 @@ impl Line<'_> {
         let mut seeds = Vec::new();
         let candidates = &self.patch.candidates;
         for (index, candidate) in candidates.iter().enumerate() {
-            self.outline_seeds(&candidate.ball, &mut seeds);
+            self.contour_seeds(&candidate.ball, &mut seeds);
             for other in &candidates[..index] {
                 self.seam_seeds(&candidate.ball, &other.ball, &mut seeds);
             }
@@ -167,7 +167,7 @@ impl Line<'_> {
     }
 
     /// The places where the line grazes a ball.
-    fn outline_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
+    fn contour_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
         if ball.has_eye_inside() {
             return;
         }
@@ -272,7 +272,7 @@ impl Line<'_> {
     fn seeds_on(&self, candidate: &Candidate, start: f64, end: f64, seeds: &mut Vec<f64>) {
         let world = self.patch.stage.world;
         let material = world.material(candidate.sphere);
-        // Dense toward the ends, where the outline makes everything run as a square root.
+        // Dense toward the ends, where the contour makes everything run as a square root.
         let place = |u: f64| start + (end - start) * (u * u * (3.0 - 2.0 * u));
         let spot = |u: f64| {
             let direction = self.at(place(u));

@@ -47,7 +47,7 @@ pub struct Truth {
     pub value: DVec4,
     /// The largest error of any channel.
     pub error: f64,
-    /// Whether something changes inside the pixel: a sphere's outline, a shadow, a terminator.
+    /// Whether something changes inside the pixel: a sphere's contour, a shadow, a terminator.
     pub has_edge: bool,
     /// Lines that it took.
     pub lines: u32,

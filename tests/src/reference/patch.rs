@@ -47,15 +47,15 @@ impl<'world> Stage<'world> {
 }
 
 impl Stage<'_> {
-    /// A sphere without its stroke.
-    fn inside_stroke(&self, sphere: usize) -> Option<Ball> {
-        let stroke = self.world.material(sphere).outline?;
+    /// A sphere without its outline.
+    fn inside_outline(&self, sphere: usize) -> Option<Ball> {
+        let outline = self.world.material(sphere).outline?;
         let ball = &self.balls[sphere];
         if ball.has_eye_inside() || ball.cut_radius().is_some() {
             return None;
         }
         let pixel = self.view.lens.width / (f64::from(self.view.width) * self.view.zoom);
-        let width = match (stroke.width, self.forward) {
+        let width = match (outline.width, self.forward) {
             (OutlineWidth::Units(width), _) => width,
             (OutlineWidth::Pixels(width), Some(_)) => width * pixel,
             (OutlineWidth::Pixels(width), None) => {
@@ -107,14 +107,14 @@ pub(crate) struct Patch<'stage> {
 pub(crate) struct Candidate {
     pub(crate) sphere: usize,
     pub(crate) ball: Ball,
-    /// The smaller ball that rays pass which see the sphere's stroke.
+    /// The smaller ball that rays pass which see the sphere's outline.
     pub(crate) inside: Option<Ball>,
     pub(crate) casters: Vec<Vec<usize>>,
 }
 
 impl Candidate {
-    /// The balls whose outlines are edges.
-    pub(crate) fn outlines(&self) -> impl Iterator<Item = &Ball> {
+    /// The balls whose contours are edges.
+    pub(crate) fn contours(&self) -> impl Iterator<Item = &Ball> {
         [&self.ball].into_iter().chain(&self.inside)
     }
 }
@@ -197,7 +197,7 @@ impl<'stage> Patch<'stage> {
                 patch.candidates.push(Candidate {
                     sphere,
                     ball: *ball,
-                    inside: stage.inside_stroke(sphere),
+                    inside: stage.inside_outline(sphere),
                     casters,
                 });
             }
@@ -364,7 +364,7 @@ impl Cone {
         let distance = |angle: f64| {
             let along = ball.center.length() * angle.cos();
             let chord_sq = along * along - ball.power;
-            // Beyond the outline: as far as the outline.
+            // Beyond the contour: as far as the contour.
             if angle >= 1.6 || chord_sq <= 0.0 || along <= 0.0 {
                 ball.power.sqrt()
             } else {

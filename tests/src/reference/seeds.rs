@@ -31,9 +31,9 @@ impl Seeds {
         for (index, candidate) in candidates.iter().enumerate() {
             directions.push(candidate.ball.center);
             for other in &candidates[..index] {
-                for one in candidate.outlines() {
-                    directions.extend(other.outlines().flat_map(|other| match one.forward {
-                        None => outline_crossings(one, other),
+                for one in candidate.contours() {
+                    directions.extend(other.contours().flat_map(|other| match one.forward {
+                        None => contour_crossings(one, other),
                         Some(forward) => disc_crossings(one, other, forward),
                     }));
                 }
@@ -50,7 +50,7 @@ impl Seeds {
     }
 }
 
-/// The lines `t` = constant that touch a ball's outline: the plane of the directions
+/// The lines `t` = constant that touch a ball's contour: the plane of the directions
 /// `origin + s · along + t · across` has the normal `origin × along + t · across × along`.
 pub(crate) fn touching_lines(
     ball: &Ball,
@@ -78,9 +78,9 @@ pub(crate) fn touching_lines(
     vec![sum / a, c / sum].into_iter()
 }
 
-/// The two directions in which the outlines of two balls cross: those of the unit vectors d with
+/// The two directions in which the contours of two balls cross: those of the unit vectors d with
 /// d · c = √K for both.
-fn outline_crossings(a: &Ball, b: &Ball) -> Vec<DVec3> {
+fn contour_crossings(a: &Ball, b: &Ball) -> Vec<DVec3> {
     let normal = a.center.cross(b.center);
     if a.has_eye_inside() || b.has_eye_inside() || normal == DVec3::ZERO {
         return Vec::new();
@@ -180,7 +180,7 @@ fn near_shadow_points(
         let all: Vec<&Ball> = discs.iter().chain([&own]).collect();
         for (number, a) in all.iter().enumerate() {
             for b in &all[..number] {
-                let crossings = outline_crossings(a, b);
+                let crossings = contour_crossings(a, b);
                 points.extend(crossings.into_iter().filter_map(land));
             }
         }
@@ -188,7 +188,7 @@ fn near_shadow_points(
     points
 }
 
-/// The points where the outlines of two balls cross, as a light sees them.
+/// The points where the contours of two balls cross, as a light sees them.
 fn disc_crossings(a: &Ball, b: &Ball, toward: DVec3) -> Vec<DVec3> {
     let way = b.center - a.center;
     let way = way - toward * way.dot(toward);

@@ -249,7 +249,7 @@ fn a_sample_sees_what_the_geometry_tells() {
                 alpha: false,
             };
             let collector = Collector::default();
-            let rendering = renderer.begin_with_geometry(view, window, &settings, 1, Some(&wanted));
+            let rendering = renderer.begin_with_geometry(view, window, &settings, 8, Some(&wanted));
             let help = |_: u64| ControlFlow::Continue(());
             rendering.help(&collector, &help).unwrap();
             let parts = collector.parts.into_inner().unwrap();

@@ -147,7 +147,7 @@ fn other_forms_are_found_wrong() {
     }
 }
 
-/// Of 360,000 and 3,600,000 tests none and, when written, 7 needed more than doubles.
+/// None of 360,000 tests needed more than doubles and, when this was written, 7 of 3,600,000.
 #[test]
 fn ordinary_frames_stay_on_the_first_floor() {
     for (frame, most) in [(frames::ball(), 0), (frames::cloud(), 10)] {

@@ -20,7 +20,7 @@ pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, String> {
 /// Refuses a world that cannot be prepared for want of memory.
 pub(crate) fn require_for(world: &World) -> Result<(), Failure> {
     let work = format!("preparing {} spheres needs", world.spheres().len());
-    require(Renderer::memory_to_prepare(world), &work)
+    require(Renderer::memory_needed(world), &work)
 }
 
 /// Returns whether so many bytes can be had in one piece.

@@ -8,7 +8,7 @@ mod tables;
 use std::ops::RangeInclusive;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Color, Light, LightFalloff, Sphere, View, World};
+use marbles_core::{Channels, Color, Light, LightFalloff, Sphere, View, World};
 use marbles_scene::{CloudDescription, FrameError, Scene};
 use serde_json::json;
 
@@ -173,10 +173,9 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     rows.push(("shadows", shadows.to_owned()));
     rows.push(("ambient", color(world.ambient)));
     rows.push(("background", color(world.background)));
-    let channels = if world.is_grey() {
-        "none: one channel is rendered"
-    } else {
-        "red, green, blue"
+    let channels = match Channels::of(world, false) {
+        Channels::Grey => "none: one channel is rendered",
+        Channels::Rgb => "red, green, blue",
     };
     rows.push(("color", channels.to_owned()));
     rows

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ::exr::block::chunk::Chunk;
 use blake3::Hash;
-use marbles_core::{BAND_ROWS, Geometry, GeometrySettings, Image, Precision, Summary};
+use marbles_core::{Geometry, GeometrySettings, Image, Precision, Rendering, Summary};
 
 use super::encoding::Encoding;
 use super::exr::blocks::{Blocks, ROWS_OF_A_BLOCK};
@@ -69,19 +69,15 @@ impl Encoder {
         }
     }
 
-    /// Bands of a strip.
-    pub(crate) fn bands(&self) -> u32 {
-        match self.layout {
-            Layout::Exr(_) => ROWS_OF_A_BLOCK / BAND_ROWS,
-            _ if self.form.region.window.row.is_multiple_of(BAND_ROWS) => 1,
-            // What begins within a band renders all of it, so that few should.
-            _ => 4,
-        }
-    }
-
     /// Rows of a strip.
     pub(crate) fn rows(&self) -> u32 {
-        self.bands() * BAND_ROWS
+        let step = Rendering::ROW_STEP;
+        match self.layout {
+            Layout::Exr(_) => ROWS_OF_A_BLOCK,
+            _ if self.form.region.window.row.is_multiple_of(step) => step,
+            // A strip that begins between two steps renders all rows of both, so that there should be few.
+            _ => 4 * step,
+        }
     }
 
     /// Pieces of a picture, one for each strip.

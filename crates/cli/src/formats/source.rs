@@ -24,7 +24,7 @@ impl<T: BufRead + Seek> Input for T {}
 impl Source {
     /// The file at `path`, and its first bytes, `start` of them where it has so many.
     ///
-    /// Of a pipe all is read where `is_wanted` says so of its start: it may have no end.
+    /// A pipe may have no end: all of it is read only if `is_wanted` says so after it saw the start.
     pub(crate) fn of(
         path: &Path,
         start: usize,

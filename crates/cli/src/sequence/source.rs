@@ -271,7 +271,7 @@ impl<'a> Source<'a> {
                         exposure.clone(),
                         region.window,
                         &request.settings,
-                        encoder.bands(),
+                        encoder.rows(),
                         // The part that has them is the last.
                         pipeline.encoders[last].geometry().as_ref(),
                     )

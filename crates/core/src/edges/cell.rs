@@ -27,7 +27,7 @@ pub(crate) struct Ball {
     /// K for an eye. For parallel rays the center's distance from the plane in which they begin, where the sphere lies
     /// before it; not positive where the plane cuts it.
     ///
-    /// Of spheres that are apart the nearer has the smaller one, either way.
+    /// In both cases, if two spheres are apart, the nearer one has the smaller value.
     pub(crate) outside: f64,
     /// K = |center|² − radius², positive for an eye outside: rounded once, from the world's numbers.
     pub(crate) power: f64,
@@ -83,8 +83,8 @@ impl Ball {
         }
     }
 
-    /// The length that rounding moves the outline by which parallel rays see, in units of the roundoff.
-    pub(crate) fn outline_scale(&self, cell: &Cell) -> f64 {
+    /// The length that rounding moves the contour by which parallel rays see, in units of the roundoff.
+    pub(crate) fn contour_scale(&self, cell: &Cell) -> f64 {
         let aside = cell.extent();
         if self.is_apart() {
             return self.center.length() + self.radius;

@@ -1,7 +1,7 @@
-//! Curves on the retina across which light changes abruptly: outlines, seams, terminators and edges of shadows,
+//! Curves on the retina across which light changes abruptly: contours, seams, terminators and edges of shadows,
 //! as curves in the coordinates of a [`Cell`].
 //!
-//! Outlines, seams and terminators are conics there, and cross a line in two places at most. An
+//! Contours, seams and terminators are conics there, and cross a line in two places at most. An
 //! edge of a shadow on a sphere crosses it in four at most.
 
 pub(crate) mod cell;

@@ -19,7 +19,7 @@ pub(crate) struct SeamPlane {
 }
 
 impl SeamPlane {
-    /// Of two spheres that intersect: from the radii, or from K, whichever rounds less.
+    /// The plane of the seam of two spheres that intersect: from the radii, or from K, whichever rounds less.
     pub(crate) fn new(one: &Ball, other: &Ball) -> Self {
         let (small, large) = if one.radius <= other.radius {
             (one, other)

@@ -1,4 +1,4 @@
-//! The outlines of spheres.
+//! The contours of spheres.
 
 use glam::DVec3;
 

@@ -25,7 +25,28 @@ use crate::search::view_index::ViewIndex;
 use crate::search::visibility::Visibility;
 
 /// The area in which a sphere is seen, in pixels.
+///
+/// # Example
+/// ```
+/// use std::f64::consts::PI;
+/// use std::ops::ControlFlow;
+///
+/// use marbles_core::glam::{DVec2, DVec3};
+/// use marbles_core::{Camera, Lens, Material, Renderer, Sphere, View, World};
+///
+/// let mut world = World::new();
+/// let white = world.add_material(Material::default());
+/// world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 2.0)?, white);
+/// // Parallel rays, 4 pixels in each unit of length: the ball is a disc with a radius of 8 pixels.
+/// let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 32, 32);
+/// let go_on = |_| ControlFlow::Continue(());
+/// let seen = Renderer::new(&world).visible_areas(&view, 1e-6, &go_on)?[0];
+/// assert!(seen.error < 1e-3);
+/// assert!((seen.area - 64.0 * PI).abs() <= seen.error);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct VisibleArea {
     /// The area.
     pub area: f64,

@@ -71,7 +71,7 @@ pub(crate) struct Allowance {
 }
 
 impl Allowance {
-    /// Of a pixel whose lights are integrated in so many groups, one after the other.
+    /// The allowance of a pixel whose lights are integrated in so many groups, one after the other.
     pub(crate) fn still(groups: usize) -> Self {
         Self {
             ordinary: MOST,
@@ -217,9 +217,9 @@ impl Budget {
 
     /// Counts the tests that told what a part sees, and whether its quarters may see as much.
     ///
-    /// Of spheres side by side a quarter sees fewer. Of those whose outlines nearly coincide it sees as many, and half of
-    /// the quarters do: these are what more work is in vain for, and they count more. An estimate, which a crowd that
-    /// thins out late fools: then a pixel is given up that might be known.
+    /// If spheres are side by side, a quarter sees fewer of them. If their contours nearly coincide, a quarter sees as many,
+    /// and so do half of the quarters: more work on these is in vain, and they count more. This is an estimate, which a
+    /// crowd that thins out late can fool: then a pixel is given up that might be known.
     pub(crate) fn count_looking(&mut self, tests: u64, is_in_vain: bool) {
         const IN_VAIN: u64 = 4;
         self.looked += tests;

@@ -1,7 +1,7 @@
 //! The spheres that the tiles of a block may see, in pictures of very many that nearly coincide.
 //!
 //! One that covers a block of tiles hides most of the others from all of it. Each tile would have to find that out of
-//! every sphere anew. Where a block is covered by none, such as along an outline that they share, its quarters are asked.
+//! every sphere anew. Where a block is covered by none, such as along a contour that they share, its quarters are asked.
 
 use std::sync::{Arc, OnceLock};
 

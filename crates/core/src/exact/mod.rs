@@ -8,7 +8,7 @@
 //! | no sphere: [`classify`] | the background | bound | pixels that may see a sphere |
 //! | one sphere without light: [`interior`] | the ambient light | bound | pixels that a light reaches |
 //! | one sphere: [`interior`] | rules with 1, 5, 9 or 17 samples, of bumps in parts | bound on smooth spheres, as a rule; else estimate | edges, and light that bends too much |
-//! | one plain sphere under its only light: [`interior`], [`edged`] | its mean normal times the direction of light, or a ramp where the terminator is in the pixel | bound; along an outline estimate | other edges, claims above the tolerance |
+//! | one plain sphere under its only light: [`interior`], [`edged`] | its mean normal times the direction of light, or a ramp where the terminator is in the pixel | bound; along a contour estimate | other edges, claims above the tolerance |
 //! | bumps far smaller than the pixel: [`interior`] | random samples in strata | estimate | nothing |
 //! | boxes with straight edges, to loose tolerances: [`edged`] | shares of half-planes | estimate | claims above the tolerance |
 //! | along edges: [`edged`] | Green's theorem | estimate | narrow highlights, claims above the tolerance |

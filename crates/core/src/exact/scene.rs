@@ -50,12 +50,12 @@ pub(crate) struct InCamera<'scene> {
     pub(crate) ambient: Color,
     /// Whether the light of spheres is their normals: see [`Self::of_normals`].
     pub(crate) is_of_normals: bool,
-    /// The view of strokes, where any are seen.
-    strokes: Option<OutlineView>,
-    /// Whether strokes are black, as in all groups but the first.
-    are_strokes_black: bool,
+    /// The view of outlines, where any are seen.
+    outlines: Option<OutlineView>,
+    /// Whether outlines are black, as in all groups but the first.
+    are_outlines_black: bool,
     /// The unit of their colors.
-    stroke_unit: f64,
+    outline_unit: f64,
 }
 
 /// The number of spheres up to which all are brought into the camera's frame once for a view: they take
@@ -198,9 +198,9 @@ impl<'scene> InCamera<'scene> {
                 Color::ZERO
             },
             is_of_normals: false,
-            strokes: world.has_outlines().then(|| view.of_strokes()),
-            are_strokes_black: group > 0,
-            stroke_unit: 1.0,
+            outlines: world.has_outlines().then(|| view.outline_view()),
+            are_outlines_black: group > 0,
+            outline_unit: 1.0,
         }
     }
 
@@ -210,7 +210,7 @@ impl<'scene> InCamera<'scene> {
             light.intensity /= unit;
         }
         self.ambient /= unit;
-        self.stroke_unit = unit;
+        self.outline_unit = unit;
         self
     }
 
@@ -234,7 +234,7 @@ impl<'scene> InCamera<'scene> {
             lights: lights.collect(),
             ambient: Color::ZERO,
             is_of_normals: true,
-            strokes: None,
+            outlines: None,
             ..self.clone()
         }
     }
@@ -247,7 +247,7 @@ impl<'scene> InCamera<'scene> {
         }
     }
 
-    /// The same without lights and strokes.
+    /// The same without lights and outlines.
     pub(crate) fn without_lights(
         world: &'scene World,
         visibility: &Visibility<'scene>,
@@ -257,25 +257,25 @@ impl<'scene> InCamera<'scene> {
         // A group after the last one.
         let group = visibility.lights().len() / MOST_LIGHTS + 1;
         Self {
-            strokes: None,
+            outlines: None,
             ..Self::new(world, visibility, view, channels, group)
         }
     }
 
-    /// Whether some spheres may have strokes.
-    pub(crate) fn has_strokes(&self) -> bool {
-        self.strokes.is_some()
+    /// Whether some spheres may have outlines.
+    pub(crate) fn has_outlines(&self) -> bool {
+        self.outlines.is_some()
     }
 
-    /// The visible part of a sphere inside of its stroke: a ball with the same center; none for a sphere without a stroke.
-    pub(crate) fn inside_stroke(&self, sphere: usize, ball: &Ball) -> Option<Ball> {
-        let view = self.strokes?;
-        let stroke = self.world.material(sphere).outline?;
+    /// The visible part of a sphere inside of its outline: a ball with the same center; none for a sphere without an outline.
+    pub(crate) fn inside_outline(&self, sphere: usize, ball: &Ball) -> Option<Ball> {
+        let view = self.outlines?;
+        let outline = self.world.material(sphere).outline?;
         // The ball may be one that a cell sees of a sphere that the plane of parallel rays cuts.
         if ball.outside <= 0.0 || self.ball(sphere).outside <= 0.0 {
             return None;
         }
-        let radius = stroke.width.inner_radius(view, ball.center, ball.radius);
+        let radius = outline.width.inner_radius(view, ball.center, ball.radius);
         let power = ball.power + (ball.radius - radius) * (ball.radius + radius);
         let outside = match ball.projection {
             Projection::Central => power,
@@ -289,11 +289,11 @@ impl<'scene> InCamera<'scene> {
         })
     }
 
-    /// The light of a sphere's stroke.
-    pub(crate) fn stroke_color(&self, sphere: usize) -> Color {
-        let stroke = self.world.material(sphere).outline;
-        match stroke {
-            Some(stroke) if !self.are_strokes_black => stroke.color / self.stroke_unit,
+    /// The light of a sphere's outline.
+    pub(crate) fn outline_color(&self, sphere: usize) -> Color {
+        let outline = self.world.material(sphere).outline;
+        match outline {
+            Some(outline) if !self.are_outlines_black => outline.color / self.outline_unit,
             _ => Color::ZERO,
         }
     }

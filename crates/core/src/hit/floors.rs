@@ -28,7 +28,8 @@ impl Sphere {
         self.hit_and_floor(ray).0
     }
 
-    /// [`Sphere::hit`], and which arithmetic settled it.
+    /// [`Sphere::hit`], and which arithmetic settled it: to test the floors by.
+    #[doc(hidden)]
     #[inline(always)]
     pub fn hit_and_floor(&self, ray: &Ray) -> (Option<Hit>, Floor) {
         self.settle(ray, fast::hit(self, ray))

@@ -3,13 +3,28 @@
 use glam::DVec3;
 
 /// The point where a ray meets a sphere.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Ray, Sphere};
+///
+/// let sphere = Sphere::new(DVec3::ZERO, 2.0)?;
+/// let from_inside = Ray { origin: DVec3::ZERO, direction: DVec3::Z };
+/// let hit = sphere.hit(&from_inside).expect("a ray from inside leaves the sphere");
+/// assert_eq!(hit.t, 2.0);
+/// assert_eq!(hit.normal, DVec3::Z);
+/// assert!(hit.inner_side);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Hit {
     /// Distance in multiples of the ray's direction.
     pub t: f64,
     /// Unit outward normal of the sphere.
     pub normal: DVec3,
-    /// True where the ray started inside the sphere or on its surface, and so meets its inner side.
+    /// True if the ray started inside the sphere or on its surface, and so meets its inner side.
     pub inner_side: bool,
 }
 

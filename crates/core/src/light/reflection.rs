@@ -228,7 +228,7 @@ impl<'a, S: Simd> ViewedPoints<'a, S> {
     ///
     /// # Accuracy
     /// The error is some units in the last place over |l + v|²: large where the eye looks along the light,
-    /// which only reaches outlines there.
+    /// which only reaches contours there.
     #[inline(always)]
     pub(crate) fn half_cosine(&self, toward: DVec3, cosine: f64x8<S>) -> f64x8<S> {
         if !self.has_highlight {

@@ -5,8 +5,23 @@ use glam::DVec3;
 use super::color::Color;
 use super::color::is_grey;
 
-/// Albedos of spheres that do not have their material's.
+/// Albedos of spheres, in place of their material's.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Albedos, Material, Sphere, World};
+///
+/// let mut world = World::new();
+/// let white = world.add_material(Material::default());
+/// let spheres = vec![Sphere::new(DVec3::ZERO, 1.0)?, Sphere::new(DVec3::X, 1.0)?];
+/// let red_and_blue = Albedos::Each(vec![[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+/// world.add_spheres(spheres, white, Some(red_and_blue));
+/// assert_eq!(world.albedo(1), DVec3::new(0.0, 0.0, 1.0));
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Albedos {
     /// Red, green and blue, linear, of each sphere: 12 bytes.
     Each(Vec<[f32; 3]>),
@@ -21,7 +36,7 @@ pub enum Albedos {
 }
 
 impl Albedos {
-    /// For how many spheres there are albedos.
+    /// Returns the number of spheres that have albedos.
     pub fn len(&self) -> usize {
         match self {
             Self::Each(albedos) => albedos.len(),
@@ -29,7 +44,7 @@ impl Albedos {
         }
     }
 
-    /// True where there are none.
+    /// Returns whether there are none.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }

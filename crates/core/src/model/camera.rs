@@ -1,24 +1,64 @@
 //! The camera: where it stands, where it looks, and its lens.
 
 use glam::{DMat3, DVec2, DVec3};
+use thiserror::Error;
 
 use crate::numeric::angle::{Angle, Precise};
 
 /// A viewpoint and an orientation.
 ///
 /// Camera axes are x right, y up, z forward, as the world's are.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Angle, Camera};
+///
+/// let camera = Camera::look_at(DVec3::new(0.0, 0.0, -5.0), DVec3::ZERO, Angle::ZERO)?;
+/// assert_eq!(camera.forward(), DVec3::Z);
+/// // The same place, as one on a circle around the target.
+/// let angle = Angle::from_degrees(0.0);
+/// let orbit = Camera::orbit(DVec3::ZERO, 5.0, angle, Angle::ZERO, Angle::ZERO);
+/// assert_eq!(orbit.position, camera.position);
+/// # Ok::<(), marbles_core::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     /// The viewpoint, in the world frame.
     pub position: DVec3,
-    /// A point on the axis of view, in the world frame, that is known as well as what is looked at; the viewpoint
-    /// itself will do.
+    /// A point on the axis of view, in the world frame, near what the camera looks at. If you know none, use the
+    /// viewpoint.
     ///
-    /// A viewpoint far away is rounded, and with it what parallel rays meet. They are therefore measured from this
-    /// point where it is nearer, unless it is off the axis by more than rounding.
+    /// The coordinates of a far viewpoint are rounded, and this would move everything that parallel rays meet. These
+    /// rays are therefore measured from this point if it is nearer, unless it is off the axis by more than rounding.
     pub on_axis: DVec3,
     /// The rotation from camera axes to world axes.
     pub world_from_camera: DMat3,
+}
+
+/// The reason for which a camera or a lens was refused.
+///
+/// # Example
+/// ```
+/// use marbles_core::{Angle, CameraError, Lens};
+///
+/// let refused = Lens::from_field_of_view(Angle::from_degrees(180.0));
+/// assert_eq!(refused, Err(CameraError::FieldOfView(180.0)));
+/// ```
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// The target is the position, or not at a finite distance from it: the camera has no direction.
+    #[error("expected a target at a finite distance from {position} that is not 0, found {target}")]
+    Target {
+        /// The position of the camera.
+        position: DVec3,
+        /// The point that it was to look at.
+        target: DVec3,
+    },
+    /// The field of view is not between 0 and 180 degrees: the angle from 0 to 360.
+    #[error("expected a field of view between 0 and 180 degrees, found {0}")]
+    FieldOfView(f64),
 }
 
 /// The camera at the origin that looks along z.
@@ -56,10 +96,15 @@ impl Camera {
 
     /// The camera at `position` that has `target` in the middle of its view.
     ///
-    /// Straight up or down the pan is 0. `None` where the target is the position.
-    pub fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Self> {
-        let (pan, tilt) = Self::pan_and_tilt_toward(target - position)?;
-        Some(Self {
+    /// If the target is straight above or below, the pan is 0.
+    ///
+    /// # Errors
+    /// Refuses a target that is the position, or not at a finite distance from it.
+    pub fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Result<Self, CameraError> {
+        let way = Some(target - position).filter(|way| way.is_finite());
+        let toward = way.and_then(Self::pan_and_tilt_toward);
+        let (pan, tilt) = toward.ok_or(CameraError::Target { position, target })?;
+        Ok(Self {
             on_axis: target,
             ..Self::free(position, pan, tilt, roll)
         })
@@ -82,12 +127,12 @@ impl Camera {
         }
     }
 
-    /// Unit vector in the middle of the view, in the world frame.
+    /// The unit vector along the axis of view, in the world frame.
     pub fn forward(&self) -> DVec3 {
         self.world_from_camera.z_axis
     }
 
-    /// The same camera elsewhere, `by` away.
+    /// The same camera, moved by the vector `by`.
     pub fn moved(self, by: DVec3) -> Self {
         Self {
             position: self.position + by,
@@ -117,7 +162,8 @@ impl Camera {
         from + forward * way(from)
     }
 
-    /// Pan, tilt and roll: those with which [`Self::free`] makes this camera. Straight up or down the pan is 0.
+    /// The pan, tilt and roll with which [`Self::free`] makes this camera. If it looks straight up or down, the pan is
+    /// 0.
     pub fn pan_tilt_roll(&self) -> [Angle; 3] {
         let none = Angle::ZERO;
         let (pan, tilt) = Self::pan_and_tilt_toward(self.forward()).unwrap_or((none, none));
@@ -126,8 +172,8 @@ impl Camera {
         [pan, tilt, Angle::from_sides(-right.y, right.x)]
     }
 
-    /// Pan and tilt of a camera that looks along `direction`; pan 0 straight up or down, `None`
-    /// where the direction is zero.
+    /// The pan and the tilt of a camera that looks along `direction`. Straight up or down the pan is 0. `None` if the
+    /// direction is zero.
     pub fn pan_and_tilt_toward(direction: DVec3) -> Option<(Angle, Angle)> {
         let scale = direction.abs().max_element();
         if scale == 0.0 {
@@ -168,6 +214,18 @@ fn nearest_to_origin(position: DVec3, pan: Angle, tilt: Angle) -> DVec3 {
 ///
 /// The rays of a pinhole go from the viewpoint through the retina. Those of a parallel lens go along
 /// the axis of view, and begin on the retina, which then lies in the plane through the viewpoint.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec2;
+/// use marbles_core::{Angle, Lens};
+///
+/// let wide = Lens::from_field_of_view(Angle::from_degrees(90.0))?;
+/// // 2 tan 45°, at distance 1.
+/// assert!((wide.width - 2.0).abs() < 1e-15);
+/// assert!(Lens::parallel(8.0, DVec2::ZERO).is_parallel());
+/// # Ok::<(), marbles_core::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lens {
     /// Width of the retina in scene units, greater than 0; square pixels give its height.
@@ -175,7 +233,7 @@ pub struct Lens {
     /// Distance of the retina from the viewpoint at zoom 1, greater than 0; infinite for a parallel
     /// lens, whose rays are those from a viewpoint that is infinitely far behind the retina.
     pub distance: f64,
-    /// The way from the axis of view to the retina's center, in scene units, right and up.
+    /// The offset of the retina's center from the axis of view, in scene units, right and up.
     pub shift: DVec2,
 }
 
@@ -189,23 +247,31 @@ pub(crate) enum Projection {
 }
 
 impl Lens {
-    /// Creates the lens with this horizontal field of view, between 0 and 180°. Its retina is at distance 1.
-    pub fn from_field_of_view(field_of_view: Angle) -> Self {
+    /// Creates the lens with this horizontal field of view. Its retina is at distance 1.
+    ///
+    /// # Errors
+    /// Refuses an angle that is not between 0 and 180°. Angles that differ by whole turns are the same.
+    pub fn from_field_of_view(field_of_view: Angle) -> Result<Self, CameraError> {
         let Angle { sin, cos, .. } = field_of_view;
+        if !(sin > 0.0 && sin.is_finite() && cos.is_finite()) {
+            let degrees = field_of_view.degrees().rem_euclid(360.0);
+            return Err(CameraError::FieldOfView(degrees));
+        }
         // Of both forms the one in which nothing cancels.
         let tangent_of_half = if cos > 0.0 {
             sin / (1.0 + cos)
         } else {
             (1.0 - cos) / sin
         };
-        Self {
+        Ok(Self {
             width: 2.0 * tangent_of_half,
             distance: 1.0,
             shift: DVec2::ZERO,
-        }
+        })
     }
 
-    /// The lens whose rays all go along the axis of view, `width` scene units apart at zoom 1.
+    /// Creates a lens whose rays are parallel to the axis of view. At zoom 1 the picture shows `width` scene units
+    /// across.
     pub fn parallel(width: f64, shift: DVec2) -> Self {
         Self {
             width,

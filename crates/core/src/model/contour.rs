@@ -1,28 +1,57 @@
-//! The outlines of spheres on the retina.
+//! The contours of spheres on the retina.
 
 use glam::{DVec2, DVec3};
 
 use super::sphere::Sphere;
 use super::view::View;
 
-/// The outline of a sphere in a picture.
+/// The contour of a sphere in a picture.
 ///
 /// Places are pixel coordinates as [`View::project`] has them: the picture's upper left corner is (0, 0), y grows
 /// downward.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::{DVec2, DVec3};
+/// use marbles_core::{Camera, Lens, Sphere, View};
+///
+/// // Parallel rays, 4 pixels in each unit of length.
+/// let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 32, 32);
+/// let contour = view.contour(&Sphere::new(DVec3::new(1.0, 0.0, 5.0), 2.0)?);
+/// assert_eq!(contour.center, Some(DVec2::new(20.0, 16.0)));
+/// assert_eq!(contour.depth, 5.0);
+/// assert_eq!(contour.ellipse.map(|ellipse| ellipse.semi_axes), Some([8.0, 8.0]));
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Contour {
-    /// The image of the sphere's center, which is not the middle of the outline; none if it is not in front of the
+    /// The image of the sphere's center, which is not the middle of the contour; none if it is not in front of the
     /// viewpoint.
     pub center: Option<DVec2>,
     /// The distance of the center along the axis of view, in scene units.
     pub depth: f64,
     /// The ellipse that the sphere fills, unless others hide it; none where the plane through the viewpoint, across
-    /// the axis of view, touches the sphere: then the outline is a parabola or a hyperbola, or there is none. Through a
+    /// the axis of view, touches the sphere: then the contour is a parabola or a hyperbola, or there is none. Through a
     /// parallel lens it is a circle, of what lies before that plane.
     pub ellipse: Option<Ellipse>,
 }
 
 /// An ellipse in a picture.
+///
+/// # Example
+/// ```
+/// use marbles_core::Ellipse;
+/// use marbles_core::glam::DVec2;
+///
+/// let ellipse = Ellipse {
+///     center: DVec2::new(3.0, 4.0),
+///     semi_axes: [2.0, 1.0],
+///     along: DVec2::Y,
+/// };
+/// assert_eq!(ellipse.bounds(), [DVec2::new(2.0, 2.0), DVec2::new(4.0, 6.0)]);
+/// assert_eq!(ellipse.angle_degrees(), 90.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// The middle.
@@ -34,7 +63,7 @@ pub struct Ellipse {
 }
 
 impl View {
-    /// The outline of a sphere.
+    /// The contour of a sphere.
     ///
     /// # Accuracy
     /// Some units in the last place of the lengths that a coordinate is made of, over the share of the depth by which the
@@ -73,7 +102,7 @@ impl View {
         }
     }
 
-    /// The outline of a sphere with this center in the camera's frame, through a parallel lens: a circle, behind
+    /// The contour of a sphere with this center in the camera's frame, through a parallel lens: a circle, behind
     /// whose plane nothing is seen.
     fn circle(&self, sphere: &Sphere, center: DVec3) -> Contour {
         let radius = sphere.radius();

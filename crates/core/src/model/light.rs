@@ -1,11 +1,23 @@
 //! Lights.
 
 use glam::DVec3;
+use thiserror::Error;
 
 use super::color::Color;
 use super::sphere::Sphere;
 
 /// A light.
+///
+/// # Example
+/// ```
+/// use marbles_core::Light;
+/// use marbles_core::glam::DVec3;
+///
+/// let sun = Light::directional(DVec3::new(0.0, 2.0, 0.0), DVec3::ONE)?;
+/// assert_eq!(sun.toward(), Some(DVec3::Y));
+/// assert_eq!(sun.intensity(), DVec3::ONE);
+/// # Ok::<(), marbles_core::LightError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
     /// So far away that its direction is the same everywhere.
@@ -15,6 +27,18 @@ pub enum Light {
 }
 
 /// A light so far away that its direction is the same everywhere.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{DirectionalLight, World};
+///
+/// let sun = DirectionalLight::new(DVec3::new(0.0, 3.0, 4.0), DVec3::ONE)?;
+/// assert!((sun.toward() - DVec3::new(0.0, 0.6, 0.8)).length() < 1e-15);
+/// let mut world = World::new();
+/// world.lights.push(sun.into());
+/// # Ok::<(), marbles_core::LightError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DirectionalLight {
     toward: DVec3,
@@ -22,6 +46,20 @@ pub struct DirectionalLight {
 }
 
 /// A light at a point of the world.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Light, LightFalloff, PointLight, Sphere};
+///
+/// // As bright as a directional light of intensity 1 at a distance of 2.
+/// let lamp = PointLight::new(DVec3::ZERO, DVec3::ONE, LightFalloff::InverseSquare, 2.0)?;
+/// // The nearest point of this sphere is 4 away: a quarter of that.
+/// let sphere = Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?;
+/// let brightest = Light::from(lamp).brightest_on(&sphere);
+/// assert!((brightest.x - 0.25).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLight {
     position: DVec3,
@@ -31,6 +69,21 @@ pub struct PointLight {
 }
 
 /// The way in which a point light falls off with the distance.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Light, LightFalloff, PointLight, Sphere};
+///
+/// let far = Sphere::new(DVec3::new(0.0, 0.0, 101.0), 1.0)?;
+/// let brightest = |falloff| {
+///     let lamp = PointLight::new(DVec3::ZERO, DVec3::ONE, falloff, 1.0)?;
+///     Ok::<f64, marbles_core::LightError>(Light::from(lamp).brightest_on(&far).x)
+/// };
+/// assert_eq!(brightest(LightFalloff::None)?, 1.0);
+/// assert!((brightest(LightFalloff::InverseSquare)? - 1e-4).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum LightFalloff {
     /// With its square.
@@ -39,13 +92,40 @@ pub enum LightFalloff {
     None,
 }
 
+/// The reason for which a light was refused.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Light, LightError};
+///
+/// let refused = Light::directional(DVec3::ZERO, DVec3::ONE);
+/// assert_eq!(refused, Err(LightError::Toward(DVec3::ZERO)));
+/// ```
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum LightError {
+    /// The vector toward a directional light is zero, infinite or not a number.
+    #[error("expected a finite vector toward the light that is not zero, found {0}")]
+    Toward(DVec3),
+    /// The position of a point light is infinite or not a number.
+    #[error("expected a finite position, found {0}")]
+    Position(DVec3),
+    /// The reference distance of a point light is zero, negative, infinite or not a number.
+    #[error("expected a finite reference distance greater than 0, found {0}")]
+    Reference(f64),
+}
+
 impl Light {
     /// The directional light that [`DirectionalLight::new`] makes.
-    pub fn directional(toward: DVec3, intensity: Color) -> Option<Self> {
+    ///
+    /// # Errors
+    /// Refuses a vector that has no direction.
+    pub fn directional(toward: DVec3, intensity: Color) -> Result<Self, LightError> {
         DirectionalLight::new(toward, intensity).map(Self::Directional)
     }
 
-    /// Radiance of a white surface that faces the light, from the reference distance of a point light.
+    /// The radiance of a white surface that faces the light; for a point light, at its reference distance.
     pub fn intensity(&self) -> Color {
         match self {
             Self::Directional(light) => light.intensity,
@@ -53,7 +133,7 @@ impl Light {
         }
     }
 
-    /// The unit vector toward a directional light, in the world frame.
+    /// The unit vector toward a directional light, in the world frame; `None` for a point light.
     pub fn toward(&self) -> Option<DVec3> {
         match self {
             Self::Directional(light) => Some(light.toward),
@@ -61,7 +141,7 @@ impl Light {
         }
     }
 
-    /// The light as one at a point, if it is.
+    /// The point light, if it is one.
     pub fn point(&self) -> Option<&PointLight> {
         match self {
             Self::Directional(_) => None,
@@ -69,7 +149,7 @@ impl Light {
         }
     }
 
-    /// A bound of the radiance of a white surface on the outer side of a sphere.
+    /// An upper bound of the radiance that the light gives a white surface on the outer side of a sphere.
     pub fn brightest_on(&self, sphere: &Sphere) -> Color {
         match self {
             Self::Directional(light) => light.intensity,
@@ -91,14 +171,16 @@ impl From<PointLight> for Light {
 }
 
 impl DirectionalLight {
-    /// The light that lies in the direction of `toward`, a world vector of any finite length.
+    /// Creates the light that lies in the direction of `toward`, a vector in the world frame of any finite length.
     ///
-    /// `None` where the vector is zero or not finite: it has no direction.
-    pub fn new(toward: DVec3, intensity: Color) -> Option<Self> {
+    /// # Errors
+    /// Refuses a vector that is zero or not finite: it has no direction.
+    pub fn new(toward: DVec3, intensity: Color) -> Result<Self, LightError> {
         // The largest component becomes 1 first, so that no square over- or underflows.
         let largest = toward.abs().max_element();
-        let toward = (toward / largest).try_normalize()?;
-        Some(Self { toward, intensity })
+        let unit = (toward / largest).try_normalize();
+        let toward = unit.ok_or(LightError::Toward(toward))?;
+        Ok(Self { toward, intensity })
     }
 
     /// Unit vector toward the light, in the world frame.
@@ -113,18 +195,24 @@ impl DirectionalLight {
 }
 
 impl PointLight {
-    /// The light at a point of the world. Its intensity is that of a white surface at the distance `reference` that
-    /// faces it.
+    /// Creates a light at a point of the world. A white surface that faces it at the distance `reference` has the
+    /// radiance `intensity`.
     ///
-    /// `None` where a number is not finite, or the distance not greater than 0.
+    /// # Errors
+    /// Refuses a position that is not finite, and a distance that is not finite or not greater than 0.
     pub fn new(
         position: DVec3,
         intensity: Color,
         falloff: LightFalloff,
         reference: f64,
-    ) -> Option<Self> {
-        let is_sound = position.is_finite() && reference.is_finite() && reference > 0.0;
-        is_sound.then_some(Self {
+    ) -> Result<Self, LightError> {
+        if !position.is_finite() {
+            return Err(LightError::Position(position));
+        }
+        if !(reference > 0.0 && reference.is_finite()) {
+            return Err(LightError::Reference(reference));
+        }
+        Ok(Self {
             position,
             intensity,
             falloff,
@@ -147,7 +235,7 @@ impl PointLight {
         self.falloff
     }
 
-    /// The distance at which its intensity is what it is said to be.
+    /// The distance at which a white surface that faces it has the radiance [`Self::intensity`].
     pub fn reference(&self) -> f64 {
         self.reference
     }

@@ -19,14 +19,14 @@ pub(crate) struct LightUnit {
 }
 
 impl LightUnit {
-    /// Of a world under some lights.
+    /// The contrast and the unit of a world under some lights.
     pub(crate) fn new(world: &World, lights: &[Light]) -> Self {
         let lights = lights.iter().map(|light| light.intensity().max_element());
-        let strokes = world.stroke_colors().map(Color::max_element);
+        let outlines = world.outline_colors().map(Color::max_element);
         let contrast = world.ambient.max_element()
             + world.background.max_element()
             + lights.sum::<f64>()
-            + strokes.fold(0.0, f64::max);
+            + outlines.fold(0.0, f64::max);
         let unit = power_of_two_from(contrast);
         Self {
             contrast: contrast / unit,

@@ -20,7 +20,7 @@ use super::view::View;
 /// The factors that turn a camera's y up into OpenCV's y down, and back.
 const DOWN: DVec3 = DVec3::new(1.0, -1.0, 1.0);
 
-/// A point or a direction of the world in the right-handed world with z negated, and back.
+/// Converts a point or a direction from the world to the right-handed world with z negated, or back.
 pub fn right_handed(vector: DVec3) -> DVec3 {
     // Without `+ 0` there would be negative zeros, which readers of files stumble over.
     DVec3::new(vector.x, vector.y, -vector.z) + DVec3::ZERO
@@ -28,6 +28,19 @@ pub fn right_handed(vector: DVec3) -> DVec3 {
 
 /// The place of a camera: `x_camera = rotation · X + translation`, from the right-handed world with z
 /// negated to OpenCV's axes.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Angle, Camera, Extrinsics};
+///
+/// let camera = Camera::look_at(DVec3::new(0.0, 0.0, -5.0), DVec3::ZERO, Angle::ZERO)?;
+/// let extrinsics = Extrinsics::of(&camera);
+/// // y is down.
+/// assert_eq!(extrinsics.point(DVec3::new(1.0, 2.0, 0.0)), DVec3::new(1.0, -2.0, 5.0));
+/// assert_eq!(extrinsics.camera().position, camera.position);
+/// # Ok::<(), marbles_core::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extrinsics {
     /// R, of determinant 1.
@@ -78,6 +91,19 @@ fn mirrored(matrix: DMat3) -> DMat3 {
 
 /// The matrix of a pinhole camera with square pixels: a point is seen at `focal_length · (x, y) / z +
 /// principal_point`.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec2;
+/// use marbles_core::{Angle, Camera, Intrinsics, Lens, View};
+///
+/// let lens = Lens::from_field_of_view(Angle::from_degrees(90.0))?;
+/// let intrinsics = Intrinsics::of(&View::new(Camera::default(), lens, 100, 60));
+/// // Half the width is 50 pixels, over tan 45°.
+/// assert!((intrinsics.focal_length - 50.0).abs() < 1e-12);
+/// assert_eq!(intrinsics.principal_point, DVec2::new(49.5, 29.5));
+/// # Ok::<(), marbles_core::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {
     /// The distance of the retina, in pixels; greater than 0.
@@ -89,8 +115,8 @@ pub struct Intrinsics {
 impl Intrinsics {
     /// The matrix of this view, with its zoom.
     ///
-    /// It is infinite where a pixel is too small beside the distance of the retina for doubles, and for a parallel
-    /// lens: [`View::pixels_per_unit`] tells what that does.
+    /// The focal length is infinite for a parallel lens, for which you can use [`View::pixels_per_unit`]. It is also
+    /// infinite if the distance of the retina, in pixels, is beyond the range of doubles.
     pub fn of(view: &View) -> Self {
         let shift = view.lens.shift / view.pixel_size();
         let middle = middle(view.width, view.height);

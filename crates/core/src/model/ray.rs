@@ -5,6 +5,15 @@ use glam::DVec3;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
 /// A half line: the points `origin + t · direction` with `t > 0`, in the world frame.
+///
+/// # Example
+/// ```
+/// use marbles_core::Ray;
+/// use marbles_core::glam::DVec3;
+///
+/// let ray = Ray { origin: DVec3::X, direction: DVec3::new(0.0, 0.0, 2.0) };
+/// assert_eq!(ray.at(3.0), DVec3::new(1.0, 0.0, 6.0));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// The point where the ray starts.

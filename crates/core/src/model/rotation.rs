@@ -4,7 +4,17 @@ use glam::{DMat3, DVec3};
 use thiserror::Error;
 
 /// The reason for which a matrix is no rotation.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::{DMat3, DVec3};
+/// use marbles_core::{RotationError, nearest_rotation};
+///
+/// let mirror = DMat3::from_diagonal(DVec3::new(1.0, 1.0, -1.0));
+/// assert_eq!(nearest_rotation(mirror), Err(RotationError::Mirrors(-1.0)));
+/// ```
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum RotationError {
     /// Its columns are not unit vectors at right angles: the largest entry of RᵀR − 1, which may be infinite.
     #[error("RᵀR differs from 1 by {0:.1e}")]

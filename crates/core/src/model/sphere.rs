@@ -4,6 +4,21 @@ use glam::DVec3;
 use thiserror::Error;
 
 /// A sphere: an opaque surface, in the world frame.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Ray, Sphere};
+///
+/// let sphere = Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?;
+/// let ray = Ray { origin: DVec3::ZERO, direction: DVec3::Z };
+/// assert_eq!(sphere.hit(&ray).map(|hit| hit.t), Some(4.0));
+/// // A ray that touches the sphere hits it, and one that passes by the least distance misses it.
+/// let at_height = |y| Ray { origin: DVec3::new(0.0, y, 0.0), direction: DVec3::Z };
+/// assert!(sphere.hit(&at_height(1.0)).is_some());
+/// assert!(sphere.hit(&at_height(1.0_f64.next_up())).is_none());
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     pub(crate) center: DVec3,
@@ -11,7 +26,17 @@ pub struct Sphere {
 }
 
 /// The reason for which a sphere was refused.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Sphere, SphereError};
+///
+/// let refused = Sphere::new(DVec3::ZERO, -1.0);
+/// assert_eq!(refused, Err(SphereError::Radius(-1.0)));
+/// ```
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[non_exhaustive]
 pub enum SphereError {
     /// The center is infinite or not a number.
     #[error("expected a finite center, found {0}")]

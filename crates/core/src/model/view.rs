@@ -7,13 +7,30 @@ use super::outline::OutlineView;
 use super::ray::Ray;
 
 /// One picture to take: camera, lens, and the pixels of the retina.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::{DVec2, DVec3};
+/// use marbles_core::{Angle, Camera, Lens, View};
+///
+/// let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
+/// let view = View::new(Camera::default(), lens, 640, 480);
+/// // A point on the axis of view is seen in the middle.
+/// let middle = view.project(DVec3::new(0.0, 0.0, 5.0));
+/// assert_eq!(middle, Some(DVec2::new(320.0, 240.0)));
+/// assert_eq!(view.project(DVec3::NEG_Z), None);
+/// let closer = View { zoom: 2.0, ..view };
+/// assert_eq!(closer.pixels_per_unit(), 2.0 * view.pixels_per_unit());
+/// # Ok::<(), marbles_core::CameraError>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// The viewpoint and the directions of the camera.
     pub camera: Camera,
     /// Its retina.
     pub lens: Lens,
-    /// Factor on the retina's distance, or that a parallel lens's width is divided by, greater than 0.
+    /// The factor by which the retina's distance is multiplied, or the width of a parallel lens is divided, greater
+    /// than 0.
     pub zoom: f64,
     /// Columns of the picture, at least 1.
     pub width: u32,
@@ -41,14 +58,14 @@ impl View {
         self.lens.width / f64::from(self.width)
     }
 
-    /// The pixels that a length of 1 on the plane at distance 1 before the viewpoint spans, or, through a
-    /// parallel lens, that any length of 1 across the axis of view does.
+    /// The number of pixels that a length of 1 spans on the plane at distance 1 in front of the viewpoint; for a
+    /// parallel lens, on any plane perpendicular to the axis of view.
     pub fn pixels_per_unit(&self) -> f64 {
         self.magnification() / self.pixel_size()
     }
 
-    /// The lengths on the retina for each length on the plane at distance 1 before the viewpoint; of a
-    /// parallel lens, on any plane across the axis of view.
+    /// The length on the retina of a length of 1 on the plane at distance 1 in front of the viewpoint; for a parallel
+    /// lens, on any plane perpendicular to the axis of view.
     pub fn magnification(&self) -> f64 {
         match self.lens.projection() {
             Projection::Central => self.lens.distance * self.zoom,
@@ -56,8 +73,8 @@ impl View {
         }
     }
 
-    /// The part of the plane at distance 1 before the viewpoint that the picture shows: its center, to
-    /// the right and up from the view axis, and its width.
+    /// The part of the plane at distance 1 in front of the viewpoint that the picture shows: its center, to the right
+    /// and up from the axis of view, and its width.
     pub fn screen_window(&self) -> (DVec2, f64) {
         let magnification = self.magnification();
         (
@@ -66,16 +83,16 @@ impl View {
         )
     }
 
-    /// The part of the view that the strokes of spheres depend on.
-    pub(crate) fn of_strokes(&self) -> OutlineView {
+    /// The part of the view that the outlines of spheres depend on.
+    pub(crate) fn outline_view(&self) -> OutlineView {
         OutlineView {
             pixel: 1.0 / self.pixels_per_unit(),
             projection: self.lens.projection(),
         }
     }
 
-    /// The ray through a point of the retina: from the viewpoint, or of a parallel lens from the point of
-    /// the plane through the viewpoint that is seen there, with a unit vector for a direction.
+    /// The ray through a point of the retina. It begins at the viewpoint. For a parallel lens it begins on the plane
+    /// through the viewpoint, at the point that is seen there, and its direction is a unit vector.
     pub fn ray(&self, retina_point: DVec2) -> Ray {
         let axes = &self.camera.world_from_camera;
         match self.lens.projection() {

@@ -15,21 +15,35 @@ use crate::model::color::is_grey;
 /// Everything that a camera may see, and its light.
 ///
 /// Copies share the spheres until one of them gets more.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Light, Material, Sphere, World};
+///
+/// let mut world = World::new();
+/// let white = world.add_material(Material::default());
+/// for x in [-1.0, 0.0, 1.0] {
+///     world.add_sphere(Sphere::new(DVec3::new(x, 0.0, 5.0), 0.4)?, white);
+/// }
+/// world.lights.push(Light::directional(DVec3::new(-1.0, 1.0, -1.0), DVec3::ONE)?);
+/// world.ambient = DVec3::splat(0.1);
+/// assert_eq!(world.spheres().len(), 3);
+/// assert_eq!(world.albedo(2), DVec3::ONE);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct World {
     /// The lights, unless a picture has its own; none leaves only the ambient light.
     pub lights: Vec<Light>,
-    /// True where some picture's own lights ([`crate::Exposure::with_lights`]) may have a color, so that all pictures
-    /// have three channels.
-    pub has_colored_lights: bool,
-    /// True where spheres that come and go between pictures may have a color, so that all pictures have three channels.
-    pub has_colored_spheres: bool,
     /// Light from everywhere, which no shadow stops.
     pub ambient: Color,
     /// Radiance where no sphere is seen.
     pub background: Color,
-    /// True where spheres keep the light from each other.
+    /// Whether spheres cast shadows on each other.
     pub shadows: bool,
+    expects_colored_lights: bool,
+    expects_colored_spheres: bool,
     surfaces: Arc<Surfaces>,
     materials: Arc<Vec<Material>>,
     /// The spheres that have albedos of their own.
@@ -55,6 +69,30 @@ struct Painted {
 }
 
 /// A part of a world's light: the sum of the pictures under all parts is the picture.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::DVec3;
+/// # use marbles_core::{Angle, Camera, Lens, Material, Sphere, View, World, Light, LightPart, Renderer, Settings};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// # let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
+/// # let view = View::new(Camera::default(), lens, 16, 16);
+/// world.lights.push(Light::directional(DVec3::NEG_Z, DVec3::ONE)?);
+/// world.ambient = DVec3::splat(0.25);
+/// let renderer = Renderer::new(&world);
+/// let middle = |renderer: &Renderer<'_>| {
+///     let image = renderer.render(&view, &Settings::default());
+///     image.rgba(8, 8)[0]
+/// };
+/// let parts = [LightPart::Light(0), LightPart::Ambient];
+/// let sum: f64 = parts.iter().map(|&part| middle(&renderer.under(part))).sum();
+/// // Each picture is within 1e-3 of the light.
+/// assert!((sum - middle(&renderer)).abs() <= 3e-3);
+/// assert_eq!(middle(&renderer.under(LightPart::Ambient)), 0.25);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum LightPart {
     /// The ambient light, and the background.
@@ -64,6 +102,20 @@ pub enum LightPart {
 }
 
 /// One of a world's materials.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Material, Sphere, World};
+///
+/// let mut world = World::new();
+/// let white = world.add_material(Material::default());
+/// let red = world.add_material(Material { albedo: DVec3::X, ..Material::default() });
+/// world.add_sphere(Sphere::new(DVec3::ZERO, 1.0)?, red);
+/// assert_ne!(white, red);
+/// assert_eq!(world.material(0).albedo, DVec3::X);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct MaterialId(u32);
 
@@ -72,8 +124,8 @@ impl World {
     pub fn new() -> Self {
         Self {
             lights: Vec::new(),
-            has_colored_lights: false,
-            has_colored_spheres: false,
+            expects_colored_lights: false,
+            expects_colored_spheres: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: true,
@@ -103,8 +155,8 @@ impl World {
         let mut materials = Arc::clone(&self.materials);
         if part != LightPart::Ambient && self.has_outlines() {
             for material in Arc::make_mut(&mut materials) {
-                if let Some(stroke) = &mut material.outline {
-                    stroke.color = Color::ZERO;
+                if let Some(outline) = &mut material.outline {
+                    outline.color = Color::ZERO;
                 }
             }
         }
@@ -113,7 +165,7 @@ impl World {
             materials,
             ambient,
             background,
-            has_colored_lights: self.has_colored_lights && part != LightPart::Ambient,
+            expects_colored_lights: self.expects_colored_lights && part != LightPart::Ambient,
             ..self.clone()
         }
     }
@@ -129,8 +181,8 @@ impl World {
         });
         Self {
             lights: lights.into_iter().flatten().collect(),
-            has_colored_lights: false,
-            has_colored_spheres: false,
+            expects_colored_lights: false,
+            expects_colored_spheres: false,
             ambient: Color::ZERO,
             background: Color::ZERO,
             shadows: false,
@@ -157,12 +209,20 @@ impl World {
         id
     }
 
-    /// Notes that a material may be that of spheres that come and go between pictures.
+    /// Prepares for pictures with colored lights of their own ([`crate::Exposure::with_lights`]): all pictures of the
+    /// world then have three channels, even if its own lights have no color.
+    pub fn expect_colored_lights(&mut self) {
+        self.expects_colored_lights = true;
+    }
+
+    /// Prepares for copies of this world that have more spheres, of this material or, if `has_albedos`, with albedos of
+    /// their own: pictures of the world then have the same channels as pictures of its copies.
     ///
     /// # Panics
-    /// When `material` is not of this world.
-    pub fn use_material(&mut self, material: MaterialId) {
+    /// If `material` is not of this world.
+    pub fn expect_spheres(&mut self, material: MaterialId, has_albedos: bool) {
         self.surfaces_mut().note_use(material);
+        self.expects_colored_spheres |= has_albedos;
     }
 
     /// Adds a sphere; where surfaces coincide, the one added first is seen.
@@ -176,8 +236,8 @@ impl World {
         surfaces.material_ids.add(1, material.0);
     }
 
-    /// Adds many spheres of one material behind those that are there, at the price of a copy at
-    /// most. `albedos` has one for each of them that takes the place of the material's.
+    /// Adds many spheres of one material after those that are there, and copies each sphere at most once. `albedos`, if
+    /// given, has one albedo for each of them, in place of the material's.
     ///
     /// # Panics
     /// When `material` is not of this world, or the albedos are not as many as the spheres.
@@ -240,26 +300,26 @@ impl World {
             .unwrap_or(self.material(sphere).albedo)
     }
 
-    /// True where some spheres have albedos of their own.
+    /// Returns whether some spheres have albedos of their own.
     pub fn has_own_albedos(&self) -> bool {
         !self.painted.is_empty()
     }
 
-    /// True where some sphere has bumps.
+    /// Returns whether some sphere has bumps.
     pub fn has_bumps(&self) -> bool {
         self.used_materials()
             .any(|material| material.roughness.is_some())
     }
 
-    /// True where some sphere has a line along its outline.
-    pub fn has_outlines(&self) -> bool {
+    /// True if some sphere has a line along its contour.
+    pub(crate) fn has_outlines(&self) -> bool {
         self.used_materials().any(|one| one.outline.is_some())
     }
 
-    /// The light that strokes send, of each material that has one.
-    pub(crate) fn stroke_colors(&self) -> impl Iterator<Item = Color> {
-        let strokes = self.used_materials().filter_map(|one| one.outline);
-        strokes.map(|stroke| stroke.color)
+    /// The light that outlines send, of each material that has one.
+    pub(crate) fn outline_colors(&self) -> impl Iterator<Item = Color> {
+        let outlines = self.used_materials().filter_map(|one| one.outline);
+        outlines.map(|outline| outline.color)
     }
 
     /// The materials that some sphere has.
@@ -273,7 +333,7 @@ impl World {
         &self.materials
     }
 
-    /// The place of a sphere's material among the materials.
+    /// The index of a sphere's material in [`Self::materials`].
     pub fn material_index(&self, sphere: usize) -> u32 {
         self.surfaces.material_ids.get(sphere)
     }
@@ -294,9 +354,9 @@ impl World {
             dark = dark.min(albedo * self.ambient);
             bright = bright.max(albedo * (self.ambient + lights) + lights * strength);
         }
-        for stroke in self.stroke_colors() {
-            dark = dark.min(stroke);
-            bright = bright.max(stroke);
+        for outline in self.outline_colors() {
+            dark = dark.min(outline);
+            bright = bright.max(outline);
         }
         [dark, bright]
     }
@@ -313,18 +373,18 @@ impl World {
     }
 
     /// True where nothing that can be seen has a color, so that one channel tells all.
-    pub fn is_grey(&self) -> bool {
+    pub(crate) fn is_grey(&self) -> bool {
         is_grey(self.background) && self.has_grey_spheres()
     }
 
     /// True where the spheres' light has no color, whatever the background has.
-    pub fn has_grey_spheres(&self) -> bool {
+    pub(crate) fn has_grey_spheres(&self) -> bool {
         is_grey(self.ambient)
-            && !self.has_colored_lights
-            && !self.has_colored_spheres
+            && !self.expects_colored_lights
+            && !self.expects_colored_spheres
             && self.lights.iter().all(|light| is_grey(light.intensity()))
             && self.used_materials().all(|one| is_grey(one.albedo))
-            && self.stroke_colors().all(is_grey)
+            && self.outline_colors().all(is_grey)
             && self.painted.iter().all(|some| some.is_grey)
     }
 }

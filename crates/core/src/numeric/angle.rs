@@ -6,6 +6,16 @@ use super::double_double::DoubleDouble;
 ///
 /// Rotations need nothing else, and many angles are exact in this form that are not in radians:
 /// a quarter turn, or the direction of a vector with whole coordinates.
+///
+/// # Example
+/// ```
+/// use marbles_core::Angle;
+///
+/// let quarter = Angle::from_degrees(90.0);
+/// assert_eq!((quarter.sin, quarter.cos), (1.0, 0.0)); // exactly
+/// assert_eq!(Angle::from_degrees(90.0 + 360.0), quarter);
+/// assert_eq!(Angle::from_sides(1.0, 1.0).degrees(), 45.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Angle {
     /// Sine of the angle.

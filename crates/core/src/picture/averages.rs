@@ -4,27 +4,72 @@ use super::tile::Tile;
 use super::window::Window;
 
 /// The averages that are wanted of a picture's pixels.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+///
+/// # Example
+/// ```
+/// use marbles_core::{AverageSettings, GeometrySettings};
+///
+/// let settings = GeometrySettings {
+///     averages: AverageSettings { coverage: true, ..AverageSettings::default() },
+///     ..GeometrySettings::default()
+/// };
+/// assert_eq!(settings.averages.tolerance, 1e-3);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AverageSettings {
     /// True if [`Average::Normal`] is wanted.
     pub normal: bool,
-    /// True if [`Average::Coverage`] is wanted, and the sphere that it is of.
+    /// True if [`Average::Coverage`] is wanted, and the index of its sphere.
     pub coverage: bool,
     /// The error that is accepted in what is averaged: greater than 0.
     pub tolerance: f64,
 }
 
+/// No averages; the tolerance 1e-3 for those that are added.
+impl Default for AverageSettings {
+    fn default() -> Self {
+        Self {
+            normal: false,
+            coverage: false,
+            tolerance: 1e-3,
+        }
+    }
+}
+
 /// An average over a pixel.
+///
+/// # Example
+/// ```
+/// use std::f64::consts::PI;
+///
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Average, AverageSettings, Camera, GeometrySettings, Lens, Material, Renderer, Sphere, View, World};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// // The radius of the ball is 4 pixels.
+/// # let view = View::new(Camera::default(), Lens::parallel(3.0, DVec2::ZERO), 12, 12);
+/// let settings = GeometrySettings {
+///     averages: AverageSettings { coverage: true, ..AverageSettings::default() },
+///     ..GeometrySettings::default()
+/// };
+/// let geometry = Renderer::new(&world).geometry(&view, &settings);
+/// let shares = (0..12).filter_map(|row| geometry.averages(Average::Coverage, 0, row));
+/// let area: f64 = shares.flatten().sum();
+/// assert!((area - 16.0 * PI).abs() < 12.0 * 12.0 * 1e-3);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
 pub enum Average {
-    /// The mean of the shading normal over the part of the pixel in which spheres are seen: x, y and z in the axes of the
-    /// normals, no unit vector where the surface bends; then the error of each. The tolerance is met by the integral, so
-    /// that the error is at most the tolerance divided by the part. It is an estimate, which what fools the claims of
-    /// pictures may fool: the means are made of such. An inner side, which no light reaches, counts as 0. Where nothing
-    /// is seen all are 0.
+    /// The mean of the shading normal over the part of the pixel in which spheres are seen: x, y and z in the axes of
+    /// the normals, then the error of each. The mean of a bent surface is no unit vector. The tolerance applies to the
+    /// integral over the pixel: the error of the mean is at most the tolerance divided by the visible part. The error
+    /// is an estimate, like those of the pictures from which the mean is computed. An inner side, which no light
+    /// reaches, counts as 0. If nothing is seen, all four numbers are 0.
     Normal,
-    /// The part of the pixel in which the sphere is seen that most of the pixel sees, from 0 to 1, and an estimate of its
-    /// error.
+    /// The part of the pixel, from 0 to 1, in which one sphere is seen, the one that is seen in most of it; and an
+    /// estimate of the error.
     Coverage,
 }
 

@@ -9,34 +9,52 @@ use super::window::Window;
 
 /// The geometry that the rays through the centers of a picture's pixels see.
 ///
-/// The ray of a pixel is [`View::ray`](crate::View::ray) through
-/// [`View::cell_center`](crate::View::cell_center) with one division, in the doubles that these return. It is
-/// the ray of one sample a pixel, and the same code decides which sphere it sees: exactly. Of coincident
-/// surfaces the sphere that was added first is seen; a viewpoint inside a sphere sees its inner side. Where
-/// the camera moves, it is the view in the middle of the time. No such value is an average; the averages that may come
-/// with them ([`Average`]) are told apart.
+/// The ray of a pixel is [`View::ray`](crate::View::ray) through [`View::cell_center`](crate::View::cell_center) with
+/// one division, in the doubles that these return. It is the ray of one sample per pixel, and the same code decides,
+/// exactly, which sphere it sees. If surfaces coincide, it sees the sphere that was added first. From a viewpoint
+/// inside a sphere it sees the inner side. If the camera moves, the geometry is that of the view in the middle of the
+/// time. None of these values is an average; [`Average`] lists the averages that you can get as well.
 ///
-/// Row 0 is the top row, column 0 the left one. A normal of the world is told as what it is; in a camera's
-/// axes it is the product with the transposed rotation of the [`Camera`](crate::Camera), and a position is
-/// t times the point (u, v, distance) of the retina, both with the signs of the [`Axes`](crate::Axes).
+/// Row 0 is the top row, column 0 the left one. In a camera's axes a normal is the world's normal multiplied by the
+/// transposed rotation of the [`Camera`](crate::Camera), and a position is t times the point (u, v, distance) of the
+/// retina, both with the signs of the [`Axes`](crate::Axes).
 ///
 /// # Accuracy
-/// A bound for depths, positions and geometric normals, each component of its own however small: in the type
-/// that [`Precision`] names it is within 2 units in the last place of the exact number.
-/// `tests/tests/geometry.rs` holds it against rational arithmetic. Shading normals with bumps are those that
-/// the picture is shaded with.
+/// A bound for depths, positions and geometric normals: each component, however small, is within 2 units in the last
+/// place of the exact number, in the type that [`Precision`] names. `tests/tests/geometry` compares them with rational
+/// arithmetic. Shading normals with bumps are those that the picture is shaded with.
 ///
-/// Eight pixels of a row are a block; where they see nothing, there is none.
+/// # Example
+/// ```
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Geometry, Precision, Quantity, Camera, GeometrySettings, Lens, Material, Renderer, Sphere, View, World};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// // The ball from z = 4 to z = 6, in the middle of 3 × 3 pixels.
+/// # let view = View::new(Camera::default(), Lens::parallel(9.0, DVec2::ZERO), 3, 3);
+/// let settings = GeometrySettings {
+///     quantities: [Quantity::Depth].into_iter().collect(),
+///     precision: Precision::Double,
+///     ..GeometrySettings::default()
+/// };
+/// let geometry = Renderer::new(&world).geometry(&view, &settings);
+/// let ids: Vec<u32> = geometry.ids(1).collect();
+/// assert_eq!(ids, [Geometry::NOTHING, 0, Geometry::NOTHING]);
+/// let depths = geometry.values(Quantity::Depth, 0, 1).expect("they were asked for");
+/// assert_eq!(depths.collect::<Vec<_>>(), [f64::INFINITY, 4.0, f64::INFINITY]);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Geometry {
     /// The part of the blocks that is told.
     window: Window,
     quantities: Quantities,
-    /// Blocks side by side.
+    /// Blocks side by side: eight pixels of a row.
     columns: usize,
-    /// The places of the blocks, row by row.
+    /// The places of the blocks, row by row; none for a block that sees nothing.
     places: Vec<u32>,
-    /// Of each block the components of each quantity.
+    /// The components of each quantity, block by block.
     numbers: Numbers,
     ids: Vec<[u32; SIDE]>,
     averages: Averages,
@@ -119,7 +137,7 @@ impl Geometry {
         self.inside(self.blocks(row).flat_map(block))
     }
 
-    /// A component of a quantity in a row's pixels, from left to right; `None` where the quantity was not
+    /// A component of a quantity in a row's pixels, from left to right; `None` if the quantity was not
     /// wanted.
     ///
     /// # Panics
@@ -145,7 +163,7 @@ impl Geometry {
         is_wanted.then(|| self.inside(self.blocks(row).flat_map(block)))
     }
 
-    /// A component of an average in a row's pixels, from left to right; `None` where it was not wanted.
+    /// A component of an average in a row's pixels, from left to right; `None` if it was not wanted.
     ///
     /// # Panics
     /// Outside the picture, and for components that the average does not have.

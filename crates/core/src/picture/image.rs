@@ -14,6 +14,19 @@ use super::window::Window;
 use crate::model::world::World;
 
 /// The numbers that a picture holds for each pixel.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec3;
+/// use marbles_core::{Channels, World};
+///
+/// let mut world = World::new();
+/// assert_eq!(Channels::of(&world, false), Channels::Grey);
+/// world.background = DVec3::new(0.25, 0.25, 0.5);
+/// assert_eq!(Channels::of(&world, false), Channels::Rgb);
+/// // An alpha channel takes the place of the background.
+/// assert_eq!(Channels::of(&world, true), Channels::Grey);
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Channels {
     /// One: the picture has no color.
@@ -23,7 +36,7 @@ pub enum Channels {
 }
 
 impl Channels {
-    /// Those of a world's pictures, with or without an alpha channel in place of the background.
+    /// The channels of a world's pictures, with or without an alpha channel in place of the background.
     pub fn of(world: &World, alpha: bool) -> Self {
         let is_grey = if alpha {
             world.has_grey_spheres()
@@ -42,11 +55,32 @@ impl Channels {
     }
 }
 
-/// A picture: linear light, premultiplied by coverage where it has an alpha channel, and for
+/// A picture: linear light, premultiplied by coverage if it has an alpha channel, and for
 /// every pixel the error of these numbers.
 ///
-/// Row 0 is the top row, column 0 the left one. Pictures are equal whose pixels are, and what is
-/// known of them; what they cost does not count.
+/// Row 0 is the top row, column 0 the left one. Two pictures are equal if the values, errors, evidence and statuses of
+/// their pixels are; their work does not count.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::DVec3;
+/// # use marbles_core::{Angle, Camera, Lens, Material, Sphere, View, World, Channels, Evidence, Renderer, Settings};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// # let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
+/// # let view = View::new(Camera::default(), lens, 16, 16);
+/// world.ambient = DVec3::splat(0.5);
+/// let image = Renderer::new(&world).render(&view, &Settings::default());
+/// assert_eq!((image.width(), image.height()), (16, 16));
+/// assert_eq!(image.channels(), Channels::Grey);
+/// assert_eq!(image.rgba(8, 8), [0.5, 0.5, 0.5, 1.0]);
+/// assert_eq!(image.evidence(8, 8), Evidence::Bound);
+/// assert!(image.error(8, 8) < 1e-15);
+/// let codes = image.to_srgb8();
+/// assert_eq!(codes.len(), 4 * 16 * 16);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Image {
     width: u32,
@@ -82,7 +116,26 @@ pub(crate) struct Uniform {
     pub(crate) outcome: Option<(Evidence, Status)>,
 }
 
-/// The achievement of a picture as a whole.
+/// The errors of a picture as a whole.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::DVec3;
+/// # use marbles_core::{Angle, Camera, Lens, Material, Sphere, View, World, Evidence, Renderer, Settings};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// # let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
+/// # let view = View::new(Camera::default(), lens, 16, 16);
+/// world.ambient = DVec3::splat(0.5);
+/// let summary = Renderer::new(&world).render(&view, &Settings::default()).summary();
+/// assert_eq!(summary.pixels, 16 * 16);
+/// assert_eq!(summary.over_tolerance, 0);
+/// assert!(summary.largest_error <= 1e-3);
+/// let both = summary.and(&summary);
+/// assert_eq!(both.pixels, 2 * summary.pixels);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Summary {
     /// Number of pixels.
@@ -91,12 +144,12 @@ pub struct Summary {
     pub largest_error: f64,
     /// Number of pixels whose errors are bounds.
     pub bounds: u64,
-    /// Number of pixels that did not meet the tolerance; 0 where none was asked for.
+    /// Number of pixels that did not meet the tolerance; 0 if there was none.
     pub over_tolerance: u64,
 }
 
 impl Summary {
-    /// The foundation of the errors: a bound only where all of them are.
+    /// [`Evidence::Bound`] if all errors are bounds.
     pub fn evidence(&self) -> Evidence {
         if self.bounds == self.pixels {
             Evidence::Bound
@@ -171,7 +224,7 @@ impl Image {
         self.channels
     }
 
-    /// True for premultiplied light without its background, with coverage.
+    /// Returns whether the picture has an alpha channel. Its light is then premultiplied, without the background.
     pub fn has_alpha(&self) -> bool {
         self.alpha
     }
@@ -193,8 +246,7 @@ impl Image {
         }
     }
 
-    /// The numbers of a row's pixels from left to right: of each its channels, then its alpha where
-    /// there is one.
+    /// The numbers of a row's pixels from left to right: the channels of each pixel, then its alpha if there is one.
     ///
     /// # Panics
     /// Outside the picture.
@@ -225,18 +277,17 @@ impl Image {
         pixels.flat_map(codes).collect()
     }
 
-    /// The largest distance of a pixel's numbers from the exact area average; infinite where nothing
-    /// is known.
+    /// The largest distance of a pixel's numbers from the exact average over its area; infinite if nothing is known.
     pub fn error(&self, col: u32, row: u32) -> f64 {
         self.errors.at(self.index(col, row))
     }
 
-    /// The end of the work on a pixel.
+    /// The status of a pixel: whether it meets the tolerance.
     pub fn status(&self, col: u32, row: u32) -> Status {
         self.statuses.at(self.index(col, row))
     }
 
-    /// The foundation of a pixel's error.
+    /// Returns whether a pixel's error is a bound or an estimate.
     pub fn evidence(&self, col: u32, row: u32) -> Evidence {
         self.evidence.at(self.index(col, row))
     }
@@ -250,7 +301,7 @@ impl Image {
         self.work = work;
     }
 
-    /// The achievement of the picture as a whole.
+    /// The errors of the picture as a whole.
     pub fn summary(&self) -> Summary {
         let pixels = u64::from(self.width) * u64::from(self.height);
         Summary {

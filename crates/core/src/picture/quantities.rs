@@ -3,22 +3,43 @@
 use super::averages::AverageSettings;
 
 /// The contents of a [`Geometry`](crate::Geometry), and their conventions.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// # Example
+/// ```
+/// use marbles_core::{Axes, GeometrySettings, Quantity};
+///
+/// let settings = GeometrySettings {
+///     quantities: [Quantity::Depth, Quantity::Normal].into_iter().collect(),
+///     axes: Axes::CameraOpenCv,
+///     ..GeometrySettings::default()
+/// };
+/// assert!(settings.quantities.has(Quantity::Normal));
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GeometrySettings {
-    /// The quantities that are wanted; which sphere is seen is always told.
+    /// The quantities that are wanted. The index of the sphere always comes with them.
     pub quantities: Quantities,
     /// The meaning of [`Quantity::Depth`].
     pub depth: Depth,
     /// The axes of normals and positions.
     pub axes: Axes,
-    /// The last places that are right.
+    /// The type of number for which the quantities are computed.
     pub precision: Precision,
     /// The averages that are wanted besides.
     pub averages: AverageSettings,
 }
 
-/// A quantity that a pixel's center ray has where it meets a sphere.
+/// A quantity at the point where the ray through a pixel's center meets a sphere.
+///
+/// # Example
+/// ```
+/// use marbles_core::Quantity;
+///
+/// let components = Quantity::ALL.map(|quantity| quantity.components());
+/// assert_eq!(components, [1, 3, 3, 3, 3]);
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
 pub enum Quantity {
     /// The distance: one number, above 0; infinite where nothing is seen.
     Depth,
@@ -52,7 +73,7 @@ impl Quantity {
     }
 
     /// The value of its components where nothing is seen.
-    pub const fn of_nothing(self) -> f64 {
+    pub(crate) const fn of_nothing(self) -> f64 {
         match self {
             Self::Depth => f64::INFINITY,
             _ => 0.0,
@@ -61,6 +82,15 @@ impl Quantity {
 }
 
 /// A set of quantities.
+///
+/// # Example
+/// ```
+/// use marbles_core::{Quantities, Quantity};
+///
+/// let depth = Quantities::NONE.with(Quantity::Depth);
+/// assert!(depth.has(Quantity::Depth) && !depth.has(Quantity::Albedo));
+/// assert_eq!(depth, [Quantity::Depth].into_iter().collect());
+/// ```
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub struct Quantities(u8);
 
@@ -99,6 +129,33 @@ impl FromIterator<Quantity> for Quantities {
 }
 
 /// The meaning of a depth.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::DVec3;
+/// # use marbles_core::{Angle, Camera, Depth, GeometrySettings, Lens, Material, Precision};
+/// # use marbles_core::{Quantity, Renderer, Sphere, View, World};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 4.0)?, white);
+/// # let lens = Lens::from_field_of_view(Angle::from_degrees(90.0))?;
+/// # let view = View::new(Camera::default(), lens, 2, 2);
+/// let depth = |depth: Depth| {
+///     let settings = GeometrySettings {
+///         depth,
+///         // …
+/// #         quantities: [Quantity::Depth].into_iter().collect(),
+/// #         precision: Precision::Double,
+///         ..GeometrySettings::default()
+///     };
+///     let geometry = Renderer::new(&world).geometry(&view, &settings);
+///     geometry.values(Quantity::Depth, 0, 0).and_then(|mut row| row.next())
+/// };
+/// // The ray through the first pixel has the direction (−½, ½, 1).
+/// let (axis, ray) = (depth(Depth::Axis).unwrap(), depth(Depth::Ray).unwrap());
+/// assert!((ray / axis - 1.5_f64.sqrt()).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Depth {
     /// The distance along the axis of view: t times the retina's distance, as the ray's direction goes that
@@ -110,6 +167,29 @@ pub enum Depth {
 }
 
 /// The axes of normals and positions.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Axes, Quantity, Camera, GeometrySettings, Lens, Material, Renderer, Sphere, View, World};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
+/// # let view = View::new(Camera::default(), Lens::parallel(1.0, DVec2::ZERO), 1, 1);
+/// let normal_z = |axes: Axes| {
+///     let settings = GeometrySettings {
+///         axes,
+///         quantities: [Quantity::Normal].into_iter().collect(),
+///         ..GeometrySettings::default()
+///     };
+///     let geometry = Renderer::new(&world).geometry(&view, &settings);
+///     geometry.values(Quantity::Normal, 2, 0).and_then(|mut row| row.next())
+/// };
+/// // The surface in the middle faces the camera, which looks along z.
+/// assert_eq!(normal_z(Axes::CameraOpenCv), Some(-1.0));
+/// assert_eq!(normal_z(Axes::CameraOpenGl), Some(1.0));
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Axes {
     /// The world's, which are left-handed: x right, y up, z forward.
@@ -121,7 +201,30 @@ pub enum Axes {
     CameraOpenGl,
 }
 
-/// The type of number that a geometry is meant for.
+/// The type of number for which a geometry is computed.
+///
+/// # Example
+/// ```
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Precision, Quantity, Camera, GeometrySettings, Lens, Material, Renderer, Sphere, View, World};
+/// # let mut world = World::new();
+/// # let white = world.add_material(Material::default());
+/// # world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.1), 1.0)?, white);
+/// # let view = View::new(Camera::default(), Lens::parallel(1.0, DVec2::ZERO), 1, 1);
+/// let depth = |precision: Precision| {
+///     let settings = GeometrySettings {
+///         precision,
+///         quantities: [Quantity::Depth].into_iter().collect(),
+///         ..GeometrySettings::default()
+///     };
+///     let geometry = Renderer::new(&world).geometry(&view, &settings);
+///     geometry.values(Quantity::Depth, 0, 0).and_then(|mut row| row.next())
+/// };
+/// // The nearest point of the ball is at a depth of 4.1.
+/// assert_eq!(depth(Precision::Single), Some(f64::from(4.1_f32)));
+/// assert!((depth(Precision::Double).unwrap() - 4.1).abs() < 1e-15);
+/// # Ok::<(), marbles_core::SphereError>(())
+/// ```
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Precision {
     /// Floats of 32 bits; costs the least.

@@ -3,6 +3,16 @@
 use crate::model::view::View;
 
 /// A rectangle of a picture's pixels.
+///
+/// # Example
+/// ```
+/// use marbles_core::glam::DVec2;
+/// use marbles_core::{Camera, Lens, View, Window};
+///
+/// let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 640, 480);
+/// let whole = Window { col: 0, row: 0, width: 640, height: 480 };
+/// assert_eq!(Window::whole(&view), whole);
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Window {
     /// Its first column.

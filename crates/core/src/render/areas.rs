@@ -11,11 +11,13 @@ use crate::picture::tile::Tile;
 use crate::search::view_index::ViewIndex;
 
 impl Renderer<'_> {
-    /// The areas in which a view sees each sphere, in pixels, in the order of the world's spheres: on the threads of the
-    /// current rayon pool, on whose number they do not depend. Each pixel is asked for to within `tolerance`, all its
-    /// spheres together; what does not get there shows in the errors.
+    /// Measures the area in which a view sees each sphere, in pixels, in the order of the world's spheres. `tolerance`
+    /// is the error that you accept in each pixel, all its spheres together; if a pixel does not meet it, the errors of
+    /// its spheres are larger.
     ///
-    /// `progress` is called as that of [`Self::render`] is.
+    /// Works on the threads of the current rayon pool. The areas do not depend on their number.
+    ///
+    /// `progress` is called as that of [`Self::render_with_progress`] is.
     ///
     /// # Errors
     /// [`Cancelled`] when `progress` broke.

@@ -17,7 +17,7 @@ use crate::picture::progress::{Cancelled, Progress};
 use crate::picture::tile::Tile;
 use crate::search::visibility::Visibility;
 
-/// A world that is ready to be rendered. It does the work that no view changes once.
+/// A world that is ready to be rendered. The work that is the same for all views is done once.
 ///
 /// # Example
 /// ```
@@ -28,11 +28,11 @@ use crate::search::visibility::Visibility;
 /// let white = world.add_material(Material::default());
 /// world.add_sphere(Sphere::new(DVec3::new(0.0, 0.0, 5.0), 1.0)?, white);
 /// world.ambient = DVec3::splat(0.5);
-/// let lens = Lens::from_field_of_view(Angle::from_degrees(40.0));
+/// let lens = Lens::from_field_of_view(Angle::from_degrees(40.0))?;
 /// let view = View::new(Camera::default(), lens, 16, 16);
 /// let image = Renderer::new(&world).render(&view, &Settings::default());
 /// assert_eq!(image.rgba(8, 8)[0], 0.5);
-/// # Ok::<(), marbles_core::SphereError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Renderer<'world> {
@@ -46,9 +46,11 @@ pub struct Renderer<'world> {
 }
 
 impl<'world> Renderer<'world> {
-    /// About the most bytes that [`Renderer::new`] takes of a world, beside the world: where there is no memory for them, it
-    /// ends the process.
-    pub fn memory_to_prepare(world: &World) -> u64 {
+    /// Estimates the bytes that [`Renderer::new`] takes at most, besides the memory of the world.
+    ///
+    /// If the system has less, `new` aborts the process, as any allocation does. A program with millions of spheres can ask
+    /// the system first.
+    pub fn memory_needed(world: &World) -> u64 {
         Visibility::most_bytes(world)
     }
 
@@ -62,7 +64,7 @@ impl<'world> Renderer<'world> {
         }
     }
 
-    /// Prepares the same world under a part of its light, and shares what was found out of the spheres.
+    /// Prepares the same world under a part of its light, with the spheres that this renderer prepared.
     ///
     /// Its pictures are those of [`World::under`].
     ///

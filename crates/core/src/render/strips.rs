@@ -17,36 +17,110 @@ use crate::picture::quantities::GeometrySettings;
 use crate::picture::tile::Tile;
 use crate::picture::window::Window;
 
-/// Rows of a band; a strip is a number of bands.
-pub const BAND_ROWS: u32 = Tile::SIDE;
-
 /// Columns of a strip that are rendered before they go to the sink: so few that what a thread
 /// writes stays near it, however wide a picture is.
 const PART_COLUMNS: u32 = 1024;
 
 /// The receiver of a picture, or of a window of one, while it is rendered.
 ///
-/// Strips are rows side by side, from edge to edge. Several threads work at once, each on a strip
-/// of its own. Columns and strips are counted from the window's first.
+/// A strip is a number of whole rows. Several threads work at once, each on a strip of its own. Columns and strips are
+/// counted from the first of the window.
+///
+/// # Example
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::sync::Mutex;
+///
+/// use marbles_core::{Image, Renderer, Settings, Sink, Strip, View, Window, World};
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Camera, Lens};
+///
+/// /// Adds up the light of all pixels.
+/// #[derive(Default)]
+/// struct Sum(Mutex<f64>);
+///
+/// impl Sink for Sum {
+///     fn begin(&self, _: u32) -> Option<Box<dyn Strip + '_>> {
+///         Some(Box::new(StripOfSum(self)))
+///     }
+/// }
+///
+/// struct StripOfSum<'a>(&'a Sum);
+///
+/// impl Strip for StripOfSum<'_> {
+///     fn add(&mut self, _: u32, part: &Image) {
+///         let light: f64 = (0..part.height()).flat_map(|row| part.row(row)).sum();
+///         *self.0.0.lock().unwrap() += light;
+///     }
+///
+///     fn end(self: Box<Self>) {}
+/// }
+///
+/// # let mut world = World::new();
+/// # world.background = DVec3::splat(0.5);
+/// # let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 20, 30);
+/// # let renderer = Renderer::new(&world);
+/// // 20 × 30 pixels of a grey background.
+/// let rendering = renderer.begin(&view, Window::whole(&view), &Settings::default(), 8);
+/// let sum = Sum::default();
+/// let go_on = |_| ControlFlow::Continue(());
+/// rendering.help(&sum, &go_on)?;
+/// assert_eq!(sum.0.into_inner()?, 0.5 * 20.0 * 30.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Sink: Sync {
-    /// The strip with this index, counted from the top, is about to be rendered. `None` ends the
-    /// rendering.
+    /// Begins the strip with this index, counted from the top. `None` ends the rendering.
     ///
     /// May wait until the strips above are done, but not for those below.
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>>;
 }
 
-/// A strip that is being rendered; dropped before its end where the rendering is cancelled.
+/// A strip that is being rendered; dropped before its end if the rendering is cancelled.
+///
+/// # Example
+/// ```
+/// # use std::ops::ControlFlow;
+/// # use std::sync::Mutex;
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Camera, Image, Lens, Renderer, Settings, Sink, Strip, View, Window, World};
+/// /// A strip of 20 columns.
+/// struct Row(u32);
+///
+/// impl Strip for Row {
+///     fn add(&mut self, col: u32, part: &Image) {
+///         assert_eq!(col, self.0);
+///         self.0 += part.width();
+///     }
+///
+///     fn end(self: Box<Self>) {
+///         assert_eq!(self.0, 20);
+///     }
+/// }
+///
+/// # struct Rows;
+/// # impl Sink for Rows {
+/// #     fn begin(&self, _: u32) -> Option<Box<dyn Strip + '_>> {
+/// #         Some(Box::new(Row(0)))
+/// #     }
+/// # }
+/// # let mut world = World::new();
+/// # world.background = DVec3::splat(0.5);
+/// # let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 20, 30);
+/// # let renderer = Renderer::new(&world);
+/// # let rendering = renderer.begin(&view, Window::whole(&view), &Settings::default(), 8);
+/// # rendering.help(&Rows, &|_| ControlFlow::Continue(()))?;
+/// # assert_eq!(rendering.strips_left(), 0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait Strip {
-    /// Some columns are rendered, `col` the first of them, from left to right: all of the picture
-    /// `part`.
+    /// Receives the next columns of the strip, from left to right: those of the picture `part`, which begin at `col`.
     fn add(&mut self, col: u32, part: &Image);
 
-    /// Receives the geometry at the centers of these columns' pixels, if it was asked for; comes before
-    /// the columns are added.
+    /// Receives the geometry at the centers of the next columns' pixels, if you asked for it, before [`Self::add`]
+    /// receives the columns.
     fn add_geometry(&mut self, _col: u32, _part: &Geometry) {}
 
-    /// All columns were added.
+    /// Ends the strip: all columns were added.
     fn end(self: Box<Self>);
 }
 
@@ -55,6 +129,51 @@ pub trait Strip {
 ///
 /// The pixels are those of [`Renderer::render`]. A thread that finds no strip to begin may start
 /// on the next picture while other threads end theirs.
+///
+/// # Example
+/// ```
+/// # use std::ops::ControlFlow;
+/// # use std::sync::Mutex;
+/// # use marbles_core::glam::{DVec2, DVec3};
+/// # use marbles_core::{Camera, Image, Lens, Renderer, Settings, Sink, Strip, View, Window, World};
+/// # /// Adds up the light of all pixels.
+/// # #[derive(Default)]
+/// # struct Sum(Mutex<f64>);
+/// #
+/// # impl Sink for Sum {
+/// #     fn begin(&self, _: u32) -> Option<Box<dyn Strip + '_>> {
+/// #         Some(Box::new(StripOfSum(self)))
+/// #     }
+/// # }
+/// #
+/// # struct StripOfSum<'a>(&'a Sum);
+/// #
+/// # impl Strip for StripOfSum<'_> {
+/// #     fn add(&mut self, _: u32, part: &Image) {
+/// #         let light: f64 = (0..part.height()).flat_map(|row| part.row(row)).sum();
+/// #         *self.0.0.lock().unwrap() += light;
+/// #     }
+/// #
+/// #     fn end(self: Box<Self>) {}
+/// # }
+/// # let mut world = World::new();
+/// # world.background = DVec3::splat(0.5);
+/// # let view = View::new(Camera::default(), Lens::parallel(8.0, DVec2::ZERO), 20, 30);
+/// # let renderer = Renderer::new(&world);
+/// // A picture of 30 rows in strips of 8 rows; `Sum` adds up the light, as in the example of `Sink`.
+/// let rendering = renderer.begin(&view, Window::whole(&view), &Settings::default(), 8);
+/// assert_eq!(rendering.strips_left(), 4);
+/// let sum = Sum::default();
+/// let go_on = |_| ControlFlow::Continue(());
+/// std::thread::scope(|scope| {
+///     for _ in 0..2 {
+///         scope.spawn(|| rendering.help(&sum, &go_on));
+///     }
+/// });
+/// assert_eq!(rendering.strips_left(), 0);
+/// assert_eq!(sum.0.into_inner()?, 0.5 * 20.0 * 30.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Rendering<'a> {
     /// At least one.
     pictures: Vec<Picture<'a>>,
@@ -85,9 +204,10 @@ struct Spent {
 }
 
 impl Renderer<'_> {
-    /// Prepares the rendering of a window of a picture in strips of so many bands of [`BAND_ROWS`]
-    /// rows, at least 1; the last one may have fewer rows.
+    /// Prepares the rendering of a window of a picture in strips of `rows` rows, at least 1. The last strip may have fewer
+    /// rows.
     ///
+    /// Strips that begin at multiples of [`Rendering::ROW_STEP`], counted from the top of the picture, cost the least.
     /// Works on the threads of the current rayon pool.
     ///
     /// # Panics
@@ -97,9 +217,9 @@ impl Renderer<'_> {
         exposure: impl Into<Exposure<'a>>,
         window: Window,
         settings: &Settings,
-        bands: u32,
+        rows: u32,
     ) -> Rendering<'a> {
-        self.begin_with_geometry(exposure, window, settings, bands, None)
+        self.begin_with_geometry(exposure, window, settings, rows, None)
     }
 
     /// Prepares as [`Self::begin`] does; with `geometry` each strip gets what the rays through the centers of
@@ -114,28 +234,29 @@ impl Renderer<'_> {
         exposure: impl Into<Exposure<'a>>,
         window: Window,
         settings: &Settings,
-        bands: u32,
+        rows: u32,
         geometry: Option<&GeometrySettings>,
     ) -> Rendering<'a> {
-        Rendering::of_each(&[self], exposure.into(), window, settings, bands, geometry)
+        Rendering::of_each(&[self], exposure.into(), window, settings, rows, geometry)
     }
 }
 
 impl<'a> Rendering<'a> {
-    /// Prepares the rendering of the same window of several pictures, which go to a sink each: those of renderers that
-    /// are others of one of them [`under`](Renderer::under) a part of its light. What the view sees is found out
-    /// once for all of them. With `geometry` the last one gets what the rays through the centers of its pixels see.
+    /// Prepares the rendering of the same window of several pictures, each for a sink of its own. The renderers must
+    /// have the same spheres, as those that [`Renderer::under`] makes of one renderer. The work on what the view sees
+    /// is done once for all of them. With `geometry` the last picture gets what the rays through the centers of its
+    /// pixels see.
     ///
     /// Each picture is the one that its renderer makes alone.
     ///
     /// # Panics
-    /// When there is no renderer, when they have not the same spheres, or when the window is not inside the picture.
+    /// If there is no renderer, if they do not have the same spheres, or if the window is not inside the picture.
     pub fn of_each(
         renderers: &[&'a Renderer<'_>],
         exposure: Exposure<'a>,
         window: Window,
         settings: &Settings,
-        bands: u32,
+        rows: u32,
         geometry: Option<&GeometrySettings>,
     ) -> Self {
         let view = exposure.view();
@@ -175,13 +296,19 @@ impl<'a> Rendering<'a> {
             centers,
             size: (view.width, view.height),
             window,
-            rows: bands.max(1).saturating_mul(BAND_ROWS),
+            rows: rows.max(1),
             next: AtomicU32::new(0),
         }
     }
 }
 
 impl Rendering<'_> {
+    /// The number of rows that are rendered together, in squares of as many columns.
+    ///
+    /// A strip that begins or ends between two multiples of it, counted from the top of the picture, costs as much as one
+    /// that contains all rows from multiple to multiple.
+    pub const ROW_STEP: u32 = Tile::SIDE;
+
     /// The number of strips that no thread has begun.
     pub fn strips_left(&self) -> u32 {
         let next = self.next.load(Ordering::Relaxed);
@@ -190,12 +317,11 @@ impl Rendering<'_> {
 
     /// Renders strips until all are begun; returns what they cost.
     ///
-    /// Each goes to `sink` as soon as it is rendered; they are begun from the top downward and end as
-    /// they come. `progress` is called with the number of pixels that were just finished, those around
-    /// the window among them that are in its tiles: tiles stay where they are and are rendered as
-    /// a whole, since it is in a tile that pixels find out what they may see. Where strips begin in
-    /// the middle of a band, that is rendered for each of the two. When `progress` breaks or `sink` wants
-    /// no more, the work of all threads ends soon.
+    /// Strips begin from the top downward and end in any order; each goes to `sink` as soon as it is rendered. `progress` is
+    /// called with the number of pixels that were just finished. Pixels around the window count if they are in its tiles:
+    /// a tile is rendered as a whole, because what its pixels may see is found for all of them. Rows around a strip that
+    /// begins between two multiples of [`Self::ROW_STEP`] are rendered for each of both strips. If `progress` breaks, or if
+    /// `sink` wants no more, the work of all threads ends soon.
     ///
     /// # Errors
     /// [`Cancelled`] when the work of this thread has ended so.
@@ -350,8 +476,8 @@ impl Rendering<'_> {
     ) -> Result<Work, Cancelled> {
         let mut work = Work::default();
         let height = parts[0].height();
-        for first in (0..height).step_by(BAND_ROWS as usize) {
-            let rows = first..height.min(first + BAND_ROWS);
+        for first in (0..height).step_by(Tile::SIDE as usize) {
+            let rows = first..height.min(first + Tile::SIDE);
             let bands = parts.iter_mut();
             let bands = bands.map(|part| part.band_mut((col, row), rows.clone()));
             let mut bands: Vec<Band<'_>> = bands.collect();

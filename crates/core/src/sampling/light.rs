@@ -36,13 +36,13 @@ pub(super) struct Shading<'scene> {
     pub(super) world: &'scene World,
     lights: Vec<WorldLight>,
     pub(super) viewpoint: DVec3,
-    /// Of the balls' unit of length, in those of the world.
+    /// The balls' unit of length, in those of the world.
     length: f64,
     pub(super) frame: i64,
     /// True if no surface is rough.
     pub(super) is_smooth: bool,
-    /// The view, and the camera's directions, where spheres have strokes.
-    pub(super) strokes: Option<(OutlineView, DMat3)>,
+    /// The view, and the camera's directions, where spheres have outlines.
+    pub(super) outlines: Option<(OutlineView, DMat3)>,
     /// Those of the materials, in the world's order.
     reflectances: Vec<Reflectance>,
 }
@@ -69,9 +69,12 @@ impl<'scene> Shading<'scene> {
             is_smooth: materials
                 .iter()
                 .all(|material| material.roughness.is_none()),
-            strokes: world
-                .has_outlines()
-                .then(|| (view.of_strokes(), view.camera.world_from_camera.transpose())),
+            outlines: world.has_outlines().then(|| {
+                (
+                    view.outline_view(),
+                    view.camera.world_from_camera.transpose(),
+                )
+            }),
             reflectances: materials.iter().map(Reflectance::new).collect(),
         }
     }
@@ -139,8 +142,8 @@ impl<'scene> Shading<'scene> {
         for channel in 0..CHANNELS {
             diffuse[channel] = albedo[channel] * diffuse[channel] + mirrored[channel];
         }
-        if self.strokes.is_some() {
-            diffuse = self.add_strokes(simd, sight, groups, diffuse);
+        if self.outlines.is_some() {
+            diffuse = self.add_outlines(simd, sight, groups, diffuse);
         }
         diffuse
     }

@@ -1,7 +1,7 @@
 //! Plain supersampling: the yardstick for everything cleverer.
 //!
 //! Tiles are small, and their rays go side by side: [`tile_balls`] finds the spheres that matter in a
-//! tile, [`trace`] what eight rays see of them ([`parallel`] where a lens is parallel), [`light`] how bright that is ([`strokes`] along outlines), [`centers`] where, and [`shadow`] where
+//! tile, [`trace`] what eight rays see of them ([`parallel`] where a lens is parallel), [`light`] how bright that is ([`outlines`] beside contours), [`centers`] where, and [`shadow`] where
 //! it is dark. All of it decides exactly or leaves the decision to what does, and computes with
 //! one rounding an operation, so that a picture is the same to the bit on any processor, and
 //! however it is cut into tiles.
@@ -10,11 +10,11 @@ mod centers;
 mod groups;
 mod last_places;
 mod light;
+mod outlines;
 mod parallel;
 mod rays;
 mod scattered;
 mod shadow;
-mod strokes;
 mod sums;
 mod supersampling;
 mod tile_balls;

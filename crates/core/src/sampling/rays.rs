@@ -327,7 +327,7 @@ pub(super) struct Bundle {
 pub(super) struct Cone {
     /// Unit, in the world frame.
     pub(super) axis: DVec3,
-    /// Of the angle between the axis and the surface.
+    /// The sine of the angle between the axis and the surface.
     pub(super) sine: f64,
     pub(super) cosine: f64,
 }

@@ -31,7 +31,7 @@ pub(super) struct Shadows<'scene> {
 /// The size of what a tile sees.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scale {
-    /// Of the balls' unit of length, in those of the world.
+    /// The balls' unit of length, in those of the world.
     pub(super) length: f64,
     /// About the side of a tile at the distance of 1, or through a parallel lens at any.
     pub(super) tile_side: f64,

@@ -69,7 +69,7 @@ struct Found {
     /// The bits of what it comes no nearer than.
     nearest: u64,
     range: CellRange,
-    /// Of a sphere inside of it, in the camera's frame.
+    /// The center of a sphere inside of it, in the camera's frame.
     center: DVec3,
     radius: f64,
 }

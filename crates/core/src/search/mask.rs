@@ -30,7 +30,7 @@ impl InnerSilhouette {
     /// The part of a sphere's silhouette that it hides for certain, if that is known well and may be
     /// anything.
     pub(super) fn new(center: DVec3, radius: f64, range: CellRange) -> Option<Self> {
-        /// Of f·f: K below it has lost three digits to cancellation. Not tuned.
+        /// The least K, relative to f·f: below it K has lost three digits to cancellation. Not tuned.
         const LEAST_OUTSIDE: f64 = 1e-3;
         /// Spheres that shrink more than this are not worth their place in the mask. Not tuned.
         const MOST_ERROR: f64 = 1e-2;

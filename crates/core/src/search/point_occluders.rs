@@ -37,12 +37,12 @@ pub(crate) struct Beam {
     axis: DVec3,
     length: f64,
     around: f64,
-    /// Of half the angle at the apex; a ball around the apex has none.
+    /// The sine of half the angle at the apex; a ball around the apex has none.
     sine: f64,
     cosine: f64,
 }
 
-/// Of lengths, by far more than what rounding moves them.
+/// The relative slack of lengths: far more than rounding moves them.
 const SLACK: f64 = 1e-11;
 
 impl Beam {

@@ -32,11 +32,11 @@ impl Contrast {
             let strength = highlight.map_or(0.0, |highlight| highlight.strength);
             world.albedo(sphere).max_element() * white + strength * lights
         });
-        let strokes = world.stroke_colors().map(|color| color.max_element());
+        let outlines = world.outline_colors().map(|color| color.max_element());
         let least = world.background.max_element();
         // A black world has no contrast.
         let least = least.max(of_alpha).max(f64::MIN_POSITIVE);
-        let least = strokes.fold(least, f64::max);
+        let least = outlines.fold(least, f64::max);
         Self {
             ordinary: white.max(least),
             most: of_spheres.reduce(|| 0.0, f64::max).max(least),

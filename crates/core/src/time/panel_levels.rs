@@ -115,7 +115,7 @@ impl FirstPanels {
 /// covers no more than g²/4 of the pixel, and less than a half of that on average: g³/8 in all. With
 /// gaps nearly as long as a pixel anything may be missed.
 fn missed(travel: f64, level: u32) -> f64 {
-    /// Of a pixel's side: the formula holds below it, with room for ways that are not straight. Not
+    /// The longest gap, in sides of a pixel: the formula holds below it, with room for ways that are not straight. Not
     /// tuned.
     const LONGEST: f64 = 0.9;
     let gap = LONGEST_GAP * travel / f64::from(1_u32 << level);

@@ -19,7 +19,7 @@ const MOST_PANELS: usize = 256;
 pub(super) struct PixelSum {
     /// The first panel's, from which differences are taken, so that what never changes is itself.
     first: Option<(Color, f64)>,
-    /// Of the panels that will not be halved.
+    /// The sum over the panels that will not be halved.
     value: Color,
     alpha: f64,
     area_error: f64,

@@ -174,7 +174,7 @@ impl MovingSphere<'_> {
         } else {
             return None;
         };
-        /// Of the cosine of the angle at which a surface is seen: nearer to its silhouette images are
+        /// The least cosine of the angle at which a surface is seen: nearer to its silhouette images are
         /// lines.
         const LEAST_COSINE: f64 = 0.1;
         let depth = 0.5 * radius * radius / half.max(LEAST_COSINE * radius);

@@ -138,7 +138,7 @@ fn pose(rotation: Rotation, translation: Point, axes: file::Axes) -> Camera {
 
 fn look_at(position: DVec3, target: DVec3, roll: Angle) -> Option<Camera> {
     if (target - position).is_finite() {
-        return Camera::look_at(position, target, roll);
+        return Camera::look_at(position, target, roll).ok();
     }
     // Half as long, the way to the target is finite.
     let (pan, tilt) = Camera::pan_and_tilt_toward(0.5 * target - 0.5 * position)?;

@@ -1,17 +1,52 @@
 //! The frames that cannot be rendered.
 
 /// The reason for which a frame of a valid scene cannot be rendered.
+///
+/// # Example
+/// ```
+/// # use std::path::Path;
+/// # use marbles_scene::Scene;
+/// // Between its keys the camera comes to its target.
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), spheres: [],
+///     camera: LookAt(position: (0, 0, -1), target: (0, 0, 0)),
+///     animation: Keyframes(keys: [
+///         (frame: 1, position: (0, 0, -1)), (frame: 3, position: (0, 0, 1)),
+///     ]))";
+/// let scene = Scene::parse(text, Path::new("through.ron"))?;
+/// let error = scene.view(2).unwrap_err();
+/// assert_eq!(error.frame, 2);
+/// assert_eq!(error.to_string(), "frame 2: the camera stands at its target and looks nowhere");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 #[error("frame {frame}: {fault}")]
 pub struct FrameError {
-    /// The frame.
+    /// The number of the frame.
     pub frame: i32,
     /// The fault of the camera, or of a light, in it.
     pub fault: FrameFault,
 }
 
 /// The fault of a camera or a light in a frame.
+///
+/// # Example
+/// ```
+/// # use std::path::Path;
+/// # use marbles_scene::{FrameFault, Scene};
+/// // Half-way between two opposite directions, the light has none.
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Free(), spheres: [],
+///     lights: [Directional(toward: (0, 1, 0), keys: [
+///         (frame: 1, toward: (0, 1, 0)), (frame: 3, toward: (0, -1, 0)),
+///     ])],
+///     animation: Keyframes(keys: [(frame: 1), (frame: 3)]))";
+/// let scene = Scene::parse(text, Path::new("sun.ron"))?;
+/// let error = scene.view(2).unwrap_err();
+/// assert_eq!(error.fault, FrameFault::LightNowhere(0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FrameFault {
     /// Its target is its position.
     #[error("the camera stands at its target and looks nowhere")]

@@ -6,7 +6,7 @@
 //! A plane through it and the right side of the picture (or where that would be, were the picture
 //! smaller by `fill`) has the normal n = (1, 0, −(sx + fill·h)), and a sphere at p from m with
 //! the radius r is inside where n·p + r |n| ≤ d·fill·h. So with the other sides: d is the largest
-//! of the left sides over their right ones, and some outline touches a side.
+//! of the left sides over their right ones, and some contour touches a side.
 //!
 //! On a turntable a sphere at height y passes on a circle of radius ρ around the axis: the largest
 //! n·p of it is n_y y + √(n_x² + n_z²) ρ, in the world's axes. For a camera that turns freely it
@@ -95,7 +95,7 @@ impl Framing {
         turning: Turning,
         world_from_camera: DMat3,
     ) -> Option<Self> {
-        /// More than rounding moves an outline.
+        /// More than rounding moves a contour.
         const SLACK: f64 = 1.0 + 1e-12;
         let target = framed.bounds.middle()?;
         let lens = &picture.lens;
@@ -129,7 +129,7 @@ impl Framing {
         turning: Turning,
         world_from_camera: DMat3,
     ) -> Option<Self> {
-        /// More than rounding moves an outline.
+        /// More than rounding moves a contour.
         const SLACK: f64 = 1.0 + 1e-12;
         let lens = &picture.lens;
         let half_width = 0.5 * picture.fill * lens.width;

@@ -118,7 +118,11 @@ impl Lights {
 
     /// As many lights, all of them dark and above, for frames that have none.
     pub(crate) fn somewhere(&self) -> Vec<CoreLight> {
-        let light = |_: &Light| DirectionalLight::new(DVec3::Y, DVec3::ZERO).map(CoreLight::from);
+        let light = |_: &Light| {
+            DirectionalLight::new(DVec3::Y, DVec3::ZERO)
+                .map(CoreLight::from)
+                .ok()
+        };
         self.lights.iter().filter_map(light).collect()
     }
 
@@ -163,7 +167,9 @@ impl Light {
                 } else {
                     turned(place)
                 };
-                DirectionalLight::new(toward, intensity).map(CoreLight::from)
+                DirectionalLight::new(toward, intensity)
+                    .map(CoreLight::from)
+                    .ok()
             }
             Kind::Point { falloff, reference } => {
                 // Where it is not chosen, nothing depends on it.
@@ -173,7 +179,9 @@ impl Light {
                     Some(_) => target + turned(place - target),
                     None => place,
                 };
-                PointLight::new(position, intensity, falloff, reference).map(CoreLight::from)
+                PointLight::new(position, intensity, falloff, reference)
+                    .map(CoreLight::from)
+                    .ok()
             }
         }
     }

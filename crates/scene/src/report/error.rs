@@ -11,8 +11,22 @@ use crate::text::{Fault, LocatedFault, harmless};
 
 /// The reason for which a scene file was refused.
 ///
-/// `Display` is the complete message: for every fault a line `PATH:LINE:COLUMN: …` and the place
-/// in the file below it. Of a binary table the line is `PATH: row ROW, column COLUMN, byte BYTE: …`.
+/// `Display` is the complete message: for every fault a line `PATH:LINE:COLUMN: …` and the place in the file below it.
+/// For a binary table the line is `PATH: row ROW, column COLUMN, byte BYTE: …`.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// use marbles_scene::Scene;
+///
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Free(),
+/// spheres: [(center: (0, 0, 5), radius: -1)])";
+/// let error = Scene::parse(text, Path::new("ball.ron")).unwrap_err();
+/// let message = error.to_string();
+/// let first = "ball.ron:2:39: expected a radius greater than 0, found -1";
+/// assert_eq!(message.lines().next(), Some(first));
+/// ```
 #[derive(Clone, Debug)]
 pub struct SceneError {
     path: PathBuf,
@@ -24,18 +38,18 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// The file in which something is wrong: the scene file, or a table that it names.
+    /// The refused file: the scene file, or a table that it names.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The faults that are told, in the order of the file; none where the file could not be read.
+    /// The first ten faults, in the order of the file; none if the file could not be read.
     pub fn faults(&self) -> &[SceneFault] {
         &self.faults
     }
 
-    /// True where a table is not the one any more that was read before: frames that are still to come would show
-    /// another one than those before.
+    /// Returns whether a table has changed since marbles read it: later frames would show another table than earlier
+    /// ones.
     pub fn is_of_changed_table(&self) -> bool {
         self.is_of_changed_table
     }
@@ -46,8 +60,7 @@ impl SceneError {
         self
     }
 
-    /// The message for a terminal with so many columns, with ANSI colors or without: excerpts of the file fit
-    /// into a line.
+    /// The message for a terminal of this width, with ANSI colors or without: excerpts of the file fit into a line.
     pub fn for_terminal(&self, columns: usize, with_colors: bool) -> String {
         let style = if with_colors {
             Style::Styled

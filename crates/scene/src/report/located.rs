@@ -8,13 +8,25 @@ use crate::text::token::{self, Unclosed};
 use crate::text::{Fault, LocatedFault, Place, harmless, show};
 
 /// A fault at a place in a file.
+///
+/// # Example
+/// ```
+/// # use std::path::Path;
+/// # use marbles_scene::Scene;
+/// // Two faults, in the second line.
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Free(),
+/// spheres: [(center: (0, 0, 5), radius: -1)], shadows: maybe)";
+/// let error = Scene::parse(text, Path::new("ball.ron")).unwrap_err();
+/// let places: Vec<_> = error.faults().iter().map(|fault| (fault.line, fault.column)).collect();
+/// assert_eq!(places, [(2, 39), (2, 54)]);
+/// ```
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct SceneFault {
     /// The line, from 1; in a binary table the row.
     pub line: usize,
-    /// The column, in characters from 1; in a binary table that of the table.
+    /// The column, in characters from 1; in a binary table the column of the table.
     pub column: usize,
-    /// The expected thing and the found one.
+    /// The message: what was expected, and what was found.
     pub message: String,
 }
 

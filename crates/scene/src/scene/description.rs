@@ -8,48 +8,109 @@ use glam::DVec3;
 use crate::world::ScaleKind;
 
 /// The spheres of a table.
+///
+/// # Example
+/// ```
+/// use marbles_scene::Scene;
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles CloudDescription {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two rows with the columns x, y, z and radius
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius\n0,0,0,1\n3,0,0,1\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv")])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// // …
+/// let cloud = &scene.clouds()[0];
+/// assert_eq!(cloud.file.to_str(), Some("balls.csv"));
+/// assert_eq!(cloud.spheres, 0..2);
+/// assert_eq!(cloud.steps, None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CloudDescription {
     /// The table as the scene file names it.
     pub file: PathBuf,
     /// The range of its spheres in the world of the first frame.
     pub spheres: Range<usize>,
-    /// The rows of the table, those that were not kept among them, in the first frame.
+    /// The number of rows of the table in the first frame, including those that were not kept.
     pub rows: u64,
-    /// The axes of the table are right-handed: the scene file says so, or else its format is one of those that have
+    /// True if the axes of the table are right-handed, because the scene file says so, or else because its format has
     /// such axes.
     pub is_right_handed: bool,
-    /// The number of its steps, where it changes over time.
+    /// The number of its steps, if it changes over time.
     pub steps: Option<usize>,
-    /// The column that colors stand for, where one does.
+    /// The column that the colors show, if they show one.
     pub colors: Option<ColorDescription>,
 }
 
 /// The meaning of the colors of a table's spheres.
+///
+/// # Example
+/// ```
+/// use marbles_scene::Scene;
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles ColorDescription {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two rows with the columns x, y, z, radius and mass
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv", color: Column("mass"))])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// // …
+/// let colors = scene.clouds()[0].colors.as_ref().expect("the scene asks for colors");
+/// assert_eq!(colors.column.as_deref(), Some("mass"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ColorDescription {
-    /// The column; the length of a vector has none.
+    /// The name of the column; `None` for the length of a vector.
     pub column: Option<String>,
-    /// The unit that the table has behind the column's name.
+    /// The unit that the table states after the column's name.
     pub unit: Option<String>,
     /// The meaning of each color.
     pub meaning: ColorMeaning,
 }
 
 /// The meaning of colors.
+///
+/// # Example
+/// ```
+/// use marbles_scene::{ColorMeaning, Scene};
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles ColorMeaning {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two balls, with the masses 2.5 and 7.5
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv", color: Column("mass"))])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// // …
+/// let colors = scene.clouds()[0].colors.as_ref().expect("the scene asks for colors");
+/// match &colors.meaning {
+///     ColorMeaning::Scale { low, high, .. } => assert_eq!((*low, *high), (2.5, 7.5)),
+///     ColorMeaning::Categories(_) => panic!("masses are numbers"),
+/// }
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColorMeaning {
     /// Numbers on a scale.
     Scale {
-        /// The number of the first color, and what is below.
+        /// The number of the first color, which smaller numbers have, too.
         low: f64,
-        /// The number of the last color, and what is above.
+        /// The number of the last color, which larger numbers have, too.
         high: f64,
-        /// The way from numbers to places between them.
+        /// The way in which colors follow numbers between them.
         kind: ScaleKind,
         /// The linear colors, from the low end to the high one.
         colors: Vec<DVec3>,
-        /// The numbers are times, in seconds since the start of 1970.
+        /// True if the numbers are times, in seconds since the start of 1970.
         are_times: bool,
     },
     /// Categories, in their order, each with its linear color.
@@ -57,11 +118,29 @@ pub enum ColorMeaning {
 }
 
 /// A scene in words and numbers, for people.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// use marbles_scene::Scene;
+///
+/// let text = r#"(image: (width: 64, height: 48), lens: Fov(40), camera: Free(), spheres: [],
+///     materials: {"gold": ()}, lights: [Directional(toward: (0, 1, 0), name: "sun")])"#;
+/// let scene = Scene::parse(text, Path::new("empty.ron"))?;
+/// let description = scene.description();
+/// assert_eq!(description.materials, ["gold"]);
+/// assert_eq!(description.lights, [Some(String::from("sun"))]);
+/// assert_eq!((description.camera, description.animation), ("Free", None));
+/// assert_eq!(description.lens, "Fov(40)");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Eq, PartialEq)]
+#[non_exhaustive]
 pub struct Description {
     /// The names of the materials that the file defines, in the order of the world's.
     pub materials: Vec<String>,
-    /// The names of the lights, where they have any, in the order of the world's.
+    /// The names of the lights, if they have any, in the order of the world's.
     pub lights: Vec<Option<String>>,
     /// The kind of camera, for example `LookAt`.
     pub camera: &'static str,

@@ -13,7 +13,7 @@ use super::{other_file, oversights};
 use crate::file::{Camera, File, FrameOver, Materials};
 use crate::motion::{CameraMotion, Lights};
 use crate::report::SceneError;
-use crate::text::{Fault, Placed, Read, Slice, collect, optional, reason, set, token};
+use crate::text::{Fault, Placed, Read, Slice, collect, optional, quoted, reason, set, token};
 use crate::values::{MOST_FRAMES, MaterialName};
 use crate::world::{self, Cloud, OpenCloud, Part, Progress, Series, Step};
 
@@ -129,6 +129,23 @@ impl Scene {
 }
 
 /// A value that takes the place of a scene file's own.
+///
+/// # Example
+/// ```
+/// use marbles_scene::{Scene, Setting};
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles Setting {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let file = folder.join("ball.ron");
+/// // `ball.ron` has a picture of 64 × 48 pixels.
+/// # std::fs::write(&file, "(image: (width: 64, height: 48), lens: Fov(40), camera: Free(), spheres: [])")?;
+/// let smaller: Setting = "image.width=32".parse()?;
+/// let scene = Scene::load_with(&file, &[smaller], &|_| {})?;
+/// let view = scene.view(1)?;
+/// assert_eq!((view.width, view.height), (32, 48));
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub struct Setting {
     /// The place of the value, for example `lights[0].toward`.
@@ -137,16 +154,35 @@ pub struct Setting {
     value: String,
 }
 
+/// The reason for which a text is no [`Setting`].
+///
+/// # Example
+/// ```
+/// use marbles_scene::Setting;
+///
+/// let error = "image.width".parse::<Setting>().unwrap_err();
+/// assert_eq!(error.found, "image.width");
+/// ```
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[error("expected PATH=VALUE, such as `lights[0].intensity=2`, found {}", quoted(.found))]
+#[non_exhaustive]
+pub struct SettingError {
+    /// The text.
+    pub found: String,
+}
+
 impl FromStr for Setting {
-    type Err = String;
+    type Err = SettingError;
 
     /// Reads `PATH=VALUE`.
-    fn from_str(text: &str) -> Result<Self, String> {
-        let expected = "expected PATH=VALUE, such as `lights[0].intensity=2`";
-        let (path, value) = text.split_once('=').ok_or(expected)?;
+    fn from_str(text: &str) -> Result<Self, SettingError> {
+        let refused = || SettingError {
+            found: text.to_owned(),
+        };
+        let (path, value) = text.split_once('=').ok_or_else(refused)?;
         let (path, value) = (path.trim(), value.trim());
         if path.is_empty() || value.is_empty() {
-            return Err(expected.to_owned());
+            return Err(refused());
         }
         Ok(Self {
             path: path.to_owned(),
@@ -176,7 +212,9 @@ impl Draft {
         let image = file.image.value.as_ref()?;
         let (mut world, clouds) = world?;
         let lights = lights?;
-        world.has_colored_lights = lights.may_have_color();
+        if lights.may_have_color() {
+            world.expect_colored_lights();
+        }
         let camera = file.camera.value.as_ref()?;
         let fill = match camera {
             Camera::Frame {
@@ -259,8 +297,7 @@ impl Draft {
                 continue;
             }
             // What pictures have to have room for, though these spheres are not in this world.
-            scene.world.has_colored_spheres |= albedos.is_some();
-            scene.world.use_material(material);
+            scene.world.expect_spheres(material, albedos.is_some());
             parts.push(match cloud.steps() {
                 Some(_) => Part::Changing(cloud),
                 None => Part::Still {

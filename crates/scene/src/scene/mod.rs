@@ -21,9 +21,27 @@ use crate::motion::{
 use crate::report::SceneError;
 use crate::world::{ColumnSummary, OpenCloud, Series, StepKey};
 pub use description::{CloudDescription, ColorDescription, ColorMeaning, Description};
-pub use load::Setting;
+pub use load::{Setting, SettingError};
 
 /// A scene file that was read and found valid.
+///
+/// # Example
+/// ```
+/// use std::path::Path;
+///
+/// use marbles_scene::Scene;
+///
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Orbit(radius: 5),
+///     animation: Turntable(frames: 4), spheres: [(center: (0, 0, 0), radius: 1)])";
+/// let scene = Scene::parse(text, Path::new("ball.ron"))?;
+/// assert_eq!(scene.world().spheres().len(), 1);
+/// assert_eq!(scene.frames(), Some(1..=4));
+/// // The camera goes around the ball: after half a turn it is on the other side.
+/// let [first, third] = [scene.view(1)?, scene.view(3)?];
+/// assert_eq!(first.width, 64);
+/// assert!((first.camera.position + third.camera.position).length() < 1e-12);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     world: World,
@@ -45,26 +63,26 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The spheres and materials, the same in every frame, and the lights of the first frame: [`Self::exposure`] has
-    /// those of another one where they differ, and [`Self::lights`] tells them.
+    /// The spheres and materials, the same in every frame, and the lights of the first frame. If the lights change,
+    /// [`Self::exposure`] and [`Self::lights`] have those of another frame.
     ///
     /// The spheres of clouds that change over time are missing: [`Self::world_at`] has them, too.
     pub fn world(&self) -> &World {
         &self.world
     }
 
-    /// True where some clouds change over time.
+    /// Returns whether some clouds change over time.
     pub fn has_steps(&self) -> bool {
         self.series.is_some()
     }
 
-    /// The steps of clouds that change over time, in a frame; none where there are no such clouds.
+    /// The steps that a frame shows of clouds that change over time; `None` if there are no such clouds.
     pub fn steps_at(&self, frame: i32) -> Option<StepKey> {
         Some(self.series.as_ref()?.key(frame))
     }
 
-    /// The world of a frame: as [`Self::world`], with the spheres of its step, which are read from their tables on the
-    /// threads of the current rayon pool.
+    /// The world of a frame: that of [`Self::world`], with the spheres of its step. They are read from their tables on
+    /// the threads of the current rayon pool.
     ///
     /// # Errors
     /// Refuses tables as [`Self::load`] does.
@@ -101,11 +119,11 @@ impl Scene {
         &self.hints
     }
 
-    /// The view of frame `frame`; any number, inside the animation or not.
+    /// The view of a frame, inside the animation or not.
     ///
     /// # Errors
-    /// Refuses frames in which the camera looks nowhere, in their middle or where their shutter opens
-    /// or closes: keys may lead a `LookAt` camera to its target. So it does where a light has no direction.
+    /// Refuses a frame in which the camera looks nowhere, in the middle or when the shutter opens or closes: keys may
+    /// lead a `LookAt` camera to its target. Refuses also a frame in which a light has no direction.
     pub fn view(&self, frame: i32) -> Result<View, FrameError> {
         let (motion, lens) = self.motion_at(frame);
         let Pose { camera, zoom } = motion.pose(frame, 0.0)?;
@@ -174,13 +192,13 @@ impl Scene {
             .unwrap_or_else(|_| self.lights.somewhere())
     }
 
-    /// The time for which the shutter is open in each frame, in frames: half of it before the
-    /// frame's time, half after it. `None` where a frame shows a moment.
+    /// The time for which the shutter is open in each frame, in frames: half of it before the frame's time, half after
+    /// it. `None` if a frame shows a moment.
     pub fn shutter(&self) -> Option<f64> {
         self.motion.timing()?.shutter
     }
 
-    /// The frames of the animation, `None` for a still.
+    /// The frames of the animation; `None` for a still.
     pub fn frames(&self) -> Option<RangeInclusive<i32>> {
         Some(self.motion.timing()?.frames.clone())
     }
@@ -205,11 +223,11 @@ impl Scene {
         self.tables.iter().flat_map(|table| table.files()).collect()
     }
 
-    /// Returns the contents of the columns of a table's first step, the first dozens of them; `cloud` is its place in
-    /// [`Self::clouds`]. Reads the table once for each.
+    /// Returns the contents of the columns of a table's first step, at most the first 64; `cloud` is the table's index
+    /// in [`Self::clouds`]. Reads the table once for each column.
     ///
     /// # Errors
-    /// Fails where the table cannot be read any more.
+    /// Fails if the table can no longer be read.
     pub fn columns(&self, cloud: usize) -> Result<Vec<ColumnSummary>, SceneError> {
         let Some(table) = self.tables.get(cloud) else {
             return Ok(Vec::new());
@@ -218,16 +236,16 @@ impl Scene {
         columns.map_err(|error| SceneError::unreadable(&self.clouds[cloud].file, &error.message()))
     }
 
-    /// The point that the camera of a frame looks at, where it has one: `LookAt`, `Orbit` and `Frame`.
+    /// The point that the camera of a frame looks at, if it is `LookAt`, `Orbit` or `Frame`.
     pub fn target_at(&self, frame: i32) -> Option<DVec3> {
         self.motion_at(frame).0.target_at(f64::from(frame))
     }
 
-    /// Target and radius of an `Orbit` camera with this elevation in degrees and the scene's lens
-    /// that has these spheres in its picture from any azimuth.
+    /// The target and the radius with which an `Orbit` camera has these spheres in its picture from any azimuth, at
+    /// this elevation in degrees and with the scene's lens.
     ///
-    /// `None` for no spheres, for a parallel lens, whose picture no distance makes larger, and where the lens is shifted,
-    /// so that no target is in the middle.
+    /// `None` if there are no spheres, or if the lens is parallel, where the distance does not matter, or shifted,
+    /// where no target is in the middle.
     pub fn orbit_around(&self, spheres: &[Sphere], elevation: f64) -> Option<(DVec3, f64)> {
         const FILL: f64 = 0.9;
         if self.lens.shift != DVec2::ZERO || self.lens.is_parallel() {

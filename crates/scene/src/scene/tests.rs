@@ -7,7 +7,9 @@ mod series;
 mod steps;
 
 use glam::{DVec2, DVec3};
-use marbles_core::{Angle, Camera, Grain, Highlight, Material, Outline, OutlineWidth, Roughness};
+use marbles_core::{
+    Angle, Camera, Channels, Grain, Highlight, Material, Outline, OutlineWidth, Roughness,
+};
 
 use super::*;
 
@@ -150,19 +152,19 @@ fn every_field_of_a_surface_is_read() {
 
 #[test]
 fn outlines_are_black_and_in_pixels_by_default() {
-    let stroke = |outline: &str| {
+    let outline = |written: &str| {
         let material = format!(
-            r#"materials: {{"a": (outline: ({outline}))}}, spheres: [(center: (0, 0, 3), radius: 1, material: "a")]"#
+            r#"materials: {{"a": (outline: ({written}))}}, spheres: [(center: (0, 0, 3), radius: 1, material: "a")]"#
         );
         scene(&material).world().material(0).outline
     };
-    for (outline, width, color) in [
+    for (written, width, color) in [
         ("", 1.5, DVec3::ZERO),
         ("width: 2", 2.0, DVec3::ZERO),
         ("color: 0.5", 1.5, DVec3::splat(0.5)),
     ] {
         let width = OutlineWidth::Pixels(width);
-        assert_eq!(stroke(outline), Some(Outline { width, color }));
+        assert_eq!(outline(written), Some(Outline { width, color }));
     }
 }
 

@@ -83,7 +83,7 @@ impl<'watch> Input<'watch> {
 
     /// Notes what may be wrong in the file, where the format cannot tell.
     ///
-    /// Of a compressed file that was read to its end the whole is known to be there.
+    /// A compressed file that was read to its end is known to be whole.
     pub(crate) fn doubt(&mut self, doubt: LocatedFault) {
         if self.can_seek() {
             self.doubts.push(doubt);

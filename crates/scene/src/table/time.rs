@@ -88,8 +88,8 @@ fn days_of(year: i64, month: i64) -> i64 {
     }
 }
 
-/// The time that is so many seconds after the start of 1970, as people read it: the date, and the time of day unless it is
-/// midnight; of the years 1 to 9999.
+/// The date of a time in seconds since the start of 1970, and the time of day unless it is midnight, as people write
+/// them. Times outside of the years 1 to 9999 are shown as the first or the last of these days.
 pub fn written_time(seconds: f64) -> String {
     let days = libm::floor(seconds / DAY);
     let of_day = libm::floor(seconds - days * DAY) as i64;

@@ -23,8 +23,8 @@ pub(crate) fn show(text: &str) -> String {
     }
 }
 
-/// A text, of a file or of a file's name, in which no character moves the cursor of a terminal, changes its colors or turns
-/// text around: such are written as `\u{1b}`.
+/// Makes a text from a file, or the name of a file, harmless to a terminal: characters that would move the cursor,
+/// change colors or reverse text become escapes such as `\u{1b}`.
 pub fn harmless(text: &str) -> String {
     let mut shown = String::new();
     for c in text.chars() {

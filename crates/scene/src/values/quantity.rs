@@ -1,5 +1,7 @@
 //! The numbers of a scene file, each with its range and its default.
 
+use marbles_core::Highlight;
+
 use crate::text::{Read, Slice, read_simple};
 
 /// The most frames of an animation: at 24 a second more than eleven hours.
@@ -7,7 +9,7 @@ pub(crate) const MOST_FRAMES: i32 = 1_000_000;
 
 /// Declares a kind of number: its type, what is expected, which are allowed, the default.
 macro_rules! quantities {
-    ($($(#[$doc:meta])* $name:ident($type:ty): $expected:literal, $allowed:expr $(, default $default:literal)?;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident($type:ty): $expected:literal, $allowed:expr $(, default $default:expr)?;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq)]
         pub(crate) struct $name(pub(crate) $type);
@@ -68,9 +70,9 @@ quantities! {
     /// The contrast exponent; Lambert's law by default.
     Exponent(f64): "an exponent greater than 0", |x| x > 0.0, default 1.0;
     /// The strength of a highlight.
-    Strength(f64): "a strength of at least 0", |x| x >= 0.0, default 0.5;
+    Strength(f64): "a strength of at least 0", |x| x >= 0.0, default Highlight::default().strength;
     /// The exponent of a highlight.
-    Shininess(f64): "a shininess greater than 0", |x| x > 0.0, default 40.0;
+    Shininess(f64): "a shininess greater than 0", |x| x > 0.0, default Highlight::default().shininess;
     /// The amplitude of a rough surface; the original project's by default.
     Amplitude(f64): "an amplitude of at least 0 and less than 1", |x| (0.0..1.0).contains(&x), default 0.5;
     /// The cell size of a rough surface.

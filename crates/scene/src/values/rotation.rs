@@ -31,6 +31,7 @@ impl<'t> Read<'t> for Rotation {
             Err(RotationError::Mirrors(determinant)) => refused(&format!(
                 "one that mirrors, of determinant {determinant:.3}"
             )),
+            Err(other) => refused(&format!("a matrix that is no rotation: {other}")),
         }
     }
 }

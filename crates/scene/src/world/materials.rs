@@ -100,7 +100,7 @@ fn material(material: &Placed<file::Material>) -> Option<Material> {
         exponent: material.exponent.get()?.0,
         highlight: optional(&material.highlight, highlight)?,
         roughness: optional(&material.rough, roughness)?,
-        outline: optional(&material.outline, stroke)?,
+        outline: optional(&material.outline, outline)?,
     })
 }
 
@@ -111,7 +111,7 @@ fn highlight(highlight: &file::Highlight) -> Option<Highlight> {
     })
 }
 
-fn stroke(outline: &file::Outline) -> Option<Outline> {
+fn outline(outline: &file::Outline) -> Option<Outline> {
     Some(Outline {
         width: match *outline.width.value.as_ref()? {
             file::Width::Pixels(width) => OutlineWidth::Pixels(width),

@@ -31,7 +31,26 @@ pub(crate) enum Part {
     Changing(Arc<OpenCloud>),
 }
 
-/// The steps of all clouds that change, in a frame; frames with the same ones show the same world.
+/// The steps of all clouds that change over time. Frames with the same steps show the same world.
+///
+/// # Example
+/// ```
+/// use marbles_scene::Scene;
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles StepKey {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `run.1.csv` and `run.2.csv` are two steps of a table; each is shown for two frames.
+/// # std::fs::write(folder.join("run.1.csv"), "x,y,z,radius\n0,0,5,1\n")?;
+/// # std::fs::write(folder.join("run.2.csv"), "x,y,z,radius\n1,0,5,1\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Free(),
+///     clouds: [(file: "run.####.csv", speed: 0.5)])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// // …
+/// assert_eq!(scene.steps_at(1), scene.steps_at(2));
+/// assert_ne!(scene.steps_at(2), scene.steps_at(3));
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Eq, Hash, PartialEq)]
 pub struct StepKey(Vec<Option<usize>>);
 

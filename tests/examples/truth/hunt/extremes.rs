@@ -4,13 +4,13 @@
 use glam::DVec3;
 
 use super::draft::{Draft, SIDE, sphere};
+use super::outlines::outlined;
 use super::point_lights::{lights_between_spheres, near_lights};
 use super::pose::Pose;
 use super::scenes::{
     DISTANCE, add_balls, exponents, floors, grazing_shadows, highlights, ordinary, place, seams,
     shutters, surface_bumps, touching, wide_lenses,
 };
-use super::strokes::outlined;
 use marbles_tests::numbers::Numbers;
 
 /// A number whose decimal logarithm is between two.

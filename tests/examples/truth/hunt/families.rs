@@ -2,6 +2,7 @@
 
 use super::draft::Draft;
 use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, nearly_coincident};
+use super::outlines::outlined;
 use super::parallel::{parallel_lenses, planes_that_cut};
 use super::point_lights::{grazing_cones, lights_between_spheres, lights_inside, near_lights};
 use super::scenes::{
@@ -9,7 +10,6 @@ use super::scenes::{
     highlights, long_lenses, many_lights, ordinary, overlapping_crowds, rough, seams, shutters,
     slivers, surface_bumps, terminator_at_rim, touching, triple_points, wide_lenses,
 };
-use super::strokes::outlined;
 use super::together::together;
 use marbles_tests::numbers::Numbers;
 

@@ -10,6 +10,7 @@ mod families;
 mod laws;
 mod limits;
 mod options;
+mod outlines;
 #[path = "../../../../benches/src/page.rs"]
 #[expect(unreachable_pub, reason = "it belongs to the benchmarks' library")]
 mod page;
@@ -23,7 +24,6 @@ mod reduce;
 mod report;
 mod sampled;
 mod scenes;
-mod strokes;
 mod subject;
 mod together;
 mod ulp;

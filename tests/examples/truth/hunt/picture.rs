@@ -115,7 +115,7 @@ impl Mode {
 /// The least power of two that is not below the contrast of a world: an error of alpha counts as so much light.
 fn unit(world: &World) -> f64 {
     let lights = world.lights.iter().map(marbles_core::Light::intensity);
-    let strokes = world
+    let outlines = world
         .materials()
         .iter()
         .filter_map(|it| Some(it.outline?.color));
@@ -123,7 +123,7 @@ fn unit(world: &World) -> f64 {
     let contrast = lights
         .chain([world.ambient, world.background])
         .fold(0.0, largest)
-        + strokes.map(DVec3::max_element).fold(0.0, f64::max);
+        + outlines.map(DVec3::max_element).fold(0.0, f64::max);
     if contrast > 0.0 {
         libm::exp2(libm::ceil(libm::log2(contrast)))
     } else {

@@ -75,7 +75,7 @@ pub(super) fn lights_inside(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Cones of shadow that touch an outline, or the edge of another.
+/// Cones of shadow that touch a contour, or the edge of another.
 pub(super) fn grazing_cones(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.head.retain(|field| !field.starts_with("shadows"));

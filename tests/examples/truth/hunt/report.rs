@@ -16,7 +16,7 @@ pub(super) struct Report<'a> {
     medians: String,
     /// Pixels that say that they are over their tolerance, of a million.
     given_up: String,
-    /// Of all families, for each tolerance.
+    /// The honesty of all families together, for each tolerance.
     honesty: Vec<Honesty>,
     unjudged: u64,
     /// The same pixels of each family, counted.

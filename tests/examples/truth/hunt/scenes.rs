@@ -54,7 +54,7 @@ pub(super) fn touching(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Balls exactly behind another, with its outline.
+/// Balls exactly behind another, with its contour.
 pub(super) fn coincident(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 1);
     let depth = numbers.between(60.0, 100.0);
@@ -68,7 +68,7 @@ pub(super) fn coincident(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Three balls whose outlines, or those and seams, meet in a point.
+/// Three balls whose contours, or those and seams, meet in a point.
 pub(super) fn triple_points(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 1);
     let [x, y, z] = place(numbers, 100.0);
@@ -76,7 +76,7 @@ pub(super) fn triple_points(numbers: &mut Numbers) -> Draft {
         let radius = numbers.between(4.0, 15.0);
         let turn = numbers.between(0.0, std::f64::consts::TAU);
         let depth = z * numbers.between(0.8, 1.2);
-        // The outline of a ball passes by the point to within some thousandths.
+        // The contour of a ball passes by the point to within some thousandths.
         let sine = radius / depth;
         let aside = depth * sine / (1.0 - sine * sine).sqrt() * (1.0 - sine * sine);
         let along = depth / z;
@@ -89,7 +89,7 @@ pub(super) fn triple_points(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Shadows that touch an outline, or another shadow's edge.
+/// Shadows that touch a contour, or another shadow's edge.
 pub(super) fn grazing_shadows(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.head.retain(|field| !field.starts_with("shadows"));
@@ -267,7 +267,7 @@ pub(super) fn slivers(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Balls whose outlines run along rows and columns, and meet corners of pixels.
+/// Balls whose contours run along rows and columns, and meet corners of pixels.
 pub(super) fn aligned_grids(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.head[1] = format!("lens: Retina(width: {SIDE}, distance: 64)");

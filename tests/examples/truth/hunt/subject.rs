@@ -138,7 +138,7 @@ impl Subject {
         value: DVec4,
         allowed: f64,
     ) -> Option<(f64, f64)> {
-        /// Of what is allowed.
+        /// The error of the reference, relative to the allowed one.
         const FINE: f64 = 0.02;
         let fine = FINE * allowed;
         let whole = self.truth(fine, |judge, _| judge.pixel(col, row))?;

@@ -93,7 +93,7 @@ pub(super) fn rounded(random: &mut Random) -> Draft {
 
 /// Whole numbers up to 2⁵³ whose discriminant is 1 or −1 times the direction's square.
 ///
-/// Of two Gaussian integers whose product has an imaginary part of 1 the squares multiply to
+/// If the product of two Gaussian integers has an imaginary part of 1, their squares multiply to
 /// a square plus 1: (a² + b²) (c² + d²) = e² + 1 with e = a c + b d, where a d − b c = 1.
 pub(super) fn by_whole_numbers(random: &mut Random) -> Draft {
     let (mut a, mut b) = (1_i64, 0_i64);

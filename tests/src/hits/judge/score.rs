@@ -65,7 +65,7 @@ impl ExactHit {
     }
 }
 
-/// Of a radian in 2⁻⁵³ radians.
+/// The units of 2⁻⁵³ radians in a radian.
 const TO_UNITS: f64 = 2.0 / f64::EPSILON;
 
 /// A double in units of 2^−`DIGITS`, cut to an integer.

@@ -38,12 +38,12 @@ fn material(name: &str, material: &Material) -> Value {
         };
         json!({"amplitude": rough.amplitude, "size": size, "seed": rough.seed})
     });
-    let outline = material.outline.map(|stroke| {
-        let (width, unit) = match stroke.width {
+    let outline = material.outline.map(|outline| {
+        let (width, unit) = match outline.width {
             OutlineWidth::Pixels(width) => (width, "pixels"),
             OutlineWidth::Units(width) => (width, "units"),
         };
-        json!({"width": width, "unit": unit, "color": stroke.color.to_array()})
+        json!({"width": width, "unit": unit, "color": outline.color.to_array()})
     });
     let highlight = material
         .highlight

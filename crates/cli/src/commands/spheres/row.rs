@@ -18,12 +18,12 @@ pub(super) fn write_row(
     (id, sphere): (usize, &Sphere),
     visible: &VisibleArea,
 ) -> io::Result<()> {
-    let outline = view.contour(sphere);
+    let contour = view.contour(sphere);
     write!(to, "{},{id}", view.frame)?;
-    let center = outline.center.map(|center| (center - MIDDLE).to_array());
+    let center = contour.center.map(|center| (center - MIDDLE).to_array());
     write_numbers(to, center)?;
-    write!(to, ",{}", outline.depth)?;
-    let ellipse = outline.ellipse.as_ref();
+    write!(to, ",{}", contour.depth)?;
+    let ellipse = contour.ellipse.as_ref();
     write_numbers(
         to,
         ellipse.map(|ellipse| (ellipse.center - MIDDLE).to_array()),

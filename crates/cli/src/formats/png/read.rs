@@ -13,7 +13,7 @@ use crate::formats::source::Source;
 
 /// The codes of a file, and their light.
 struct Codes {
-    /// Of 8 bit, or of 16 with the big end first.
+    /// Samples of 8 bit, or of 16 bit with the high byte first.
     lines: Lines,
     color_type: ColorType,
     deep: bool,

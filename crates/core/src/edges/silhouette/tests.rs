@@ -1,4 +1,4 @@
-//! Rays at outlines touch, whatever the size and distance of the sphere.
+//! Rays at contours touch, whatever the size and distance of the sphere.
 
 use glam::DVec3;
 
@@ -6,13 +6,13 @@ use super::*;
 use crate::edges::tests::{any_cell, ball, ball_in_front, cell_at, magnitude, ray, value, zeros};
 use crate::search::tests::Random;
 
-/// Of the ray from the ball's center, in radii.
+/// The distance of the ray from the ball's center, in radii.
 fn distance(ray: DVec3, ball: &Ball) -> f64 {
     ray.cross(ball.center).length() / ray.length() / ball.radius
 }
 
 #[test]
-fn rays_at_the_outline_touch_the_sphere() {
+fn rays_at_the_contour_touch_the_sphere() {
     let mut random = Random(1);
     let (mut apart, mut near) = (0, 0);
     for _ in 0..2000 {
@@ -37,7 +37,7 @@ fn rays_at_the_outline_touch_the_sphere() {
 
 /// A marble as far away as a million of its radii: plain B² − A K would be off by a tenth of r².
 #[test]
-fn far_and_small_spheres_keep_their_outline() {
+fn far_and_small_spheres_keep_their_contour() {
     // Everything is a whole number of 2⁻³⁰ in the directions, so that integers know the answer.
     const UNIT: f64 = (1_u64 << 30) as f64;
     let center = [300_001_i128, -200_003, 1_000_003];
@@ -49,7 +49,7 @@ fn far_and_small_spheres_keep_their_outline() {
         size: [2.0 * half as f64 / UNIT; 2],
         projection: crate::model::camera::Projection::Central,
     };
-    let outline = silhouette(&cell, &ball);
+    let contour = silhouette(&cell, &ball);
     for row in (-half..=half).step_by(128) {
         for col in (-half..=half).step_by(128) {
             let d = [u as i128 + col, v as i128 + row, 1 << 30];
@@ -58,7 +58,7 @@ fn far_and_small_spheres_keep_their_outline() {
             let ray_sq = d.iter().map(|part| part * part).sum::<i128>();
             let exact = (ray_sq - (a * a + b * b + c * c)) as f64 / ray_sq as f64;
             let place = [col, row].map(|offset| 0.5 * offset as f64 / half as f64);
-            let (found, _) = value(&outline, place[0], place[1]);
+            let (found, _) = value(&contour, place[0], place[1]);
             let found = found / (ray_sq as f64 / UNIT / UNIT);
             assert!((found - exact).abs() < 1e-9, "{found} instead of {exact}");
         }
@@ -84,14 +84,14 @@ fn both_forms_agree() {
 }
 
 #[test]
-fn from_inside_a_sphere_has_no_outline() {
+fn from_inside_a_sphere_has_no_contour() {
     let mut random = Random(3);
     for _ in 0..500 {
         let cell = any_cell(&mut random);
         let ball = ball(random.point() * 0.5, 1.0);
-        let outline = silhouette(&cell, &ball);
+        let contour = silhouette(&cell, &ball);
         for (x, y) in [(0.0, 0.0), (-0.5, 0.5), (0.5, 0.5), (0.1, -0.5)] {
-            assert!(value(&outline, x, y).0 > 0.0);
+            assert!(value(&contour, x, y).0 > 0.0);
         }
     }
 }

@@ -5,7 +5,7 @@ const MOST_SIZES: u32 = 2;
 
 /// The share of a pixel that boxes were tried on in vain, and the sizes of parts over which it stayed as it is.
 ///
-/// Of spheres that nearly coincide boxes do not find the nearer one, however small they are.
+/// If spheres nearly coincide, boxes do not find the nearer one, however small the boxes are.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct InVain {
     share: f64,

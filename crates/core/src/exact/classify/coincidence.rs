@@ -9,12 +9,12 @@ use crate::exact::scene::{InCamera, Light};
 use crate::model::camera::Projection;
 use crate::numeric::rounding::UNIT_ROUNDOFF;
 
-/// By how much outlines differ, in the tangents of angles, that count as one: more than rounding.
+/// By how much contours differ, in the tangents of angles, that count as one: more than rounding.
 pub(super) const ALIKE: f64 = 64.0 * UNIT_ROUNDOFF;
 
-/// Returns whether two spheres that the eye is outside of have the same outline: crossings cannot tell which of
+/// Returns whether two spheres that the eye is outside of have the same contour: crossings cannot tell which of
 /// them is seen beside it. Of such spheres one is the other, closer to the eye by some factor.
-pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
+pub(super) fn has_same_contour(one: &Ball, other: &Ball) -> bool {
     if one.outside <= 0.0 || other.outside <= 0.0 {
         return false;
     }
@@ -29,12 +29,12 @@ pub(super) fn has_same_outline(one: &Ball, other: &Ball) -> bool {
         && (one.center * far[1] - other.center * far[0]).length() <= slack
 }
 
-/// The distance in a cell, on the retina at distance 1 or across parallel rays, the outline of a ball and another may be
+/// The distance in a cell, on the retina at distance 1 or across parallel rays, the contour of a ball and another may be
 /// that count as the same.
 ///
-/// The sine of the angle of an outline, r / |c|, changes the angle by 1 / cos = |c| / √K times as much, and an angle moves a
+/// The sine of the angle of a contour, r / |c|, changes the angle by 1 / cos = |c| / √K times as much, and an angle moves a
 /// ray that is |d| long by |d|² times as much at distance 1.
-pub(super) fn outlines_apart(cell: &Cell, ball: &Ball) -> f64 {
+pub(super) fn contours_apart(cell: &Cell, ball: &Ball) -> f64 {
     let (extent, distance) = (cell.extent(), ball.center.length());
     ALIKE
         * match cell.projection {
@@ -54,9 +54,9 @@ pub(super) fn nesting(scene: &InCamera<'_>, one: usize, other: usize) -> Option<
     (apart <= larger.abs()).then_some(larger > 0.0)
 }
 
-/// Returns whether parallel rays go along the axis of a terminator in the middle of a sphere: then it is an outline, and
-/// no edge of its own. Beside the outline it leaves less than the square of this of a radius.
-pub(crate) fn is_outline(terminator: &Plane) -> bool {
+/// Returns whether parallel rays go along the axis of a terminator in the middle of a sphere: then it is a contour, and
+/// no edge of its own. Beside the contour it leaves less than the square of this of a radius.
+pub(crate) fn is_contour(terminator: &Plane) -> bool {
     const ALONG: f64 = 1e-9;
     terminator.offset == 0.0 && terminator.axis.truncate().length_squared() < ALONG * ALONG
 }
@@ -67,15 +67,15 @@ pub(super) fn is_at_eye(toward: DVec3) -> bool {
     toward.z < 0.0 && toward.truncate().length() < ALONG
 }
 
-/// The least distance toward a light, in radii, by which a sphere with the same outline is at least that hides all of
-/// another one: what outlines that differ by 10⁻¹² then leave lit is less than the square of 10⁻⁶. One that is closer to
+/// The least distance toward a light, in radii, by which a sphere with the same contour is at least that hides all of
+/// another one: what contours that differ by 10⁻¹² then leave lit is less than the square of 10⁻⁶. One that is closer to
 /// the other may be as well behind it.
 pub(super) const FARTHER: f64 = 1e-6;
 
-/// Returns whether an occluder keeps a light from a ball whose outline it has, seen along the light: its shadow
+/// Returns whether an occluder keeps a light from a ball whose contour it has, seen along the light: its shadow
 /// ends where the ball's own dark side begins, which edges must not be left to tell.
 pub(super) fn hides_all(ball: &Ball, center: DVec3, radius: f64, toward: DVec3) -> bool {
-    /// Of the radius, more than rounding.
+    /// The difference, in radii, of lengths that count as equal: more than rounding.
     const ALIKE: f64 = 1e-12;
     let offset = center - ball.center;
     let ahead = offset.dot(toward);

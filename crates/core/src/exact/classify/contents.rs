@@ -2,7 +2,7 @@
 
 use super::active::{Active, Terminators};
 use super::behind::Cover;
-use super::coincidence::{has_same_outline, is_outline, nesting, outlines_apart};
+use super::coincidence::{contours_apart, has_same_contour, is_contour, nesting};
 use super::cut_side::CutSide;
 use super::face::Face;
 use super::hidden::HiddenSpheres;
@@ -24,14 +24,14 @@ use crate::numeric::rounding::{GEOMETRY_SLACK, UNIT_ROUNDOFF};
 /// A curve on which light may change abruptly.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Kind {
-    /// The outline of the active sphere with this position.
+    /// The contour of the active sphere with this position.
     Silhouette(usize),
     /// The intersection of two active spheres.
     Seam(usize, usize),
     /// The great circle of an active sphere that faces a light edge-on.
     Terminator(usize, usize),
-    /// The inner edge of an active sphere's stroke.
-    Stroke(usize),
+    /// The inner edge of an active sphere's outline.
+    Outline(usize),
 }
 
 /// The spheres, curves and occluders that matter in a cell.
@@ -42,7 +42,7 @@ pub(crate) struct Contents {
     /// For every active sphere and every light.
     pub(crate) reach: Vec<Reach>,
     pub(crate) occluders: Vec<Caster>,
-    /// The visible part of each active sphere inside of its stroke; empty where none is seen.
+    /// The visible part of each active sphere inside of its outline; empty where none is seen.
     pub(super) faces: Vec<Face>,
     /// The pixel that the cell belongs to.
     pub(crate) pixel: PixelKey,
@@ -137,7 +137,7 @@ impl Contents {
             let spread = discriminant.spread();
             let mut slack = GEOMETRY_SLACK * (spread + discriminant.one.abs());
             if ball.is_parallel() {
-                let length = ball.outline_scale(cell);
+                let length = ball.contour_scale(cell);
                 if ball.is_apart() || discriminant.may_vanish() {
                     self.rounding = self.rounding.max(ROUNDINGS * length / size);
                 }
@@ -180,10 +180,10 @@ impl Contents {
                 }
                 continue;
             }
-            // Of spheres with one outline the nearest hides the others, or that around them.
-            let is_alike = |other: &&mut Active| has_same_outline(&other.ball, &ball);
+            // Of spheres with one contour the nearest hides the others, or that around them.
+            let is_alike = |other: &&mut Active| has_same_contour(&other.ball, &ball);
             if let Some(other) = self.active.iter_mut().find(is_alike) {
-                let moved = outlines_apart(cell, &ball);
+                let moved = contours_apart(cell, &ball);
                 self.rounding = self.rounding.max(moved / size);
                 let is_before = match nesting(scene, sphere, other.sphere) {
                     Some(is_inside) => !is_inside,
@@ -239,8 +239,8 @@ impl Contents {
                     Reach::Nowhere
                 };
                 let plane = active.terminators.plane(scene, &active.ball, light);
-                // Through the center and across the view it coincides with the outline.
-                let is_aligned = cell.is_parallel() && plane.as_ref().is_some_and(is_outline);
+                // Through the center and across the view it coincides with the contour.
+                let is_aligned = cell.is_parallel() && plane.as_ref().is_some_and(is_contour);
                 let reach = match plane {
                     // It faces away from all that rays see.
                     Some(plane) if is_aligned && plane.axis.z > 0.0 => Reach::Nowhere,
@@ -258,7 +258,7 @@ impl Contents {
         }
         self.count_edges(cache);
         self.rounding += unresolved;
-        self.add_strokes(scene, cell);
+        self.add_outlines(scene, cell);
     }
 
     /// The same for the scene whose light is its normals: nothing shades them.
@@ -295,14 +295,14 @@ impl Contents {
         active.chain(cut.map(|(sphere, _)| *sphere))
     }
 
-    /// Returns whether a cell sees one sphere alone, with nothing but its outline in it.
-    pub(crate) fn is_outline_alone(&self) -> bool {
-        let is_outline = |(kind, _): &(Kind, Quadratic)| matches!(kind, Kind::Silhouette(_));
+    /// Returns whether a cell sees one sphere alone, with nothing but its contour in it.
+    pub(crate) fn is_contour_alone(&self) -> bool {
+        let is_contour = |(kind, _): &(Kind, Quadratic)| matches!(kind, Kind::Silhouette(_));
         matches!(&self.active[..], [active] if active.ball.outside > 0.0 && !active.is_dark)
             && !self.is_mixed
-            && !self.has_strokes()
+            && !self.has_outlines()
             && self.occluders.is_empty()
-            && self.conics.iter().all(is_outline)
+            && self.conics.iter().all(is_contour)
     }
 
     /// Adds the curves in which an active sphere intersects those before it.

@@ -24,7 +24,7 @@ impl Begin {
         let mut inside = silhouette(cell, ball);
         let (at_center, spread) = (inside.one, inside.spread());
         inside.one -= z * z;
-        let size = cell.extent() + ball.outline_scale(cell);
+        let size = cell.extent() + ball.contour_scale(cell);
         let slack = GEOMETRY_SLACK * (spread + at_center.abs() + z * z)
             + 4.0 * ROUNDINGS * size * (ball.radius + z.abs());
         if inside.one + spread + slack < 0.0 {
@@ -41,7 +41,7 @@ impl Begin {
 struct Cap {
     ball: Ball,
     discriminant: Quadratic,
-    /// A bound of how far rounding moves its outline, times the radius.
+    /// A bound of how far rounding moves its contour, times the radius.
     moved: f64,
 }
 
@@ -62,7 +62,7 @@ impl Cap {
         let terms = if cap.is_apart() {
             (ball.center.length() + ball.radius) * ball.radius
         } else {
-            cap.outline_scale(cell) * radius
+            cap.contour_scale(cell) * radius
         };
         Self {
             ball: cap,
@@ -162,7 +162,7 @@ impl Contents {
     }
 
     /// Adds the spheres of which some rays of the cell begin inside: there, where nothing else lies inside of one, its
-    /// inner side is what a dark ball before all else would be, behind whose outline its outer side is seen.
+    /// inner side is what a dark ball before all else would be, behind whose contour its outer side is seen.
     pub(super) fn add_caps(&mut self, scene: &InCamera<'_>, cell: &Cell) {
         let [(sphere, ball)] = self.cut[..] else {
             self.is_mixed = !self.cut.is_empty();
@@ -198,7 +198,7 @@ impl Contents {
     fn add_cap(&mut self, cell: &Cell, sphere: usize, cap: &Cap) {
         let size = cell.size[0].min(cell.size[1]);
         let (radius, moved) = (cap.ball.radius, cap.moved);
-        // Rounding moves the outline of a thin cap by more than the plane.
+        // Rounding moves the contour of a thin cap by more than the plane.
         self.rounding = self.rounding.max(moved / (radius.max(moved.sqrt()) * size));
         let width = 2.0 * radius / size;
         if width <= NARROWEST {
@@ -223,7 +223,7 @@ impl Contents {
         };
         let discriminant = silhouette(cell, &ball);
         let (one, spread) = (discriminant.one, discriminant.spread());
-        let moved = ROUNDINGS * ball.outline_scale(cell) * ball.radius;
+        let moved = ROUNDINGS * ball.contour_scale(cell) * ball.radius;
         let slack = GEOMETRY_SLACK * (spread + one.abs()) + 4.0 * moved;
         let is_known = self.is_mixed && !self.is_crowded && self.side.is_none();
         (is_known && one - spread - slack > 0.0).then_some(sphere)

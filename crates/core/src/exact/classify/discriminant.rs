@@ -18,7 +18,7 @@ pub(crate) struct Discriminant<S: Simd> {
 }
 
 impl<S: Simd> Discriminant<S> {
-    /// Of rays whose third component is 1, and whose squared lengths are these.
+    /// The discriminant for rays whose third component is 1, and whose squared lengths are these.
     #[inline(always)]
     pub(crate) fn new(ray: &Vectors<S>, ray_sq: f64x8<S>, ball: &Ball) -> Self {
         let (u, v) = (ray.x, ray.y);

@@ -18,7 +18,7 @@ pub(super) struct HiddenSpheres {
     hidden: Vec<bool>,
 }
 
-/// Of fewer spheres none is hidden by two others together.
+/// The fewest spheres of which one may be hidden by two others together.
 const FEWEST: usize = 3;
 
 impl HiddenSpheres {

@@ -14,13 +14,13 @@ pub(crate) mod magnitude;
 mod mask;
 pub(crate) mod occluder_cache;
 pub(crate) mod occluders;
+mod outlines;
 pub(crate) mod patch;
 pub(crate) mod reach;
 pub(crate) mod row;
 pub(crate) mod seen;
 mod shade_mask;
 mod sharpness;
-mod strokes;
 #[cfg(test)]
 mod tests;
 mod ways;

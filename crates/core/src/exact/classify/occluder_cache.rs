@@ -60,7 +60,7 @@ pub(crate) enum Shade<'a> {
     /// The numbers of the spheres whose shadows have edges there.
     Edges(&'a [u32]),
     Everything,
-    /// Of more spheres than are held against each other.
+    /// More spheres than are held against each other.
     Crowd,
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Coverage {
     pub(crate) touched: u64,
     /// Pixels that the sphere fills, but for what is in front of it.
     pub(crate) covered: u64,
-    /// Pixels that would see nothing of its stroke, if it has one.
+    /// Pixels that would see nothing of its outline, if it has one.
     pub(crate) within: u64,
     /// The distances at which it begins and, in pixels that it fills, ends; in multiples of the rays.
     pub(crate) nearest: [f64; 8],
@@ -66,7 +66,7 @@ pub(crate) fn classify_row<S: Simd>(
             ball: *ball,
             touched,
             covered: extent.covered.to_bitmask() & all,
-            within: within_stroke(simd, context, (&ray, size), sphere, ball),
+            within: within_outline(simd, context, (&ray, size), sphere, ball),
             nearest: extent.nearest.into(),
             farthest: extent.farthest.into(),
         });
@@ -83,19 +83,19 @@ pub(crate) fn classify_row<S: Simd>(
     coverages.retain(|coverage| coverage.touched != 0);
 }
 
-/// The pixels, bit by bit, that lie inside of the stroke of a sphere; all, where it has none.
+/// The pixels, bit by bit, that lie inside of the outline of a sphere; all, where it has none.
 #[inline(always)]
-fn within_stroke<S: Simd>(
+fn within_outline<S: Simd>(
     simd: S,
     context: &Context<'_>,
     (ray, size): (&Vectors<S>, f64),
     sphere: usize,
     ball: &Ball,
 ) -> u64 {
-    if !context.scene.has_strokes() {
+    if !context.scene.has_outlines() {
         return !0;
     }
-    match context.scene.inside_stroke(sphere, ball) {
+    match context.scene.inside_outline(sphere, ball) {
         None => !0,
         Some(inside) => extent(simd, ray, size, &inside).covered.to_bitmask(),
     }
@@ -308,8 +308,8 @@ fn visible_spheres(
         if pairs > most_pairs {
             break;
         }
-        let (outline, along) = (silhouette(cell, ball), cell.along(ball.center));
-        let patch = Patch::new(cell, ball, &outline, &along);
+        let (contour, along) = (silhouette(cell, ball), cell.along(ball.center));
+        let patch = Patch::new(cell, ball, &contour, &along);
         for (other_place, other) in coverages.iter().filter(here).enumerate() {
             if other_place == place || spheres[other_place].0 == HIDDEN {
                 continue;

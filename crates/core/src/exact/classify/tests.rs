@@ -54,7 +54,7 @@ fn all_that_a_cell_sees_of_a_sphere_lies_in_its_patch() {
         let ball = ball_in_front(&mut random);
         let widths = magnitude(&mut random, 1e-4, 4.0);
         let mut cell = cell_at(&mut random, &ball, widths);
-        // At the outline, too.
+        // At the contour, too.
         let aside = direction(&mut random).with_z(0.0) * 1.2 * random.number();
         cell.middle += aside * (ball.radius / ball.center.z);
         let patch = patch_of(&cell, &ball);

@@ -255,9 +255,9 @@ fn ends(cell: &Cell, ball: &Ball, patch: &Patch) -> [End; 2] {
     })
 }
 
-/// Returns whether an occluder keeps a point light from a ball whose outline it has, seen from the light.
+/// Returns whether an occluder keeps a point light from a ball whose contour it has, seen from the light.
 fn hides_all_near(ball: &Ball, cone: &Cone, radius: f64) -> bool {
-    /// Of the length of the axis, more than rounding.
+    /// The relative difference of lengths that count as equal: more than rounding.
     const ALIKE: f64 = 1e-12;
     let own = ball.center - cone.apex;
     let [far, near] = [own.length(), cone.axis.length()];

@@ -131,9 +131,9 @@ impl Workspace {
         let is_fine = self
             .contents
             .has_finer_bumps(scene, &cell, MOST_CELLS_OF_BOXES);
-        // Boxes know no strokes and no point lights.
+        // Boxes know no outlines and no point lights.
         let is_known = !self.contents.is_mixed && !self.contents.is_crowded;
-        let is_plain = is_known && !self.contents.has_strokes();
+        let is_plain = is_known && !self.contents.has_outlines();
         let may_be_boxes = !is_fine && is_plain && !scene.has_near_lights;
         if may_be_boxes && let Some(part) = self.by_boxes(simd, pixel, &cell) {
             return Ok(part);

@@ -1,4 +1,4 @@
-//! Pixels with an outline and no other edge: light on plain surfaces is the product of the normals' integral with its
+//! Pixels with a contour and no other edge: light on plain surfaces is the product of the normals' integral with its
 //! direction.
 
 use fearless_simd::Simd;
@@ -13,7 +13,7 @@ use crate::exact::surface::Finish;
 use crate::model::color::Color;
 
 impl Workspace {
-    /// The average of a pixel that sees nothing but the outline of a plain sphere, under its only light, which reaches
+    /// The average of a pixel that sees nothing but the contour of a plain sphere, under its only light, which reaches
     /// all or nothing of what is seen; where it meets the tolerance.
     ///
     /// # Accuracy
@@ -26,7 +26,7 @@ impl Workspace {
     ) -> Option<Part> {
         let context = pixel.context;
         let contents = &self.contents;
-        if context.normals.is_none() || !contents.is_outline_alone() {
+        if context.normals.is_none() || !contents.is_contour_alone() {
             return None;
         }
         let finish = Finish::new(&context.scene, contents.active[0].sphere, contents.pixel);

@@ -8,9 +8,9 @@ use crate::model::roughness::PixelKey;
 /// The data that the pictures of a row of pixels, under one light each, have in common.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Normals {
-    /// Of pixels that a sphere fills.
+    /// The mean normals of pixels that a sphere fills.
     pub(crate) filled: Vec<MeanNormals>,
-    /// The pixels with an outline, the tolerances that were asked for, and the integrals, where there are any.
+    /// The pixels with a contour, the tolerances that were asked for, and the integrals, where there are any.
     pub(super) outlined: Vec<(PixelKey, f64, Option<Part>)>,
     pub(super) contents: Contents,
 }

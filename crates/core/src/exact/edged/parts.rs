@@ -17,7 +17,7 @@ const LOST: f64 = 0.01;
 const LOST_TO_ROUNDING: f64 = 0.25;
 
 /// The share of the tolerance that parts under point lights may claim together before no more of them are divided: one
-/// pixel in a million, along a terminator beside an outline, was off by 7 % more than its parts claimed.
+/// pixel in a million, along a terminator beside a contour, was off by 7 % more than its parts claimed.
 const ENOUGH_UNDER_POINTS: f64 = 0.8;
 
 impl Workspace {

@@ -118,9 +118,9 @@ impl Exact<'_> {
             let dark = albedo * world.ambient;
             least = least.min(dark);
             most = most.max(dark + albedo * lights + lights * strength);
-            if let Some(stroke) = world.material(sphere).outline {
-                least = least.min(stroke.color);
-                most = most.max(stroke.color);
+            if let Some(outline) = world.material(sphere).outline {
+                least = least.min(outline.color);
+                most = most.max(outline.color);
             }
         }
         [least, most]

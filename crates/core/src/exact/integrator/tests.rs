@@ -140,7 +140,7 @@ fn nine_lights_add_up() {
     let found = pixels(&all, Level::new(), 1e-3, Tile::SIDE);
     let mut sum = vec![Color::ZERO; found.len()];
     let mut errors: Vec<f64> = found.iter().map(|pixel| pixel.error).collect();
-    // Strokes are in the part without lights.
+    // Outlines are in the part without lights.
     for part in all.light_parts() {
         let alone = pixels(&all.under(part), Level::new(), 1e-3, Tile::SIDE);
         for ((sum, error), pixel) in sum.iter_mut().zip(&mut errors).zip(alone) {
@@ -213,7 +213,7 @@ fn crowds_meet_their_tolerance() {
 }
 
 /// Spheres, light and dark in turn, under a light.
-fn crowd(spheres: impl Iterator<Item = Sphere>, light: Option<Light>) -> World {
+fn crowd(spheres: impl Iterator<Item = Sphere>, light: Light) -> World {
     let mut world = World::new();
     let materials = [0.9, 0.3].map(|albedo| {
         world.add_material(Material {
@@ -224,7 +224,7 @@ fn crowd(spheres: impl Iterator<Item = Sphere>, light: Option<Light>) -> World {
     for (index, sphere) in spheres.enumerate() {
         world.add_sphere(sphere, materials[index % 2]);
     }
-    world.lights.extend(light);
+    world.lights.push(light);
     world
 }
 
@@ -232,10 +232,12 @@ fn crowd(spheres: impl Iterator<Item = Sphere>, light: Option<Light>) -> World {
 /// well, and pairs of spheres, and of their shadows, cost more than the spheres.
 #[test]
 fn pixels_of_spheres_that_nearly_coincide_end_soon() {
-    let sun = || Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::ONE);
+    let sun = || Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::ONE).unwrap();
     let lamp = || {
         let position = DVec3::new(-3.0, 4.0, 0.0);
-        PointLight::new(position, Color::ONE, LightFalloff::None, 1.0).map(Light::Point)
+        PointLight::new(position, Color::ONE, LightFalloff::None, 1.0)
+            .map(Light::Point)
+            .unwrap()
     };
     const COUNT: u64 = 1500;
     for (case, light, spread, step) in [
@@ -336,7 +338,7 @@ fn pictures_of_crowds_end() {
         };
         let world = crowd(
             (0..COUNT).map(sphere),
-            Light::directional(toward, Color::ONE),
+            Light::directional(toward, Color::ONE).unwrap(),
         );
         let view = View {
             width: 600,
@@ -392,7 +394,7 @@ fn nested_spheres_change_nothing() {
         .collect::<Result<_, _>>()
         .unwrap();
     for position in [DVec3::new(-3.0, 4.0, 0.0), outer[3].center()] {
-        let light = Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::splat(0.5));
+        let light = Light::directional(DVec3::new(-1.0, 1.5, -1.0), Color::splat(0.5)).unwrap();
         let mut alone = crowd(outer.iter().copied(), light);
         let mut with_nested = crowd(outer.iter().chain(&inner).copied(), light);
         for world in [&mut alone, &mut with_nested] {

@@ -30,7 +30,7 @@ struct Sampled<S: Simd> {
     lights: [Radiance<S>; GAUSS_SAMPLES],
     /// Only if the surface needs them.
     cosines: Option<LightCosines<S>>,
-    /// Of one sample of bumps, of five and of nine.
+    /// The estimates of one sample of bumps, of five and of nine.
     middle: Estimate<S>,
     star: Estimate<S>,
     grid: Estimate<S>,

@@ -150,7 +150,7 @@ pub(crate) fn of_filled_cell<S: Simd>(
     let finish = &Finish::new(scene, active.sphere, contents.pixel);
     let ball = &active.ball;
     let is_smooth = !finish.is_rough() && finish.has_whole_exponent();
-    let has_edges = !contents.conics.is_empty() || contents.has_strokes();
+    let has_edges = !contents.conics.is_empty() || contents.has_outlines();
     if has_edges || ball.outside <= 0.0 || !(is_smooth || finish.is_bumpy()) {
         return None;
     }

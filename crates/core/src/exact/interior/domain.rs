@@ -36,7 +36,7 @@
 //! quadratic one of α.
 
 //!
-//! Of parallel rays Q = r² − a² − b² with the linear ways a, b from the center to the ray, n = (a, b, −√Q) / r, and
+//! For parallel rays Q = r² − a² − b² with the linear ways a, b from the center to the ray, n = (a, b, −√Q) / r, and
 //! all of this becomes simpler: n·l changes by ((|l_x| + |l_y|) h + |l_z| q) / r or less, and differs from a
 //! polynomial of degree 3 by √Q₀ |l_z| |ρ| / r. The directions toward the eye do not change.
 
@@ -128,7 +128,7 @@ pub(super) struct TowardEye<S: Simd> {
 }
 
 impl<'a, S: Simd> Domain<'a, S> {
-    /// Of pixels with these rays through their middles and this side.
+    /// The domain of pixels with these rays through their middles and this side.
     #[inline(always)]
     pub(super) fn new(simd: S, ball: &'a Ball, ray: &Vectors<S>, size: f64) -> Self {
         /// More than normals are off by, over (1 + |c| / r) and the cosine of the angle of incidence at the middle,

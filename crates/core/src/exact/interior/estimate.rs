@@ -35,7 +35,7 @@ pub(super) struct Estimate<S: Simd> {
 }
 
 impl<S: Simd> Estimate<S> {
-    /// Of a rule that was not tried.
+    /// The estimate of a rule that was not tried.
     #[inline(always)]
     pub(super) fn unknown(simd: S) -> Self {
         let never = mask64x8::splat(simd, false);

@@ -7,7 +7,7 @@ use crate::edges::cell::Ball;
 use crate::exact::scene::Light;
 use crate::numeric::lanes::f64x8;
 
-/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
+/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches contours alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
 /// The largest turn of directions toward the eye from the middles of pixels, whose rays have this length, to the corners; 0

@@ -169,7 +169,7 @@ mod tests {
     use super::*;
     use crate::exact::interior::samples::{GAUSS_SAMPLES, POINTS, STAR_SAMPLES};
 
-    /// Of the squares of distances on one side of lines, whose integrals are third powers of those at the upper and
+    /// Rules for the squares of distances on one side of lines, whose integrals are third powers of those at the upper and
     /// lower sides.
     #[test]
     fn rules_miss_no_more_of_jumps() {

@@ -45,7 +45,7 @@ impl<S: Simd> CosineRange<S> {
 }
 
 impl<S: Simd> LightCosines<S> {
-    /// Of no samples yet.
+    /// The cosines of no samples yet.
     #[inline(always)]
     pub(crate) fn new(simd: S) -> Self {
         Self {

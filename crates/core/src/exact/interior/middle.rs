@@ -96,7 +96,7 @@ impl<S: Simd> Filled<'_, S> {
         }
     }
 
-    /// Of the diffuse light.
+    /// The error for the diffuse light.
     #[inline(always)]
     fn of_diffuse(&self, simd: S, light: &Light, cosine: f64x8<S>, moves: &Moves<S>) -> f64x8<S> {
         let zero = f64x8::splat(simd, 0.0);
@@ -123,7 +123,7 @@ impl<S: Simd> Filled<'_, S> {
         is_cut.select(clamped.max(zero), smooth) * brightest
     }
 
-    /// Of the highlight, which ends where the surface turns from the light.
+    /// The error for the highlight, which ends where the surface turns from the light.
     #[inline(always)]
     fn of_highlight(
         &self,

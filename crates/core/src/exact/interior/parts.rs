@@ -56,9 +56,9 @@ struct Piece {
 /// that are alike in many parts could fool it; those of noise are not.
 #[derive(Clone, Copy, Debug, Default)]
 struct Claim {
-    /// Of parts that may be off by all light that there may be.
+    /// The claim of the parts that may be off by all light that there may be.
     unknown: f64,
-    /// Of the others, and the sum of squares.
+    /// The claim of the others, and the sum of the squares.
     known: f64,
     squares: f64,
 }
@@ -246,10 +246,10 @@ impl<S: Simd> Filled<'_, S> {
     }
 
     /// The turns of normals and of directions toward the eye from the middles of parts to their corners, and how near the
-    /// outline is, as [`Filled`] has it.
+    /// contour is, as [`Filled`] has it.
     ///
     /// Where the ray d moves by e, the point p = t d moves by t (e − d (n·e) / (n·d)), along the surface. With
-    /// the cosine g = |n·d| / |d| this is at most t (|e| + |n·e| / g). Toward the outline g falls, like a root: to
+    /// the cosine g = |n·d| / |d| this is at most t (|e| + |n·e| / g). Toward the contour g falls, like a root: to
     /// g √(1 − ν), with ν twice the turn over g, that of the view included, so that normals turn by g (1 − √(1 − ν))
     /// instead of g ν / 2; for ν up to ½ that is less than 1 + ν / 2 times as far.
     #[inline(always)]

@@ -27,7 +27,7 @@ pub(super) struct Ramps {
 }
 
 impl Ramps {
-    /// Of pixels toward a directional light.
+    /// The ramps of pixels under a directional light.
     ///
     /// # Accuracy
     /// A bound, with rounding. `tests::ramps_are_within_their_bounds` holds it against sums over many points.

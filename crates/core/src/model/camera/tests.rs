@@ -51,7 +51,15 @@ fn looks_straight_up_with_pan_zero() {
 
 #[test]
 fn looking_nowhere_is_no_camera() {
-    assert_eq!(Camera::look_at(DVec3::ONE, DVec3::ONE, Angle::ZERO), None);
+    let far = DVec3::splat(f64::MAX);
+    for (position, target) in [
+        (DVec3::ONE, DVec3::ONE),
+        (far, -far),
+        (DVec3::ZERO, DVec3::NAN),
+    ] {
+        let refused = Camera::look_at(position, target, Angle::ZERO);
+        assert!(matches!(refused, Err(CameraError::Target { .. })));
+    }
 }
 
 #[test]
@@ -71,13 +79,32 @@ fn orbit_stands_behind_and_above_its_target() {
 
 #[test]
 fn field_of_view_is_the_angle_across_the_retina() {
-    let lens = Lens::from_field_of_view(Angle::from_degrees(90.0));
-    assert!((lens.width - 2.0).abs() < 1e-15);
+    let lens = |degrees| Lens::from_field_of_view(Angle::from_degrees(degrees));
+    let right_angle = lens(90.0).unwrap();
+    assert!((right_angle.width - 2.0).abs() < 1e-15);
     for degrees in [1e-3, 40.0, 120.0, 179.0] {
-        let lens = Lens::from_field_of_view(Angle::from_degrees(degrees));
+        let lens = lens(degrees).unwrap();
         let width = 2.0 * libm::tan(0.5 * f64::to_radians(degrees));
         assert!((lens.width / width - 1.0).abs() < 1e-13, "{degrees}");
     }
+}
+
+#[test]
+fn a_field_of_view_is_between_0_and_180_degrees() {
+    for (degrees, found) in [
+        (0.0, 0.0),
+        (180.0, 180.0),
+        (200.0, 200.0),
+        (-40.0, 320.0),
+        (360.0, 0.0),
+    ] {
+        match Lens::from_field_of_view(Angle::from_degrees(degrees)) {
+            Err(CameraError::FieldOfView(told)) => assert!((told - found).abs() < 1e-12),
+            other => panic!("{degrees}: {other:?}"),
+        }
+    }
+    assert!(Lens::from_field_of_view(Angle::from_degrees(f64::NAN)).is_err());
+    assert!(Lens::from_field_of_view(Angle::from_degrees(400.0)).is_ok());
 }
 
 /// The middle of a turned picture is where the axis of view, to 60 digits, comes nearest to the world's origin.

@@ -1,4 +1,4 @@
-//! Outlines against the rays through them, and areas against grids of points.
+//! Contours against the rays through them, and areas against grids of points.
 
 use glam::DVec3;
 
@@ -51,11 +51,11 @@ fn spheres_ahead(view: &View) -> Vec<Sphere> {
 }
 
 #[test]
-fn rays_through_an_outline_touch_the_sphere() {
+fn rays_through_a_contour_touch_the_sphere() {
     let view = view();
     for sphere in spheres_ahead(&view) {
-        let outline = view.contour(&sphere);
-        let ellipse = outline.ellipse.unwrap();
+        let contour = view.contour(&sphere);
+        let ellipse = contour.ellipse.unwrap();
         let [long, short] = ellipse.semi_axes;
         let [low, high] = ellipse.bounds();
         let across = DVec2::new(-ellipse.along.y, ellipse.along.x);
@@ -82,7 +82,7 @@ fn rays_through_an_outline_touch_the_sphere() {
             .camera
             .forward()
             .dot(sphere.center() - view.camera.position);
-        assert!((outline.depth - depth).abs() < 1e-12 * depth);
+        assert!((contour.depth - depth).abs() < 1e-12 * depth);
     }
 }
 
@@ -132,8 +132,8 @@ fn a_sphere_that_the_plane_of_the_eye_touches_has_no_ellipse() {
     let camera = &view.camera;
     for (depth, radius) in [(1.0, 1.0), (0.5, 2.0), (-3.0, 1.0), (-1.0, 5.0)] {
         let center = camera.position + camera.forward() * depth;
-        let outline = view.contour(&Sphere::new(center, radius).unwrap());
-        assert!(depth == radius || outline.ellipse.is_none());
-        assert_eq!(outline.center.is_some(), depth > 0.0);
+        let contour = view.contour(&Sphere::new(center, radius).unwrap());
+        assert!(depth == radius || contour.ellipse.is_none());
+        assert_eq!(contour.center.is_some(), depth > 0.0);
     }
 }

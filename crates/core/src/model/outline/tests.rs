@@ -34,7 +34,7 @@ fn a_width_in_pixels_is_seen_on_the_axis_of_view() {
 fn off_the_axis_it_counts_across_the_direction_to_it() {
     let center = DVec3::new(6.0, 0.0, 8.0);
     let smaller = inner(OutlineWidth::Pixels(2.0), Projection::Central, center, 0.01);
-    // Small spheres have a stroke of so many pixels at the depth of their center.
+    // Small spheres have an outline of so many pixels at the depth of their center.
     let width = (0.01 - smaller) / (8.0 * PIXEL);
     assert_eq!(smaller, 0.0, "{width}");
     let smaller = inner(OutlineWidth::Pixels(2.0), Projection::Central, center, 0.5);

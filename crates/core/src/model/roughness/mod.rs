@@ -74,7 +74,7 @@ impl Roughness {
 /// Bumps that are attached to the surface of one sphere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bumps {
-    /// Of the seed and the sphere.
+    /// A hash of the seed and the sphere.
     key: u64,
     /// The number of cells that the radius spans.
     cells: f64,

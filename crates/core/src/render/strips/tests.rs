@@ -55,7 +55,7 @@ fn render(
     sink: &Collector,
     progress: &(dyn Fn(u64) -> ControlFlow<()> + Sync),
 ) -> Result<Work, Cancelled> {
-    let rendering = renderer.begin(view, window, settings, sink.bands);
+    let rendering = renderer.begin(view, window, settings, sink.rows);
     let mut sum = Work::default();
     for work in rayon::broadcast(|_| rendering.help(sink, progress)) {
         sum += work?;
@@ -67,7 +67,8 @@ fn render(
 /// Keeps what is known of all pixels.
 struct Collector {
     view: View,
-    bands: u32,
+    /// Rows of a strip.
+    rows: u32,
     /// Row by row; empty where none came.
     pixels: Mutex<Vec<String>>,
     begun: AtomicU32,
@@ -77,10 +78,10 @@ struct Collector {
 }
 
 impl Collector {
-    fn new(view: View, bands: u32) -> Self {
+    fn new(view: View, rows: u32) -> Self {
         Self {
             view,
-            bands,
+            rows,
             pixels: Mutex::new(vec![String::new(); (view.width * view.height) as usize]),
             begun: AtomicU32::new(0),
             ended: AtomicU32::new(0),
@@ -92,11 +93,11 @@ impl Collector {
 impl Sink for Collector {
     fn begin(&self, index: u32) -> Option<Box<dyn Strip + '_>> {
         let begun = self.begun.fetch_add(1, Ordering::Relaxed);
-        let row = index * self.bands * BAND_ROWS;
+        let row = index * self.rows;
         let strip = CollectedStrip {
             collector: self,
             row,
-            rows: (self.bands * BAND_ROWS).min(self.view.height - row),
+            rows: self.rows.min(self.view.height - row),
             next: 0,
         };
         (begun < self.most).then(|| Box::new(strip) as Box<dyn Strip>)
@@ -153,8 +154,8 @@ fn strips_are_the_picture_whatever_their_height() {
                 let places = (0..height).flat_map(|row| (0..width).map(move |col| (col, row)));
                 let expected: Vec<String> =
                     places.map(|(col, row)| pixel(&image, col, row)).collect();
-                for bands in 1..=3 {
-                    let (sink, done) = (Collector::new(view, bands), AtomicU64::new(0));
+                for rows in [1, 2, 3].map(|steps| steps * Rendering::ROW_STEP) {
+                    let (sink, done) = (Collector::new(view, rows), AtomicU64::new(0));
                     let count = |pixels| {
                         done.fetch_add(pixels, Ordering::Relaxed);
                         ControlFlow::Continue(())
@@ -163,11 +164,8 @@ fn strips_are_the_picture_whatever_their_height() {
                     let work = render(&renderer, whole, &settings, &sink, &count);
                     assert_eq!(work, Ok(image.work()));
                     assert_eq!(done.into_inner(), u64::from(width) * u64::from(height));
-                    assert_eq!(sink.ended.into_inner(), height.div_ceil(bands * BAND_ROWS));
-                    assert!(
-                        sink.pixels.into_inner().unwrap() == expected,
-                        "{bands} bands"
-                    );
+                    assert_eq!(sink.ended.into_inner(), height.div_ceil(rows));
+                    assert!(sink.pixels.into_inner().unwrap() == expected, "{rows} rows");
                 }
             }
         }
@@ -202,18 +200,18 @@ fn windows_show_what_the_picture_does() {
             let places =
                 (row..row + height).flat_map(|row| (col..col + width).map(move |c| (c, row)));
             let expected: Vec<String> = places.map(|(col, row)| pixel(&image, col, row)).collect();
-            for bands in 1..=2 {
+            for rows in [1, 5, Rendering::ROW_STEP, 2 * Rendering::ROW_STEP] {
                 let size = View {
                     width,
                     height,
                     ..view
                 };
-                let sink = Collector::new(size, bands);
+                let sink = Collector::new(size, rows);
                 let ended = render(&renderer, (&view, window), &settings, &sink, &go);
                 assert!(ended.is_ok());
                 assert!(
                     sink.pixels.into_inner().unwrap() == expected,
-                    "{window:?}, {bands} bands"
+                    "{window:?}, {rows} rows"
                 );
             }
         }
@@ -242,7 +240,7 @@ fn a_sink_and_progress_can_end_the_rendering() {
     let renderer = Renderer::new(&world);
     let sink = Collector {
         most: 3,
-        ..Collector::new(view, 1)
+        ..Collector::new(view, Rendering::ROW_STEP)
     };
     let go = |_| ControlFlow::Continue(());
     let whole = (&view, Window::whole(&view));
@@ -252,7 +250,7 @@ fn a_sink_and_progress_can_end_the_rendering() {
     let threads = rayon::current_num_threads() as u32;
     assert!(sink.begun.into_inner() <= 3 + threads);
 
-    let sink = Collector::new(view, 1);
+    let sink = Collector::new(view, Rendering::ROW_STEP);
     let stop = |_| ControlFlow::Break(());
     let ended = render(&renderer, whole, &settings()[0], &sink, &stop);
     assert_eq!(ended, Err(Cancelled));
@@ -282,13 +280,13 @@ fn a_thread_goes_on_while_another_ends_the_picture_before() {
     let renderer = Renderer::new(&world);
     let settings = settings()[2];
     let go = |_| ControlFlow::Continue(());
-    let [first, second] = [view, zoomed].map(|view| Collector::new(view, 1));
+    let [first, second] = [view, zoomed].map(|view| Collector::new(view, Rendering::ROW_STEP));
     let late = Late {
         collector: &first,
         strip: 5,
         until: Barrier::new(2),
     };
-    let begin = |view| renderer.begin(view, Window::whole(view), &settings, 1);
+    let begin = |view| renderer.begin(view, Window::whole(view), &settings, Rendering::ROW_STEP);
     let [one, other] = [begin(&view), begin(&zoomed)];
     assert_eq!(one.strips_left(), 8);
     std::thread::scope(|scope| {

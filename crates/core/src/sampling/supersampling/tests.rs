@@ -15,7 +15,7 @@ use crate::search::grid::RayPoints;
 use crate::search::visibility::Visibility;
 
 /// A 2 × 1 picture whose right pixel is covered but for its left quarter, by a sphere so
-/// large that its outline is straight there.
+/// large that its contour is straight there.
 fn scene() -> (World, View) {
     let mut world = World::new();
     let white = world.add_material(Material::MATTE_WHITE);

@@ -60,7 +60,7 @@ pub(super) struct NearGroup {
 }
 
 impl NearGroup {
-    /// Of no more than eight entries.
+    /// The group of these entries, at most eight.
     pub(super) fn new(entries: &[Entry]) -> Self {
         let mut group = Self {
             center: [[0.0; WIDTH]; 3],

@@ -39,7 +39,7 @@ const FEWEST_TO_SHARE: usize = 1 << 13;
 /// All spheres so that every group of eight, and every group of eight such groups and so on, lies
 /// close together. Some places are left over.
 ///
-/// Of more than eight equal spheres, most are left out, but never the first: the others are not seen.
+/// If more than eight spheres are equal, most are left out, but never the first: the others are not seen.
 /// The spheres that are marked as `left_out` are, too.
 pub(super) fn order(spheres: &[Sphere], left_out: Option<&[bool]>) -> Vec<Entry> {
     let mut entries: Vec<Entry> = spheres

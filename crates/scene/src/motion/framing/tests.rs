@@ -24,9 +24,9 @@ impl Random {
     }
 }
 
-/// The reach of outlines from the middle of the picture, in halves of its sides: 1 at its edge.
+/// The reach of contours from the middle of the picture, in halves of its sides: 1 at its edge.
 ///
-/// Not by planes, but by points all along the outlines, which a view projects.
+/// Not by planes, but by points all along the contours, which a view projects.
 fn reach(scene: &Scene, view: &View) -> f64 {
     let eye = view.camera.position;
     let size = DVec2::new(f64::from(view.width), f64::from(view.height));
@@ -90,7 +90,7 @@ const LENSES: [&str; 7] = [
 ];
 
 #[test]
-fn a_still_has_all_outlines_inside_and_touches_a_side() {
+fn a_still_has_all_contours_inside_and_touches_a_side() {
     let mut random = Random(1);
     for lens in LENSES {
         for fill in [1.0, 0.9, 0.3] {
@@ -108,7 +108,7 @@ fn a_still_has_all_outlines_inside_and_touches_a_side() {
 }
 
 #[test]
-fn a_turntable_has_all_outlines_inside_in_every_frame() {
+fn a_turntable_has_all_contours_inside_in_every_frame() {
     let mut random = Random(2);
     for lens in LENSES {
         let elevation = random.between(-80.0, 80.0);

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::{env, fs, process};
 
 use glam::DVec3;
-use marbles_core::Color;
+use marbles_core::{Channels, Color};
 
 use crate::values::from_srgb;
 use crate::{ColorMeaning, Scene};
@@ -118,7 +118,9 @@ fn clouds_that_change_stand_beside_those_that_do_not() {
     // What stands behind a cloud that changes may be all that has a color, or bumps.
     folder.write("red.csv", "x,y,z,r,red,green,blue\n0,0,0,1,1,0,0\n");
     let colored = folder.scene("(file: \"run.####.csv\"), (file: \"red.csv\")");
-    assert!(!colored.world().is_grey() && !colored.world_at(1).unwrap().is_grey());
+    for world in [colored.world(), &colored.world_at(1).unwrap()] {
+        assert_eq!(Channels::of(world, false), Channels::Rgb);
+    }
     let rough = folder.load(
         "(file: \"run.####.csv\"), (file: \"still.csv\", material: \"m\")",
         "Free()",

@@ -80,7 +80,7 @@ fn a_step_that_is_cut_is_no_step() {
     }
 }
 
-/// Of one frame alone, every line: a number may be cut, and no format has a mark behind the last one.
+/// A file of one frame, cut at each line: a number may be cut, and no format has a mark after the last line.
 #[test]
 fn a_table_that_is_cut_at_a_line_is_no_table() {
     let ends = |text: &str| -> Vec<usize> {

@@ -27,7 +27,25 @@ pub(crate) struct Scale {
     other_color: DVec3,
 }
 
-/// The way from numbers to the places of colors on a scale.
+/// The way in which the colors of a scale follow numbers.
+///
+/// # Example
+/// ```
+/// use marbles_scene::{ColorMeaning, ScaleKind, Scene};
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles ScaleKind {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two balls, with the masses 1 and 100
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,1\n3,0,0,1,100\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv", color: Column("mass", scale: Log))])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// # std::fs::remove_dir_all(&folder)?;
+/// // …
+/// let colors = scene.clouds()[0].colors.as_ref().expect("the scene asks for colors");
+/// assert!(matches!(colors.meaning, ColorMeaning::Scale { kind: ScaleKind::Log, .. }));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ScaleKind {
     /// Equal steps of numbers are equal steps of colors.

@@ -44,12 +44,37 @@ impl CloudError {
 }
 
 /// The state of reading a table.
+///
+/// # Example
+/// ```
+/// use std::sync::atomic::{AtomicU64, Ordering};
+///
+/// use marbles_scene::{Progress, Scene};
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles Progress {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// # let file = folder.join("scene.ron");
+/// # std::fs::write(&file, r#"(image: (width: 64, height: 48), lens: Fov(40), camera: Free(),
+/// #     clouds: [(file: "balls.csv")])"#)?;
+/// # let rows = "0,0,5,1\n".repeat(1_000_000);
+/// # std::fs::write(folder.join("balls.csv"), format!("x,y,z,radius\n{rows}"))?;
+/// // A scene with a table of 8 MB.
+/// let most = AtomicU64::new(0);
+/// let watch = |progress: Progress<'_>| {
+///     assert!(progress.read <= progress.size);
+///     most.fetch_max(progress.read, Ordering::Relaxed);
+/// };
+/// let scene = Scene::load_with(&file, &[], &watch)?;
+/// assert!(most.into_inner() > 1_000_000);
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Progress<'scene> {
     /// The table as the scene file names it, or the file of one of its steps.
     pub table: &'scene Path,
     /// Bytes that were read.
     pub read: u64,
-    /// Bytes of the whole file; 0 where it does not say.
+    /// Bytes of the whole file; 0 if this is not known.
     pub size: u64,
 }

@@ -8,9 +8,9 @@ use crate::text::{Fault, LocatedFault};
 /// Something about a table that may be an oversight.
 #[derive(Clone, Debug)]
 pub(crate) enum Oversight {
-    /// Of the scene file.
+    /// In the scene file.
     Scene(Fault),
-    /// Of the table with this path.
+    /// In the table with this path.
     Table(PathBuf, LocatedFault),
 }
 

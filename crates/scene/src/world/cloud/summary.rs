@@ -13,33 +13,74 @@ use crate::table::{
 const MOST_SUMMARIES: usize = 64;
 
 /// A column of a table.
+///
+/// # Example
+/// ```
+/// use marbles_scene::Scene;
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles ColumnSummary {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two balls, with the masses 2.5 and 7.5
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv")])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// // …
+/// let columns = scene.columns(0)?;
+/// let names: Vec<_> = columns.iter().map(|column| column.name.as_str()).collect();
+/// assert_eq!(names, ["x", "y", "z", "radius", "mass"]);
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnSummary {
-    /// The name, or the number from 1 where the table has no names.
+    /// The name, or the number from 1 if the table has no names.
     pub name: String,
-    /// The unit that the table has behind the name.
+    /// The unit that the table states after the name.
     pub unit: Option<String>,
     /// Its contents.
     pub contents: ColumnContents,
 }
 
 /// The contents of a column.
+///
+/// # Example
+/// ```
+/// use marbles_scene::{ColumnContents, Scene};
+///
+/// # let folder = std::env::temp_dir().join(format!("marbles ColumnContents {}", std::process::id()));
+/// # std::fs::create_dir_all(&folder)?;
+/// // `balls.csv`: two balls, with the masses 2.5 and 7.5
+/// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
+/// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
+///     clouds: [(file: "balls.csv")])"#;
+/// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
+/// // …
+/// match scene.columns(0)?[4].contents {
+///     ColumnContents::Numbers { low, high, missing, .. } => {
+///         assert_eq!((low, high, missing), (2.5, 7.5, 0));
+///     }
+///     ref other => panic!("masses are numbers, found {other:?}"),
+/// }
+/// # std::fs::remove_dir_all(&folder)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum ColumnContents {
     /// Numbers.
     Numbers {
-        /// The least, infinite where there are none.
+        /// The smallest number; infinite if there are none.
         low: f64,
-        /// The largest.
+        /// The largest number; minus infinity if there are none.
         high: f64,
-        /// The rows without one.
+        /// The number of rows without a number.
         missing: usize,
-        /// They are times, in seconds since the start of 1970.
+        /// True if they are times, in seconds since the start of 1970.
         are_times: bool,
     },
     /// Texts.
     Texts {
-        /// The number of different ones.
+        /// The number of different texts.
         count: usize,
         /// Some of them, in the order of the table.
         examples: Vec<String>,

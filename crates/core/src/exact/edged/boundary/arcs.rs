@@ -4,8 +4,8 @@ use fearless_simd::Simd;
 
 use super::circle::Trace;
 use super::events::{Function, INTERVALS, Stretch, polynomial, value};
+use super::outlines::outlines;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
-use super::strokes::strokes;
 use crate::exact::classify::contents::Contents;
 use crate::numeric::lanes::f64x8;
 
@@ -318,16 +318,16 @@ impl Boundary {
             Edge::Left | Edge::Right => (first, NONE),
             Edge::Limb => (curve.own[0], first),
             Edge::Seam => (curve.own[0], curve.own[1]),
-            Edge::Terminator(_) | Edge::Shadow(..) | Edge::Stroke => (curve.own[0], curve.own[0]),
+            Edge::Terminator(_) | Edge::Shadow(..) | Edge::Outline => (curve.own[0], curve.own[0]),
         };
-        let strokes = strokes(setting, curve, [inner, outer], (places, lanes.middle));
+        let outlines = outlines(setting, curve, [inner, outer], (places, lanes.middle));
         let arc = Arc {
             start: part.start,
             end: part.end,
             y: [places.y[lanes.start], places.y[lanes.end]],
             inner,
             outer,
-            strokes,
+            outlines,
             lit: [0; 2],
         };
         if !curve.is_side() {
@@ -354,7 +354,7 @@ fn own_hidden<S: Simd>(
         #[inline(always)]
         || {
             let mut hidden = 0;
-            if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Stroke) {
+            if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Outline) {
                 return hidden;
             }
             for own in curve.own {
@@ -363,8 +363,8 @@ fn own_hidden<S: Simd>(
                     hidden |= facing.simd_le(0.0).to_bitmask();
                 }
             }
-            if curve.is_within_stroke() && setting.contents.has_strokes() {
-                let within = value(simd, setting, Function::Stroke(curve.own[0]), places);
+            if curve.is_within_outline() && setting.contents.has_outlines() {
+                let within = value(simd, setting, Function::Outline(curve.own[0]), places);
                 hidden |= within.simd_lt(0.0).to_bitmask();
             }
             if let Edge::Shadow(light, caster) = curve.edge {
@@ -385,7 +385,7 @@ pub(super) fn add(arcs: &mut Vec<Arc>, arc: Arc) {
             if last.end == arc.start
                 && last.inner == arc.inner
                 && last.outer == arc.outer
-                && last.strokes == arc.strokes
+                && last.outlines == arc.outlines
                 && last.lit == arc.lit =>
         {
             last.end = arc.end;

@@ -76,7 +76,7 @@ impl Boundary {
                         continue;
                     }
                     let values = polynomial(&active.discriminant, places.x, places.y);
-                    let function = Function::Outline(position);
+                    let function = Function::Contour(position);
                     stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
                 }
                 for (index, (kind, conic)) in contents.conics.iter().enumerate() {
@@ -115,15 +115,15 @@ impl Boundary {
                     let values = value(simd, setting, function, places);
                     stretch.roots(simd, setting, function, values, intervals, &mut self.breaks);
                 }
-                if contents.has_strokes() {
-                    self.find_strokes(simd, setting, stretch, places, open);
+                if contents.has_outlines() {
+                    self.find_outlines(simd, setting, stretch, places, open);
                 }
                 front
             },
         )
     }
 
-    /// Finds where a stretch comes out of the sphere that hides both ends of some intervals: beside its outline, or
+    /// Finds where a stretch comes out of the sphere that hides both ends of some intervals: beside its contour, or
     /// before it, where its own sphere meets that one.
     #[inline(always)]
     fn find_gaps<S: Simd>(
@@ -140,7 +140,7 @@ impl Boundary {
         stretch.find_dips(
             simd,
             setting,
-            Function::Outline(hider),
+            Function::Contour(hider),
             values,
             intervals,
             breaks,
@@ -170,7 +170,7 @@ impl Boundary {
         places: &Trace<S>,
     ) -> bool {
         let curve = stretch.curve;
-        if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Stroke) {
+        if curve.is_side() || matches!(curve.edge, Edge::Limb | Edge::Outline) {
             return true;
         }
         let mut functions = [(Function::Across(0, 0.0), 0.0); 8];
@@ -181,8 +181,8 @@ impl Boundary {
                 count += 1;
             }
         }
-        if curve.is_within_stroke() && setting.contents.has_strokes() {
-            functions[count] = (Function::Stroke(curve.own[0]), 1.0);
+        if curve.is_within_outline() && setting.contents.has_outlines() {
+            functions[count] = (Function::Outline(curve.own[0]), 1.0);
             count += 1;
         }
         if let Edge::Shadow(light, caster) = curve.edge {

@@ -17,10 +17,10 @@ pub(super) struct Reference {
 const SAME: f64 = 1e-12;
 
 impl Reference {
-    /// A reference inside the cell and the outline with this discriminant and this d · c, in every
-    /// line of the cell that meets the outline.
+    /// A reference inside the cell and the contour with this discriminant and this d · c, in every
+    /// line of the cell that meets the contour.
     ///
-    /// It is a side of the cell where the outline holds all of it: arcs there need no sums. Otherwise
+    /// It is a side of the cell where the contour holds all of it: arcs there need no sums. Otherwise
     /// it leads from the lowest point of what is seen to the highest one: what is seen is convex.
     pub(super) fn new(discriminant: &Quadratic, along: &Linear) -> Self {
         let q = discriminant;
@@ -136,7 +136,7 @@ impl Extent {
 ///
 /// > x = middle + h (σ + ½ (1 − σ²) E) / (1 − ½ (1 − σ²) (1 − W)).
 ///
-/// So the root is rational, too, and light is smooth to the very outline. With w₁ and w₂ the roots at the
+/// So the root is rational, too, and light is smooth to the very contour. With w₁ and w₂ the roots at the
 /// ends and G = w₁ w₂ + P, where P = Q(middle) − Q″ h² / 2 is the polar form of Q between the ends,
 /// W = (w₁ + w₂) / √(2 G) and E = (w₁ − w₂) / √(2 G). On an ellipse W is the cosine of half of the angle
 /// that the chord spans. As w₁² + w₂² = 2 Q(middle) + Q″ h², G is ½ (w₁ + w₂)² − Q″ h², too.

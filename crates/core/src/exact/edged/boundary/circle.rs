@@ -42,7 +42,7 @@ impl Circle {
 
     /// The circle in which rays meet a ball that touch a smaller one with the same center: at K / (√K' + √(r² − s²)) of
     /// unit rays, with the radii r and s, and K' of the smaller one.
-    pub(super) fn stroke(ball: &Ball, inside: &Ball) -> Self {
+    pub(super) fn outline(ball: &Ball, inside: &Ball) -> Self {
         let (radius, smaller) = (ball.radius, inside.radius);
         let half_chord = ((radius - smaller) * (radius + smaller)).sqrt();
         if ball.is_parallel() {

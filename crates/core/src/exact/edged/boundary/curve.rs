@@ -44,7 +44,7 @@ pub(super) enum Shape {
 }
 
 impl Shape {
-    /// Of the shadow's edge near a point that is seen of the ball.
+    /// The shape of the shadow's edge near a visible point of the ball.
     pub(super) fn shadow(
         ball: &Ball,
         caster: &Caster,

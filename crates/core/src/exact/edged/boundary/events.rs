@@ -33,11 +33,11 @@ pub(super) const INTERVALS: u64 = 0x7f;
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Function {
     /// The discriminant of an active sphere.
-    Outline(usize),
+    Contour(usize),
     /// The polynomial of an edge.
     Conic(usize),
-    /// The outline inside of which an active sphere's stroke is not seen.
-    Stroke(usize),
+    /// The contour inside of which an active sphere's outline is not seen.
+    Outline(usize),
     /// On which side of an active sphere on which they lie points lie.
     Facing(usize),
     /// The height of points above the middle of a caster, toward a light.
@@ -73,11 +73,11 @@ pub(super) fn value<S: Simd>(
         || {
             let contents = setting.contents;
             match function {
-                Function::Outline(sphere) => {
+                Function::Contour(sphere) => {
                     polynomial(&contents.active[sphere].discriminant, places.x, places.y)
                 }
                 Function::Conic(index) => polynomial(&contents.conics[index].1, places.x, places.y),
-                Function::Stroke(sphere) => match contents.face(sphere) {
+                Function::Outline(sphere) => match contents.face(sphere) {
                     Face::Inside(_, conic) => polynomial(conic, places.x, places.y),
                     Face::All => f64x8::splat(simd, 1.0),
                     Face::Nothing => f64x8::splat(simd, -1.0),

@@ -10,8 +10,8 @@ use super::setting::{Arc, Curve, Edge, NONE, Setting};
 use crate::exact::edged::rule::{MIDDLE, NODES};
 use crate::exact::points::Points;
 
-/// The ends of an arc at which the outline of a sphere beside it begins, on which the arc does not lie: there
-/// light goes with the root of the distance, as the outline's own points do. Between its nodes in the middle and
+/// The ends of an arc at which the contour of a sphere beside it begins, on which the arc does not lie: there
+/// light goes with the root of the distance, as the contour's own points do. Between its nodes in the middle and
 /// beside the ends the discriminant is nearly linear.
 #[inline(always)]
 pub(super) fn roots_at_ends<S: Simd>(
@@ -20,7 +20,7 @@ pub(super) fn roots_at_ends<S: Simd>(
     arc: &Arc,
     places: &Trace<S>,
 ) -> [bool; 2] {
-    /// Of the value in the middle; of a line that vanishes at the end it is 0.04.
+    /// The least value at an end, relative to that in the middle; for a line that vanishes at the end it is 0.04.
     const LEAST: f64 = 0.08;
     let (sphere, lit) = match curve.edge {
         Edge::Left | Edge::Right => (arc.inner, arc.lit[0]),

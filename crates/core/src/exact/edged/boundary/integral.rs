@@ -13,7 +13,7 @@ use super::quadrature::total;
 
 use crate::edges::cell::Cell;
 use crate::exact::classify::active::{Active, Terminators};
-use crate::exact::classify::coincidence::is_outline;
+use crate::exact::classify::coincidence::is_contour;
 use crate::exact::classify::contents::{Contents, Kind};
 use crate::exact::classify::face::Face;
 use crate::exact::classify::patch::Patch;
@@ -71,7 +71,7 @@ impl Boundary {
             }
         }
         if cell.is_parallel() {
-            self.add_outlines_as_terminators(scene, contents, &mut surfaces);
+            self.add_contours_as_terminators(scene, contents, &mut surfaces);
         }
         // Between lines on bumps more may happen than their errors tell.
         let is_bumpy = |active: &Active| active.terminators == Terminators::Anywhere;
@@ -111,12 +111,12 @@ impl Boundary {
                     let Some(circle) = circle else { continue };
                     (circle, Edge::Seam, [one, other])
                 }
-                Kind::Stroke(one) => {
+                Kind::Outline(one) => {
                     let Face::Inside(inside, _) = contents.face(one) else {
                         continue;
                     };
-                    let circle = Circle::stroke(&actives[one].ball, inside);
-                    (circle, Edge::Stroke, [one, NONE])
+                    let circle = Circle::outline(&actives[one].ball, inside);
+                    (circle, Edge::Outline, [one, NONE])
                 }
                 Kind::Terminator(one, light) => {
                     let ball = &actives[one].ball;
@@ -203,10 +203,10 @@ impl Boundary {
         }
     }
 
-    /// Takes outlines for terminators of lights that are where parallel rays come from: powers of n·l that are not whole
+    /// Takes contours for terminators of lights that are where parallel rays come from: powers of n·l that are not whole
     /// begin there.
     #[inline(never)]
-    fn add_outlines_as_terminators(
+    fn add_contours_as_terminators(
         &mut self,
         scene: &InCamera<'_>,
         contents: &Contents,
@@ -221,7 +221,7 @@ impl Boundary {
                 let reaches = matches!(contents.reach[one * lights + light], Reach::Past(_));
                 let active = &contents.active[one];
                 let plane = active.terminators.plane(scene, &active.ball, light);
-                if !reaches || !plane.as_ref().is_some_and(is_outline) {
+                if !reaches || !plane.as_ref().is_some_and(is_contour) {
                     continue;
                 }
                 self.note_terminator(&mut surfaces[one], one, light, conic);

@@ -2,8 +2,8 @@
 //!
 //! What begins with a power that is not whole at a terminator begins at a level of y: there the terminator meets the
 //! reference of the lines, or no line beyond. The reference also leads to the highest and to the lowest point of an
-//! outline. Below the highest one sums have the power 3/2 of the depth, which is that of the root of the discriminant
-//! on the reference. The depth goes with the square of the way where the outline turns, or another arc close to it: the
+//! contour. Below the highest one sums have the power 3/2 of the depth, which is that of the root of the discriminant
+//! on the reference. The depth goes with the square of the way where the contour turns, or another arc close to it: the
 //! power is about the third one of the way, without its sign.
 //!
 //! Arcs are cut there, so that what is singular on an arc is so at its ends, where rules are made for it, or is not

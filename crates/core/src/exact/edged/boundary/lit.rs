@@ -8,7 +8,7 @@ use super::events::{Function, INTERVALS, Stretch, facing, in_disc, is_beyond};
 use super::primitive::ray;
 use super::setting::{Arc, Boundary, Curve, Edge, NONE, Setting};
 use crate::edges::terminator::Plane;
-use crate::exact::classify::coincidence::is_outline;
+use crate::exact::classify::coincidence::is_contour;
 use crate::exact::classify::reach::Reach;
 use crate::exact::points::Points;
 use crate::numeric::lanes::f64x8;
@@ -28,7 +28,7 @@ impl Boundary {
         for index in 0..self.arcs.len() {
             let arc = self.arcs[index];
             let is_dark = [(arc.inner, 0), (arc.outer, 1)]
-                .map(|(sphere, side)| arc.strokes[side] || is_dark(setting, sphere));
+                .map(|(sphere, side)| arc.outlines[side] || is_dark(setting, sphere));
             if is_dark == [true; 2] {
                 if !matches!(curve.edge, Edge::Terminator(_) | Edge::Shadow(..)) {
                     add(&mut self.lit_arcs, arc);
@@ -81,12 +81,12 @@ impl Boundary {
         for first in (0..steps).step_by(Lanes::STEPS) {
             let places = whole.trace(simd, setting, f64x8::from_array(simd, self.steps(first)));
             let mut lit = [[0; 8]; 2];
-            if !arc.strokes[0] {
+            if !arc.outlines[0] {
                 lit[0] = self.lit(simd, setting, arc.inner, curve, &places);
             }
             if arc.has_one_surface() {
                 lit[1] = lit[0];
-            } else if !arc.strokes[1] {
+            } else if !arc.outlines[1] {
                 lit[1] = self.lit(simd, setting, arc.outer, curve, &places);
             }
             for step in 0..(steps - first).min(Lanes::STEPS) {
@@ -251,7 +251,7 @@ impl Boundary {
     }
 }
 
-/// The plane of the terminator of a light on an active sphere; none on the terminator itself, and none on an outline
+/// The plane of the terminator of a light on an active sphere; none on the terminator itself, and none on a contour
 /// that is one: there a light that reaches the sphere reaches all that is seen of it.
 fn terminator_beside(
     setting: &Setting<'_, '_>,
@@ -265,7 +265,7 @@ fn terminator_beside(
         .plane(setting.scene, &active.ball, light)?;
     let is_here = match curve.edge {
         Edge::Terminator(of_light) => of_light == light,
-        Edge::Limb => setting.cell.is_parallel() && is_outline(&plane),
+        Edge::Limb => setting.cell.is_parallel() && is_contour(&plane),
         _ => false,
     };
     (curve.own[0] != sphere || !is_here).then_some(plane)

@@ -20,12 +20,12 @@ mod kinks;
 mod levels;
 mod lit;
 mod near_shadow;
+mod outlines;
 mod plain;
 mod power_rules;
 mod primitive;
 mod quadrature;
 mod setting;
-mod strokes;
 mod turns;
 
 pub(crate) use self::setting::{Boundary, Goal};

@@ -74,7 +74,7 @@ impl Sender<'_, '_> {
 /// Returns whether a sphere is far enough from the eye, and a cell small enough, for what the rules are said
 /// to be off by.
 fn is_far(cell: &Cell, ball: &Ball) -> bool {
-    /// Of the center's distance. Chosen by the test of the rules, which fails at 0.98.
+    /// The largest radius, relative to the center's distance. Chosen by the test of the rules, which fails at 0.98.
     const LARGEST: f64 = 0.9;
     /// Sides of a cell, at distance 1.
     const WIDEST: f64 = 0.1;

@@ -219,7 +219,7 @@ impl Boundary {
                 continue;
             }
             let active = &setting.contents.active[sphere];
-            let unlit = unlit(scene, active.sphere, arc.strokes[side]) * factor;
+            let unlit = unlit(scene, active.sphere, arc.outlines[side]) * factor;
             for (channel, light) in sides.light.iter_mut().enumerate().take(scene.channels) {
                 *light += places.x * unlit[channel];
             }
@@ -263,9 +263,9 @@ impl Boundary {
 
     /// Notes how far an arc rises for what lies on either side.
     fn note_sides(&mut self, curve: &Curve, arc: &Arc, rise: f64) {
-        self.note((arc.inner, arc.strokes[0], arc.lit[0]), rise);
+        self.note((arc.inner, arc.outlines[0], arc.lit[0]), rise);
         if !matches!(curve.edge, Edge::Left | Edge::Right) {
-            self.note((arc.outer, arc.strokes[1], arc.lit[1]), -rise);
+            self.note((arc.outer, arc.outlines[1], arc.lit[1]), -rise);
         }
     }
 
@@ -278,10 +278,10 @@ impl Boundary {
     }
 }
 
-/// The light of a sphere, or of its stroke, that no light has a part in.
-fn unlit(scene: &InCamera<'_>, sphere: usize, is_stroke: bool) -> Color {
-    if is_stroke {
-        scene.stroke_color(sphere)
+/// The light of a sphere, or of its outline, that no light has a part in.
+fn unlit(scene: &InCamera<'_>, sphere: usize, is_outline: bool) -> Color {
+    if is_outline {
+        scene.outline_color(sphere)
     } else {
         scene.world.albedo(sphere) * scene.ambient
     }
@@ -297,7 +297,7 @@ fn sends_light(setting: &Setting<'_, '_>, curve: &Curve, arc: &Arc) -> bool {
         .enumerate()
         .any(|(index, &(sphere, lit))| match sphere {
             NONE => index == 0 || !is_side,
-            _ if arc.strokes[index] => true,
+            _ if arc.outlines[index] => true,
             _ => lit != 0 || scene.ambient.max_element() > 0.0,
         })
 }
@@ -325,7 +325,7 @@ fn sign<S: Simd>(
     let inward = match (curve.edge, &curve.shape) {
         (Edge::Left, _) => return -1.0,
         (Edge::Right, _) => return 1.0,
-        (Edge::Limb | Edge::Stroke, _) => {
+        (Edge::Limb | Edge::Outline, _) => {
             let ball = &contents.active[curve.own[0]].ball;
             if ball.is_parallel() {
                 ball.center - point

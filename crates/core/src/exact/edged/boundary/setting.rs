@@ -33,8 +33,8 @@ impl Curve {
         matches!(self.edge, Edge::Left | Edge::Right)
     }
 
-    /// Returns whether the curve is one of light on a sphere, which is not seen on its stroke.
-    pub(super) fn is_within_stroke(&self) -> bool {
+    /// Returns whether the curve is one of light on a sphere, which is not seen on its outline.
+    pub(super) fn is_within_outline(&self) -> bool {
         matches!(self.edge, Edge::Terminator(_) | Edge::Shadow(..))
     }
 }
@@ -49,8 +49,8 @@ pub(super) enum Edge {
     Limb,
     /// Two spheres.
     Seam,
-    /// A sphere inside of its stroke, and the stroke.
-    Stroke,
+    /// A sphere inside of its outline, and the outline.
+    Outline,
     /// Between the part that a light reaches and the part that faces away from it.
     Terminator(usize),
     /// The light, and which of the casters.
@@ -73,8 +73,8 @@ pub(super) struct Arc {
     pub(super) y: [f64; 2],
     pub(super) inner: usize,
     pub(super) outer: usize,
-    /// Whether what is seen of these are their strokes.
-    pub(super) strokes: [bool; 2],
+    /// Whether what is seen of these are their outlines.
+    pub(super) outlines: [bool; 2],
     /// Lights that reach there.
     pub(super) lit: [u64; 2],
 }
@@ -82,11 +82,11 @@ pub(super) struct Arc {
 impl Arc {
     /// Returns whether the same surface is seen on both sides.
     pub(super) fn has_one_surface(&self) -> bool {
-        self.inner == self.outer && self.strokes[0] == self.strokes[1]
+        self.inner == self.outer && self.outlines[0] == self.outlines[1]
     }
 }
 
-/// The view on one side of an arc: a sphere or [`NONE`], whether it is the stroke, and the lights that reach there.
+/// The view on one side of an arc: a sphere or [`NONE`], whether it is the outline, and the lights that reach there.
 pub(super) type Region = (usize, bool, u64);
 
 /// Memory to work in.

@@ -3,15 +3,15 @@
 use fearless_simd::Simd;
 
 use super::average::Setting;
+use super::contours::Contours;
 use super::division::{FIRST, FIRST_SIZE, HALVES, SHARE};
 use super::eight_boxes::Eight;
-use super::outlines::Outlines;
 
 /// Shares of a cell, and estimates of their errors, for each of its active spheres.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shares {
     pub(crate) of_spheres: Vec<[f64; 2]>,
-    outlines: Outlines,
+    contours: Contours,
     /// The middles of boxes of one size, and those that are left of them.
     boxes: Vec<[f64; 2]>,
     left: Vec<[f64; 2]>,
@@ -99,7 +99,7 @@ impl Shares {
             boxes,
             found,
             known,
-            outlines,
+            contours,
             ..
         } = self;
         for group in boxes.chunks(8) {
@@ -109,7 +109,7 @@ impl Shares {
                 middles[0][lane] = x;
                 middles[1][lane] = y;
             }
-            setting.areas(simd, middles, size, outlines, found);
+            setting.areas(simd, middles, size, contours, found);
             for lane in 0..group.len() {
                 let of_spheres = found.iter();
                 known.extend(of_spheres.map(|[share, error]| [share[lane], error[lane]]));

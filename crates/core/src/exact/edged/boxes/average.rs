@@ -2,12 +2,12 @@
 
 use fearless_simd::Simd;
 
+use super::contours::{Contours, Visible};
 use super::eight_boxes::{Eight, EightBoxes};
 use super::half_vectors::Views;
 use super::lights::Lit;
 use super::normals::Normals;
 use super::orders::Orders;
-use super::outlines::{Outlines, Visible};
 use super::region::{OF_AMBIGUITY, Region, Share};
 use super::surroundings::Surroundings;
 use crate::edges::cell::Cell;
@@ -187,13 +187,13 @@ impl Setting<'_, '_> {
         simd: S,
         boxes: [Eight; 2],
         size: [f64; 2],
-        (outlines, noise): (&mut Outlines, &mut Option<Box<NoiseCells>>),
+        (contours, noise): (&mut Contours, &mut Option<Box<NoiseCells>>),
         averages: &mut Averages,
     ) {
         self.find(
             simd,
             (boxes, size),
-            outlines,
+            contours,
             Wanted::Light(averages, noise),
         );
     }
@@ -205,12 +205,12 @@ impl Setting<'_, '_> {
         simd: S,
         boxes: [Eight; 2],
         size: [f64; 2],
-        outlines: &mut Outlines,
+        contours: &mut Contours,
         found: &mut Vec<[Eight; 2]>,
     ) {
         found.clear();
         found.resize(self.contents.active.len(), [[0.0; 8]; 2]);
-        self.find(simd, (boxes, size), outlines, Wanted::Areas(found));
+        self.find(simd, (boxes, size), contours, Wanted::Areas(found));
     }
 
     /// Light and areas in one kernel: it is long, and what takes its time is the same.
@@ -219,7 +219,7 @@ impl Setting<'_, '_> {
         &self,
         simd: S,
         ([x, y], size): ([Eight; 2], [f64; 2]),
-        outlines: &mut Outlines,
+        contours: &mut Contours,
         mut wanted: Wanted<'_>,
     ) {
         simd.vectorize(
@@ -230,10 +230,10 @@ impl Setting<'_, '_> {
                     y: f64x8::from_array(simd, y),
                     size,
                 };
-                let outside = self.outlines(simd, &boxes, outlines);
+                let outside = self.contours(simd, &boxes, contours);
                 let mut sum = Sum::nothing(simd, self.scene.channels);
-                for outline in &outlines.spheres {
-                    let Some(visible) = outline.visible(simd, outlines, self.orders) else {
+                for contour in &contours.spheres {
+                    let Some(visible) = contour.visible(simd, contours, self.orders) else {
                         continue;
                     };
                     match &mut wanted {
@@ -293,24 +293,24 @@ impl Setting<'_, '_> {
         }
     }
 
-    /// Finds the outlines of the spheres that boxes may see; what is outside of all of them.
+    /// Finds the contours of the spheres that boxes may see; what is outside of all of them.
     #[inline(always)]
-    fn outlines<S: Simd>(
+    fn contours<S: Simd>(
         &self,
         simd: S,
         boxes: &EightBoxes<S>,
-        outlines: &mut Outlines,
+        contours: &mut Contours,
     ) -> Region<S> {
-        outlines.clear();
+        contours.clear();
         let mut outside = Region::whole(simd);
         for (position, active) in self.contents.active.iter().enumerate() {
             let has_depth = self.orders.needs_depth(position);
             let of = (position, active);
             if self.has_silhouette[position] {
-                outlines.add(simd, boxes, of, has_depth, &mut outside);
+                contours.add(simd, boxes, of, has_depth, &mut outside);
             } else {
                 outside.darken(simd, f64x8::splat(simd, 1.0).simd_gt(0.0));
-                outlines.add_filling(simd, boxes, of, has_depth);
+                contours.add_filling(simd, boxes, of, has_depth);
             }
         }
         outside

@@ -95,7 +95,7 @@ struct Chord<S: Simd> {
 }
 
 impl<S: Simd> Chord<S> {
-    /// Of a tangent with this value in the middle of the box, that touches at `foot`.
+    /// The chord of a tangent with this value in the middle of the box, that touches at `foot`.
     #[inline(always)]
     fn new(
         simd: S,
@@ -142,7 +142,7 @@ impl<S: Simd> Chord<S> {
 }
 
 impl<S: Simd> HalfPlane<S> {
-    /// Of functions of the second degree, or no more than `rest` from those, with these values and these changes across
+    /// The half-plane of functions of the second degree, or no more than `rest` from those, with these values and these changes across
     /// the boxes in their middles.
     ///
     /// The line is tangent where the gradient from the middle meets the curve, and then moved to where it leaves the

@@ -38,7 +38,7 @@ impl<S: Simd> Function<S> {
 }
 
 /// The reciprocals of the distances of a sphere along rays, in multiples of these, on boxes: those of a plane are linear.
-/// Of parallel rays the distances themselves, with the other sign.
+/// For parallel rays they are the distances themselves, with the other sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Depth {
     middle: Eight,

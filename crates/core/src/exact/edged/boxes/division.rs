@@ -3,15 +3,15 @@
 use fearless_simd::Simd;
 
 use super::average::{Averages, Setting};
+use super::contours::Contours;
 use super::eight_boxes::Eight;
-use super::outlines::Outlines;
 use crate::exact::part::Part;
 use crate::model::roughness::noise::NoiseCells;
 
 /// Memory to divide cells in.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Division {
-    outlines: Outlines,
+    contours: Contours,
     /// Those of the eight boxes that were done last.
     averages: Averages,
     /// The middles of boxes that are left to do, and their size.
@@ -57,7 +57,7 @@ impl Division {
     ) -> Option<Part> {
         self.size = FIRST_SIZE;
         let first = &mut self.averages;
-        setting.averages(simd, FIRST, self.size, (&mut self.outlines, noise), first);
+        setting.averages(simd, FIRST, self.size, (&mut self.contours, noise), first);
         self.samples += first.samples;
         let whole = first.total(self.size[0] * self.size[1]);
         if whole.error <= tolerance {
@@ -156,7 +156,7 @@ impl Division {
                 middles[1][lane] = y;
             }
             let found = &mut self.averages;
-            setting.averages(simd, middles, self.size, (&mut self.outlines, noise), found);
+            setting.averages(simd, middles, self.size, (&mut self.contours, noise), found);
             self.samples += found.samples;
             for (lane, &middle) in group.iter().enumerate() {
                 self.known.push((middle, found.lane(lane)));

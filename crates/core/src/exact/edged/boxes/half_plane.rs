@@ -105,7 +105,7 @@ impl<S: Simd> Slopes<S> {
 }
 
 impl<S: Simd> HalfPlane<S> {
-    /// Of functions with these values in the middles and these changes across the boxes, which differ by no more
+    /// The half-plane of functions with these values in the middles and these changes across the boxes, which differ by no more
     /// than `bend` from functions that are not linear.
     ///
     /// # Source

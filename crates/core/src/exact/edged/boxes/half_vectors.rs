@@ -37,7 +37,7 @@ pub(super) struct HalfCosines<S: Simd> {
     pub(super) second: f64x8<S>,
 }
 
-/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches outlines alone.
+/// The least |l + v| that is divided by. Where it is less, the eye looks along the light, which reaches contours alone.
 const LEAST_LENGTH: f64 = 1e-3;
 
 /// The factor on |h'|² for what it adds to |h''|, where |l + v| changes with it.
@@ -72,7 +72,7 @@ impl<S: Simd> Views<S> {
 }
 
 impl<S: Simd> HalfCosines<S> {
-    /// Of no highlight.
+    /// The cosines of no highlight.
     #[inline(always)]
     pub(super) fn nothing(simd: S) -> Self {
         let zero = f64x8::splat(simd, 0.0);
@@ -84,7 +84,7 @@ impl<S: Simd> HalfCosines<S> {
         }
     }
 
-    /// Of a light that surfaces face by `cosine`, where directions toward the eye count as still; `aside` leads from the
+    /// The cosines of a light that surfaces face by `cosine`, where directions toward the eye count as still; `aside` leads from the
     /// points to the middles of what is lit, in sides.
     #[inline(always)]
     pub(super) fn of_still_views(

@@ -2,10 +2,10 @@
 
 use fearless_simd::Simd;
 
+use super::contours::Visible;
 use super::falloffs::{Faced, Power};
 use super::half_vectors::{HalfCosines, Views};
 use super::normals::Normals;
-use super::outlines::Visible;
 use super::region::OF_AMBIGUITY;
 use super::surroundings::Surroundings;
 use crate::edges::shadow::Caster;

@@ -14,6 +14,7 @@
 pub(crate) mod areas;
 mod average;
 mod bent;
+mod contours;
 mod depth;
 mod division;
 mod eight_boxes;
@@ -23,7 +24,6 @@ mod half_vectors;
 mod lights;
 mod normals;
 mod orders;
-mod outlines;
 mod projected;
 mod region;
 mod shadows;

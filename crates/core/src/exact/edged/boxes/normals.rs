@@ -2,7 +2,7 @@
 
 use fearless_simd::Simd;
 
-use super::outlines::Visible;
+use super::contours::Visible;
 use super::surroundings::{OF_SECOND, Surroundings};
 use crate::exact::scene::InCamera;
 use crate::exact::surface::Finish;

@@ -2,8 +2,8 @@
 
 use fearless_simd::Simd;
 
+use super::contours::Visible;
 use super::eight_boxes::EightBoxes;
-use super::outlines::Visible;
 use crate::edges::cell::{Ball, Cell};
 use crate::exact::points::Points;
 use crate::numeric::lanes::{f64x8, mask64x8};

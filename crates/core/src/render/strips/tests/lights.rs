@@ -53,8 +53,18 @@ fn together(world: &World, view: &View, settings: &Settings) -> (Vec<Vec<String>
         .collect();
     let renderers: Vec<&Renderer<'_>> = renderers.iter().collect();
     let (exposure, window) = (view.into(), Window::whole(view));
-    let rendering = Rendering::of_each(&renderers, exposure, window, settings, 1, None);
-    let pictures: Vec<Collector> = renderers.iter().map(|_| Collector::new(*view, 1)).collect();
+    let rendering = Rendering::of_each(
+        &renderers,
+        exposure,
+        window,
+        settings,
+        Rendering::ROW_STEP,
+        None,
+    );
+    let pictures: Vec<Collector> = renderers
+        .iter()
+        .map(|_| Collector::new(*view, Rendering::ROW_STEP))
+        .collect();
     let sinks: Vec<&dyn Sink> = pictures
         .iter()
         .map(|picture| picture as &dyn Sink)
@@ -175,12 +185,12 @@ fn a_picture_that_is_not_wanted_ends_no_other() {
             (&view).into(),
             Window::whole(&view),
             &settings,
-            1,
+            Rendering::ROW_STEP,
             None,
         )
     };
     let go = |_| ControlFlow::Continue(());
-    let wanted = Collector::new(view, 1);
+    let wanted = Collector::new(view, Rendering::ROW_STEP);
     begin().help_each(&[&Unwilling, &wanted], &go).unwrap();
     let expected = alone(&world.under(LightPart::Light(3)), &view, &settings);
     let expected = places(&view).map(|(col, row)| pixel(&expected, col, row));

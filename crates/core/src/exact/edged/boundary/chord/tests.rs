@@ -58,7 +58,7 @@ fn references_lie_in_what_is_seen() {
     }
 }
 
-/// The root of the discriminant is smooth along chords to the very outline: few points integrate it.
+/// The root of the discriminant is smooth along chords to the very contour: few points integrate it.
 #[test]
 fn roots_are_smooth_along_chords() {
     const GAUSS: [(f64, f64); 4] = [
@@ -94,9 +94,9 @@ fn roots_are_smooth_along_chords() {
     }
 }
 
-/// Rounding may put a short chord outside of its outline: it is the same in all units of length.
+/// Rounding may put a short chord outside of its contour: it is the same in all units of length.
 #[test]
-fn chords_beside_their_outline_have_no_unit() {
+fn chords_beside_their_contour_have_no_unit() {
     let size_of_way = |unit: f64| {
         let q = Quadratic {
             one: -1e-9 * unit * unit,

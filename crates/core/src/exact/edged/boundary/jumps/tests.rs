@@ -13,7 +13,7 @@ use crate::model::camera::Projection;
 use crate::model::material::{Grain, Roughness};
 use crate::numeric::lanes::f64x8;
 
-/// Of the squares of distances on one side of a place.
+/// Rules for the squares of distances on one side of a place.
 #[test]
 fn rules_miss_no_more_of_jumps() {
     let mut worst = 0.0_f64;
@@ -28,7 +28,7 @@ fn rules_miss_no_more_of_jumps() {
     assert!(worst <= OF_JUMP && worst > 0.9 * OF_JUMP, "{worst:e}");
 }
 
-/// A cell that sees a part of a ball, and chords on one of its lines from a side to the other, or to the outline.
+/// A cell that sees a part of a ball, and chords on one of its lines from a side to the other, or to the contour.
 fn passages(cell: &Cell, ball: &Ball, bumps: &Bumps) -> Option<[Vec<(usize, f64)>; 2]> {
     const STEPS: u32 = 4000;
     const Y: f64 = 0.1;

@@ -38,7 +38,7 @@ impl Place {
     /// One that is rendered to a tolerance between these powers of 10.
     pub(super) fn new(random: &mut Random, tolerances: [f64; 2]) -> Self {
         let mut log = |low: f64, high: f64| libm::pow(10.0, low + (high - low) * random.number());
-        // How near to the outline, how large a pixel beside what is left, how far the eye from the surface.
+        // How near to the contour, how large a pixel beside what is left, how far the eye from the surface.
         let graze = log(-5.0, 0.0);
         let size = log(-3.0, 0.3);
         let (radius, above) = (log(-3.0, 6.0), log(-4.5, 4.0));

@@ -13,7 +13,7 @@ use crate::studio::{exact_picture, looking_forward, picture, pixels};
 
 const SIDE: u32 = 48;
 
-fn stroke(width: OutlineWidth) -> Material {
+fn outline(width: OutlineWidth) -> Material {
     Material {
         albedo: Color::new(0.9, 0.6, 0.3),
         outline: Some(Outline {
@@ -33,7 +33,7 @@ fn light(image: &Image, col: u32, row: u32) -> Color {
 /// Balls that intersect and shade each other, under two lights.
 fn balls(width: OutlineWidth) -> World {
     let mut world = World::new();
-    let lined = world.add_material(stroke(width));
+    let lined = world.add_material(outline(width));
     let plain = world.add_material(Material::MATTE_WHITE);
     for (center, radius, material) in [
         ((0.0, 0.0, 10.0), 1.0, lined),
@@ -75,7 +75,7 @@ fn a_ring_has_its_area() {
         let mut world = World::new();
         let lined = world.add_material(Material {
             albedo: Color::ZERO,
-            ..stroke(width)
+            ..outline(width)
         });
         let center = DVec3::new(0.37, -0.61, 40.0);
         world.add_sphere(Sphere::new(center, 15.3).unwrap(), lined);
@@ -189,7 +189,7 @@ fn lights_alone_leave_lines_black() {
 #[test]
 fn there_are_no_lines_inside_of_spheres() {
     let mut world = World::new();
-    let lined = world.add_material(stroke(OutlineWidth::Units(0.9)));
+    let lined = world.add_material(outline(OutlineWidth::Units(0.9)));
     world.add_sphere(Sphere::new(DVec3::ZERO, 1.0).unwrap(), lined);
     world.ambient = Color::splat(0.5);
     for (view, is_parallel) in [(looking_forward(8, 8, 8.0), false), (parallel(0.03), true)] {

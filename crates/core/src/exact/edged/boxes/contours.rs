@@ -13,7 +13,7 @@ use crate::numeric::lanes::{f64x8, mask64x8};
 
 /// A sphere as eight boxes see it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Outline {
+pub(super) struct Contour {
     /// Its position among the active spheres.
     pub(super) position: usize,
     /// Whether it fills all boxes.
@@ -29,8 +29,8 @@ pub(super) struct Outline {
 
 /// The spheres that eight boxes see.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Outlines {
-    pub(super) spheres: Vec<Outline>,
+pub(super) struct Contours {
+    pub(super) spheres: Vec<Contour>,
     /// The depths of those that intersect others.
     depths: Vec<Depth>,
 }
@@ -63,7 +63,7 @@ impl<S: Simd> Visible<S> {
 /// The share of a depth from an edge at which a root of it is its average: (2/3)², over a half.
 const OF_ROOT: f64 = 8.0 / 9.0;
 
-impl Outlines {
+impl Contours {
     pub(super) fn clear(&mut self) {
         self.spheres.clear();
         self.depths.clear();
@@ -83,7 +83,7 @@ impl Outlines {
             let function = Function::new(simd, boxes, &active.discriminant);
             self.depths.push(Depth::new(simd, boxes, active, &function));
         }
-        self.spheres.push(Outline {
+        self.spheres.push(Contour {
             position,
             fills: true,
             inside: StoredHalfPlane::new(&HalfPlane::whole(simd)),
@@ -136,7 +136,7 @@ impl Outlines {
         if has_depth {
             self.depths.push(Depth::new(simd, boxes, active, &function));
         }
-        self.spheres.push(Outline {
+        self.spheres.push(Contour {
             position,
             fills: false,
             inside: StoredHalfPlane::new(&part),
@@ -146,13 +146,13 @@ impl Outlines {
     }
 }
 
-impl Outline {
+impl Contour {
     /// The part of it that others do not hide; `None` where they hide it in all boxes.
     #[inline(always)]
     pub(super) fn visible<S: Simd>(
         &self,
         simd: S,
-        all: &Outlines,
+        all: &Contours,
         orders: &Orders,
     ) -> Option<Visible<S>> {
         let zero = f64x8::splat(simd, 0.0);
@@ -228,7 +228,7 @@ impl Outline {
     }
 }
 
-/// The share of an edge's doubt that counts where another outline hides it: all of it, but where the edge is
+/// The share of an edge's doubt that counts where another contour hides it: all of it, but where the edge is
 /// nearly hidden.
 ///
 /// The line leaves the area that the curve does, on the whole way through a box. On a part of the way they may be apart

@@ -1,4 +1,4 @@
-//! The strokes of what eight rays see.
+//! The outlines of what eight rays see.
 
 use fearless_simd::Simd;
 
@@ -9,25 +9,25 @@ use crate::model::camera::Projection;
 use crate::numeric::lanes::{f64x8, mask64x8};
 
 impl Shading<'_> {
-    /// Puts the strokes of spheres in the place of light.
+    /// Puts the outlines of spheres in the place of light.
     ///
     /// A ray in the direction d passes the smaller sphere of radius s where it meets the larger one, of radius r, with
     /// (n · d)² < d² (r − s) (r + s) / r².
     #[cold]
     #[inline(never)]
-    pub(super) fn add_strokes<S: Simd, const CHANNELS: usize>(
+    pub(super) fn add_outlines<S: Simd, const CHANNELS: usize>(
         &self,
         simd: S,
         sight: &Sight<S>,
         groups: &Groups<'_>,
         mut light: Light<S, CHANNELS>,
     ) -> Light<S, CHANNELS> {
-        let Some((view, camera_from_world)) = self.strokes else {
+        let Some((view, camera_from_world)) = self.outlines else {
             return light;
         };
         for Group { ball, lanes } in groups.as_slice() {
             let (index, lanes) = (ball.index(), lanes & !sight.inner);
-            let (Some(stroke), 1..) = (self.world.material(index).outline, lanes) else {
+            let (Some(outline), 1..) = (self.world.material(index).outline, lanes) else {
                 continue;
             };
             let sphere = &self.world.spheres()[index];
@@ -37,16 +37,16 @@ impl Shading<'_> {
             if view.projection == Projection::Parallel && center.z < radius {
                 continue;
             }
-            let inner = stroke.width.inner_radius(view, center, radius);
+            let inner = outline.width.inner_radius(view, center, radius);
             let limit = (radius - inner) * (radius + inner) / (radius * radius);
             simd.vectorize(
                 #[inline(always)]
                 || {
                     let along = sight.normal.dot(&sight.direction);
-                    let is_stroke = (along * along).simd_lt(sight.length_sq * limit);
-                    let mask = is_stroke & mask64x8::from_bitmask(simd, lanes);
+                    let is_outline = (along * along).simd_lt(sight.length_sq * limit);
+                    let mask = is_outline & mask64x8::from_bitmask(simd, lanes);
                     for (channel, light) in light.iter_mut().enumerate() {
-                        let color = f64x8::splat(simd, stroke.color[channel]);
+                        let color = f64x8::splat(simd, outline.color[channel]);
                         *light = mask.select(color, *light);
                     }
                 },
