@@ -110,10 +110,10 @@ impl<'scene> Picture<'scene> {
                 .map_or(measured, |[_, longer]| longer * measured)
         };
         let _ = write!(table, "| {} |", self.name);
-        let rows = choices.iter().zip(GOALS).map(|(choices, (_, bar))| {
+        let rows = choices.iter().zip(GOALS).map(|(choices, (_, largest))| {
             let [tolerance, samples] = choices.each_ref().map(seconds_of);
             let ratio = tolerance / samples;
-            let bold = if ratio > bar { "**" } else { "" };
+            let bold = if ratio > largest { "**" } else { "" };
             for (choice, time) in choices.iter().zip([tolerance, samples]) {
                 let _ = write!(table, " {} ({}) |", seconds(time), choice.name());
             }
