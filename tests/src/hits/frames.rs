@@ -5,7 +5,7 @@ use marbles_core::{Ray, Sphere};
 
 use super::families::Random;
 
-/// Spheres, and the rays that are held against every one of them.
+/// Spheres, and the rays that are tested against each of them.
 pub struct Frame {
     /// The name in tables.
     pub name: &'static str,
@@ -15,10 +15,10 @@ pub struct Frame {
     pub rays: Vec<Ray>,
 }
 
-/// The original's ball: 600 × 600 rays, of which one in nine hits.
+/// One ball and 600 × 600 rays; one ray in nine hits.
 pub fn ball() -> Frame {
     Frame {
-        name: "the original's ball",
+        name: "one ball",
         spheres: vec![Sphere::new(DVec3::Z * 400.0, 300.0).unwrap()],
         rays: rays(600, 1.0, 100.0),
     }

@@ -195,7 +195,7 @@ fn pixels_that_miss_their_tolerance_end_with_3() {
     let output = folder.run(&format!("report huge.ron --csv a.csv {QUICK}"));
     assert_eq!(output.status.code(), Some(3));
     let results = text(&output.stdout);
-    assert!(results.contains(" pixels left out, the reference is not good enough there"));
+    assert!(results.contains(" pixels excluded: the reference is not accurate enough there"));
     assert!(results.contains("tolerance 1e-3: "), "{results}");
     assert!(folder.path("a.csv").exists());
 }
