@@ -16,7 +16,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use marbles_benches::page::Page;
-use marbles_benches::{Folder, in_repository, is_to_write};
+use marbles_benches::{Folder, helps, in_repository, is_to_write};
 
 const PAGE: &str = "docs/growth.md";
 const COMMANDS: [&str; 2] = [
@@ -28,6 +28,9 @@ const LINES: &str = " lines of generated code.";
 
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
 fn main() -> ExitCode {
+    if helps() {
+        return ExitCode::SUCCESS;
+    }
     let mut page = Page::open(PAGE, &["lines", "build"]);
     let (lines, known) = (lines(), known_lines());
     println!("{lines}{LINES} {PAGE} has {known}.");

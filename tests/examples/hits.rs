@@ -23,6 +23,12 @@ use page::Page;
 use rayon::prelude::*;
 use table::{Table, number};
 
+const USAGE: &str = "\
+cargo hits [--write]
+    Compares marbles with other methods to intersect a ray and a sphere, and prints two tables.
+    --write    also write the tables into docs/accuracy.md
+";
+
 /// Cases per family.
 const CASES: u64 = 5_000;
 
@@ -31,6 +37,9 @@ const PERPENDICULAR: usize = 2;
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
+    if std::env::args().any(|argument| matches!(&*argument, "--help" | "-h")) {
+        return write!(out, "{USAGE}");
+    }
     let parts = ["forms", "floors"];
     let is_to_write = std::env::args().any(|argument| argument == "--write");
     let mut page = is_to_write.then(|| Page::open("docs/accuracy.md", &parts));

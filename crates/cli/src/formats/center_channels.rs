@@ -1,4 +1,4 @@
-//! The channels that tell what the rays through the centers of pixels see, and averages over what pixels see.
+//! Channels with properties of the first hits of rays through pixel centers, and with averages over pixels.
 
 use clap::ValueEnum;
 use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Precision, Quantity};
@@ -8,20 +8,20 @@ use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Prec
 pub(crate) enum CenterChannel {
     /// Distance
     Depth,
-    /// Shading normal, and the geometric one besides where there are bumps
+    /// Shading normal; in scenes with bumps also the geometric normal
     Normal,
-    /// Point that is seen
+    /// Visible point
     Position,
     /// Index of the sphere, an unsigned integer
     Id,
     /// Albedo of the sphere
     Albedo,
-    /// 1 where a sphere is seen
+    /// 1 if a sphere is visible
     Mask,
-    /// Mean of the shading normal over what the pixel sees
+    /// Mean of the shading normal over the visible spheres of the pixel
     #[value(name = "mean_normal")]
     MeanNormal,
-    /// Index of the sphere that most of the pixel sees, and the part of the pixel
+    /// Index of the sphere that covers most of the pixel, and the fraction of the pixel that it covers
     #[value(name = "coverage_id")]
     CoverageId,
 }
@@ -38,12 +38,12 @@ pub(crate) enum DepthForm {
 /// The axes of normals and positions, as users name them.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum AxesForm {
-    /// Those of the scene: x right, y up, z forward, left-handed
+    /// Axes of the scene: x right, y up, z forward, left-handed
     World,
-    /// The camera's: x right, y down, z forward
+    /// Axes of the camera: x right, y down, z forward
     #[value(name = "camera-opencv")]
     CameraOpenCv,
-    /// The camera's: x right, y up, z toward the viewer
+    /// Axes of the camera: x right, y up, z toward the viewer
     #[value(name = "camera-opengl")]
     CameraOpenGl,
 }
@@ -53,31 +53,31 @@ pub(crate) enum AxesForm {
 pub(crate) struct CenterChannels {
     /// The groups as bits.
     wanted: u16,
-    /// The error that averages may have.
+    /// The tolerance of averages.
     pub(crate) tolerance: f64,
     pub(crate) depth: DepthForm,
     pub(crate) axes: AxesForm,
-    /// True where shading normals differ from the geometric ones, which are then told besides.
+    /// Whether shading normals differ from geometric normals. If so, the file contains both.
     has_bumps: bool,
 }
 
-/// The place where a channel's numbers come from.
+/// The source of a channel's numbers.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Source {
     /// A component of a quantity.
     Value(Quantity, usize),
     /// The index of the sphere.
     Id,
-    /// 1 where a sphere is seen.
+    /// 1 if a sphere is visible.
     Mask,
     /// A component of an average.
     Average(Average, usize),
-    /// The index of the sphere that most of the pixel sees.
+    /// The index of the sphere that covers most of the pixel.
     CoverageId,
 }
 
 impl Source {
-    /// True for unsigned integers: the indices of spheres.
+    /// Returns whether the numbers are unsigned integers: indices of spheres.
     pub(crate) fn is_index(self) -> bool {
         matches!(self, Self::Id | Self::CoverageId)
     }

@@ -13,12 +13,12 @@ use crate::base::failure::Failure;
 /// A form of progress, for people or programs.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum ProgressForm {
-    /// Lines on stdout that a runner of Open Job Description reads
+    /// Lines on stdout for runners of Open Job Description
     #[value(name = "openjd")]
     OpenJd,
-    /// Lines on stderr, each an object in JSON
+    /// A JSON object per line on stderr
     Json,
-    /// A line on stderr every five seconds at most
+    /// A line on stderr at most every five seconds
     Plain,
     /// Nothing
     None,

@@ -161,9 +161,9 @@ fn help_is_laid_out_for_the_terminal() {
   sbatch --cpus-per-task=8 ball.sh
 ",
                 "
-The scene is read and all options are checked
-before anything is written. Paths become
-absolute ones;",
+marbles reads the scene and checks all options
+before it writes the job. Paths become
+absolute.",
                 "
   2  the command line or the scene file is
      wrong
@@ -179,8 +179,8 @@ absolute ones;",
   sbatch --cpus-per-task=8 ball.sh
 ",
                 "
-The scene is read and all options are checked before anything is written. Paths
-become absolute ones;",
+marbles reads the scene and checks all options before it writes the job. Paths
+become absolute.",
                 "
   2  the command line or the scene file is wrong
 ",
@@ -207,7 +207,7 @@ become absolute ones;",
     }
 }
 
-/// And a bar tells what is rendered before them.
+/// A bar shows the progress before the tables appear.
 #[test]
 fn tables_of_a_report_fit_the_terminal() {
     /// Columns of the widest cell of the tables after the first.

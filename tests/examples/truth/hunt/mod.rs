@@ -212,7 +212,9 @@ pub(crate) fn laws(arguments: &[&str]) -> Result<String, String> {
         broken += &found.concat();
     }
     match broken.is_empty() {
-        true => Ok(format!("{count} scenes are the same in all units\n")),
+        true => Ok(format!(
+            "{count} scenes have the same pixels in all units\n"
+        )),
         false => Err(broken),
     }
 }
@@ -224,7 +226,11 @@ fn families(options: &Options) -> Result<Vec<(&'static Family, u64)>, String> {
         .filter(|family| family.name.contains(&options.family))
         .collect();
     if families.is_empty() {
-        return Err(format!("no family is called {}", options.family));
+        let names = FAMILIES.each_ref().map(|family| family.name).join(", ");
+        return Err(format!(
+            "expected a part of one of these names: {names}; found {}",
+            options.family
+        ));
     }
     let shares = families.iter().map(|family| 1.0 / family.rarity as f64);
     let most = (options.scenes as f64 / shares.sum::<f64>()).ceil() as u64;
