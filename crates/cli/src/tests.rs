@@ -62,7 +62,7 @@ lights      1
 shadows     on
 ambient     0
 background  0
-color       none: one channel is rendered
+color       none: pictures have a single channel
 frames      a still
 camera      Free: x 0, y 0, z 0
   pan       0°

@@ -11,7 +11,7 @@ pub(crate) fn reserve<T>(count: usize) -> Result<Vec<T>, String> {
     match values.try_reserve_exact(count) {
         Ok(()) => Ok(values),
         Err(_) => Err(format!(
-            "there is no memory for {:.1} MB",
+            "there is not enough memory for {:.1} MB",
             count as f64 * size_of::<T>() as f64 / 1e6
         )),
     }
@@ -41,6 +41,6 @@ pub(crate) fn require(bytes: u64, work: &str) -> Result<(), Failure> {
         return Ok(());
     }
     let gigabytes = bytes as f64 / 1e9;
-    let message = format!("{work} {gigabytes:.1} GB of memory, more than there is");
+    let message = format!("{work} {gigabytes:.1} GB of memory, more than is available");
     Err(Failure::Work(message))
 }

@@ -93,7 +93,10 @@ pub(crate) fn window_of(text: &str) -> Result<Window, String> {
             width,
             height,
         }),
-        _ => Err("expected COLUMN,ROW,WIDTH,HEIGHT in pixels, the last two from 1".to_owned()),
+        _ => Err(
+            "expected COLUMN,ROW,WIDTH,HEIGHT in pixels, with a width and a height of at least 1"
+                .to_owned(),
+        ),
     }
 }
 

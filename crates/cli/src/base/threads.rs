@@ -19,14 +19,11 @@ const ADDRESSES: u64 = 1 << 22;
 pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
     let processors = available_parallelism().map_or(1, usize::from);
     let count = useful(count, processors);
-    let refused = |reason: &str| {
-        Failure::Work(format!(
-            "cannot start {count} threads that render: {reason}"
-        ))
-    };
+    let refused =
+        |reason: &str| Failure::Work(format!("cannot start {count} rendering threads: {reason}"));
     // The standard library ends the process where a thread has memory for its stack, but not for more.
     if !memory::is_available(count as u64 * ADDRESSES) {
-        return Err(refused("there is no memory for them"));
+        return Err(refused("there is not enough memory for them"));
     }
     ThreadPoolBuilder::new()
         .num_threads(count)

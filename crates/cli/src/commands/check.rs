@@ -52,7 +52,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     rows.push(("frames", duration(&scene)));
     let (count, looked_at) = (count(&frames), views.len() + errors.len());
     if looked_at as i64 != count {
-        rows.push(("", format!("{looked_at} of {count} were looked at")));
+        rows.push(("", format!("{looked_at} of {count} were checked")));
     }
     rows.extend(cameras(scene.description().camera, &views));
     for (name, text) in rows {
@@ -67,7 +67,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
             let mut message = format!("{}: {error}", arguments.scene.shown());
             if errors.len() > 1 {
                 message.push_str(&format!(
-                    ", and {} more of the {looked_at} frames that were looked at have no view",
+                    ", and {} more of the {looked_at} checked frames have no view",
                     errors.len() - 1
                 ));
             }
@@ -167,14 +167,17 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
         rows.push(("", "…".to_owned()));
     }
     if scene.has_moving_lights() {
-        rows.push(("", "they move: here they are in the first frame".to_owned()));
+        rows.push((
+            "",
+            "animated; these are the values of the first frame".to_owned(),
+        ));
     }
     let shadows = if world.shadows { "on" } else { "off" };
     rows.push(("shadows", shadows.to_owned()));
     rows.push(("ambient", color(world.ambient)));
     rows.push(("background", color(world.background)));
     let channels = if world.is_grey() {
-        "none: one channel is rendered"
+        "none: pictures have a single channel"
     } else {
         "red, green, blue"
     };
@@ -195,7 +198,7 @@ fn cloud(
     rows.extend(bounds(all));
     let hands = match cloud.is_right_handed {
         true => "right-handed",
-        false => "left-handed, as the scene's",
+        false => "left-handed, like the scene",
     };
     rows.push(("  axes", hands.to_owned()));
     if let Some(steps) = cloud.steps {

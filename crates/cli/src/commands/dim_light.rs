@@ -37,15 +37,15 @@ pub(super) fn warning(
     }
     let better = libm::exp10((GOOD_PART * dimmest).log10().floor());
     let tolerance = bound(tolerance);
-    let cure = format!("`--tolerance {better:e}`, or brighter lights, make pixels known");
+    let cure = format!("use `--tolerance {better:e}` or brighter lights");
     let most = short(dimmest);
     match (dim, pictures) {
         (0, _) => None,
         (_, 1) => Some(format!(
-            "no sphere is brighter than {most}, and with {option} pixels may be off by {tolerance}: {cure}"
+            "no sphere is brighter than {most}, and with {option} pixels may have errors of {tolerance}: {cure}"
         )),
         _ => Some(format!(
-            "in {dim} of {} no sphere is brighter than {most} or little more, and with {option} pixels may be off by \
+            "in {dim} of {} no sphere is much brighter than {most}, and with {option} pixels may have errors of \
              {tolerance}: {cure}",
             counted(pictures, "picture")
         )),
@@ -95,8 +95,8 @@ mod tests {
         assert_eq!(light(0.11), None);
         assert_eq!(
             light(0.08).unwrap(),
-            "no sphere is brighter than 0.04, and with --tolerance 1e-3 pixels may be off by 1.0e-03: \
-             `--tolerance 1e-5`, or brighter lights, make pixels known"
+            "no sphere is brighter than 0.04, and with --tolerance 1e-3 pixels may have errors of 1.0e-03: \
+             use `--tolerance 1e-5` or brighter lights"
         );
         for (fields, is_told) in [
             ("ambient: 0.01", true),
@@ -122,7 +122,7 @@ mod tests {
         let each = [0, 1].map(|index| world.under(LightPart::Light(index)));
         let found = warning(each, 1e-3, "").unwrap();
         assert!(
-            found.starts_with("in 1 of 2 pictures no sphere is brighter than 0.0005 "),
+            found.starts_with("in 1 of 2 pictures no sphere is much brighter than 0.0005,"),
             "{found}"
         );
     }

@@ -56,7 +56,7 @@ pub(super) fn check_name(option: &str, noun: &str, path: &Path) -> Result<(), Fa
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "{option}: expected a file name that ends in .svg, the one format of {noun}, found `{}`",
+        "{option}: expected a file name that ends in .svg, the only format of {noun}, found `{}`",
         path.shown()
     )))
 }

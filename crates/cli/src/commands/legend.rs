@@ -42,7 +42,7 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
     let colors = |cloud: &CloudDescription| Some((cloud.file.shown(), cloud.colors.clone()?));
     let all: Vec<(String, ColorDescription)> = scene.clouds().iter().filter_map(colors).collect();
     if all.is_empty() {
-        let why = "--legend: no cloud has colors that stand for a column: `value: …` gives it some";
+        let why = "--legend: no cloud is colored by a column: choose one with `value: …`";
         return Err(Failure::unusable(path, why));
     }
     let whole: f64 = all

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
     let page = page.ok_or_else(|| {
         let command = arguments.command.as_deref().unwrap_or_default();
         Failure::Usage(format!(
-            "expected a command that `marbles --help` names, found `{command}`"
+            "expected a command listed by `marbles --help`, found `{command}`"
         ))
     })?;
     console.print(&String::from_utf8_lossy(&text(page)?));

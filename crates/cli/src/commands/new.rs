@@ -59,7 +59,7 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
     }
     // Which asks and creates at once: nobody else's file is ever lost.
     let mut file = File::create_new(path).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::at(path, "the file is already there"),
+        ErrorKind::AlreadyExists => Failure::at(path, "the file already exists"),
         _ => Failure::io(path, "cannot create the file", &error),
     })?;
     file.write_all(text.as_bytes()).map_err(|error| {

@@ -239,7 +239,7 @@ fn check_names(
     if is_animation && pattern.is_numbered() {
         return Err(Failure::unusable(
             output.unwrap_or(Path::new("")),
-            "all frames are one file, whose name has no place for their number",
+            "all frames go into one file, so its name cannot contain the frame number",
         ));
     }
     let count = frames.count();
@@ -247,7 +247,7 @@ fn check_names(
         return Err(Failure::unusable(
             &pattern.path(FRAME_OF_A_STILL),
             &format!(
-                "{count} frames need a place for their number in the name: ####, %04d or {{frame:04}}"
+                "{count} frames need the frame number in the file name: ####, %04d or {{frame:04}}"
             ),
         ));
     }
@@ -299,12 +299,12 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     ] {
         if is_given && !formats.contains(&output) {
             let formats = formats.join(" and ");
-            let message = format!("{option} is for {formats} files, and the output is {output}");
+            let message = format!("{option} is for {formats} files, but the output is {output}");
             return Err(Failure::Usage(message));
         }
     }
     if arguments.linear && arguments.bits == Some(8) {
-        let message = "--linear writes 16 bit, and --bits asks for 8";
+        let message = "--linear writes 16 bits, but --bits asks for 8";
         return Err(Failure::Usage(message.to_owned()));
     }
     for (is_given, option) in [
@@ -314,7 +314,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     ] {
         if is_given && format == Format::Apng {
             let message =
-                format!("{option} is for files of one frame each, and the output has all of them");
+                format!("{option} needs one file per frame, but this output contains all frames");
             return Err(Failure::Usage(message));
         }
     }

@@ -23,13 +23,13 @@ pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Resul
         (view.pixels_per_unit(), String::new())
     } else {
         let target = scene.target_at(frame).ok_or_else(|| {
-            let why = "--scale-bar: with perspective the bar is at the distance of the camera's target, and this \
-                       camera has none: `LookAt`, `Orbit` and `Frame` have one, and `Parallel` lenses need none";
+            let why = "--scale-bar: with perspective, the bar is valid at the distance of the camera's target, \
+                 but this camera has no target: use `LookAt`, `Orbit` or `Frame`, or a `Parallel` lens";
             Failure::unusable(path, why)
         })?;
         let distance = (target - view.camera.position).dot(view.camera.forward());
         if distance <= 0.0 {
-            let why = "--scale-bar: the camera's target is not before the camera";
+            let why = "--scale-bar: the camera's target is not in front of the camera";
             return Err(Failure::unusable(path, why));
         }
         let place = format!(" at the target, {} away", short(distance));

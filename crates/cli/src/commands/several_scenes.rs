@@ -21,7 +21,7 @@ impl Others {
         let outputs = [&arguments.output, &arguments.legend, &arguments.scale_bar];
         let mut outputs = outputs.into_iter().flatten();
         if let Some(output) = outputs.find(|output| !has_place_for_scene(output)) {
-            let why = format!("several scenes need a place for their names: {SCENE}");
+            let why = format!("several scenes need {SCENE} in the file name");
             return Err(Failure::unusable(output, &why));
         }
         refuse_same_names(&arguments.scenes)?;

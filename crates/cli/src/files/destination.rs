@@ -22,8 +22,8 @@ pub(super) fn destination(path: &Path) -> Result<PathBuf, Failure> {
     for _ in 0..=MOST_LINKS {
         let Ok(target) = fs::read_link(&destination) else {
             return match fs::metadata(&destination) {
-                Ok(found) if found.is_dir() => Err("there is a folder"),
-                Ok(found) if !found.is_file() => Err("there is something that is no file"),
+                Ok(found) if found.is_dir() => Err("a folder has this name"),
+                Ok(found) if !found.is_file() => Err("something that is not a file has this name"),
                 _ => Ok(destination),
             }
             .map_err(|what| Failure::at(path, &format!("cannot write the file: {what}")));

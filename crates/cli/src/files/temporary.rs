@@ -42,7 +42,7 @@ impl TemporaryFile {
                 return Ok(file);
             }
         }
-        let message = "too many temporary files are in the way";
+        let message = "too many temporary files exist already";
         Err(io::Error::new(ErrorKind::AlreadyExists, message))
     }
 

@@ -34,7 +34,7 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     let (source, start) = source.map_err(|error| match error.kind() {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
-        ErrorKind::OutOfMemory => refused("there is no memory to read this file"),
+        ErrorKind::OutOfMemory => refused("there is not enough memory to read this file"),
         _ => refused(&reason(&error)),
     })?;
     begin(&source, &start).map_err(|reason| refused(&reason))
@@ -77,7 +77,7 @@ fn format_of(start: &[u8]) -> Option<Format> {
 /// reason says what is wrong.
 pub(crate) fn contents(path: &Path) -> Result<(Hash, Region), String> {
     if !path.is_file() {
-        return Err("it is no file".to_owned());
+        return Err("it is not a file".to_owned());
     }
     contents_of(&Source::File(path.to_owned()))
 }
@@ -91,7 +91,7 @@ fn contents_of(source: &Source) -> Result<(Hash, Region), String> {
         exr::stored::contents(file)
     } else if magic == NPY_MAGIC {
         npy::stored::contents(&mut file)
-            .ok_or_else(|| "it tells no digest, or ends early".to_owned())
+            .ok_or_else(|| "it contains no digest, or ends early".to_owned())
     } else {
         png::stored::contents(&mut file)
     }

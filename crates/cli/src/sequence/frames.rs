@@ -112,7 +112,7 @@ impl FromStr for FrameList {
         match ranges.iter().map(|range| range.len()).sum() {
             0..=MOST_FRAMES => Ok(Self { ranges }),
             frames => Err(format!(
-                "expected a list of at most {MOST_FRAMES} frames, found one of {frames}"
+                "expected a list of at most {MOST_FRAMES} frames, found {frames}"
             )),
         }
     }
@@ -164,7 +164,7 @@ impl FromStr for Range {
         }
         if step < 0 && last > first {
             return Err(format!(
-                "expected the larger frame first where the step is negative, from {last} to \
+                "expected the larger frame first, because the step is negative, from {last} to \
                  {first}, found `{first}-{last}`"
             ));
         }

@@ -40,12 +40,12 @@ impl LightLayer {
             };
             if key.len() > LONGEST {
                 return Err(format!(
-                    "a layer has at most {LONGEST} characters, and the light `{key}` has more"
+                    "the name of a layer has at most {LONGEST} characters, but that of the light `{key}` is longer"
                 ));
             }
             if others.contains(&*key) {
                 return Err(format!(
-                    "the light `{key}` would have the layer of the channels `{key}`"
+                    "the layer of the light `{key}` would have the name of the channels `{key}`"
                 ));
             }
             if !keys.insert(key.clone()) {

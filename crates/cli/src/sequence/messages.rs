@@ -37,7 +37,10 @@ pub(crate) fn total(outcome: &Outcome, noun: &str) -> Option<String> {
 
 /// The line of results of a file that was there.
 pub(super) fn skipped(path: &Path) -> String {
-    format!("{}: skipped, complete and of this scene", path.shown())
+    format!(
+        "{}: skipped, complete and made from this scene",
+        path.shown()
+    )
 }
 
 /// The number of files that were written, whose word is `noun`, and the frames that failed, in the form that `--frames`
@@ -93,8 +96,8 @@ pub(super) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
     let numbers = counted(count, "number");
     match encoding {
         Encoding::Exr(options) if !options.float => format!(
-            "{path}: {numbers} above 65504, the largest half, stored as that; \
-             --float has room for more"
+            "{path}: {numbers} above 65504, the largest half-precision number, stored as this number; use --float \
+             for larger ones"
         ),
         _ => format!("{path}: {numbers} too large for the file, stored as the largest"),
     }

@@ -13,7 +13,7 @@ use crate::base::status;
 use crate::files::temporary;
 
 /// The last line of a process that aborts. The standard library says before how much it asked for.
-const FAREWELL: &[u8] = b"marbles: there is no memory to go on; fewer threads need less\n";
+const FAREWELL: &[u8] = b"marbles: out of memory; fewer threads need less\n";
 
 /// The time after which a second thread that aborts does not wait for the first one to end the process.
 const LONGEST: Duration = Duration::from_secs(1);

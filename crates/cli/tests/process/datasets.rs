@@ -163,7 +163,7 @@ fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
     for (scene, why) in [
         (
             beside(&format!("{near}, Directional(toward: (0, 1, 0))")),
-            "light 2 of the scene is a directional one",
+            "light 2 of the scene is directional",
         ),
         (
             beside("Point(position: (-4, 1, 2), falloff: None)"),
@@ -191,7 +191,7 @@ fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
     }
     fs::write(folder.path("near.ron"), beside(near)).unwrap();
     let output = folder.run("dataset near.ron -o other --layout diligent");
-    assert!(text(&output.stderr).contains("and the scene a point light"));
+    assert!(text(&output.stderr).contains("but the scene has a point light"));
 }
 
 /// The numbers of a PNG of 16 bit codes.
@@ -331,7 +331,7 @@ fn a_data_set_replaces_no_files_of_others() {
     assert_eq!(code(&output), 2);
     let message = text(&output.stderr);
     assert!(
-        message.contains("of a data set of the layout diligent"),
+        message.contains("belongs to a data set of the layout diligent"),
         "{message}"
     );
 }

@@ -272,15 +272,15 @@ fn layers_are_refused_where_there_can_be_none() {
     for (arguments, why) in [
         (
             "all.ron -o a.png",
-            "--per-light=layers is for EXR files, and the output is PNG",
+            "--per-light=layers is for EXR files, but the output is PNG",
         ),
         (
             "all.ron -o a.npy",
-            "--per-light=layers is for EXR files, and the output is NPY",
+            "--per-light=layers is for EXR files, but the output is NPY",
         ),
         (
             "named.ron -o a.exr --channels depth",
-            "the light `depth` would have the layer of the channels `depth`",
+            "the layer of the light `depth` would have the name of the channels `depth`",
         ),
     ] {
         let output = folder.run(&format!("render {arguments} --per-light=layers"));
@@ -320,5 +320,5 @@ fn all_lights_of_all_frames_are_not_one_file() {
     let folder = folder();
     let output = folder.run("render all.ron --per-light -o a.apng");
     assert_eq!(code(&output), 2);
-    assert!(text(&output.stderr).contains("--per-light is for files of one frame each"));
+    assert!(text(&output.stderr).contains("--per-light needs one file per frame"));
 }

@@ -147,7 +147,7 @@ fn memory_that_ends_in_small_pieces_is_an_error() {
         assert!(errors.contains(" memory"), "{kilobytes} kB: {errors}");
         said += &errors;
     }
-    assert!(said.contains("no memory to go on"), "{said}");
+    assert!(said.contains("out of memory"), "{said}");
 }
 
 /// A grey picture of one line that repeats.

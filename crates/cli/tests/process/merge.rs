@@ -102,7 +102,8 @@ fn errors_beside_light_are_merged_on_their_own() {
     assert!(text(&folder.run(&again).stdout).contains(": skipped"));
     let output = folder.run("merge mixed.npy left.npy right_error.npy");
     assert_eq!(code(&output), 2);
-    let reason = "marbles: right_error.npy: not of the same scene, frame and settings as left.npy";
+    let reason =
+        "marbles: right_error.npy: not made from the same scene, frame and settings as left.npy";
     assert!(text(&output.stderr).starts_with(reason));
 }
 
@@ -131,16 +132,16 @@ fn parts_that_are_no_picture_together_are_refused() {
         ),
         (
             "left.png narrow.png",
-            "the parts leave a gap: none has the pixel in column 10, row 0",
+            "the parts leave a gap: none contains the pixel in column 10, row 0",
         ),
         ("left.png", "the parts leave a gap"),
         (
             "left.png other.png",
-            "other.png: not of the same scene, frame and settings as left.png",
+            "other.png: not made from the same scene, frame and settings as left.png",
         ),
         (
             "left.png right.exr",
-            "right.exr: not of the same scene, frame and settings as left.png",
+            "right.exr: not made from the same scene, frame and settings as left.png",
         ),
         (
             "left.png broken.png",

@@ -115,27 +115,27 @@ fn what_a_format_cannot_have_is_refused() {
     for (options, reason) in [
         (
             "-o a.exr --linear",
-            "--linear is for PNG files, and the output is EXR",
+            "--linear is for PNG files, but the output is EXR",
         ),
         (
             "-o a.npy --exposure 1",
-            "--exposure is for PNG files, and the output is NPY",
+            "--exposure is for PNG files, but the output is NPY",
         ),
         (
             "-o a.exr --exposure 0",
-            "--exposure is for PNG files, and the output is EXR",
+            "--exposure is for PNG files, but the output is EXR",
         ),
         (
             "-o a.npy --float",
-            "--float is for EXR files, and the output is NPY",
+            "--float is for EXR files, but the output is NPY",
         ),
         (
             "-o a.npy --bits 16",
-            "--bits is for PNG files, and the output is NPY",
+            "--bits is for PNG files, but the output is NPY",
         ),
         (
             "-o a.png --linear --bits 8",
-            "--linear writes 16 bit, and --bits asks for 8",
+            "--linear writes 16 bits, but --bits asks for 8",
         ),
     ] {
         let output = folder.run(&format!("render ball.ron {options}"));

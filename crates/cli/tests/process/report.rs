@@ -51,17 +51,17 @@ fn exit_codes_tell_what_happened() {
         (
             "ball.ron --plot a.jpg",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `a.jpg`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `a.jpg`",
         ),
         (
             "ball.ron --plot svg",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `svg`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `svg`",
         ),
         (
             "ball.ron --plot a.png",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `a.png`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `a.png`",
         ),
         (
             "ball.ron --frame 8",

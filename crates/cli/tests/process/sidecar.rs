@@ -179,7 +179,7 @@ fn sidecars_that_cannot_be_are_refused() {
     for (arguments, expected) in [
         (
             "render ball.ron -o a.apng --sidecar",
-            "marbles: --sidecar is for files of one frame each, and the output has all of them\n",
+            "marbles: --sidecar needs one file per frame, but this output contains all frames\n",
         ),
         (
             "render ball.json --sidecar",

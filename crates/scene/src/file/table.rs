@@ -96,7 +96,7 @@ forms! {
     ElementRadii: "radii", "radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name", radii;
     Wanted: "wanted value", "a number, or a text in quotation marks", wanted;
     ValueRange: "range", "a range: two numbers `(low, high)`, or `Percentile(low, high)`", range;
-    Missing: "treatment of missing values", "what becomes of missing values: `Refuse`, `Hide` or a color", missing;
+    Missing: "treatment of missing values", "a treatment of missing values: `Refuse`, `Hide` or a color", missing;
 }
 
 fn column(slice: Slice<'_>) -> Option<ColumnRef> {

@@ -14,7 +14,7 @@ pub struct FrameError {
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]
 pub enum FrameFault {
     /// Its target is its position.
-    #[error("the camera stands at its target and looks nowhere")]
+    #[error("the camera is at its target, and has no direction of view")]
     LooksNowhere,
     /// Its position is beyond the range of numbers.
     #[error("the camera is infinitely far away")]

@@ -133,7 +133,7 @@ impl Remarks {
             told.push(LocatedFault {
                 place: place.clone(),
                 message: format!(
-                    "expected elements with known radii and colors, found {}{meant} (what is unknown of them is as in \
+                    "expected elements with known radii and colors, found {}{meant} (for these, marbles uses \
                      `others: (radius: 1, color: \"#ff80c0\")`)",
                     names.join(", "),
                 ),

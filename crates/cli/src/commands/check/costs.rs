@@ -33,7 +33,7 @@ fn fine_grains(world: &World, views: &[&View]) -> Option<String> {
     })?;
     Some(format!(
         "{place}: bumps with a grain of {grain} are smaller than a pixel, which is {pixel} wide there: such \
-         pixels cost hundreds of times as much as smooth ones, and those with many bumps end over small \
+         pixels cost hundreds of times as much as smooth ones, and pixels with many bumps stay over small \
          tolerances; choose a larger grain, or render more pixels"
     ))
 }
@@ -58,8 +58,8 @@ fn coarse_lens(views: &[&View]) -> Option<String> {
     let moved = ROUNDINGS / pixels.fold(f64::INFINITY, f64::min);
     (moved > COARSE).then(|| {
         format!(
-            "lens: a pixel is so small an angle that rounding moves edges by up to {} of it: smaller tolerances \
-             than about that cannot be met at edges; bring the camera nearer and shorten the lens",
+            "lens: the angle of a pixel is so small that rounding moves edges by up to {} of a pixel: at edges, \
+             tolerances below about this cannot be met; move the camera closer and use a shorter lens",
             short(moved)
         )
     })
@@ -167,7 +167,7 @@ mod tests {
         let found = of("exponent: 1", 1e12);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
-            found[0].starts_with("lens: a pixel is so small an angle"),
+            found[0].starts_with("lens: the angle of a pixel is so small"),
             "{found:?}"
         );
         assert_eq!(of("exponent: 1", 1e6), Vec::<String>::new());

@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
         && diff.exists()
         && (is_same(diff, a) || is_same(diff, b))
     {
-        let why = "--diff would overwrite a picture that is compared";
+        let why = "--diff would overwrite one of the compared pictures";
         return Err(Failure::unusable(diff, why));
     }
     let difference_picture = diff.as_deref().map(DifferencePicture::at).transpose()?;

@@ -15,7 +15,7 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<DirectionalLi
         Light::Directional(light) => Ok(*light),
         Light::Point(_) => Err(Failure::unusable(
             scene,
-            "the layout diligent has directions of lights, and the scene a point light",
+            "the layout diligent needs directional lights, but the scene has a point light",
         )),
     });
     distant.collect()

@@ -30,13 +30,13 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<PointLight>, 
         let refuse = |found: &str| {
             let number = index + 1;
             let why = format!(
-                "the layout luces has point lights that fall off with the square of the distance, and light {number} \
-                 of the scene {found}"
+                "the layout luces needs point lights whose light falls off with the square of the distance, but \
+                 light {number} of the scene {found}"
             );
             Err(Failure::unusable(scene, &why))
         };
         match light {
-            Light::Directional(_) => refuse("is a directional one"),
+            Light::Directional(_) => refuse("is directional"),
             Light::Point(light) => match light.falloff() {
                 LightFalloff::None => refuse("does not fall off"),
                 LightFalloff::InverseSquare => Ok(*light),
@@ -52,7 +52,7 @@ pub(super) fn check_lens(scene: &Path, view: &View) -> Result<(), Failure> {
         true => Ok(()),
         false => Err(Failure::unusable(
             scene,
-            "the layout luces has a focal length, and the lens of the scene has none",
+            "the layout luces needs a focal length, but the lens of the scene has none",
         )),
     }
 }
@@ -62,7 +62,7 @@ pub(super) fn mean_distance(scene: &Path, centers: &Centers) -> Result<f64, Fail
     centers.mean_depth().ok_or_else(|| {
         Failure::unusable(
             scene,
-            "the layout luces has the mean distance of what is seen, and no pixel sees a sphere",
+            "the layout luces needs the mean distance of the visible surfaces, but no pixel sees a sphere",
         )
     })
 }

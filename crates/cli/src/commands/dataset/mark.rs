@@ -35,12 +35,12 @@ pub(super) fn refuse_files_of_others(
         return Ok(());
     };
     let owner = match found {
-        Some(other) => format!("of a data set of the layout {other}"),
-        None => "of somebody else".to_owned(),
+        Some(other) => format!("which belongs to a data set of the layout {other}"),
+        None => "which `marbles dataset` did not write".to_owned(),
     };
     let why = format!(
-        "the data set would replace this file {owner}: expected a folder without one, or with a data set of the \
-         layout {layout} that `marbles dataset` has written"
+        "the data set would replace this file, {owner}: expected a folder without such a file, or with a data set \
+         of the layout {layout} written by `marbles dataset`"
     );
     Err(Failure::unusable(&file, &why))
 }

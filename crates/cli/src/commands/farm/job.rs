@@ -48,7 +48,7 @@ impl Job {
         let request = request(render, scene, &threads::start(None)?, console)?;
         if request.is_animation() {
             return Err(Failure::Usage(
-                "tasks write a file for each frame, and the output has all of them".to_owned(),
+                "a task writes one file per frame, but this output contains all frames".to_owned(),
             ));
         }
         let inputs = Inputs::of(&request.scene_path, &request.scene);
@@ -58,8 +58,8 @@ impl Job {
         }
         if !is_slurm && arguments.render.has("progress") {
             return Err(Failure::Usage(
-                "--progress: runners of Open Job Description read --progress=openjd, which their \
-                 templates always have"
+                "--progress: templates of Open Job Description always use --progress=openjd, because their \
+                 runners read no other form"
                     .to_owned(),
             ));
         }

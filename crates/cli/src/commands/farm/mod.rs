@@ -46,8 +46,8 @@ pub(crate) fn run(arguments: &FarmArguments, console: &Console) -> Result<u8, Fa
     }
     if is_slurm && tasks > USUAL_TASKS {
         console.warn(&format!(
-            "an array of {tasks} tasks: unless MaxArraySize is set, Slurm takes {USUAL_TASKS}; a \
-             larger --chunk makes fewer"
+            "the array has {tasks} tasks, and Slurm accepts {USUAL_TASKS} unless MaxArraySize is set; a larger \
+             --chunk makes fewer tasks"
         ));
     }
     Ok(status::SUCCESS)

@@ -90,8 +90,8 @@ fn arguments(job: &Job) -> Result<Vec<String>, Failure> {
 fn literal(word: &str) -> Result<&str, Failure> {
     if word.contains("{{") || word.contains(char::is_control) {
         return Err(Failure::Usage(format!(
-            "expected no `{{{{` and no control character in what a template of Open Job \
-             Description passes on, found {word:?}"
+            "expected no `{{{{` and no control character in the arguments of a template of Open Job Description, \
+             found {word:?}"
         )));
     }
     Ok(word)

@@ -21,7 +21,7 @@ end() {
     signaled=1
     [ -z "$renderer" ] || kill -TERM "$renderer" 2>/dev/null
 }
-# Slurm tells the renderer as well, which ends within a second; a second signal would hurry it.
+# Slurm also signals the renderer, which then ends within a second. A second signal would be of no use.
 trap 'sleep 1; end' TERM INT
 trap 'again=1; end' USR1
 "#;
@@ -39,7 +39,7 @@ while [ -n "$signaled" ]; do
     code=$?
 done
 
-# Interrupted, or ended by the signal before it listened.
+# The renderer was interrupted, or the signal ended it before it could react.
 if [ -n "$again" ] && { [ "$code" -eq 130 ] || [ "$code" -eq 143 ]; } &&
     [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
@@ -82,8 +82,8 @@ pub(super) fn script(job: &Job) -> Result<String, Failure> {
 #SBATCH --open-mode=append
 #SBATCH --signal=B:USR1@60
 
-# Written by `marbles farm slurm`. CPUs, memory and time are the cluster's to give: options of
-# sbatch, such as --cpus-per-task=8 --time=60.
+# Written by `marbles farm slurm`. Set CPUs, memory and time with options of sbatch, such as
+# --cpus-per-task=8 --time=60.
 
 # The frames of each task.
 chunk={chunk}

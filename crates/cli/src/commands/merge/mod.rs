@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, F
     let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
     prepare(path)?;
     if kind.format() != format {
-        let expected = "expected the ending of the parts";
+        let expected = "expected the file extension of the parts";
         return Err(Failure::unusable(path, expected));
     }
     kind.write(path, whole, &digest, |rows| parts.rows(rows))?;

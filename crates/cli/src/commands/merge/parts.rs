@@ -40,13 +40,14 @@ impl Parts {
                 return Err(Failure::unusable(path, "no such file"));
             }
             let (digest, region) = contents(path).map_err(|why| {
-                let expected = "expected a complete picture that `marbles render` has written";
+                let expected = "expected a complete picture written by `marbles render`";
                 Failure::unusable(path, &format!("{expected}: {why}"))
             })?;
             let other = *found.get_or_insert((digest, region.whole));
             if other != (digest, region.whole) {
                 let first = paths[0].shown();
-                let message = format!("not of the same scene, frame and settings as {first}");
+                let message =
+                    format!("not made from the same scene, frame and settings as {first}");
                 return Err(Failure::unusable(path, &message));
             }
             parts.push(Part {
@@ -108,7 +109,7 @@ impl Part {
         let mut rest = reader.next_row()?;
         let of_pixel: usize = sample_bytes.iter().sum();
         if rest.len() != of_pixel * width as usize {
-            return Err("a row has another length than it should".to_owned());
+            return Err("a row has the wrong length".to_owned());
         }
         let columns = whole.len() / of_pixel;
         let mut start = 0;
@@ -139,7 +140,7 @@ fn check_cover(parts: &[Part], whole: Size) -> Result<(), Failure> {
     match gap(parts, whole) {
         None => Ok(()),
         Some((col, row)) => Err(Failure::Usage(format!(
-            "the parts leave a gap: none has the pixel in column {col}, row {row} of the \
+            "the parts leave a gap: none contains the pixel in column {col}, row {row} of the \
              {} x {} pixels",
             whole.width, whole.height
         ))),

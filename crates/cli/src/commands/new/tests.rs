@@ -53,7 +53,7 @@ fn files_that_are_there_stay() {
     let (code, out, err) = run_here(&["new", scene.to_str().unwrap()]);
     assert_eq!((code, &*out), (1, ""));
     assert!(
-        err.ends_with("mine.ron: the file is already there\n"),
+        err.ends_with("mine.ron: the file already exists\n"),
         "{err}"
     );
     assert_eq!(fs::read(&scene).unwrap(), b"mine");

@@ -37,7 +37,7 @@ pub(super) fn run(
 ) -> Result<u8, Failure> {
     if !screen.is_terminal {
         return Err(Failure::Usage(
-            "--watch needs a terminal, and the output is none".to_owned(),
+            "--watch needs a terminal, but the output is not a terminal".to_owned(),
         ));
     }
     interrupt::listen(console);
@@ -52,7 +52,7 @@ pub(super) fn run(
             Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
         };
         let scene = arguments.scene.shown();
-        let status = format!("{scene}: shown again when it is saved; q ends");
+        let status = format!("{scene}: updated when you save it; press q to quit");
         console.print(&(shown + &status_line(&status, screen.cells())));
         wait(&mut files, || screen.area(STATUS_LINES) != area);
     }

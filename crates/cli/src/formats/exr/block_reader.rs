@@ -47,7 +47,7 @@ impl BlockReader {
     ) -> Result<Self, String> {
         let header = &meta.headers[part];
         if header.deep {
-            return Err("its pixels are deep, expected flat ones".to_owned());
+            return Err("expected flat pixels, found deep ones".to_owned());
         }
         let before = meta.headers[..part].iter();
         let before: u64 = before.map(|header| 8 * header.chunk_count as u64).sum();
@@ -62,7 +62,7 @@ impl BlockReader {
         if bytes.is_none_or(|bytes| bytes as u64 > most) {
             let megabytes = most / 1_000_000;
             return Err(format!(
-                "its blocks have more than {megabytes} MB side by side"
+                "its blocks need more than {megabytes} MB at a time"
             ));
         }
         Ok(Self {
@@ -83,7 +83,7 @@ impl BlockReader {
     /// channel by channel.
     pub(super) fn read(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
         let chunk = self.chunk(column, row).map_err(|error| reason(&error))?;
-        let chunk = chunk.ok_or("a block is not where the file says it is")?;
+        let chunk = chunk.ok_or("a block is not at the position that the file states")?;
         let meta = &self.meta;
         let block = guarded(|| UncompressedBlock::decompress_chunk(chunk, meta, false))?;
         let bytes = block.index.pixel_size.area() * self.header().channels.bytes_per_pixel;

@@ -28,7 +28,7 @@ pub(super) fn guarded<T, E: ToString>(read: impl FnOnce() -> Result<T, E>) -> Re
     IS_GUARDED.set(false);
     match read {
         Ok(read) => read.map_err(|error| error.to_string()),
-        Err(_) => Err("its data is broken".to_owned()),
+        Err(_) => Err("its data is damaged".to_owned()),
     }
 }
 
@@ -41,7 +41,7 @@ mod tests {
         assert_eq!(guarded(|| Ok::<_, String>(7)), Ok(7));
         assert_eq!(guarded(|| Err::<(), _>("a word")), Err("a word".to_owned()));
         let broken = guarded(|| -> Result<(), String> { panic!("not printed") });
-        assert_eq!(broken, Err("its data is broken".to_owned()));
+        assert_eq!(broken, Err("its data is damaged".to_owned()));
         assert!(!IS_GUARDED.get());
     }
 }

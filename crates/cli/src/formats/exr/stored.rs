@@ -21,7 +21,7 @@ use crate::formats::source::Input;
 /// All blocks are read: each has to be where the table says, and the checksum of its samples right if it is
 /// compressed. Refuses files that tell no digest, whose blocks are damaged, or which do not end with their last block.
 pub(crate) fn contents(mut file: Box<dyn Input>) -> Result<(Hash, Region), String> {
-    let (told, blocks) = told(&mut file).ok_or("it tells no digest, or ends early")?;
+    let (told, blocks) = told(&mut file).ok_or("it contains no digest, or ends early")?;
     file.rewind().map_err(|error| reason(&error))?;
     let meta = meta_of(&mut file)?;
     let mut reader = BlockReader::of_part(file, meta, 0)?;

@@ -35,7 +35,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     file.seek(SeekFrom::Start(header.start))
         .map_err(|error| reason(&error))?;
     if array.bytes() != end.checked_sub(header.start) {
-        return Err("its numbers are more or fewer than its header says".to_owned());
+        return Err("it contains more or fewer numbers than its header states".to_owned());
     }
     let kind = match array.number {
         Number::F64 => "double",

@@ -39,7 +39,7 @@ impl Curve {
             };
         }
         if info.icc_profile.is_some() {
-            let warning = "its ICC profile is not applied, its colors are taken as sRGB";
+            let warning = "its ICC profile is ignored: its colors are read as sRGB";
             return Ok((Self::Srgb, Some(warning)));
         }
         let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);

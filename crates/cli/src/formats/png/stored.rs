@@ -23,8 +23,8 @@ pub(crate) fn contents(file: &mut (impl BufRead + Seek)) -> Result<(Hash, Region
     place(file.seek(SeekFrom::Start(0)))?;
     let told = read(&mut *file).map_err(|error| lower(&error.to_string()))?;
     match place(file.stream_position())? == end {
-        true => told.ok_or_else(|| "it tells no digest".to_owned()),
-        false => Err("it goes on after its last chunk".to_owned()),
+        true => told.ok_or_else(|| "it contains no digest".to_owned()),
+        false => Err("there is data after its last chunk".to_owned()),
     }
 }
 

@@ -103,8 +103,7 @@ fn tables_that_are_compressed_twice_are_called_so() {
 #[test]
 fn archives_are_not_compressed_once_more() {
     let message = refusal("a.npz.gz", gzip(&npz(&[])), "");
-    let expected =
-        "a.npz.gz: expected an NPZ archive as it is, found one in a gzip file: decompress it once";
+    let expected = "a.npz.gz: expected an uncompressed NPZ archive, found one in a gzip file: decompress it once";
     assert_eq!(message, expected);
 }
 
@@ -234,7 +233,7 @@ fn members_that_hold_nothing_are_counted() {
     let many = [nothing.repeat(4097), table].concat();
     let message = refusal("a.csv.gz", many, "");
     assert!(
-        message.contains("more than 4096 of its gzip members hold nothing"),
+        message.contains("more than 4096 of its gzip members are empty"),
         "{message}"
     );
 }

@@ -190,12 +190,12 @@ impl<'a> Chart<'a> {
     /// The title, and what the marks mean.
     fn legend(&mut self, report: &Report) {
         let y = 58.0;
-        let title = format!("Time to an error: {}", report.title);
+        let title = format!("Time against error: {}", report.title);
         self.svg.text((12.0, 28.0), TITLE, &title);
         self.svg.text((12.0, y), NORMAL, "time");
         for (x, series, name) in [
-            (10.0, &self.tolerances, "marbles, by tolerance"),
-            (232.0, &self.samples, "supersampling, points a pixel"),
+            (10.0, &self.tolerances, "marbles, with a tolerance"),
+            (232.0, &self.samples, "supersampling, samples per pixel"),
         ] {
             let color = series.color;
             series.mark(&mut self.svg, (LEFT + x, y - 4.5));

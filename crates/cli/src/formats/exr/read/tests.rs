@@ -208,7 +208,7 @@ fn blocks_have_a_limit() {
     let window = place(&bytes, b"dataWindow\0box2i\0") + 4;
     bytes[window + 8..window + 16].copy_from_slice(&[255, 255, 0, 0, 255, 255, 0, 0]);
     let refused = decode(&bytes).err().unwrap();
-    assert_eq!(refused, "its blocks have more than 268 MB side by side");
+    assert_eq!(refused, "its blocks need more than 268 MB at a time");
 }
 
 #[test]
