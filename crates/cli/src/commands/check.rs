@@ -1,4 +1,4 @@
-//! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
+//! `marbles check`: validates a scene file, prints its contents, and warns about expensive settings.
 
 mod columns;
 mod contents;
@@ -22,9 +22,9 @@ use crate::formats::sidecar::{Sidecar, turns};
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
-/// Frames that are looked at, spread evenly over longer animations.
+/// The most frames that are checked; of longer animations, evenly spread ones.
 const FRAMES_LOOKED_AT: i64 = 100_000;
-/// Lights that are listed one by one.
+/// The most lights that are listed.
 const LIGHTS_LISTED: usize = 8;
 /// Width of the column with the names of things.
 const NAMES: usize = 12;
@@ -76,7 +76,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     }
 }
 
-/// Warnings about views of a world, those of some frames, of which `frame` is the first.
+/// Warnings about the views of a world in some frames; `frame` is the first of these frames.
 fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
     let mut warnings = costs::warnings(&world, views);
     warnings.extend(oversights::warnings(&world, views, frame));
@@ -85,7 +85,7 @@ fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
     warnings
 }
 
-/// Prints what is known of a frame before it is rendered, and the warnings about it.
+/// Prints the properties of a frame that are known before rendering, and the warnings about it.
 fn print_json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let view = scene::view(scene, &arguments.scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
@@ -111,8 +111,7 @@ fn count(frames: &RangeInclusive<i32>) -> i64 {
     i64::from(*frames.end()) - i64::from(*frames.start()) + 1
 }
 
-/// Views of evenly spread frames, the first and the last among them, and the errors of frames that
-/// have none.
+/// Views of evenly spread frames, including the first and the last, and the errors of frames without a view.
 fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameError>) {
     let (first, last) = (i64::from(*frames.start()), i64::from(*frames.end()));
     let steps = (last - first).clamp(0, FRAMES_LOOKED_AT - 1);
@@ -185,7 +184,7 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// A table, and a camera that has all of it in the picture.
+/// A table, and a camera that shows all of it.
 fn cloud(
     scene: &Scene,
     world: &World,
@@ -287,7 +286,7 @@ fn duration(scene: &Scene) -> String {
     text
 }
 
-/// The places and the directions of the camera.
+/// The positions and directions of the camera.
 fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
     let angles = |index: usize| {
@@ -310,7 +309,7 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Angles in degrees without jumps: each is less than half a turn from the one before.
+/// Continuous angles in degrees: each differs from the previous one by less than half a turn.
 fn unwound(angles: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
     const TURN: f64 = 360.0;
     let mut before = None;
@@ -327,7 +326,7 @@ fn vector(vector: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// A color as scene files have it: a number where it is grey.
+/// A color in the form of scene files: a single number if it is gray.
 fn color(color: Color) -> String {
     if color.x == color.y && color.y == color.z {
         short(color.x)

@@ -1,17 +1,18 @@
-//! Light that is not far above the tolerance: pixels may then be off by a part of it that anybody sees.
+//! Warns if light is not much brighter than the tolerance: pixels may then have a visible error.
 
 use marbles_core::{Color, Light, World};
 use rayon::prelude::*;
 
 use crate::base::numbers::{bound, counted, short};
 
-/// The largest part of the brightest light that a tolerance may be without a warning.
+/// The largest tolerance without a warning, as a fraction of the brightest light.
 const LARGEST_PART: f64 = 0.02;
-/// The part of the brightest light that the warning proposes as a tolerance, to a power of ten.
+/// The tolerance that the warning proposes, as a fraction of the brightest light, before it is rounded to a power of
+/// ten.
 const GOOD_PART: f64 = 1e-3;
 
-/// A warning that the light of some pictures is not far above the tolerance, for pictures of these worlds; `option` is
-/// where the tolerance comes from. Works on the threads of the current rayon pool.
+/// A warning if the light in some pictures is not much brighter than the tolerance. There is one world per picture;
+/// `option` is the source of the tolerance. Works on the threads of the current rayon pool.
 pub(super) fn warning(
     worlds: impl IntoIterator<Item = World>,
     tolerance: f64,
@@ -52,7 +53,7 @@ pub(super) fn warning(
     }
 }
 
-/// A bound of the light that a sphere sends to the camera.
+/// An upper bound of the light that a sphere sends to the camera.
 fn brightest(world: &World, sphere: usize) -> f64 {
     let ball = &world.spheres()[sphere];
     let lights = world

@@ -1,15 +1,15 @@
-//! Oversights that make a picture black, or all of one color.
+//! Mistakes that make a picture black, or a single color.
 
 use marbles_core::{Sphere, View, World};
 use rayon::prelude::*;
 
 use crate::base::numbers::short;
 
-/// The most views that are looked at, spread evenly over those of an animation.
+/// The most views that are checked; of longer animations, evenly spread ones.
 const VIEWS: usize = 9;
 
-/// Plain sentences about views of some frames, `frame` the first: what is wrong, and what to do. Works on the threads
-/// of the current rayon pool.
+/// Warnings about views of some frames, the first of which is `frame`: the mistake, and the remedy. Works on the
+/// threads of the current rayon pool.
 pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String> {
     let spheres = world.spheres();
     let Some(view) = views.first() else {
@@ -51,7 +51,7 @@ pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String>
     warnings
 }
 
-/// Says whether a sphere may be in the picture: none of which it is certain that it is not.
+/// Returns false only if no sphere can be in the picture.
 fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
     let camera = &view.camera;
     let from_eye = camera.world_from_camera.transpose() * (sphere.center() - camera.position);

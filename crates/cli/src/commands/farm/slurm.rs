@@ -4,15 +4,14 @@ use super::chunks::expression;
 use super::job::Job;
 use crate::base::failure::Failure;
 
-/// The most tasks that Slurm's largest `MaxArraySize` has room for.
+/// The largest number of tasks with Slurm's largest `MaxArraySize`.
 const MOST_TASKS: usize = 4_000_000;
 
-/// The part of a task that handles signals, before the renderer starts beside the shell, which gets
-/// them.
+/// The part of a task that handles signals, which only the shell receives. It comes before the renderer starts in the
+/// background.
 ///
-/// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
-/// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
-/// outside kills them, or sends SIGTERM.
+/// At the time limit, Slurm sends SIGUSR1, and the task is queued again, but only as often as it has frames: after
+/// that, a single frame takes longer than the limit. All other interruptions kill the task or send SIGTERM.
 const SIGNALS: &str = r#"renderer=
 ended=
 again=
@@ -26,10 +25,9 @@ trap 'sleep 1; end' TERM INT
 trap 'again=1; end' USR1
 "#;
 
-/// The part of a task that waits for the renderer: `wait` returns whenever a signal comes.
+/// The part of a task that waits for the renderer: `wait` returns at every signal.
 ///
-/// A task whose pixels did not all meet the tolerance ends with 3, as the renderer does: rendering it again would change
-/// nothing.
+/// If some pixel is over the tolerance, a task ends with 3, like the renderer: rendering it again would change nothing.
 const WAIT: &str = r#"renderer=$!
 [ -z "$ended" ] || kill -TERM "$renderer"
 signaled=1
@@ -104,7 +102,7 @@ marbles render --skip-existing{progress}{threads} \
     ))
 }
 
-/// The word as a shell reads it.
+/// A word, quoted for the shell.
 fn quoted(word: &str) -> Result<String, Failure> {
     match shlex::try_quote(word) {
         Ok(quoted) => Ok(quoted.into_owned()),

@@ -1,7 +1,7 @@
-//! `marbles merge`: the picture whose parts were rendered on their own.
+//! `marbles merge`: joins parts of a picture that were rendered separately.
 //!
-//! It is written row by row, while the parts that a row crosses are read row by row, so that
-//! pictures may be larger than the memory.
+//! The picture is written row by row, and the parts are read row by row, so that pictures may be larger than the
+//! memory.
 
 mod parts;
 

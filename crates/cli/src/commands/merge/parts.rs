@@ -18,7 +18,7 @@ pub(super) struct Parts {
     parts: Vec<Part>,
     pub(super) whole: Size,
     pub(super) digest: Hash,
-    /// The kind of every part, since their digests are alike.
+    /// The kind of every part; it is the same for all, because their digests are.
     pub(super) kind: Kind,
 }
 
@@ -26,12 +26,12 @@ pub(super) struct Parts {
 struct Part {
     path: PathBuf,
     window: Window,
-    /// Open while its rows are read.
+    /// The open file, while its rows are read.
     reader: Option<RowReader>,
 }
 
 impl Parts {
-    /// Finds out the picture of which these files are parts; refuses those that make none.
+    /// Finds the picture that these files are parts of. Refuses files that are not parts of one picture.
     pub(super) fn examine(paths: &[PathBuf]) -> Result<Self, Failure> {
         let mut found: Option<(Hash, Size)> = None;
         let mut parts = Vec::new();
@@ -75,7 +75,7 @@ impl Parts {
         })
     }
 
-    /// The samples of some rows, which have to follow those before.
+    /// The samples of the next rows.
     pub(super) fn rows(&mut self, rows: Range<u32>) -> Result<Vec<u8>, Failure> {
         let sample_bytes = self.kind.sample_bytes();
         let row_bytes = sample_bytes.iter().sum::<usize>() * self.whole.width as usize;
@@ -94,7 +94,7 @@ impl Parts {
 }
 
 impl Part {
-    /// Puts a row of the part where it belongs in a row of the picture.
+    /// Copies a row of the part to its position in a row of the picture.
     fn copy_row(
         &mut self,
         row: u32,
@@ -127,7 +127,7 @@ impl Part {
     }
 }
 
-/// Refuses parts that overlap or leave something out.
+/// Refuses parts that overlap or leave a gap.
 fn check_cover(parts: &[Part], whole: Size) -> Result<(), Failure> {
     for (index, part) in parts.iter().enumerate() {
         if let Some(other) = parts[..index].iter().find(|other| overlap(part, other)) {
@@ -160,7 +160,7 @@ fn rows(part: &Part) -> Range<u32> {
     part.window.row..part.window.row + part.window.height
 }
 
-/// The first pixel that no part has, of parts that do not overlap.
+/// The first pixel that no part contains, if parts do not overlap.
 fn gap(parts: &[Part], whole: Size) -> Option<(u32, u32)> {
     // A gap begins at the top, or where a part ends.
     let mut tops: Vec<u32> = parts.iter().map(|part| rows(part).end).collect();

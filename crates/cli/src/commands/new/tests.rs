@@ -28,7 +28,7 @@ fn new_scenes_are_valid_and_rendered() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// As they are, without smaller pictures or looser tolerances.
+/// Renders the scenes in full size and at the default tolerance.
 #[test]
 fn new_scenes_meet_all_tolerances_of_reports() {
     let folder = temporary("new-report");

@@ -107,7 +107,7 @@ impl Numbered {
         if !self.too_large.is_empty() {
             warnings.push(format!(
                 "{name}: {} with numbers of more than 64 bits, not shown: {}",
-                files(self.too_large.len()),
+                counted(self.too_large.len()),
                 listed(&self.too_large)
             ));
         }
@@ -116,7 +116,7 @@ impl Numbered {
     }
 }
 
-fn files(count: usize) -> String {
+fn counted(count: usize) -> String {
     match count {
         1 => String::from("1 file"),
         count => format!("{count} files"),
