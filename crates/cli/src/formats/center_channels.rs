@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Precision, Quantity};
 
-/// A group of channels, as users name it.
+/// A group of channels, with the name on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum CenterChannel {
     /// Distance
@@ -26,7 +26,7 @@ pub(crate) enum CenterChannel {
     CoverageId,
 }
 
-/// The meaning of a depth, as users name it.
+/// A kind of depth, with the name on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum DepthForm {
     /// Distance along the axis of view
@@ -35,7 +35,7 @@ pub(crate) enum DepthForm {
     Ray,
 }
 
-/// The axes of normals and positions, as users name them.
+/// The axes of normals and positions, with the names on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum AxesForm {
     /// Axes of the scene: x right, y up, z forward, left-handed
@@ -48,10 +48,10 @@ pub(crate) enum AxesForm {
     CameraOpenGl,
 }
 
-/// The channels that a file has besides its picture.
+/// The additional channels of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CenterChannels {
-    /// The groups as bits.
+    /// The groups, as bits.
     wanted: u16,
     /// The tolerance of averages.
     pub(crate) tolerance: f64,
@@ -83,7 +83,7 @@ impl Source {
     }
 }
 
-/// A component of a quantity, by name.
+/// A channel name, and the source of the channel.
 type Named = (&'static str, Source);
 
 /// The channels of every group, in the order of the file formats without names.
@@ -148,7 +148,7 @@ const CHANNELS: [(CenterChannel, &[Named]); 9] = {
 };
 
 impl CenterChannels {
-    /// Some groups of channels of a world with or without bumps, whose averages have this tolerance.
+    /// Some groups of channels for a world with or without bumps; averages have this tolerance.
     pub(crate) fn new(
         groups: &[CenterChannel],
         depth: DepthForm,
@@ -165,12 +165,12 @@ impl CenterChannels {
         }
     }
 
-    /// True if the group is wanted.
+    /// Whether the group was requested.
     pub(crate) fn has(&self, group: CenterChannel) -> bool {
         self.wanted >> group as u16 & 1 == 1
     }
 
-    /// True if averages are wanted.
+    /// Whether averages were requested.
     pub(crate) fn has_averages(&self) -> bool {
         self.has(CenterChannel::MeanNormal) || self.has(CenterChannel::CoverageId)
     }
@@ -185,7 +185,7 @@ impl CenterChannels {
         })
     }
 
-    /// The settings by which they are found, for numbers of this type.
+    /// The settings for computing them with numbers of this type.
     pub(crate) fn settings(&self, precision: Precision) -> GeometrySettings {
         let quantities = self.list().filter_map(|(_, source)| match source {
             Source::Value(quantity, _) => Some(quantity),
@@ -212,7 +212,7 @@ impl CenterChannels {
     }
 }
 
-/// The name by which users choose it.
+/// The name on the command line.
 pub(crate) fn name_of(value: &impl ValueEnum) -> String {
     let name = value.to_possible_value();
     name.map_or_else(String::new, |value| value.get_name().to_owned())

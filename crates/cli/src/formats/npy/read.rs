@@ -1,4 +1,4 @@
-//! NPY of a picture, as it is: linear light, premultiplied.
+//! NPY files as pictures: the numbers are linear, premultiplied light.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -105,7 +105,7 @@ impl Numbers {
     }
 }
 
-/// Half the way from a float to the next one.
+/// Half the distance from a float to the next one.
 fn half_step(value: f64) -> f64 {
     let float = value.abs() as f32;
     if float.is_finite() {

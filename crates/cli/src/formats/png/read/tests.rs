@@ -15,7 +15,7 @@ fn whole(bytes: &[u8]) -> Result<Whole, String> {
     decode(bytes)?.whole()
 }
 
-/// The description of a PNG of one line, and all of it.
+/// The description and the pixels of a PNG with one line.
 fn decoded(color_type: ColorType, depth: BitDepth, width: u32, samples: &[u8]) -> (String, Whole) {
     described(&encoded(color_type, depth, width, samples, |_| {}))
 }
@@ -201,7 +201,7 @@ fn truncated_files_are_refused() {
     }
 }
 
-/// Half a step of the format, and what doubles lose in between.
+/// Half a step of the format, and the rounding of doubles.
 #[test]
 fn what_render_writes_comes_back() {
     for scene in [Scene::Grey, Scene::Color] {
