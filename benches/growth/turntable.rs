@@ -94,7 +94,7 @@ fn run(folder: &Folder, shadows: bool) -> Run {
     Run { whole, frames }
 }
 
-/// The seconds at the end of a line of results.
+/// The time at the end of a line of results, in seconds.
 fn seconds_of(line: &str) -> f64 {
     let seconds = line
         .strip_suffix(" s")

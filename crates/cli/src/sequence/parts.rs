@@ -107,7 +107,6 @@ impl PicturePart {
 
 /// The number of one of several lights, from 1, with as many digits as the last one has, so that names sort in the
 /// order of the lights.
-/// lights do.
 pub(super) fn light_number(index: usize, count: usize) -> String {
     let digits = count.to_string().len();
     format!("{:0digits$}", index + 1)

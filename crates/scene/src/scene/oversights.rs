@@ -128,7 +128,7 @@ mod tests {
         };
         assert_eq!(
             of("Fov(0.9)"),
-            "lens: Fov(0.9) is 0.9 degrees; if it was meant in radians, it would be Fov(51.6)"
+            "lens: Fov(0.9) means 0.9 degrees; if you meant radians, write Fov(51.6)"
         );
         assert_eq!(of("Fov(50)"), "");
         assert_eq!(of("Fov(1e-9)"), "");
@@ -150,7 +150,7 @@ mod tests {
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: (200, 30, 0))}",
-                "material \"m\": numbers above 1 look like bytes: \"#c81e00\" is that color, and 1 is white",
+                "material \"m\": numbers above 1 look like bytes: \"#c81e00\" is this color, and 1 is white",
             ),
             (
                 "Fov(50)",
@@ -160,12 +160,12 @@ mod tests {
             (
                 "Fov(50)",
                 "materials: {\"m\": (), \"n\": ()}",
-                "material \"n\" is of no sphere and of no cloud",
+                "the material \"n\" is not used by any sphere or cloud",
             ),
             (
                 "Fov(50)",
                 "background: (255, 255, 255)",
-                "background: numbers above 1 look like bytes: \"#ffffff\" is that color, and 1 is white",
+                "background: numbers above 1 look like bytes: \"#ffffff\" is this color, and 1 is white",
             ),
         ] {
             let materials = if fields.contains("\"m\"") {

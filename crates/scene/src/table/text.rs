@@ -120,7 +120,7 @@ pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<bool, TableErro
 
 /// The file has ended before so many rows.
 pub(crate) fn too_few(lines: u64, found: u64, count: u64, noun: &str) -> LocatedFault {
-    let expected = format!("{count} {noun} ({found} were read)");
+    let expected = format!("{count} {noun} ({found} read)");
     LocatedFault::at_end(lines + 1, &expected)
 }
 

@@ -257,7 +257,7 @@ impl Dataset {
         let mut found = 0;
         while found < count {
             let number = input.number + 1;
-            let expected = format!("{count} numbers ({found} were read)");
+            let expected = format!("{count} numbers ({found} read)");
             let line = input.next()?;
             let line = line.ok_or_else(|| LocatedFault::at_end(number, &expected))?;
             let mut words = fields::Fields::new(line, &Division::Words);

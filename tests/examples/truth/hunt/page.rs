@@ -1,4 +1,4 @@
-//! The page that shows what a hunt found.
+//! The page with the results of a hunt.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use super::Options;
 /// The line after a part of the page.
 const END: &str = "<!-- end -->\n";
 
-/// Writes tables into a page, in place of the last ones: each list of tolerances has a part of its own.
+/// Replaces tables of a page: each list of tolerances has its own part of the page.
 pub(super) fn write(path: &Path, options: &Options, tables: &str) -> Result<(), String> {
     let at = |error| format!("{}: {error}", path.display());
     let text = std::fs::read_to_string(path).map_err(at)?;

@@ -33,7 +33,7 @@ fn dumps_of_lammps_are_read() {
     for (text, expected) in [
         (
             LAMMPS.replace("\n2\n", "\n3\n"),
-            "a.dump:12:1: expected 3 atoms, according to `ITEM: NUMBER OF ATOMS` (2 were read), \
+            "a.dump:12:1: expected 3 atoms, according to `ITEM: NUMBER OF ATOMS` (2 read), \
              found the end of the file",
         ),
         (

@@ -212,7 +212,7 @@ fn members_that_share_their_bytes_are_counted() {
     member.extend(header);
     let message = refusal("a.npz", shared(&member, 70), "radius: 1");
     assert!(
-        message.contains("too many bytes; decompress it"),
+        message.contains("too large when decompressed; decompress it"),
         "{message}"
     );
     // Sizes whose sum is no number.

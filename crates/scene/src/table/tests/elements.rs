@@ -206,7 +206,7 @@ fn types_of_lammps_are_no_atomic_numbers() {
     let water = scene("a.xyz", "3\n\n8 0 0 0\n1 0 0 1\n1 0 0 2\n", "");
     assert_eq!(radii(&water), [1.52, 1.1, 1.1]);
     assert!(
-        warnings(&water).contains("taken for atomic numbers"),
+        warnings(&water).contains("read as atomic numbers"),
         "{}",
         warnings(&water)
     );

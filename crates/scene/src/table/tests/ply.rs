@@ -113,7 +113,7 @@ fn ply_is_refused_at_its_place() {
     for (body, expected) in [
         (
             String::from(rows),
-            "a.ply:17:1: expected 2 vertices, according to the header (1 were read), found the end \
+            "a.ply:17:1: expected 2 vertices, according to the header (1 read), found the end \
              of the file",
         ),
         (
