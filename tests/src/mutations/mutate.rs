@@ -2,7 +2,7 @@
 
 use crate::numbers::Numbers;
 
-/// Pieces of text that readers look for, or that are at the ends of what numbers can be.
+/// Pieces of text that readers recognize, or that are numbers at the limits of their types.
 const TOKENS: [&[u8]; 36] = [
     b"0",
     b"-0",
@@ -42,7 +42,7 @@ const TOKENS: [&[u8]; 36] = [
     b"//",
 ];
 
-/// A file altered in one to eight places; `other` is one to take pieces from.
+/// Alters a file in one to eight places; `other` is a file from which pieces may be copied.
 pub(super) fn mutated(numbers: &mut Numbers, file: &[u8], other: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..=numbers.below(3) * numbers.below(4) {
@@ -54,7 +54,7 @@ pub(super) fn mutated(numbers: &mut Numbers, file: &[u8], other: &[u8]) -> Vec<u
     bytes
 }
 
-/// Gives the chunks of a PNG the sums that fit their bytes: what is altered is read no further else.
+/// Corrects the checksums of a PNG, because readers stop at a wrong one.
 fn mend_sums(bytes: &mut [u8]) {
     const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
     if !bytes.starts_with(MAGIC) {
