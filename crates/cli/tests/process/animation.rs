@@ -23,7 +23,7 @@ const TURN: &str = "(
 )
 ";
 
-/// The pictures of a file, and what is said about the animation: frames, plays, delay.
+/// The pictures of a file, and a description of the animation: frames, plays, delay.
 struct Decoded {
     pictures: Vec<Vec<u8>>,
     animation: Option<(u32, u32, (u16, u16))>,

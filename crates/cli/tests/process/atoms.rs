@@ -1,4 +1,4 @@
-//! Tables of atoms: what is said of their hands, elements and colors.
+//! Tables of atoms: output about their handedness, elements and colors.
 
 use std::fs;
 

@@ -55,7 +55,7 @@ fn a_data_set_has_the_files_that_its_readers_expect() {
     assert!(!folder.path("other").exists());
 }
 
-/// A ball 4 before a camera that looks to the right of the world, under these lights.
+/// A ball at a distance of 4 from a camera that looks along +x, under these lights.
 fn beside(lights: &str) -> String {
     format!(
         "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (-6, 0, 0), pan: 90),
@@ -194,7 +194,7 @@ fn what_a_data_set_of_near_lights_cannot_tell_is_refused() {
     assert!(text(&output.stderr).contains("but the scene has a point light"));
 }
 
-/// The numbers of a PNG of 16 bit codes.
+/// The numbers of a PNG with 16-bit codes.
 fn codes(folder: &Folder, name: &str) -> Vec<u16> {
     let file = std::io::BufReader::new(fs::File::open(folder.path(name)).unwrap());
     let mut reader = png::Decoder::new(file).read_info().unwrap();
@@ -204,7 +204,7 @@ fn codes(folder: &Folder, name: &str) -> Vec<u16> {
     pairs.iter().map(|pair| u16::from_be_bytes(*pair)).collect()
 }
 
-/// The tolerance of a data set is a share of its full scale, whatever the lamps are.
+/// The tolerance of a data set is relative to its full scale, whatever the lights.
 #[test]
 fn the_tolerance_of_a_data_set_is_a_share_of_its_full_scale() {
     let folder = Folder::new();
@@ -282,7 +282,7 @@ fn light_near_the_tolerance_is_told() {
     }
 }
 
-/// Files with the names of a data set that no data set belongs to are somebody else's.
+/// If files have names of a data set, but no data set belongs to them, they are somebody else's.
 #[test]
 fn a_data_set_replaces_no_files_of_others() {
     let folder = folder();

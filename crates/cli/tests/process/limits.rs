@@ -1,4 +1,4 @@
-//! Limits of the system: descriptors, room in files, signals.
+//! Limits of the system: file descriptors, disk space, signals.
 
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -6,7 +6,7 @@ use std::thread;
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
 use crate::signals::{is_ignored, signal, wait_until};
 
-/// Runs `marbles` in a shell that does something before.
+/// Runs `marbles` in a shell after another command.
 fn after(folder: &Folder, before: &str, arguments: &str) -> Command {
     let marbles = folder.marbles(arguments);
     let mut command = Command::new("sh");
@@ -35,7 +35,7 @@ fn begin(folder: &Folder, before: &str, arguments: &str) -> Child {
     child
 }
 
-/// Asserts that there are whole pictures alone; returns their number.
+/// Asserts that all pictures are complete; returns their number.
 fn whole_pictures(folder: &Folder, name: &str) -> usize {
     let names = folder.names(name);
     for picture in &names {
@@ -143,7 +143,7 @@ fn what_is_ended_while_it_writes_leaves_nothing() {
     }
 }
 
-/// However many threads are asked for, there are as many as have a use, or an error.
+/// However many threads are requested, only useful ones are started, or there is an error.
 #[test]
 fn threads_without_memory_are_an_error() {
     let folder = Folder::new();

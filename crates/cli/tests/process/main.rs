@@ -1,4 +1,4 @@
-//! Tests of what only the real process shows: exit codes, signals, disks, pipes.
+//! Tests that need a real process: exit codes, signals, disks, pipes.
 
 #![allow(
     clippy::print_stderr,

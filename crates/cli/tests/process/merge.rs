@@ -1,11 +1,11 @@
-//! Parts of pictures, and the pictures that they are merged into.
+//! Parts of pictures, and the merged pictures.
 
 use std::fs;
 
 use crate::folder::{assert_complete, code, text};
 use crate::sequences::{TURNTABLE, turntable};
 
-/// Sixteen parts of a picture, none of them where tiles begin.
+/// Sixteen parts of a picture; none of them begins at the border of a tile.
 fn parts(width: u32, height: u32) -> Vec<String> {
     let cuts = |all: u32| [0, all / 4 + 1, all / 2 - 3, 3 * all / 4, all];
     let (columns, rows) = (cuts(width), cuts(height));

@@ -8,7 +8,7 @@ use crate::folder::{Folder, text};
 #[cfg(unix)]
 use crate::signals::{ending, signal};
 
-/// A ball before the camera, so small that all settings are measured in no time.
+/// A ball in front of the camera, so small that all settings are measured quickly.
 const BALL: &str = "(
     image: (width: 6, height: 4),
     lens: Retina(width: 60, distance: 50),
@@ -20,7 +20,7 @@ const BALL: &str = "(
 )
 ";
 
-/// One run of the fewest settings, whatever the machine.
+/// One run of as few settings as possible, on any machine.
 const QUICK: &str = "--seconds 0 --runs 1";
 
 /// A folder with the scene.

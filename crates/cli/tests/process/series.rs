@@ -31,7 +31,7 @@ fn scene(cloud: &str, animation: &str) -> String {
     )
 }
 
-/// A folder with `run.ron`, of all steps in one file, and `files.ron`, of a file for each.
+/// A folder with `run.ron`, which reads all steps from one file, and `files.ron`, which reads one file per step.
 fn folder() -> Folder {
     let folder = Folder::new();
     let animation = format!(", animation: Turntable(frames: {STEPS})");
@@ -144,7 +144,7 @@ fn a_step_that_is_broken_does_not_stop_the_others() {
     assert_eq!(folder.names("out").len(), STEPS - 1);
 }
 
-/// A table that another program overwrites ends the sequence: its frames would be those of two tables.
+/// If another program overwrites a table, the sequence ends with an error: its frames would show two different tables.
 #[test]
 fn a_table_that_changes_ends_the_sequence() {
     const FRAMES: usize = 400;
@@ -186,7 +186,7 @@ fn a_table_that_changes_ends_the_sequence() {
     );
 }
 
-/// Waiting for somebody who writes to it would never end.
+/// A named pipe without a writer would block forever.
 #[cfg(unix)]
 #[test]
 fn pipes_with_names_are_refused() {
@@ -219,7 +219,7 @@ fn pipes_with_names_are_refused() {
     }
 }
 
-/// Every command tells doubts, and they are errors where warnings are.
+/// Every command prints warnings, and they are errors with `--strict`.
 #[test]
 fn what_is_left_out_of_a_series_is_said() {
     let folder = Folder::new();
@@ -299,7 +299,7 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     assert_eq!(run("check plain.ron --strict").0, 2);
 }
 
-/// Names of scenes are no patterns, and no two scenes share a file.
+/// Names of scenes are not patterns, and no two scenes share a file.
 #[test]
 fn names_of_scenes_stay_apart() {
     let folder = Folder::new();
@@ -332,7 +332,7 @@ fn names_of_scenes_stay_apart() {
     assert_eq!(folder.names("p"), ["c1.png", "c11.png"]);
 }
 
-/// Names that are not UTF-8 differ though they are shown alike.
+/// Names that are not UTF-8 remain distinct although they look alike in messages.
 #[test]
 #[cfg(unix)]
 fn names_that_are_no_text_stay_apart() {

@@ -1,4 +1,4 @@
-//! Sidecars: files beside pictures.
+//! Sidecars of pictures.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ fn read(folder: &Folder, name: &str) -> Value {
     serde_json::from_slice(&folder.read(name)).unwrap()
 }
 
-/// The names in the folder but for the scene.
+/// The names in the folder except for the scene.
 fn names(folder: &Folder) -> Vec<String> {
     let mut names = folder.names(".");
     names.retain(|name| name != "ball.ron");
@@ -65,7 +65,7 @@ fn every_picture_has_a_sidecar_beside_it() {
     assert_eq!(whole, known);
 }
 
-/// A renderer that knows nothing of the scene file finds the brightest point of a ball where it is.
+/// A program without the scene file computes the brightest point of a ball, and finds it there.
 #[test]
 fn check_tells_all_that_another_renderer_needs() {
     let folder = Folder::new();
