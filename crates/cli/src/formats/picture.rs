@@ -19,7 +19,7 @@ pub(crate) struct Picture {
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
     pub(crate) format: Format,
-    /// The description of the file for people: `PNG, 8 bit sRGB, grey`.
+    /// The description of the file for people: `PNG, 8 bit sRGB, gray`.
     pub(crate) description: String,
     /// A warning about contents that were ignored.
     pub(crate) warning: Option<&'static str>,

@@ -150,8 +150,8 @@ fn most(deep: bool) -> f64 {
 /// The names of the channels.
 fn names(grey: bool, alpha: bool) -> &'static str {
     match (grey, alpha) {
-        (true, false) => "grey",
-        (true, true) => "grey + alpha",
+        (true, false) => "gray",
+        (true, true) => "gray + alpha",
         (false, false) => "RGB",
         (false, true) => "RGBA",
     }
