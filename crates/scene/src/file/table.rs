@@ -189,7 +189,7 @@ fn missing(slice: Slice<'_>) -> Option<Missing> {
         "Refuse" => Some(Missing::Refuse),
         "Hide" => Some(Missing::Hide),
         text if text.starts_with(|c: char| c.is_ascii_alphabetic()) && !text.starts_with('r') => {
-            slice.refuse("what becomes of missing values (`Refuse`, `Hide` or a color)")
+            slice.refuse("a treatment of missing values (`Refuse`, `Hide` or a color)")
         }
         _ => Color::read(slice).map(|color| Missing::Color(color.0)),
     }
