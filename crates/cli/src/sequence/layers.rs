@@ -132,7 +132,7 @@ mod tests {
             (
                 [Some("albedo"), None],
                 CenterChannel::Albedo,
-                "layer of the channels `albedo`",
+                "the name of the channels `albedo`",
             ),
             (
                 [Some(&*long), None],
