@@ -110,7 +110,7 @@ fn a_file_in_place_of_a_folder_is_an_error() {
     assert_eq!(code(&output), 0);
     let output = folder.run("render ball.ron -o a.png --size 9x9");
     assert_eq!(code(&output), 1);
-    let expected = "marbles: a.png: cannot write the file: there is a folder\n";
+    let expected = "marbles: a.png: cannot write the file: a folder has this name\n";
     assert_eq!(text(&output.stderr), expected);
 }
 
@@ -161,7 +161,10 @@ fn links_are_written_through() {
     symlink("/dev/null", folder.path("null.png")).unwrap();
     for (name, expected) in [
         ("circle", "cannot create the file: too many"),
-        ("null", "cannot write the file: there is something"),
+        (
+            "null",
+            "cannot write the file: something that is not a file",
+        ),
     ] {
         let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
         assert_eq!(code(&output), 1);

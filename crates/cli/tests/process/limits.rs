@@ -149,7 +149,7 @@ fn threads_without_memory_are_an_error() {
     let folder = Folder::new();
     let processors = thread::available_parallelism().map_or(1, usize::from);
     let most = 64.max(4 * processors);
-    let cannot_start = format!("marbles: cannot start {most} threads that render: ");
+    let cannot_start = format!("marbles: cannot start {most} rendering threads: ");
     let mut codes = Vec::new();
     for kilobytes in (100_000..8_000_000).step_by(390_000) {
         let arguments = "render ball.ron -o a.png --size 64x64 --samples 1 --threads 1024";
@@ -157,7 +157,7 @@ fn threads_without_memory_are_an_error() {
         let errors = text(&output.stderr);
         let code = output.status.code();
         assert!(matches!(code, Some(0 | 1)), "{kilobytes}: {errors}");
-        let is_short = errors.contains(" memory") && !errors.contains(" threads that render");
+        let is_short = errors.contains(" memory") && !errors.contains(" rendering threads");
         // A thread that begins without memory may say so before.
         let cannot_start = errors.lines().any(|line| line.starts_with(&cannot_start));
         let refused = cannot_start || is_short;

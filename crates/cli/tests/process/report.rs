@@ -46,7 +46,7 @@ fn exit_codes_tell_what_happened() {
         (
             "ball.ron --csv folder.csv",
             1,
-            "folder.csv: cannot write the file: there is a folder",
+            "folder.csv: cannot write the file: a folder has this name",
         ),
         (
             "ball.ron --plot a.jpg",

@@ -291,7 +291,7 @@ fn a_frame_without_its_file_of_errors_is_rendered_again() {
     assert_eq!(code(&output), 2, "an option that is given twice");
     let output = folder.run(&render.replace("7-8", "7"));
     assert_eq!(code(&output), 1);
-    let expected = "marbles: out/7_error.npy: cannot write the file: there is a folder\n";
+    let expected = "marbles: out/7_error.npy: cannot write the file: a folder has this name\n";
     assert_eq!(text(&output.stderr), expected);
 }
 

@@ -204,7 +204,7 @@ fn sidecars_that_cannot_be_are_refused() {
     let errors = text(&output.stderr);
     assert_eq!(
         errors,
-        "marbles: a.json: cannot write the file: there is a folder\n"
+        "marbles: a.json: cannot write the file: a folder has this name\n"
     );
     assert_eq!(names(&folder), ["a.json", "ball.json"]);
 }
