@@ -68,7 +68,7 @@ impl Terminal {
     /// The complete screens: each ends with these words.
     fn screens(&self) -> Vec<String> {
         let shown = self.shown();
-        let mut screens: Vec<String> = shown.split("q ends").map(str::to_owned).collect();
+        let mut screens: Vec<String> = shown.split("q quits").map(str::to_owned).collect();
         screens.pop();
         screens
     }

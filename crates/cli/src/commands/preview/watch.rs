@@ -52,7 +52,7 @@ pub(super) fn run(
             Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
         };
         let scene = arguments.scene.shown();
-        let status = format!("{scene}: updated when you save it; press q to quit");
+        let status = format!("{scene}: updated when you save it; q quits");
         console.print(&(shown + &status_line(&status, screen.cells())));
         wait(&mut files, || screen.area(STATUS_LINES) != area);
     }
