@@ -1,4 +1,4 @@
-//! Measures the cost of the geometry at the centers of pixels, in addition to one sample per pixel.
+//! Measures the cost of the geometry at pixel centers, in addition to one sample per pixel.
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -12,12 +12,12 @@ use marbles_core::{
 };
 
 const SIDE: u32 = 600;
-/// The width of a parallel lens through which the balls are about as large as before.
+/// The width of a parallel lens that shows the balls in about the same size.
 const WIDTH: f64 = 350.0;
-/// Those of the strips of an EXR.
+/// The height of the strips of an EXR.
 const ROWS: u32 = 16;
 
-/// Counts the pixels of the geometries that it gets.
+/// Counts the pixels of the geometries that it receives.
 #[derive(Default)]
 struct Counter(AtomicU64);
 
@@ -40,7 +40,7 @@ impl Strip for CountedStrip<'_> {
     fn end(self: Box<Self>) {}
 }
 
-/// Renders with one sample a pixel; the number of pixels whose geometry is told.
+/// Renders with one sample per pixel; returns the number of pixels whose geometry was computed.
 fn pixels(renderer: &Renderer<'_>, view: &View, geometry: Option<&GeometrySettings>) -> u64 {
     let settings = Settings {
         method: Method::Samples(NonZeroU32::MIN),

@@ -1,10 +1,11 @@
-//! Measures how long a newcomer waits.
+//! Measures how long a new user waits for the build.
 //!
-//! Counts the lines of code that the compiler makes of `marbles-core` before it simplifies them: these decide how long the
-//! crate compiles, and do not depend on the machine's speed. Then runs the README's two commands from empty targets,
-//! which needs Linux: it tells what processes took and held. With `-- --write` it writes its parts of docs/growth.md.
+//! Counts the lines of code that the compiler generates for `marbles-core` before it optimizes them. They decide the compile
+//! time of the crate, and do not depend on the speed of the machine. Then runs the README's commands `cargo run` and `cargo
+//! test` with empty build folders. This needs Linux, which reports the time and the memory of processes. With `-- --write`,
+//! the results become parts of docs/growth.md.
 //!
-//! With `-- --lines` it only counts the lines, and without `--write` fails where they are a tenth more than the page says.
+//! With `-- --lines`, it only counts the lines. Without `--write`, it fails if there are a tenth more than on the page.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -15,7 +16,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use marbles_benches::page::Page;
-use marbles_benches::{Folder, in_repository, is_to_write};
+use marbles_benches::{Folder, helps, in_repository, is_to_write};
 
 const PAGE: &str = "docs/growth.md";
 const COMMANDS: [&str; 2] = [
@@ -23,10 +24,13 @@ const COMMANDS: [&str; 2] = [
     "cargo test --workspace --locked --quiet",
 ];
 /// The text after the number of lines in the page.
-const LINES: &str = " lines before they are simplified.";
+const LINES: &str = " lines of generated code.";
 
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
 fn main() -> ExitCode {
+    if helps() {
+        return ExitCode::SUCCESS;
+    }
     let mut page = Page::open(PAGE, &["lines", "build"]);
     let (lines, known) = (lines(), known_lines());
     println!("{lines}{LINES} {PAGE} has {known}.");
@@ -39,9 +43,9 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let mut table = String::from(
-        "| | wall time | of all processors | largest memory of a compiler |\n|---|--:|--:|--:|\n",
+        "| | elapsed time | processor time | peak memory of a compiler process |\n|---|--:|--:|--:|\n",
     );
-    for (command, name) in COMMANDS.into_iter().zip(["first", "second"]) {
+    for (command, name) in COMMANDS.into_iter().zip(["cargo run", "cargo test"]) {
         let Run {
             wall,
             processors,
@@ -50,7 +54,7 @@ fn main() -> ExitCode {
         let memory = memory as f64 / 1e9;
         let _ = writeln!(
             table,
-            "| the README's {name} command | {wall:.0} s | {processors:.0} s | {memory:.1} GB |"
+            "| `{name}` | {wall:.0} s | {processors:.0} s | {memory:.1} GB |"
         );
     }
     println!("{table}");
@@ -60,7 +64,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// The lines of LLVM's code of the core after functions were inlined that always are, and before anything else.
+/// The number of lines of LLVM IR for the core, after always-inlined functions are inlined and before any other optimization.
 fn lines() -> u64 {
     let folder = Folder::new();
     let file = folder.0.join("core.ll");
@@ -74,14 +78,14 @@ fn lines() -> u64 {
     BufReader::new(file).split(b'\n').count() as u64
 }
 
-/// The number that the page has; 0 where it has none yet.
+/// The number on the page; 0 if there is none yet.
 fn known_lines() -> u64 {
     let page = fs::read_to_string(in_repository(PAGE)).expect("the page can be read");
     let number = page.lines().find_map(|line| line.strip_suffix(LINES));
     number.and_then(|number| number.parse().ok()).unwrap_or(0)
 }
 
-/// A command of words without spaces, in the repository.
+/// A command whose words contain no spaces, in the folder of the repository.
 fn cargo(words: &str) -> Command {
     let mut words = words.split_whitespace();
     let mut command = Command::new(words.next().expect("a command has words"));
@@ -97,7 +101,7 @@ struct Run {
     memory: u64,
 }
 
-/// Runs a command with an empty target.
+/// Runs a command with an empty build folder.
 fn run(command: &str) -> Run {
     let folder = Folder::new();
     let command = command.replace("FOLDER", &folder.0.display().to_string());
@@ -123,12 +127,12 @@ fn run(command: &str) -> Run {
     }
 }
 
-/// The seconds of all processes that this one has waited for, and of those that they have.
+/// The processor time of all ended child processes and of their children, in seconds.
 fn children_time() -> f64 {
-    /// Parts of a second in which Linux tells times.
+    /// Ticks per second in the times of Linux.
     const TICKS: f64 = 100.0;
-    let stat = fs::read_to_string("/proc/self/stat").expect("Linux tells what processes took");
-    // Behind the name in parentheses come 13 other numbers.
+    let stat = fs::read_to_string("/proc/self/stat").expect("Linux reports the times of processes");
+    // 13 other fields follow the name in parentheses.
     let numbers = stat.rsplit(')').next().unwrap_or_default();
     let mut times = numbers.split_whitespace().skip(13).map(str::parse::<f64>);
     let mut next = || {
@@ -140,7 +144,7 @@ fn children_time() -> f64 {
     (next() + next()) / TICKS
 }
 
-/// The most that any compiler that runs now has held so far.
+/// The largest peak memory of the compiler processes that are running, in bytes.
 fn compilers_memory() -> u64 {
     let processes = fs::read_dir("/proc").into_iter().flatten().flatten();
     let held = processes.filter_map(|process| held_by_compiler(&process.path()));

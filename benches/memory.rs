@@ -1,7 +1,7 @@
-//! The memory that spheres take, from the table on the disk to the last picture: ten million of them, and a hundred.
+//! Measures the memory of scenes with ten million and with a hundred million spheres, from reading the table to the last picture.
 //!
-//! With `-- --write` it writes its part of docs/growth.md. It needs 1.6 GB of disk and 8 GB of memory, and Linux, which
-//! tells what a process holds.
+//! With `-- --write`, the result becomes a part of docs/growth.md. The benchmark needs 1.6 GB of disk space, 8 GB of memory, and
+//! Linux, which reports the memory of a process.
 
 use std::fmt::Write as _;
 use std::fs::{self, File};
@@ -24,7 +24,7 @@ const FRAMES: usize = 3;
 fn main() -> ExitCode {
     process::main(|| {
         let mut table = String::from(
-            "| spheres | table | the first frame, with reading | a further frame | at most | held | a sphere |\n\
+            "| spheres | size of the file | first frame, with reading | next frame | peak memory | memory while rendering | memory per sphere |\n\
              |--:|--:|--:|--:|--:|--:|--:|\n",
         );
         let mut without = 0;

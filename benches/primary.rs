@@ -1,7 +1,7 @@
 //! Measures the primary rays per second at one sample per pixel, without the preparation of the view.
 //!
-//! A view is prepared until the first tile is done, which is the first that progress is told of.
-//! That tile is counted in neither part.
+//! Progress is first reported after the first tile; by then the view is prepared. This tile counts neither as
+//! preparation nor as rendering.
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -34,7 +34,7 @@ fn main() {
     });
 }
 
-/// Prints the medians of some frames; the mean of the picture.
+/// Prints the medians of some frames; returns the mean of the picture.
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
 fn time(name: &str, world: &World, view: &View) -> f64 {
     let renderer = Renderer::new(world);

@@ -1,7 +1,7 @@
-//! Measures the cost of a smaller error, by tolerances and by supersampling.
+//! Measures the cost of a smaller error, with tolerances and with supersampling.
 //!
-//! `marbles report` of two scenes. With `-- --write` the plots are drawn and what is printed becomes
-//! the measured parts of docs/report.md.
+//! Runs `marbles report` on two scenes. With `-- --write`, the plots and the output become the measured parts of
+//! docs/report.md.
 
 use std::process::ExitCode;
 
@@ -11,12 +11,12 @@ use marbles_benches::{in_repository, is_to_write};
 
 /// A scene that is measured.
 struct Subject {
-    /// Its part of the page, and its plot.
+    /// The name of its part of the page, and of its plot.
     name: &'static str,
     path: &'static str,
-    /// The plot in words, for readers who cannot see it.
+    /// The alternative text of the plot.
     plot: &'static str,
-    /// The time for all of its runs.
+    /// The time for all of its runs, in seconds.
     seconds: &'static str,
 }
 

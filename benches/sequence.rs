@@ -1,7 +1,7 @@
-//! Measures how much longer a sequence takes than its pictures alone, on two threads.
+//! Measures how much longer a sequence takes than its pictures by themselves, on two threads.
 //!
-//! Encoding and writing go on beside rendering, and take time from it where all cores are busy.
-//! With `-- --write` the table becomes the measured part of docs/sequences.md.
+//! Encoding and writing happen during rendering, and slow it down if all cores are busy. With `-- --write`, the table
+//! becomes the measured part of docs/sequences.md.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -79,7 +79,7 @@ fn write(scene: &Path, pattern: &Path, side: u32) {
     );
 }
 
-/// Renders all frames one by one, for nobody.
+/// Renders all frames one by one, without output.
 fn render(scene: &Scene, side: u32) {
     let renderer = Renderer::new(scene.world());
     let settings = Settings {
@@ -110,7 +110,7 @@ impl Strip for Nobody {
     fn end(self: Box<Self>) {}
 }
 
-/// Writes a turntable of a thousand spheres; its path.
+/// Writes a turntable of a thousand spheres; returns its path.
 fn turntable(folder: &Path) -> PathBuf {
     let mut rows = String::from("x,y,z,radius\n");
     for sphere in load("tests/truth/pixels/cloud1k").world().spheres() {

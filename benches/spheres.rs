@@ -1,4 +1,4 @@
-//! Measures how the time grows with the number of spheres that fill the same part of a volume.
+//! Measures how the time grows with the number of spheres, which always fill the same fraction of a volume.
 
 use marbles_benches::{Case, cloud, load, main as run, mean, square_view, table, to_tolerance};
 use marbles_core::{Renderer, World};

@@ -1,4 +1,4 @@
-//! Measures the time of reading a table, in each format and on one thread and two.
+//! Measures the time of reading a table, in each format, on one thread and on two.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -8,7 +8,7 @@ use marbles_benches::{Case, Folder, main as run, table};
 use marbles_core::Sphere;
 use marbles_scene::Scene;
 
-/// Rows of the large table.
+/// The number of rows of the large table.
 const COUNT: usize = 1_000_000;
 
 fn main() {
@@ -53,7 +53,7 @@ fn load(path: &Path) -> (usize, f64) {
     (spheres.len(), sum)
 }
 
-/// Writes a table in every format, and a scene of each; the names of the formats and the scenes.
+/// Writes a table in every format, and a scene for each; returns the names of the formats, and the scenes.
 fn write(folder: &Path, count: usize) -> Vec<(String, PathBuf)> {
     let mut state = 1_u64;
     let mut random = || {

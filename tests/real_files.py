@@ -1,11 +1,11 @@
-"""Whether files that other programs' authors wrote can be rendered as they are.
+"""Checks that marbles renders files of other programs as they are.
 
 Usage: real_files.py MARBLES FOLDER [--most MEGABYTES] [--write PAGE]
 
-Fetches the source packages of `real_files.txt` from the registry that pip uses, unless they are in FOLDER, at most
-so many megabytes of each (all, without --most), and renders a small picture of each file in that list. With --write the results
-become a page of the documents. Exits with 1 where a file is refused whose line does not say so, or where a message
-has no place.
+Downloads the source packages listed in `real_files.txt` from the registry that pip uses, unless they are in FOLDER already, and
+renders a small picture of each file in the list. With --most, it skips larger packages. With --write, it writes the results
+as a page of the documentation. It exits with 1 if a file is refused and the list does not expect that, or if a message does not
+say where the fault is.
 """
 
 import argparse
@@ -23,13 +23,17 @@ from pathlib import Path
 LIST = Path(__file__).with_suffix(".txt")
 SCENE = """(image: (width: 48, height: 32), lens: Fov(30), camera: Frame(), ambient: 0.3,
 lights: [Directional(toward: (1, 2, -1))], clouds: [(file: "table{ending}"{fields})])"""
-PAGE = """# Files of others
+PAGE = """# Files from other programs
 
-`tests/real_files.py` renders files of the source packages of {packages} programs, as their authors wrote them, and writes this
-page: {rendered} of {files} are rendered without editing them, and the messages of the others say why not. A field
-that a file needs beside its name is in the third column: points have no radius, and the beads of coarse models no element.
+This page shows which files of other programs marbles renders as they are. The files come from the source packages of {packages} programs.
+marbles renders {rendered} of {files} files without any change. For the others, the last column shows the error message.
 
-| package | file | with | result |
+To show one of these files, put its name into a scene file as `clouds: [(file: "NAME")]`. Some files need another field, which is
+in the third column: files with plain points contain no radii, and files with coarse-grained models contain no elements.
+
+`tests/real_files.py` renders the files, and writes this page.
+
+| package | file | additional fields | spheres and radii, or message |
 |---|---|---|---|
 {rows}
 """
@@ -47,7 +51,7 @@ def registry() -> str:
 
 
 def links(index: str, name: str) -> dict[str, tuple[str, int]]:
-    """The addresses and sizes of a package's files; a size that nobody tells is 0."""
+    """The addresses and sizes of a package's files; an unknown size is 0."""
     accept = "application/vnd.pypi.simple.v1+json, text/html;q=0.5"
     request = urllib.request.Request(f"{index.rstrip('/')}/{name}/", headers={"Accept": accept})
     with urllib.request.urlopen(request, timeout=30) as response:
@@ -60,7 +64,7 @@ def links(index: str, name: str) -> dict[str, tuple[str, int]]:
 
 
 def fetch(index: str, package: str, paths: list[str], folder: Path, most: float) -> bool:
-    """Puts the files of a package into the folder; False where it is too large."""
+    """Puts the files of a package into the folder. Returns False if the package is too large."""
     missing = [path for path in paths if not (folder / path).exists()]
     if not missing:
         return True
@@ -80,7 +84,7 @@ def fetch(index: str, package: str, paths: list[str], folder: Path, most: float)
 
 
 def render(marbles: str, table: Path, fields: str) -> tuple[bool, str]:
-    """Whether the table is rendered, and what there is to say."""
+    """Renders a table. Returns whether it succeeded, and the spheres or the message."""
     ending = "".join(table.suffixes[-2:] if table.suffix in (".gz", ".zst") else table.suffixes[-1:])
     link, scene = table.parent / f"table{ending}", table.parent / "table.ron"
     link.unlink(missing_ok=True)

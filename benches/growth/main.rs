@@ -1,6 +1,6 @@
-//! Measures how the time of a picture grows with spheres of which it hides nearly all, and with its size.
+//! Measures how the rendering time grows with the number of spheres, nearly all of them hidden, and with the number of pixels.
 //!
-//! The spheres are the same part of the same volume, however many. Prints tables in Markdown; with
+//! However many spheres there are, they fill the same fraction of the same volume. Prints tables in Markdown; with
 //! `-- --write` they become the measured parts of docs/growth.md, and the plot is drawn.
 
 mod turntable;
@@ -18,12 +18,12 @@ use marbles_benches::{
 use marbles_core::{Image, Renderer, View, World};
 
 const COUNTS: [u32; 4] = [10_000, 100_000, 1_000_000, 10_000_000];
-/// The place among these of what is seen in pictures of several sizes.
+/// The index of the count that is rendered in several sizes.
 const SIZED: usize = 2;
 const SIDES: [u32; 3] = [600, 1200, 2400];
 const TOLERANCE: f64 = 1e-2;
 const ROUNDS: usize = 3;
-/// For a row, if its rounds take less.
+/// The time for a row, unless its rounds take longer.
 const SECONDS: u64 = 6;
 /// The largest relative difference of the means of two pictures. Clouds have few large spheres, so
 /// their pictures differ.
@@ -32,7 +32,7 @@ const ALIKE: f64 = 0.1;
 /// The measurement of a row of the tables.
 struct Setting {
     name: &'static str,
-    /// None for one sample a pixel.
+    /// None for one sample per pixel.
     tolerance: Option<f64>,
     shadows: bool,
 }
@@ -77,7 +77,7 @@ fn main() -> ExitCode {
             }
         }
         if page.is_some() {
-            let names = ["to prepare"].into_iter();
+            let names = ["preparation"].into_iter();
             let names: Vec<_> = names.chain(SETTINGS.map(|setting| setting.name)).collect();
             let path = in_repository("docs/growth/growth.svg");
             let written = std::fs::write(path, svg(&names, &panels));
@@ -86,7 +86,7 @@ fn main() -> ExitCode {
     })
 }
 
-/// Measures pictures of several numbers of spheres, and of several sizes: tables and drawings.
+/// Measures pictures with several numbers of spheres and of several sizes. Returns the tables and the drawings.
 fn measure() -> ([String; 2], [Panel; 2]) {
     let scene = load("tests/truth/pixels/cloud1k");
     let views = SIDES.map(|side| square_view(&scene, side));
@@ -99,9 +99,9 @@ fn measure() -> ([String; 2], [Panel; 2]) {
 
     // By the number of spheres.
     let counts = ["10⁴", "10⁵", "10⁶", "10⁷"].map(str::to_owned);
-    let mut spheres = head("spheres, at 600² pixels", &counts);
+    let mut spheres = head("spheres, with 600² pixels", &counts);
     let cases: Vec<_> = shaded.iter().map(preparation).collect();
-    let (preparing, shaded) = row(&mut spheres, "to prepare", &cases);
+    let (preparing, shaded) = row(&mut spheres, "preparation", &cases);
     let plain: Vec<_> = plain.iter().map(Renderer::new).collect();
     let of = |setting: &Setting| if setting.shadows { &shaded } else { &plain };
     let mut by_count = vec![preparing];
@@ -112,7 +112,7 @@ fn measure() -> ([String; 2], [Panel; 2]) {
 
     // By the number of pixels.
     let sides = SIDES.map(|side| format!("{side}²"));
-    let mut pixels = head(&format!("pixels, of {} spheres", counts[SIZED]), &sides);
+    let mut pixels = head(&format!("pixels, with {} spheres", counts[SIZED]), &sides);
     let by_side = SETTINGS.iter().map(|setting| {
         let frames = views.iter().map(|view| (&of(setting)[SIZED], view));
         pictures(&mut pixels, setting, frames)
@@ -120,14 +120,14 @@ fn measure() -> ([String; 2], [Panel; 2]) {
     let by_side = [Vec::new()].into_iter().chain(by_side).collect();
 
     let by_count = Panel {
-        title: "Seconds for spheres, at 600² pixels".to_owned(),
+        title: "Seconds by spheres, 600² pixels".to_owned(),
         steps: counts.to_vec(),
         factor: 10.0,
         width: 420.0,
         times: by_count,
     };
     let by_side = Panel {
-        title: "Seconds for pixels, of 10⁶ spheres".to_owned(),
+        title: "Seconds by pixels, 10⁶ spheres".to_owned(),
         steps: sides.to_vec(),
         factor: 4.0,
         width: 280.0,
@@ -161,7 +161,7 @@ fn pictures<'scene>(
     };
     let cases: Vec<_> = frames.map(case).collect();
     let (seconds, images) = row(table, setting.name, &cases);
-    // However many spheres and pixels, they look alike from afar.
+    // The pictures look alike from a distance, whatever the numbers of spheres and pixels.
     let means: Vec<f64> = images.iter().map(mean).collect();
     let alike = means
         .iter()
@@ -174,10 +174,10 @@ fn pictures<'scene>(
 fn head(title: &str, steps: &[String]) -> String {
     let cells = steps.join(" | ");
     let rule = "--:|".repeat(steps.len());
-    format!("| {title} | {cells} | last / one before | last / first |\n|---|{rule}--:|--:|\n")
+    format!("| {title} | {cells} | last / previous | last / first |\n|---|{rule}--:|--:|\n")
 }
 
-/// Measures a row and adds it to a table; returns its seconds, and what was made.
+/// Measures a row and adds it to a table. Returns its times in seconds, and the results of the cases.
 fn row<T>(table: &mut String, name: &str, cases: &[Case<'_, T>]) -> (Vec<f64>, Vec<T>) {
     let timed = medians(ROUNDS, SECONDS, cases).1.into_iter();
     let (times, made): (Vec<f64>, Vec<T>) = timed.map(|it| (it.median, it.result)).unzip();

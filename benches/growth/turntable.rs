@@ -1,4 +1,4 @@
-//! A turntable of a million spheres, from the table on the disk to the last picture.
+//! A turntable around a million spheres, from reading the table to writing the last picture.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -16,11 +16,11 @@ const ROUNDS: usize = 3;
 /// The times of a run, in seconds.
 struct Run {
     whole: f64,
-    /// The time of each frame, the rendering alone.
+    /// The rendering time of each frame.
     frames: Vec<f64>,
 }
 
-/// Measures without and with shadows, in turns; the table.
+/// Measures without and with shadows, in turns, and returns the table.
 pub(crate) fn measure() -> String {
     let folder = Folder::new();
     let world = even_cloud(SPHERES, RADIUS);
@@ -47,10 +47,10 @@ pub(crate) fn measure() -> String {
         }
     }
     let mut table = String::from(
-        "| | 120 frames, with reading and writing | frames/s | the first frame | the median frame |\n\
+        "| | 120 frames, with reading and writing | frames per second | first frame | median frame |\n\
          |---|--:|--:|--:|--:|\n",
     );
-    for (name, runs) in ["one sample", "one sample, shadows"].into_iter().zip(runs) {
+    for (name, runs) in ["without shadows", "with shadows"].into_iter().zip(runs) {
         let of = |time: fn(&Run) -> f64| median(runs.iter().map(time).collect());
         let whole = of(|run| run.whole);
         let first = of(|run| run.frames[0]);
@@ -94,7 +94,7 @@ fn run(folder: &Folder, shadows: bool) -> Run {
     Run { whole, frames }
 }
 
-/// The seconds at the end of a line of results.
+/// The time at the end of a line of results, in seconds.
 fn seconds_of(line: &str) -> f64 {
     let seconds = line
         .strip_suffix(" s")

@@ -1,8 +1,7 @@
-//! Is choosing a tolerance ever the slow way?
+//! Compares the times of loose tolerances and of supersampling at the same error.
 //!
-//! For two errors of whole pictures: the time by the loosest tolerance that reaches it, beside the time by the
-//! fewest samples that do. Prints tables in Markdown; with `-- --write` they become the measured parts of
-//! docs/loose.md.
+//! For two errors of whole pictures: the time with the loosest tolerance that reaches the error, and with the smallest number of
+//! samples that reaches it. Prints tables in Markdown; with `-- --write` they become the measured parts of docs/loose.md.
 
 mod picture;
 
@@ -27,8 +26,8 @@ const SCENES: [&str; 8] = [
 /// The side of pictures of clouds, in pixels.
 const SIDE: u32 = 600;
 
-/// An error of a picture, its root mean square, and the largest ratio that is asked for: the time by a
-/// tolerance over the time by samples.
+/// RMS errors of pictures, each with the goal for the ratio of times: the time with a tolerance, divided by the time with
+/// samples, should be no larger.
 const GOALS: [(f64, f64); 2] = [(1e-2, 1.2), (1e-3, 0.5)];
 
 /// The tolerances whose times the second table lists.
@@ -67,8 +66,8 @@ fn measure() -> ([String; 2], Vec<String>) {
         let renderer = Renderer::new(world);
         let mut picture = Picture::new(name, &renderer, view);
         let ratios = picture.compare(&mut tables[0]);
-        for ((over, ratio), (_, bar)) in over.iter_mut().zip(ratios).zip(GOALS) {
-            if ratio > bar {
+        for ((over, ratio), (_, largest)) in over.iter_mut().zip(ratios).zip(GOALS) {
+            if ratio > largest {
                 over.push(name.to_owned());
             }
         }
@@ -91,7 +90,7 @@ fn measure() -> ([String; 2], Vec<String>) {
         world.shadows = false;
         add(&format!("{name}, no shadows"), &world, &view);
     }
-    for ((goal, bar), over) in GOALS.into_iter().zip(over) {
+    for ((goal, largest), over) in GOALS.into_iter().zip(over) {
         let names = match over.as_slice() {
             [] => "none".to_owned(),
             names => names.join("; "),
@@ -99,14 +98,14 @@ fn measure() -> ([String; 2], Vec<String>) {
         // Writing into a string cannot fail.
         let _ = write!(
             tables[0],
-            "\nOver the bar of {bar} at an RMSE of {goal:e}: {names}.\n"
+            "\nScenes with a ratio above {largest} at an RMSE of {goal:e}: {names}.\n"
         );
     }
     assert_nothing_is_chosen(&view);
     (tables, broken)
 }
 
-/// The degenerate case: of nothing, the first settings are good enough.
+/// The degenerate case: for an empty world, the first settings are good enough.
 fn assert_nothing_is_chosen(view: &View) {
     let world = World::new();
     let renderer = Renderer::new(&world);
@@ -121,10 +120,10 @@ fn assert_nothing_is_chosen(view: &View) {
 /// The first lines of both tables.
 fn heads() -> [String; 2] {
     let mut compared = "| scene |".to_owned();
-    for (goal, bar) in GOALS {
+    for (goal, largest) in GOALS {
         let _ = write!(
             compared,
-            " RMSE {goal:e}: by tolerance | by samples | ratio, bar {bar} |"
+            " RMSE {goal:e}: by tolerance | by samples | ratio, goal {largest} |"
         );
     }
     let listed = LISTED.map(|tolerance| format!(" {tolerance:e} |")).concat();

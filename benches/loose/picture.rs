@@ -1,4 +1,4 @@
-//! A picture, and the settings that reach an error of it.
+//! A picture, and the settings that reach a given error of it.
 
 use std::fmt::Write as _;
 use std::num::NonZeroU32;
@@ -9,27 +9,27 @@ use marbles_core::{Image, Method, Renderer, View};
 
 use super::{GOALS, LISTED};
 
-/// The tolerances that are tried, the loosest first.
+/// The tolerances to try, the loosest first.
 pub(crate) const TOLERANCES: [f64; 18] = [
     5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5,
     1e-5,
 ];
 
-/// The tolerance of references. Pixels in which a reference claims more are left out.
+/// The tolerance of references. Pixels in which a reference claims more are excluded.
 const REFERENCE: f64 = 1e-6;
 
-/// The least share of a picture that is known so well.
+/// The smallest share of a picture that the reference must determine.
 const KNOWN: f64 = 0.99;
 
-/// The samples on a side of a pixel that are tried.
+/// The numbers of samples on a side of a pixel to try.
 pub(crate) const SAMPLES: [u32; 18] = [
     1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256,
 ];
 
-/// More samples are not tried where they would take longer than this, in seconds.
+/// The largest time of a run, in seconds. More samples are extrapolated instead.
 const LONGEST: f64 = 12.0;
 
-/// The number of the last settings whose slope tells of samples that are not tried.
+/// The number of last settings that determine the slope for extrapolation.
 const SLOPE: usize = 4;
 
 /// The kinds of settings.
@@ -37,13 +37,13 @@ const BY_TOLERANCE: usize = 0;
 
 const BY_SAMPLES: usize = 1;
 
-/// The least number of runs of each setting of the first table.
+/// The smallest number of runs of each setting of the first table.
 const ROUNDS: usize = 3;
 
-/// The time for the runs of a picture for each table, in seconds, if they take less.
+/// The time for the runs of a picture for each table, in seconds, unless the smallest number of runs takes longer.
 const SECONDS: u64 = 3;
 
-/// A picture that is measured, and what it should be.
+/// A picture that is measured, and its reference.
 pub(crate) struct Picture<'scene> {
     name: &'scene str,
     renderer: &'scene Renderer<'scene>,
@@ -51,7 +51,7 @@ pub(crate) struct Picture<'scene> {
     reference: Image,
     /// The runs of each kind so far, in the order of the settings.
     tried: [Vec<Run>; 2],
-    /// The worst pixel of each setting that has pixels over what they may be off by.
+    /// The worst pixel of each setting with pixels whose error is larger than allowed.
     pub(crate) broken: Vec<String>,
 }
 
@@ -63,10 +63,10 @@ pub(crate) struct Run {
     rmse: f64,
 }
 
-/// A setting that suffices, or the best one that was tried.
+/// The setting that reaches the error, or the best one that was tried.
 pub(crate) struct Choice {
     pub(crate) run: Run,
-    /// The factors, on the samples per side and on the time, of the setting that suffices.
+    /// If no setting that was tried reaches the error: the factors on the samples per side and on the time.
     beyond: Option<[f64; 2]>,
 }
 
@@ -110,10 +110,10 @@ impl<'scene> Picture<'scene> {
                 .map_or(measured, |[_, longer]| longer * measured)
         };
         let _ = write!(table, "| {} |", self.name);
-        let rows = choices.iter().zip(GOALS).map(|(choices, (_, bar))| {
+        let rows = choices.iter().zip(GOALS).map(|(choices, (_, largest))| {
             let [tolerance, samples] = choices.each_ref().map(seconds_of);
             let ratio = tolerance / samples;
-            let bold = if ratio > bar { "**" } else { "" };
+            let bold = if ratio > largest { "**" } else { "" };
             for (choice, time) in choices.iter().zip([tolerance, samples]) {
                 let _ = write!(table, " {} ({}) |", seconds(time), choice.name());
             }
@@ -137,7 +137,7 @@ impl<'scene> Picture<'scene> {
         let _ = writeln!(table, "| {} | {} |", self.name, cells.join(" | "));
     }
 
-    /// Measures settings in turns.
+    /// Measures settings, which take turns.
     fn timed(&self, rounds: usize, methods: &[Method]) -> Vec<Timed<Image>> {
         let case = |&method: &Method| Case {
             name: String::new(),
@@ -148,7 +148,7 @@ impl<'scene> Picture<'scene> {
         medians(rounds, SECONDS, &cases).1
     }
 
-    /// The loosest tolerance and the fewest samples that reach an error.
+    /// The loosest tolerance and the smallest number of samples that reach an error.
     pub(crate) fn choices(&mut self, goal: f64) -> [Choice; 2] {
         let tolerances = TOLERANCES.map(Method::Tolerance);
         let samples = SAMPLES.map(by);
@@ -172,7 +172,7 @@ impl<'scene> Picture<'scene> {
         })
     }
 
-    /// The first setting whose error is small enough, if that does not take too long to find.
+    /// The first setting whose error is small enough, if it can be found in the allowed time.
     fn first(&mut self, kind: usize, methods: &[Method], goal: f64) -> Option<Run> {
         for (index, &method) in methods.iter().enumerate() {
             if index == self.tried[kind].len() {
@@ -221,7 +221,7 @@ impl<'scene> Picture<'scene> {
         (squares / f64::from(count.max(1))).sqrt()
     }
 
-    /// Notes the worst pixel that is over its tolerance, or over what it claims where it says that it is over.
+    /// Records the worst pixel that is over its tolerance without a report, or over its claim.
     fn judge(&mut self, image: &Image, method: Method) {
         let Method::Tolerance(tolerance) = method else {
             return;
@@ -256,7 +256,7 @@ impl<'scene> Picture<'scene> {
 }
 
 impl Choice {
-    /// The setting in short.
+    /// A short name of the setting.
     fn name(&self) -> String {
         match (self.run.method, self.beyond) {
             (Method::Tolerance(tolerance), _) if tolerance < 0.01 => format!("{tolerance:e}"),
@@ -270,8 +270,8 @@ impl Choice {
     }
 }
 
-/// The factors, on the samples per side and on the time, for an error that the last run does
-/// not reach: straight on in log-log plots of the last runs.
+/// The factors on the samples per side and on the time for an error that the last run does not reach, extrapolated
+/// along straight lines in log-log plots of the last runs.
 fn extrapolated(runs: &[Run], goal: f64) -> [f64; 2] {
     let last = &runs[runs.len().saturating_sub(SLOPE)..];
     let mean = |number: &dyn Fn(&Run) -> f64| {
@@ -294,7 +294,7 @@ fn extrapolated(runs: &[Run], goal: f64) -> [f64; 2] {
     ]
 }
 
-/// The samples on a side of a pixel; none for a tolerance.
+/// The number of samples on a side of a pixel; `None` for a tolerance.
 fn samples(method: Method) -> f64 {
     match method {
         Method::Samples(side) => f64::from(side.get()),
@@ -310,7 +310,7 @@ fn is_known(reference: &Image, col: u32, row: u32) -> bool {
     reference.error(col, row) <= REFERENCE
 }
 
-/// The differences of the channels of a pixel in two pictures. Grey repeats, which changes no mean.
+/// The differences of the channels of a pixel in two pictures. Gray counts three times, which does not change the mean.
 fn differences(one: &Image, other: &Image, (col, row): (u32, u32)) -> [f64; 3] {
     let (one, other) = (one.rgba(col, row), other.rgba(col, row));
     [0, 1, 2].map(|channel| (one[channel] - other[channel]).abs())

@@ -1,25 +1,25 @@
-//! Times of a few settings as a drawing in SVG: panels side by side, in logarithmic scales.
+//! A drawing of the times of a few settings as SVG: panels next to each other, with logarithmic scales.
 
 use std::fmt::Write;
 
 const HEIGHT: f64 = 440.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 384.0;
-/// From the left side of a panel to its scale, which is as wide as it says.
+/// The distance from the left edge of a panel to its scale.
 const MARGIN: f64 = 66.0;
-/// About as wide as a letter.
+/// The approximate width of a letter.
 const LETTER: f64 = 7.0;
 const INK: &str = "#222830";
 const GRID: &str = "#e3e7ec";
 const DASHED: &str = "#98a2ae";
-/// Colors that people with any color vision tell apart: of Okabe and Ito's, the darker ones.
+/// Colors that people with any kind of color vision can distinguish: the darker ones of Okabe and Ito.
 const COLORS: [&str; 5] = ["#5a6470", "#0072b2", "#56b4e9", "#d55e00", "#e69f00"];
 
 type Place = (f64, f64);
 
-/// One scale of what grows from step to step by the same factor, and times along it.
+/// A scale on which a quantity grows by the same factor from step to step, and the times for it.
 pub struct Panel {
-    /// The line above the scale.
+    /// The title above the scale.
     pub title: String,
     /// The names of the steps.
     pub steps: Vec<String>,
@@ -27,11 +27,11 @@ pub struct Panel {
     pub factor: f64,
     /// The width of the scale, in pixels.
     pub width: f64,
-    /// Seconds at each step for each name of the drawing; none where it has no such line.
+    /// The seconds at each step, for each name in the drawing; empty if there is no such line.
     pub times: Vec<Vec<f64>>,
 }
 
-/// The text of the file. A dashed line is what grows in proportion.
+/// The text of the file. A dashed line shows proportional growth.
 pub fn svg(names: &[&str], panels: &[Panel]) -> String {
     let width: f64 = panels.iter().map(|panel| MARGIN + panel.width + 30.0).sum();
     let mut svg = format!(
@@ -57,7 +57,7 @@ pub fn svg(names: &[&str], panels: &[Panel]) -> String {
     svg + "</svg>\n"
 }
 
-/// The powers of ten around all times.
+/// The powers of ten that enclose all times.
 fn decades(panels: &[Panel]) -> (i32, i32) {
     let all = || panels.iter().flat_map(|panel| panel.times.iter().flatten());
     let least = all().copied().fold(f64::INFINITY, f64::min);

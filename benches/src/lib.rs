@@ -1,7 +1,7 @@
-//! The parts that benchmarks share: scenes, and a clock that lets all settings take turns.
+//! The parts that benchmarks share: scenes, and timing of settings that take turns.
 //!
-//! Every benchmark answers one question, asserts that its pictures are right and prints a table of
-//! medians. Pictures are rendered on one thread.
+//! Every benchmark answers one question, asserts that its pictures are right, and prints a table of
+//! median times. Pictures are rendered on one thread.
 
 pub mod chart;
 pub mod page;
@@ -18,31 +18,51 @@ use marbles_core::{
 };
 use marbles_scene::Scene;
 
-/// Something to be timed.
+/// Work to be timed.
 pub struct Case<'scene, T> {
     /// Its name in the table.
     pub name: String,
-    /// The number of the table's units that it makes, in millions.
+    /// The amount of work, in millions of the table's unit.
     pub millions: f64,
-    /// The work that is timed. It gets its last result, whose memory it may use again.
+    /// The work. It gets its last result, whose memory it may reuse.
     pub run: Box<dyn Fn(Option<T>) -> T + Send + Sync + 'scene>,
 }
 
-/// Runs all benchmarks of a file on one thread if `cargo bench` started the process: other commands
-/// that build everything run it, too.
+const USAGE: &str = "\
+cargo bench --package marbles-benches --bench NAME [-- --write]
+    Runs a benchmark, and prints its tables.
+    --write    also write the results into the pages of docs: report, loose, growth, memory, sequence, compile
+    --lines    compile only counts the lines of code that the compiler generates for the core
+";
+
+/// Prints the usage if `--help` asks for it. Returns whether it did.
+#[expect(clippy::print_stdout, reason = "the usage is what was asked for")]
+pub fn helps() -> bool {
+    let helps = std::env::args().any(|argument| matches!(&*argument, "--help" | "-h"));
+    if helps {
+        print!("{USAGE}");
+    }
+    helps
+}
+
+/// Runs all benchmarks of a file on one thread, but only if `cargo bench` started the process: `cargo test` and other commands
+/// also start it.
 pub fn main(benchmarks: impl FnOnce() + Send) {
+    if helps() {
+        return;
+    }
     if std::env::args().any(|argument| argument == "--bench") {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         pool.expect("a thread can be had").install(benchmarks);
     }
 }
 
-/// Returns true if the benchmark shall write its page of the documentation: `-- --write`.
+/// Returns whether the benchmark should write its results into the documentation: `-- --write`.
 pub fn is_to_write() -> bool {
     std::env::args().any(|argument| argument == "--write")
 }
 
-/// Seconds, in a unit that suits them.
+/// Formats seconds in a suitable unit.
 pub fn seconds(seconds: f64) -> String {
     match seconds {
         1.0.. => format!("{seconds:.2} s"),
@@ -51,7 +71,7 @@ pub fn seconds(seconds: f64) -> String {
     }
 }
 
-/// The median; the upper one of an even number.
+/// The median. For an even number of values, the upper one of the two in the middle.
 pub fn median(mut times: Vec<f64>) -> f64 {
     times.sort_unstable_by(f64::total_cmp);
     times[times.len() / 2]
@@ -65,14 +85,14 @@ pub struct Timed<T> {
     pub result: T,
 }
 
-/// Runs all cases in turns, until `seconds` are over, but once at least; prints the median times
-/// and the units a second. Returns the last result of each case.
+/// Runs all cases in turns for `seconds`, but at least once. Prints the median times and the units per second. Returns the
+/// last result of each case.
 pub fn table<T>(title: &str, unit: &str, seconds: u64, cases: &[Case<'_, T>]) -> Vec<T> {
     let timed = timed_table(title, unit, seconds, cases).1;
     timed.into_iter().map(|timed| timed.result).collect()
 }
 
-/// Does the same as [`table`]; returns the number of rounds, and the measurement of each case.
+/// Like [`table`], but returns the number of rounds and the measurement of each case.
 #[expect(clippy::print_stdout, reason = "the table is what a benchmark is for")]
 pub fn timed_table<T>(
     title: &str,
@@ -92,8 +112,8 @@ pub fn timed_table<T>(
     (rounds, timed)
 }
 
-/// Runs all cases in turns, until `seconds` are over, but `least` times at least. Returns the number
-/// of rounds, and the measurement of each case.
+/// Runs all cases in turns for `seconds`, but at least `least` times. Returns the number of rounds and the measurement of each
+/// case.
 ///
 /// # Panics
 /// If `least` is 0.
@@ -119,14 +139,14 @@ pub fn medians<T>(least: usize, seconds: u64, cases: &[Case<'_, T>]) -> (usize, 
     (rounds, times.into_iter().zip(results).map(timed).collect())
 }
 
-/// A folder for a benchmark's files, gone afterwards.
+/// A temporary folder, which is removed when it is dropped.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
-    /// An empty one.
+    /// An empty folder.
     ///
     /// # Panics
-    /// When there can be none.
+    /// If it cannot be made.
     #[expect(clippy::new_without_default, reason = "it is made on a disk")]
     pub fn new() -> Self {
         let name = format!("marbles-bench-{}", std::process::id());
@@ -143,16 +163,16 @@ impl Drop for Folder {
     }
 }
 
-/// A scene of the repository, by its path there without the ending.
+/// A scene of the repository, by its path without the extension.
 ///
 /// # Panics
-/// When it cannot be read.
+/// If it cannot be read.
 pub fn load(name: &str) -> Scene {
     let path = in_repository(&format!("{name}.ron"));
     Scene::load(&path).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A path of the repository, wherever the benchmark was started.
+/// A path in the repository, whatever the current folder.
 pub fn in_repository(path: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
         .join("..")
@@ -162,7 +182,7 @@ pub fn in_repository(path: &str) -> PathBuf {
 /// The first view of a scene, as a square with this side.
 ///
 /// # Panics
-/// When the scene has no frame 1.
+/// If the scene has no frame 1.
 pub fn square_view(scene: &Scene, side: u32) -> View {
     let view = scene.view(1).expect("scenes begin with frame 1");
     View {
@@ -172,8 +192,8 @@ pub fn square_view(scene: &Scene, side: u32) -> View {
     }
 }
 
-/// A cloud of balls, at random but always the same, in a cube of side 200 around (0, 0, 400): what
-/// a thousand with radii from 3 to 12 fill of it.
+/// A cloud of random balls, the same in every run, in a cube with a side of 200 around (0, 0, 400). Whatever their number, they
+/// fill as much of it as a thousand balls with radii from 3 to 12.
 pub fn cloud(count: u32) -> World {
     let scale = (1e3 / f64::from(count)).cbrt();
     scattered(count, |random| scale * (3.0 + 9.0 * random))
@@ -187,7 +207,7 @@ pub fn even_cloud(count: u32, radius: f64) -> World {
 fn scattered(count: u32, radius: impl Fn(f64) -> f64) -> World {
     let mut state = u64::from(count);
     let mut random = || {
-        // Knuth's linear congruence, of which the upper bits are good.
+        // Knuth's linear congruential generator, whose upper bits are good.
         state = state
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
@@ -205,7 +225,7 @@ fn scattered(count: u32, radius: impl Fn(f64) -> f64) -> World {
     world
 }
 
-/// The picture to a tolerance, in the memory of another one.
+/// The picture at a tolerance, in the memory of another picture.
 pub fn to_tolerance(
     renderer: &Renderer<'_>,
     view: &View,
@@ -215,10 +235,10 @@ pub fn to_tolerance(
     render(renderer, view, Method::Tolerance(tolerance), spent)
 }
 
-/// The picture by N × N samples a pixel, in the memory of another one.
+/// The picture with N × N samples per pixel, in the memory of another picture.
 ///
 /// # Panics
-/// For no samples.
+/// If there are no samples.
 pub fn by_samples(
     renderer: &Renderer<'_>,
     view: &View,
@@ -229,7 +249,7 @@ pub fn by_samples(
     render(renderer, view, Method::Samples(samples), spent)
 }
 
-/// The picture by a method, in the memory of another one.
+/// The picture by a method, in the memory of another picture.
 pub fn render(renderer: &Renderer<'_>, view: &View, method: Method, spent: Option<Image>) -> Image {
     let settings = Settings {
         method,
@@ -248,7 +268,7 @@ pub fn mean(image: &Image) -> f64 {
         / pixels
 }
 
-/// The largest difference between the first channels of pictures of one size.
+/// The largest difference between the first channels of two pictures of the same size.
 pub fn largest_difference(one: &Image, other: &Image) -> f64 {
     let difference = |(col, row)| (one.rgba(col, row)[0] - other.rgba(col, row)[0]).abs();
     places(one).map(difference).fold(0.0, f64::max)

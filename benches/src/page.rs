@@ -1,4 +1,4 @@
-//! Pages of the documentation whose measured parts are written by what measures them.
+//! Pages of the documentation whose measured parts are written by the measuring programs.
 //!
 //! A part lies between the lines `<!-- measured: NAME -->` and `<!-- end -->`, and begins with the commit that was
 //! measured.
@@ -24,7 +24,7 @@ impl Page {
     /// Reads a page, by its path in the repository.
     ///
     /// # Panics
-    /// When it cannot be read, or lacks one of the parts: before anything is measured for it.
+    /// If it cannot be read, or lacks one of the parts. This is checked before the measurement.
     pub fn open(path: &str, parts: &[&str]) -> Self {
         let path = repository().join(path);
         let text = std::fs::read_to_string(&path);
@@ -40,7 +40,7 @@ impl Page {
     /// Replaces a part, and writes the page.
     ///
     /// # Panics
-    /// When the page lacks the part, or cannot be written.
+    /// If the page lacks the part, or cannot be written.
     pub fn write(&mut self, part: &str, text: &str) {
         let (start, end) = self.place(part);
         let text = format!("\nMeasured at {}.\n\n{}\n\n", self.commit, text.trim());
@@ -49,7 +49,7 @@ impl Page {
         written.unwrap_or_else(|error| panic!("{}: {error}", self.path.display()));
     }
 
-    /// The bytes of a part, without the lines around it.
+    /// The byte range of a part, without the lines around it.
     fn place(&self, part: &str) -> (usize, usize) {
         let head = format!("<!-- measured: {part} -->\n");
         let start = self.text.find(&head).map(|at| at + head.len());

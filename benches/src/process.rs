@@ -1,6 +1,6 @@
-//! Commands of marbles in processes of their own, whose output can be read.
+//! Runs commands of marbles in separate processes, and reads their output.
 //!
-//! The process is the benchmark itself, started again: `cargo bench` does not build `marbles`.
+//! The process is the benchmark itself, started again, because `cargo bench` does not build `marbles`.
 
 use std::env;
 use std::fs;
@@ -12,8 +12,7 @@ use std::time::Instant;
 /// The first argument of a process that runs a command.
 const COMMAND: &str = "marbles";
 
-/// Runs the benchmarks of a file as [`crate::main`] does, or the command for which [`marbles`]
-/// started this process.
+/// Runs the benchmarks of a file like [`crate::main`], or the command for which [`marbles`] started this process.
 pub fn main(benchmarks: impl FnOnce() + Send) -> ExitCode {
     let mut words = env::args_os().skip(1).peekable();
     if words.peek().is_some_and(|word| word == COMMAND) {
@@ -26,7 +25,7 @@ pub fn main(benchmarks: impl FnOnce() + Send) -> ExitCode {
 /// Runs a command in a folder, and returns what it printed on stdout.
 ///
 /// # Panics
-/// When it cannot be run, or fails.
+/// If it cannot be run, or fails.
 pub fn marbles(folder: &Path, words: &[&str]) -> String {
     let program = env::current_exe().expect("the benchmark has a path");
     let mut command = Command::new(program);
@@ -40,17 +39,17 @@ pub fn marbles(folder: &Path, words: &[&str]) -> String {
 /// The memory of a process, in bytes.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Held {
-    /// At the time.
+    /// The current memory.
     pub now: u64,
-    /// The most so far.
+    /// The peak so far.
     pub most: u64,
 }
 
-/// Runs a command that renders some frames; returns the seconds that each took, the first from the start of the process,
-/// and the memory that it held while it rendered the second.
+/// Runs a command that renders some frames. Returns the seconds of each frame, where the first includes the start of
+/// the process, and the memory during the second frame.
 ///
 /// # Panics
-/// When it cannot be run, or fails, or the system does not tell what processes hold.
+/// If it cannot be run, or fails, or the system does not report the memory of processes.
 pub fn watched(folder: &Path, words: &[&str], frames: usize) -> (Vec<f64>, Held) {
     let program = env::current_exe().expect("the benchmark has a path");
     let mut command = Command::new(program);
@@ -78,7 +77,7 @@ pub fn watched(folder: &Path, words: &[&str], frames: usize) -> (Vec<f64>, Held)
     (times, held)
 }
 
-/// The memory that a process holds.
+/// The memory of a process.
 fn held_by(process: u32) -> Held {
     let status = fs::read_to_string(format!("/proc/{process}/status"));
     let status = status.expect("Linux tells what a process holds");

@@ -1,4 +1,4 @@
-//! Ways to meet a sphere, compared: wrong decisions, errors, time; and which floor answered.
+//! Compares methods to intersect a ray and a sphere: wrong decisions, errors, times, and the arithmetic that decided.
 //!
 //! `cargo hits` prints tables in Markdown; with `--write` they become the measured parts of
 //! docs/accuracy.md.
@@ -23,14 +23,23 @@ use page::Page;
 use rayon::prelude::*;
 use table::{Table, number};
 
-/// Cases a family.
+const USAGE: &str = "\
+cargo hits [--write]
+    Compares marbles with other methods to intersect a ray and a sphere, and prints two tables.
+    --write    also write the tables into docs/accuracy.md
+";
+
+/// Cases per family.
 const CASES: u64 = 5_000;
 
-/// The form that the others' times are held against, in [`FORMS`].
+/// The index in [`FORMS`] of the form that the times of all forms are divided by.
 const PERPENDICULAR: usize = 2;
 
 fn main() -> io::Result<()> {
     let mut out = io::stdout().lock();
+    if std::env::args().any(|argument| matches!(&*argument, "--help" | "-h")) {
+        return write!(out, "{USAGE}");
+    }
     let parts = ["forms", "floors"];
     let is_to_write = std::env::args().any(|argument| argument == "--write");
     let mut page = is_to_write.then(|| Page::open("docs/accuracy.md", &parts));
@@ -49,7 +58,7 @@ fn main() -> io::Result<()> {
     Ok(())
 }
 
-/// The results of every form on a family.
+/// The results of every form on the cases of a family.
 fn judge_forms(family: &Family) -> [Tally; FORMS.len()] {
     let mut tallies = FORMS.map(|_| Tally::default());
     for index in 0..CASES {
@@ -70,10 +79,10 @@ fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table
         "t, median ulp",
         "t, worst ulp",
         "n, worst 2^-53 rad",
-        "ball, ns a test",
-        "of perpendicular",
-        "cloud, ns a test",
-        "of perpendicular",
+        "ball, ns per test",
+        "ratio",
+        "cloud, ns per test",
+        "ratio",
     ]);
     let times = frames.each_ref().map(timing::nanoseconds_a_test);
     for (index, (name, _)) in FORMS.into_iter().enumerate() {
@@ -98,7 +107,7 @@ fn compare_forms(tallies: &[[Tally; FORMS.len()]], frames: &[Frame; 2]) -> Table
     table
 }
 
-/// Counts the answers of each floor, and the wrong decisions of each form.
+/// Counts the tests that each kind of arithmetic decided, and the wrong decisions of each form.
 fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
     let mut table = Table::new(&[
         "rays",
@@ -108,9 +117,9 @@ fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
         "double-double",
         "integers",
         "wrong: b² - 4ac",
-        "stable",
-        "perpendicular",
-        "marbles",
+        "wrong: stable q",
+        "wrong: perpendicular",
+        "wrong: marbles",
     ]);
     for frame in frames {
         let tests = frame
@@ -133,7 +142,7 @@ fn count_floors(tallies: &[[Tally; FORMS.len()]], frames: &[Frame]) -> Table {
     table
 }
 
-/// The number of tests and of hits, and the number that each floor decided.
+/// The number of tests, the number of hits, and the number of tests that each kind of arithmetic decided.
 fn floors(tests: impl Iterator<Item = (Sphere, Ray)>) -> [String; 5] {
     let (mut count, mut hits) = (0_u64, 0_u64);
     let mut floors = [0_u64; 3];

@@ -1,5 +1,6 @@
-//! Alters files of all kinds at random, and looks for what panics, takes long or much memory:
-//! `cargo mutate [--seconds N] [--seed N] [--target NAME]`, N seconds for each kind of input, or for one of them.
+//! Alters inputs of all kinds at random, and looks for panics, and for inputs that take too much time or memory.
+//!
+//! `cargo mutate --help` prints the usage.
 
 use std::process::{self, ExitCode};
 use std::thread;
@@ -7,7 +8,16 @@ use std::time::Duration;
 
 use marbles_tests::mutations::{Limit, TARGETS, folder, most_memory, search_all};
 
-/// The memory that all of them together may take, in bytes, and that the process may have with an input.
+const USAGE: &str = "\
+cargo mutate [--seconds 60] [--seed 1] [--target NAME]
+    Alters scenes, tables, pictures and options at random, and renders or reads them. Reports panics, and inputs that take too
+    much time or memory. Also compares the hits of random rays with exact arithmetic.
+    --seconds  the time for each kind of input
+    --seed     the first number of the random generator; the same seed makes the same inputs
+    --target   take only this kind of input:";
+
+/// The largest amount of memory that all inputs together may take, and that the process may have with a single input, in
+/// bytes.
 const MOST_MEMORY: u64 = 1_000_000_000;
 const MOST_WITH_AN_INPUT: u64 = 256_000_000;
 
@@ -20,12 +30,16 @@ fn main() -> ExitCode {
     let mut options = [("--seconds", 60), ("--seed", 1)];
     let mut words = std::env::args().skip(1);
     let mut only = None;
+    let names = TARGETS.map(|target| target.name).join(", ");
     while let Some(word) = words.next() {
+        if matches!(word.as_str(), "--help" | "-h") {
+            println!("{USAGE} {names}");
+            return ExitCode::SUCCESS;
+        }
         if word == "--target" {
             let name = words.next().unwrap_or_default();
             only = TARGETS.iter().find(|target| target.name == name);
             if only.is_none() {
-                let names = TARGETS.map(|target| target.name).join(", ");
                 eprintln!("expected one of {names}, found {name}");
                 return ExitCode::from(2);
             }
@@ -46,7 +60,7 @@ fn main() -> ExitCode {
             if most_memory().is_some_and(|memory| memory > MOST_MEMORY) {
                 let folder = folder();
                 eprintln!(
-                    "too much memory, with one of {}/*/current",
+                    "too much memory; one of {}/*/current is the input",
                     folder.display()
                 );
                 process::exit(1);
@@ -61,7 +75,7 @@ fn main() -> ExitCode {
     );
     for (target, found) in &all {
         println!(
-            "{}: {} inputs, {} taken, the slowest {:.2} s, {} faults",
+            "{}: {} inputs, {} accepted, slowest {:.2} s, {} faults",
             target.name,
             found.inputs,
             found.taken,
@@ -73,7 +87,7 @@ fn main() -> ExitCode {
         }
     }
     if let Some(memory) = most_memory() {
-        println!("memory: {} MB at most", memory / 1_000_000);
+        println!("peak memory: {} MB", memory / 1_000_000);
     }
     let is_clean = all.iter().all(|(_, found)| found.faults.is_empty());
     ExitCode::from(u8::from(!is_clean))

@@ -1,26 +1,26 @@
-//! Covering arrays: few rows in which all values of any three factors occur together.
+//! Covering arrays: a small number of rows in which all combinations of values of any three factors occur.
 //!
-//! A row has a value of each factor. An array has *strength three* if of any three factors every three values are in
-//! some row, but for those that contradict each other.
+//! A row has one value for each factor. An array has *strength three* if for any three factors every combination of
+//! three values is in some row, except for values that contradict each other.
 
 use std::collections::BTreeSet;
 
 use crate::numbers::Numbers;
 
-/// A value of a factor: both by their numbers.
+/// A value of a factor, as the numbers of both.
 pub type Choice = (usize, usize);
 
 /// Values of three factors, in the order of the factors.
 type Triple = [Choice; 3];
 
-/// Rows of which the one is taken that has the most triples that no row before has.
+/// The number of candidates for each row; the one with the most triples that are still missing is taken.
 const TRIES: usize = 24;
 
-/// The rows of an array of strength three over factors with so many values each.
+/// The rows of an array of strength three. `levels` is the number of values of each factor.
 ///
-/// `contradict` tells which two values of different factors never occur together; every factor has to have a value
-/// that contradicts none. Rows are found greedily: each takes factor by factor the value with which it has the most
-/// triples that are still missing. The array is always the same.
+/// `contradict` returns whether two values of different factors must not occur together; every factor must have a value
+/// that contradicts no other. The algorithm is greedy: each row takes, factor by factor, the value with the most
+/// missing triples. The array is the same in every run.
 pub fn rows(levels: &[usize], contradict: impl Fn(Choice, Choice) -> bool) -> Vec<Vec<usize>> {
     let mut missing = triples(levels, &contradict);
     let mut numbers = Numbers(1);
@@ -45,7 +45,7 @@ pub fn rows(levels: &[usize], contradict: impl Fn(Choice, Choice) -> bool) -> Ve
     rows
 }
 
-/// All triples that contradict nothing.
+/// All triples without contradictions.
 fn triples(levels: &[usize], contradict: &impl Fn(Choice, Choice) -> bool) -> BTreeSet<Triple> {
     let choices = |factor: usize| (0..levels[factor]).map(move |value| (factor, value));
     let mut all = BTreeSet::new();
@@ -78,7 +78,7 @@ fn of_row(row: &[usize]) -> impl Iterator<Item = Triple> {
     })
 }
 
-/// A row that has a triple, and many others that are missing.
+/// A row that contains a triple, and many other missing ones.
 fn row(
     levels: &[usize],
     missing: &BTreeSet<Triple>,
@@ -104,7 +104,7 @@ fn row(
     chosen.into_iter().map(|(_, value)| value).collect()
 }
 
-/// The number of missing triples that a value makes with two that are chosen.
+/// The number of missing triples that a value forms with two chosen ones.
 fn gain(value: Choice, chosen: &[Choice], missing: &BTreeSet<Triple>) -> usize {
     let pairs = chosen
         .iter()
@@ -124,7 +124,7 @@ fn gain(value: Choice, chosen: &[Choice], missing: &BTreeSet<Triple>) -> usize {
 mod tests {
     use super::*;
 
-    /// The number of triples that contradict nothing and are in no row: looked for one by one.
+    /// The number of triples without contradictions that are in no row, by exhaustive search.
     fn uncovered(
         rows: &[Vec<usize>],
         levels: &[usize],

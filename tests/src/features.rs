@@ -1,4 +1,4 @@
-//! Features of scenes, and rows of them in which every three occur together.
+//! Features of scenes, and rows that combine every three of them.
 
 use std::fmt;
 use std::sync::OnceLock;
@@ -20,17 +20,17 @@ pub enum Feature {
     Highlight,
     /// Lines along outlines.
     Outline,
-    /// Whether spheres keep light from each other.
+    /// Whether spheres block light.
     Shadows,
-    /// Whether the camera moves while it is open.
+    /// Whether the camera moves while the shutter is open.
     Shutter,
-    /// Coverage in place of the background.
+    /// Alpha instead of the background.
     Alpha,
     /// The picture of one light.
     PerLight,
     /// A huge sphere below.
     Floor,
-    /// The place of the camera.
+    /// The position of the camera.
     Eye,
     /// The unit of light.
     Brightness,
@@ -115,7 +115,7 @@ pub fn count() -> u64 {
     table().len() as u64
 }
 
-/// A row, counted over and over.
+/// A row; the numbers continue with the first row after the last.
 pub fn row(index: u64) -> Row<'static> {
     let table = table();
     Row(&table[(index % table.len() as u64) as usize])
@@ -130,7 +130,7 @@ fn levels() -> Vec<usize> {
     FEATURES.iter().map(|(_, values)| values.len()).collect()
 }
 
-/// Lights that are attached to the camera are refused where its shutter is open.
+/// Lights that are attached to the camera are refused if its shutter is open.
 fn contradict(one: Choice, other: Choice) -> bool {
     let is = |(feature, value): Choice, of: Feature, name: &str| {
         feature == of as usize && FEATURES[feature].1[value] == name
@@ -178,7 +178,7 @@ mod tests {
         assert!(count > 8000, "{count}");
     }
 
-    /// The three features with the most values have a hundred triples, which take a row each.
+    /// The three features with the most values have a hundred combinations, and each needs a row.
     #[test]
     fn rows_are_few() {
         assert!((100..=130).contains(&table().len()), "{}", table().len());

@@ -1,4 +1,4 @@
-//! Truths to hold marbles against, computed independently of it: what tests, examples and benchmarks share.
+//! Independent references for marbles, shared by tests, examples and benchmarks.
 
 pub mod covering;
 pub mod features;

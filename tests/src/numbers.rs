@@ -1,27 +1,27 @@
-//! Random numbers by SplitMix64, the same everywhere.
+//! Random numbers by SplitMix64, the same on all machines.
 
 /// A generator with its state, which is its seed at first.
 #[derive(Clone, Debug)]
 pub struct Numbers(pub u64);
 
 impl Numbers {
-    /// From 0 to, not including, 1.
+    /// A number from 0, included, to 1, not included.
     pub fn uniform(&mut self) -> f64 {
         let bits = self.bits() >> (64 - f64::MANTISSA_DIGITS);
         bits as f64 / (1_u64 << f64::MANTISSA_DIGITS) as f64
     }
 
-    /// Between two numbers.
+    /// A number between two numbers.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.uniform()
     }
 
-    /// A whole number below this one.
+    /// A whole number from 0, below this one.
     pub fn below(&mut self, bound: usize) -> usize {
         (self.uniform() * bound as f64) as usize
     }
 
-    /// One of some.
+    /// One of some items.
     pub fn either<T: Copy>(&mut self, of: &[T]) -> T {
         of[self.below(of.len())]
     }

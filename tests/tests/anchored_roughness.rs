@@ -1,4 +1,4 @@
-//! A rough ball keeps its bumps while the camera goes around it.
+//! A rough ball keeps its bumps while the camera moves around it.
 
 use glam::DVec3;
 use marbles_core::{Angle, Camera, Color, Grain, Light, Material, Roughness, Sphere, View, World};
@@ -8,8 +8,8 @@ use crate::studio::{around_retina_point, looking_forward, picture};
 const CENTER: DVec3 = DVec3::new(30.0, -20.0, 400.0);
 const RADIUS: f64 = 100.0;
 
-/// A ball that shows its shading normal as a color: under three lights along the axes, each in
-/// its own color, matte white reflects the positive parts of the normal's components.
+/// A ball that shows its shading normal as a color: under three colored lights along the axes, matte white reflects the
+/// positive parts of the normal's components.
 fn ball_of_normals(grain: Grain, sign: f64) -> World {
     let mut world = World::new();
     let roughness = Some(Roughness {
@@ -59,7 +59,7 @@ fn normal_seen(grain: Grain, view: &View, point: DVec3) -> DVec3 {
     positive - negative
 }
 
-/// Points of the surface that both cameras of the tests see.
+/// Points of the surface that are visible to both cameras of the tests.
 fn shared_points() -> impl Iterator<Item = DVec3> {
     (0..200).map(|index| {
         let (across, up) = (

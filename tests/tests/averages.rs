@@ -1,4 +1,4 @@
-//! Averages over what pixels see, held against closed forms and against many center rays.
+//! Averages over pixels, compared with closed forms and with many center rays.
 
 use std::f64::consts::PI;
 
@@ -26,7 +26,7 @@ fn settings(axes: Axes, tolerance: f64) -> GeometrySettings {
     }
 }
 
-/// The averages in a geometry, row by row: mean normals, their errors, shares, their errors, indices.
+/// The averages in a geometry, row by row: mean normals and their errors, coverages and their errors, indices.
 struct Means {
     normals: Vec<DVec3>,
     normal_errors: Vec<f64>,
@@ -57,7 +57,7 @@ fn means(world: &World, view: &View, settings: &GeometrySettings) -> Means {
     }
 }
 
-/// Parallel rays along +z; the normal of a ball then goes in a straight line from side to side.
+/// Parallel rays along +z; the normal of a ball then changes linearly from side to side.
 #[test]
 fn the_normals_of_a_ball_have_closed_means() {
     let radius = 1.25;
@@ -157,8 +157,8 @@ fn heap() -> (World, View) {
     (world, view)
 }
 
-/// Rays on a side of a pixel, and how far their means may be from the truth: an edge that crosses a pixel is wrong by
-/// less than a row of them.
+/// Rays on a side of a pixel, and the largest error of their means: an edge that crosses a pixel is wrong by less than
+/// a row of rays.
 const RAYS: u32 = 48;
 const NEAR: f64 = 1.0 / RAYS as f64;
 

@@ -1,4 +1,4 @@
-//! The work of hard pixels, counted, and their claims when they end over their tolerance.
+//! The work for expensive pixels, counted, and their claims if they end over their tolerance.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use crate::studio::pixels;
 
-/// Two balls, one of which shades the other, with this material and these other fields of the scene.
+/// Two balls, one of which casts a shadow on the other, with this material and these other fields of the scene.
 fn scene(material: &str, lights: usize, lens: &str, more: &str) -> Scene {
     let lights: String = (0..lights)
         .map(|index| {
@@ -80,7 +80,7 @@ fn hard_pixels_cost_no_more_than_allowed() {
     }
 }
 
-/// Against the tests' own integrator, with one light and with three groups of them.
+/// Compared with the tests' own integrator, with one light and with three groups of lights.
 #[test]
 fn confessed_pixels_are_within_what_they_claim() {
     let strong = "highlight: (strength: 65537, shininess: 40)".to_owned();
@@ -109,7 +109,8 @@ fn confessed_pixels_are_within_what_they_claim() {
     }
 }
 
-/// A view that turns too fast for any moments to show it claims all that may be seen: black, and white in all light.
+/// A view that turns too fast for any number of moments claims everything that may be visible: black, and white under
+/// all lights.
 #[test]
 fn pixels_that_moments_cannot_know_claim_the_contrast() {
     for motion in [TURNS, LEAPS] {

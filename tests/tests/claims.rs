@@ -1,4 +1,4 @@
-//! Claims of pixels for which it is hard to claim anything.
+//! The claims of difficult pixels.
 
 use glam::DVec3;
 use marbles_core::{
@@ -8,8 +8,8 @@ use marbles_tests::reference::Reference;
 
 use crate::studio::{GREY_HALF, exact_picture, looking_forward, matte, picture, pixels, world_of};
 
-/// Numbers beyond what edges can be found with: samples tell the value, and the claim is that all is possible
-/// that the spheres and the background show.
+/// Numbers too extreme for computing edges: samples give the value, and the claim is the whole range that the spheres
+/// and the background can show.
 #[test]
 fn pixels_by_samples_claim_no_less_than_the_contrast() {
     for (distance, radius) in [(4e200, 1e200), (4e-200, 1e-200)] {
@@ -33,7 +33,7 @@ fn pixels_by_samples_claim_no_less_than_the_contrast() {
     }
 }
 
-/// Lights beyond the eighth are integrated in groups, each to its share of the tolerance.
+/// More than eight lights are integrated in groups, each with its share of the tolerance.
 #[test]
 fn no_pixel_of_many_lights_is_over_that_claims_to_be_within() {
     let balls = [
@@ -58,8 +58,8 @@ fn no_pixel_of_many_lights_is_over_that_claims_to_be_within() {
     }
 }
 
-/// Balls exactly behind another, and larger by as much as they are farther, have its contour: nothing of
-/// them is seen.
+/// Balls exactly behind another ball, and larger in proportion to their distance, have the same contour: nothing of
+/// them is visible.
 #[test]
 fn balls_with_one_contour_are_one() {
     let toward = [DVec3::new(-1.0, 0.5, -1.0)];
@@ -102,13 +102,14 @@ fn balls_with_one_contour_are_one() {
     }
 }
 
-/// Balls about as large as pixels, at many places in these: light summed up to a contour has a singularity where that
-/// turns, which rules along all of it overlook while they agree.
+/// Balls about as large as pixels, at many positions in them. Light summed up to an contour is singular where the
+/// contour turns; rules along the whole contour miss this and still agree with each other.
 #[test]
 fn contours_that_turn_within_pixels_are_known_well() {
     const SIDE: i32 = 24;
     const STEP: f64 = 3.0137;
-    /// The worst error, in claims; without cuts where contours turn it is nearly twice that at 1e-4, seven times at 1e-5.
+    /// The largest error divided by the claim. Without divisions where contours turn, it is nearly 2 at 1e-4, and 7 at
+    /// 1e-5.
     const WORST: f64 = 0.1;
     let mut balls = Vec::new();
     for place in 0..SIDE * SIDE {
@@ -137,7 +138,7 @@ fn contours_that_turn_within_pixels_are_known_well() {
     }
 }
 
-/// Light from nearly behind, where half vectors turn fast: highlights at the rim count wherever they are bright.
+/// Light from nearly behind, where half vectors turn quickly: highlights at the rim count wherever they are bright.
 #[test]
 fn highlights_against_the_light_are_seen() {
     let mut bright = 0;
@@ -169,7 +170,7 @@ fn highlights_against_the_light_are_seen() {
     assert!(bright > 20, "{bright}");
 }
 
-/// Balls that touch, intersect, hide and shade each other, matte and shiny, on a floor: whatever is proved is true.
+/// Balls that touch, intersect, hide and shade each other, matte and shiny, on a floor: all bounds hold.
 #[test]
 fn bounds_hold_among_other_balls() {
     let mut world = world_of(
@@ -227,8 +228,8 @@ fn bounds_hold_among_other_balls() {
     }
 }
 
-/// Bumps from far larger to a little smaller than pixels, with contours, seams, shadows and highlights on them, at loose
-/// tolerances, against a grid of many samples.
+/// Bumps from far larger to a little smaller than pixels, with contours, seams, shadows and highlights on them, at
+/// loose tolerances, compared with a grid of many samples.
 #[test]
 fn bumps_are_within_loose_claims() {
     const SIDE: u32 = 60;
@@ -296,8 +297,8 @@ fn bumps_are_within_loose_claims() {
     assert!(given_up <= MOST_GIVEN_UP, "{given_up}");
 }
 
-/// If bumps are so fine that samples are random, claims hold against many more samples, and are not all that
-/// light may be.
+/// If bumps are so fine that samples are random, claims are compared with many more samples, and are smaller than the
+/// whole range of light.
 #[test]
 fn random_samples_of_fine_bumps_are_within_their_claims() {
     const SIDE: u32 = 300;

@@ -8,8 +8,8 @@ use crate::studio::{
     world_of,
 };
 
-/// The textbook quadratic: all crossings of the ray from the origin with a sphere, nearest
-/// first. Good for the well-conditioned spheres of these tests, and independent of the renderer.
+/// The textbook quadratic: all intersections of the ray from the origin with a sphere, the nearest first. It is
+/// accurate for the well-conditioned spheres of these tests, and independent of the renderer.
 fn crossings(direction: DVec3, center: DVec3, radius: f64) -> Vec<f64> {
     let (a, b) = (direction.length_squared(), direction.dot(center));
     let discriminant = b * b - a * (center.length_squared() - radius * radius);
@@ -19,7 +19,7 @@ fn crossings(direction: DVec3, center: DVec3, radius: f64) -> Vec<f64> {
     vec![(b - discriminant.sqrt()) / a, (b + discriminant.sqrt()) / a]
 }
 
-/// The contour of a sphere on a flat retina: an ellipse whose long axis points at the middle.
+/// The contour of a sphere on a flat retina: an ellipse whose long axis points toward the center of the retina.
 ///
 /// From the tangent cone: with the center at (a, z) in the plane through the axis of view, the
 /// cone meets the retina between r² and a² + z² − r² as below.
@@ -135,8 +135,8 @@ fn nearer_sphere_eclipses_the_farther() {
     assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
 }
 
-/// Two intersecting spheres change places in the plane of their common circle: with
-/// K = |c|² − r², a point of sphere 1 lies inside sphere 2 where p·(c₁ − c₂) < (K₁ − K₂) / 2.
+/// Two intersecting spheres change places in the plane of their common circle. With K = |c|² − r², a point of sphere 1
+/// is inside sphere 2 if p·(c₁ − c₂) < (K₁ − K₂) / 2.
 #[test]
 fn intersecting_spheres_meet_in_their_radical_plane() {
     let balls = [
@@ -176,8 +176,8 @@ fn intersecting_spheres_meet_in_their_radical_plane() {
     assert!(seen.iter().all(|&count| count > 200), "{seen:?}");
 }
 
-/// The shadow of a ball is a cylinder along the light: a point of the lower ball is dark where
-/// its distance from the axis through the upper one's center is less than that one's radius.
+/// The shadow of a ball is a cylinder along the light. A point of the lower ball is dark if its distance from the axis
+/// through the center of the upper ball is less than the radius of the upper ball.
 #[test]
 fn shadow_of_one_ball_on_another_is_a_cylinder() {
     let toward = DVec3::new(0.3, 1.0, -0.4).normalize();
@@ -218,8 +218,7 @@ fn shadow_of_one_ball_on_another_is_a_cylinder() {
     assert!(dark > 300 && lit > 3_000, "{dark} dark, {lit} lit");
 }
 
-/// A ball behind the lit one, seen from the light, keeps nothing from it; with shadows off
-/// nobody does.
+/// A ball behind the lit one, as seen from the light, does not block the light; with shadows off no ball does.
 #[test]
 fn only_what_stands_toward_the_light_makes_a_shadow() {
     let ball = (DVec3::Z * 10.0, 1.0, Color::ONE);
@@ -234,7 +233,7 @@ fn only_what_stands_toward_the_light_makes_a_shadow() {
     assert_eq!(picture(&unshadowed, &view, 2, false), alone);
 }
 
-/// From inside a sphere one sees its inner side, which only the ambient light reaches.
+/// From inside a sphere, its inner side is visible, which only the ambient light reaches.
 #[test]
 fn inner_side_shows_ambient_light_only() {
     let mut world = world_of(&[(DVec3::new(0.2, 0.1, 0.3), 2.0, GREY_HALF)], &[-DVec3::Z]);
@@ -244,7 +243,7 @@ fn inner_side_shows_ambient_light_only() {
     assert!(pixels(&image).all(|(col, row)| image.rgba(col, row) == [0.125, 0.125, 0.125, 1.0]));
 }
 
-/// A speck at a known place is seen in the pixel that pan, tilt and roll put it in.
+/// A speck at a known position appears in the pixel that follows from pan, tilt and roll.
 #[test]
 fn pan_tilt_and_roll_show_known_points_where_they_belong() {
     let degrees = Angle::from_degrees;
@@ -316,8 +315,8 @@ fn pan_tilt_and_roll_show_known_points_where_they_belong() {
     }
 }
 
-/// The camera's rotation is Ry(pan) · Rx(tilt) · Rz(roll), checked against glam's own, which
-/// turn right-handed axes: mirrored in z they are ours.
+/// The rotation of the camera is Ry(pan) · Rx(tilt) · Rz(roll), compared with glam's rotations, which are for
+/// right-handed axes: mirrored in z they are ours.
 #[test]
 fn orientation_is_pan_after_tilt_after_roll() {
     for (pan, tilt, roll) in [

@@ -1,4 +1,5 @@
-//! Casters whose shadows have the same edge but for rounding: the one nearer to the light shades as much as both.
+//! Occluders whose shadows have the same edge up to rounding: the one nearer to the light casts the same shadow as
+//! both.
 
 use glam::DVec3;
 use marbles_core::{Color, Light, LightFalloff, PointLight, Sphere, View, World};
@@ -9,14 +10,14 @@ use crate::studio::{exact_picture, looking_forward, matte, pixels};
 const SCENES: u64 = 24;
 const TOLERANCE: f64 = 1e-5;
 
-/// The sphere that all pixels look at.
+/// The sphere that all pixels show.
 const RECEIVER: (DVec3, f64) = (DVec3::new(0.0, 0.0, 40.0), 8.0);
 
 fn view() -> View {
     looking_forward(12, 12, 48.0)
 }
 
-/// A world of the receiver and some casters, which are outside of the picture.
+/// A world of the receiver and some occluders outside of the picture.
 fn world(casters: &[(DVec3, f64)], light: Light) -> World {
     let mut world = World::new();
     let white = world.add_material(matte(Color::ONE));
@@ -27,12 +28,12 @@ fn world(casters: &[(DVec3, f64)], light: Light) -> World {
     world
 }
 
-/// The number, some units in the last place larger or smaller.
+/// The number plus some units in the last place.
 fn nudged(number: f64, random: &mut Numbers) -> f64 {
     number * (1.0 + f64::EPSILON * random.between(-4.0, 4.0).round())
 }
 
-/// Compares the picture under both casters with that under the nearer one, which knows of no coincidence.
+/// Compares the picture with both occluders with the picture with the nearer one, in which nothing coincides.
 fn compare(casters: [(DVec3, f64); 2], light: Light, place: &str) -> u32 {
     let both = exact_picture(&world(&casters, light), &view(), TOLERANCE, false);
     let swapped = [casters[1], casters[0]];

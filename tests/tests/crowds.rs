@@ -1,4 +1,4 @@
-//! Pixels that see many overlapping spheres: right, met, and no dearer than they may be.
+//! Pixels with many overlapping spheres: correct, within the tolerance, and not too expensive.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -11,7 +11,7 @@ use marbles_tests::reference::Reference;
 
 use crate::studio::{self, pixels};
 
-/// Spheres of radius 2 whose centers lie within so much of the origin, under a light, before a camera.
+/// Spheres of radius 2 whose centers are within a distance of the origin, under a light, in front of a camera.
 fn crowd(count: usize, spread: f64, camera: &str) -> Scene {
     let mut numbers = Numbers(count as u64);
     let spheres: String = (0..count)
@@ -31,7 +31,7 @@ fn crowd(count: usize, spread: f64, camera: &str) -> Scene {
 }
 
 const OUTSIDE: &str = "lens: Fov(30), camera: Orbit(target: (0, 0, 0), radius: 10, azimuth: 20)";
-/// The plane in which its rays begin cuts all spheres near their outer sides.
+/// The plane in which the rays begin cuts all spheres near their outer sides.
 const CUT: &str =
     "lens: Parallel(width: 2.4), camera: Orbit(target: (0, 0, 0), radius: 2, azimuth: 20)";
 
@@ -58,7 +58,7 @@ fn areas(scene: &Scene) -> Vec<VisibleArea> {
         .unwrap()
 }
 
-/// Against the tests' own integrator.
+/// Compared with the tests' own integrator.
 #[test]
 fn crowds_are_within_what_they_claim() {
     for (count, spread) in [(20, 0.5), (20, 2.0)] {
@@ -81,7 +81,7 @@ fn crowds_are_within_what_they_claim() {
     }
 }
 
-/// Against points, of which each pixel has 48 × 48.
+/// Compared with 48 × 48 samples per pixel.
 #[test]
 fn large_crowds_are_as_points_see_them() {
     for (count, spread) in [(150, 0.5), (1500, 0.5), (1500, 1.5)] {
@@ -100,7 +100,7 @@ fn large_crowds_are_as_points_see_them() {
     }
 }
 
-/// In each part of a pixel every pair of spheres would be looked at, and every pair of the curves in which they meet.
+/// Each part of a pixel would consider every pair of spheres, and every pair of the curves in which spheres intersect.
 #[test]
 fn crowds_cost_no_more_than_allowed() {
     for (count, spread, camera, allowed, is_met) in [
@@ -120,7 +120,7 @@ fn crowds_cost_no_more_than_allowed() {
     }
 }
 
-/// Columns that were mixed up, or missing, put all spheres of a table in one place.
+/// A table whose columns are mixed up or missing can put all spheres in one place.
 #[test]
 fn spheres_that_are_equal_cost_as_much_as_one() {
     let scene = |count: usize| {
@@ -145,7 +145,7 @@ fn spheres_that_are_equal_cost_as_much_as_one() {
     }
 }
 
-/// The sphere that a ray meets first, from its inside too.
+/// The first sphere that a ray hits, possibly from inside.
 fn first_hit(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<usize> {
     let mut nearest = (f64::INFINITY, None);
     for (index, sphere) in scene.world().spheres().iter().enumerate() {
@@ -163,7 +163,7 @@ fn first_hit(scene: &Scene, origin: DVec3, direction: DVec3) -> Option<usize> {
     nearest.1
 }
 
-/// Against points, of which each pixel has 32 × 32.
+/// Compared with 32 × 32 samples per pixel.
 #[test]
 fn areas_in_crowds_are_within_what_they_claim() {
     const SIDE: u32 = 32;

@@ -1,5 +1,5 @@
-//! Pixels along the curve in which the plane of parallel rays cuts a sphere: on one side rays see its outer side, on the
-//! other what is inside of it.
+//! Pixels along the curve in which the plane of parallel rays cuts a sphere. On one side of the curve rays show the
+//! outer side of the sphere, on the other its inside.
 
 use std::path::Path;
 
@@ -26,7 +26,7 @@ fn scene(width: f64, light: &str, shadows: bool, spheres: &[([f64; 3], f64)]) ->
     Scene::parse(&text, Path::new("cut.ron")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A ball that the plane cuts, and another one that reaches into it, or stands on it.
+/// A ball that is cut by the plane, and another ball that intersects it, or stands on it.
 fn scenes() -> Vec<Scene> {
     let crossing = [([-12.6, 9.0, -0.7], 15.8), ([5.0, -3.7, 8.4], 8.4)];
     let ahead = [([-5.8, 5.6, 2.6], 15.8), ([-13.0, 8.0, 8.0], 14.4)];

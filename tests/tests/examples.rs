@@ -1,7 +1,7 @@
-//! Every scene under `scenes`: valid, explained, rendered, and as it was last looked at.
+//! Checks every scene under `scenes`: it is valid, explained, rendered, and looks as before.
 //!
-//! `golden/NAME.png` is the first frame of a scene, small. With `MARBLES_BLESS=1` the pictures
-//! are written anew, and the run fails so that somebody looks at them.
+//! `golden/NAME.png` is the first frame of a scene in a small size. With `MARBLES_BLESS=1` the pictures are written
+//! again, and the run fails so that somebody looks at them.
 
 use std::env;
 use std::fs::{self, File};
@@ -67,7 +67,7 @@ fn render_to(output: &Path, file: &Path, frame: i32, height: u32) -> ExitCode {
     marbles_cli::run(arguments)
 }
 
-/// The 8 bit samples of a PNG, and how many a pixel has.
+/// The 8-bit samples of a PNG, and the number of samples per pixel.
 fn decode(file: &Path) -> (Vec<u8>, usize) {
     let decoder = png::Decoder::new(BufReader::new(File::open(file).unwrap()));
     let mut reader = decoder.read_info().unwrap();
@@ -77,7 +77,7 @@ fn decode(file: &Path) -> (Vec<u8>, usize) {
     (samples, info.color_type.samples())
 }
 
-/// The linear light of an sRGB code that need not be whole, after IEC 61966-2-1.
+/// The linear light of an sRGB code, which may be fractional, after IEC 61966-2-1.
 fn decode_srgb(code: f64) -> f64 {
     let value = (code / 255.0).clamp(0.0, 1.0);
     if value <= 0.04045 {
@@ -87,8 +87,8 @@ fn decode_srgb(code: f64) -> f64 {
     }
 }
 
-/// Pixels of the picture that are farther from a golden one than the errors that both claim and
-/// the rounding to 8 bit.
+/// Pixels of the picture that differ from the reference picture by more than both claimed errors and the rounding to 8
+/// bits.
 fn strangers(image: &Image, golden: &Path) -> usize {
     let (samples, channels) = decode(golden);
     assert_eq!(
@@ -160,7 +160,7 @@ fn every_example_says_what_it_shows() {
     }
 }
 
-/// The middle and the end of animations, and alpha.
+/// The middle and the end of animations, and pictures with alpha.
 #[test]
 fn animations_render_to_their_last_frame() {
     for file in scene_files() {
@@ -183,7 +183,7 @@ fn animations_render_to_their_last_frame() {
     }
 }
 
-/// The scenes that a document shows between fences.
+/// The scenes in the code blocks of a document.
 fn fenced_scenes(document: &str) -> Vec<String> {
     let text = fs::read_to_string(repository().join(document)).unwrap();
     let blocks = text.split("```ron\n").skip(1);

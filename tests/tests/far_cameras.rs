@@ -1,4 +1,4 @@
-//! Parallel rays are the same, however far away they begin.
+//! Parallel rays make the same picture, however far away they begin.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn image(camera: &str) -> Image {
     exact_picture(scene.world(), &scene.view(1).unwrap(), 1e-5, false)
 }
 
-/// A camera within a few diameters of the balls, and others on the same axis that are far away.
+/// A camera within a few diameters of the balls, and distant cameras on the same axis.
 struct Axis {
     near: String,
     far: Vec<String>,

@@ -1,5 +1,4 @@
-//! Floors that are spheres of huge radius, with balls resting on them, against a renderer in
-//! arithmetic of 256 binary places.
+//! Floors that are spheres of huge radius, with balls on them, compared with a renderer that uses numbers of 256 bits.
 
 use glam::DVec3;
 use marbles_core::{Angle, Camera, Color, Light, Sphere, View, World};
@@ -43,7 +42,7 @@ fn dot(a: &Point, b: &Point) -> BigInt {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-/// The distance to a sphere along a ray from outside, or across it from inside.
+/// The distance to a sphere along a ray from outside, or through it from inside.
 fn hit(center: &Point, radius: &BigInt, origin: &Point, direction: &Point) -> Option<BigInt> {
     let to_center = minus(center, origin);
     let direction_sq = dot(direction, direction);
@@ -98,7 +97,7 @@ fn world(balls: &[(DVec3, f64, f64)]) -> World {
     world
 }
 
-/// Close above the floor, looking slightly down.
+/// A camera close above the floor, looking slightly down.
 fn view() -> View {
     let camera = Camera::free(
         DVec3::new(0.0, 2.5, 0.0),
@@ -112,7 +111,7 @@ fn view() -> View {
     }
 }
 
-/// Light and coverage of one ray in exact decisions.
+/// Light and coverage for one ray, with exact decisions.
 fn reference(balls: &[(Point, BigInt, f64)], origin: &Point, direction: DVec3) -> [f64; 2] {
     let direction = point(direction);
     let hits = balls

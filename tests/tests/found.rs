@@ -1,7 +1,7 @@
-//! Pixels that a hunt found over their tolerance without saying so, or with claims that are false.
+//! Pixels that a hunt found over their tolerance without a report, or with false claims.
 //!
-//! `cargo truth hunt --write` wrote the scenes of `tests/truth/found`: their first lines name the pixels, and what
-//! these were off by then.
+//! `cargo truth hunt --write` wrote the scenes of `tests/truth/found`. Their first lines name the pixels, and their
+//! errors at that time.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::studio::{exact_picture, single_pixel};
 
 const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// A claim is false if a pixel is off by more than so many times as much, and by more than a part of the tolerance.
+/// A claim is false if the error is this many times as large, and larger than this fraction of the tolerance.
 const FALSE: f64 = 20.0;
 const FALSE_OF_TOLERANCE: f64 = 0.02;
 

@@ -1,13 +1,13 @@
-//! Nothing in `exact` compares a tolerance, a claim or light with a bare number, but for the gates below.
+//! No code in `exact` compares a tolerance, a claim or light with a constant, except in the places listed below.
 //!
-//! Goals inside of `exact` are multiples of the world's contrast (`model/light_unit.rs`), so that such a gate does not
-//! depend on how bright a world is. A gate may decide what a pixel costs, and never what it claims: each is listed with
-//! what it decides. The search is textual: it knows the names below, comparisons, and the methods that choose
-//! the smaller or the larger of two numbers. A number that is first given a lower-case name escapes it.
+//! Goals inside `exact` are multiples of the world's contrast (`model/light_unit.rs`), so that such a comparison does
+//! not depend on the brightness of a world. A comparison may affect the cost of a pixel, but never its claim; the list
+//! says which cost. The search is textual: it recognizes the names below, comparisons, and methods that choose the
+//! smaller or the larger of two numbers. It misses a constant that is first bound to a lower-case name.
 
 use std::path::{Path, PathBuf};
 
-/// Words in the names of what has the unit of light.
+/// Words in the names of quantities that have the unit of light.
 const OF_LIGHT: [&str; 7] = [
     "tolerance",
     "contrast",
@@ -32,7 +32,7 @@ const METHODS: [&str; 9] = [
     ".partial_cmp",
 ];
 
-/// The file, the comparison, and what it decides.
+/// The file, the comparison, and its effect.
 const GATES: [[&str; 3]; 12] = [
     [
         "context.rs",
@@ -92,7 +92,7 @@ const GATES: [[&str; 3]; 12] = [
     ],
 ];
 
-/// The names, numbers and signs of a source, without comments and text.
+/// The names, numbers and operators of a source, without comments and strings.
 fn tokens(source: &str) -> Vec<String> {
     let mut tokens: Vec<String> = Vec::new();
     for line in source.lines() {
@@ -129,7 +129,7 @@ fn ends_in_name(token: &str) -> bool {
     token.ends_with(|c: char| c.is_alphanumeric() || c == '_')
 }
 
-/// Whether the parts of a side say that it is a number or a constant, and nothing else.
+/// Whether one side of a comparison consists only of a number or a constant.
 fn is_bare(side: &[String]) -> bool {
     let is_constant = |token: &str| {
         let is_upper = |c: char| c.is_ascii_uppercase() || c.is_ascii_digit() || c == '_';
@@ -144,7 +144,7 @@ fn is_of_light(side: &[String]) -> bool {
         .any(|token| OF_LIGHT.iter().any(|word| token.contains(word)))
 }
 
-/// The gates of a source, as sides and signs with spaces between.
+/// The comparisons with constants in a source, as operands and operators separated by spaces.
 fn gates(source: &str) -> Vec<String> {
     const ENDS: [&str; 17] = [
         "&&", "||", "(", ")", "{", "}", "[", "]", ",", ";", "=", "|", "if", "while", "return",

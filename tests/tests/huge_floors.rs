@@ -1,4 +1,5 @@
-//! Floors of any radius: nothing is given up, whatever the light, and an ulp moves nothing by more than it is worth.
+//! Floors of any radius: no pixel is over its tolerance, whatever the light, and an ulp moves nothing by more than it
+//! should.
 
 use std::path::Path;
 
@@ -51,7 +52,7 @@ fn floors_of_any_radius_are_known_under_any_light() {
     }
 }
 
-/// Smooth light is proved to be within its claims as often on floors of any radius.
+/// Smooth light is bounded as often on floors of any radius.
 #[test]
 fn claims_on_floors_of_any_radius_are_bounds_as_often() {
     let bounds = |radius| {
@@ -70,7 +71,7 @@ fn claims_on_floors_of_any_radius_are_bounds_as_often() {
     }
 }
 
-/// Against samples, whose own error at edges is theirs to tell.
+/// Compared with samples, with their own estimate of the error at edges.
 #[test]
 fn huge_floors_are_as_samples_see_them() {
     // An edge along the grid costs half a row.
@@ -97,7 +98,7 @@ fn huge_floors_are_as_samples_see_them() {
     }
 }
 
-/// An eye this high above a wall of radius 1, and balls that the wall cuts.
+/// A viewpoint this high above a wall of radius 1, and balls that are cut by the wall.
 fn wall(radius: f64, height: f64, seed: u32) -> World {
     let mut state = seed;
     let mut random = || {
@@ -125,8 +126,8 @@ fn wall(radius: f64, height: f64, seed: u32) -> World {
     world
 }
 
-/// A radius that is one ulp larger moves the wall by that: whatever moves by more, and more than it claims, is wrong. It
-/// needs no judge, and a finer picture could not see it.
+/// If the radius is an ulp larger, the wall moves by an ulp. A pixel that changes by more than this explains, and by
+/// more than it claims, is wrong. This check needs no reference, and finds errors that a finer picture would share.
 #[test]
 fn an_ulp_moves_no_pixel_beyond_its_claims() {
     const SIDE: u32 = 24;

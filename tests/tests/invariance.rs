@@ -1,4 +1,4 @@
-//! Scaled by a power of two a scene gives the same picture, mirrored it gives the mirror image.
+//! A scene scaled by a power of two gives the same picture, and a mirrored scene gives the mirror image.
 
 use glam::{DVec2, DVec3};
 use marbles_core::{
@@ -7,7 +7,7 @@ use marbles_core::{
 
 use crate::studio::{exact_picture, looking_forward, picture, pixels};
 
-/// A map of the world that keeps pictures: a factor on all lengths, and a sign for x.
+/// A transformation of the world that keeps pictures: a factor on all lengths, and a sign for x.
 #[derive(Clone, Copy)]
 struct Change {
     length: f64,
@@ -112,8 +112,7 @@ fn scaling_by_a_power_of_two_changes_no_bit() {
     }
 }
 
-/// To a tolerance, too: as far as numbers are moderate, and the doubles that edges are found with
-/// are scaled alike.
+/// Also at a tolerance, as long as numbers are moderate, so that the doubles for edges scale alike.
 #[test]
 fn scaling_changes_no_bit_of_what_meets_a_tolerance() {
     let render = |change| exact_picture(&world(change, true), &view(change), 1e-4, true);
@@ -130,8 +129,8 @@ fn scaling_changes_no_bit_of_what_meets_a_tolerance() {
     }
 }
 
-/// Lines run from left to right, or down: the mirror image is computed in another way, and agrees
-/// within what both claim.
+/// Lines run from left to right, or down. So the mirror image is computed in another way, and agrees within both
+/// claims.
 #[test]
 fn mirror_images_agree_within_their_errors() {
     let render = |change| exact_picture(&world(change, false), &view(change), 1e-4, true);

@@ -1,4 +1,4 @@
-//! Pixels that were off by more than they claimed once, against their exact averages in `tests/truth/known`.
+//! Pixels whose errors once were larger than claimed, compared with their exact averages in `tests/truth/known`.
 
 use std::collections::HashMap;
 use std::ops::ControlFlow;

@@ -1,5 +1,5 @@
-//! Light and lengths have no unit: random scenes of many kinds, with all light and the tolerance a power of two times as
-//! bright, or with all lengths a power of two times as long.
+//! Light and lengths have no unit: random scenes of many kinds, with all light and the tolerance, or all lengths,
+//! multiplied by a power of two.
 
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -13,7 +13,7 @@ use crate::studio::pixels;
 
 const SCENES: u64 = 24;
 
-/// The units of a scene: its light is so many times as bright, its lengths are so many times as long.
+/// The units of a scene: the factors on its light and on its lengths.
 #[derive(Clone, Copy)]
 struct Units {
     light: f64,
@@ -25,10 +25,10 @@ const OWN: Units = Units {
     length: 1.0,
 };
 
-/// Text of a scene in some units.
+/// The text of a scene in some units.
 struct Writer {
     random: Numbers,
-    /// Numbers for choices that leave all others as they are.
+    /// Random numbers for choices, which do not affect the other numbers.
     aside: Numbers,
     units: Units,
     /// Columns and rows.
@@ -257,7 +257,7 @@ fn light_of_random_scenes_has_no_unit() {
     }
 }
 
-/// A picture, the same in other units of length.
+/// A picture, which must be the same in other units of length.
 fn check_lengths(seed: u64, method: Method) -> Image {
     const SIZE: [u32; 2] = [10, 8];
     let expected = image(seed, OWN, SIZE, method);
@@ -283,7 +283,7 @@ fn check_lengths(seed: u64, method: Method) -> Image {
 
 #[test]
 fn lengths_of_random_scenes_have_no_unit() {
-    /// Scenes that need more are not rendered to smaller tolerances.
+    /// Expensive scenes are not rendered at smaller tolerances.
     const MOST_SAMPLES: u64 = 100_000;
     for seed in 0..SCENES {
         check_lengths(seed, Method::Samples(2.try_into().unwrap()));

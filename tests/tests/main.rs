@@ -1,5 +1,5 @@
-//! Tests across the crates of marbles: pictures with known pixels, stated bounds measured,
-//! refused scenes with their messages.
+//! Tests across the crates of marbles: pictures with known pixels, measurements of claims, and refused scenes with
+//! their messages.
 
 mod anchored_roughness;
 mod averages;

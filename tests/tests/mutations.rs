@@ -1,4 +1,5 @@
-//! Altered files of all kinds: read or refused. `cargo mutate --seconds 3600` looks longer, and `.ci/run` for a minute.
+//! Altered files of all kinds are read or refused. `cargo mutate --seconds 3600` searches longer, and `.ci/run` for a
+//! minute.
 
 use marbles_tests::mutations::{Limit, TARGETS, search_all};
 

@@ -1,4 +1,4 @@
-//! Lines along outlines, held against closed forms and the tests' own integrator.
+//! Lines along outlines, compared with closed forms and with the tests' own integrator.
 
 use std::f64::consts::PI;
 
@@ -56,7 +56,7 @@ fn balls(width: OutlineWidth) -> World {
     world
 }
 
-/// A parallel lens as wide as the picture has columns.
+/// A parallel lens with a width of one unit per column.
 fn parallel(scale: f64) -> View {
     View {
         lens: Lens::parallel(f64::from(SIDE) * scale, DVec2::ZERO),

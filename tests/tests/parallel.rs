@@ -1,4 +1,4 @@
-//! Parallel lenses: closed forms, and what a pinhole far away sees.
+//! Parallel lenses: closed forms, and comparisons with distant pinhole cameras.
 
 use std::f64::consts::PI;
 
@@ -10,7 +10,7 @@ use crate::studio::world_of;
 
 const SIDE: u32 = 64;
 
-/// A view along +z from a place, so many scene units wide.
+/// A view along +z from a position, with a width in scene units.
 fn view(position: DVec3, width: f64) -> View {
     View {
         camera: Camera::free(position, Angle::ZERO, Angle::ZERO, Angle::ZERO),
@@ -57,7 +57,7 @@ fn sums(image: &Image, view: &View) -> (f64, f64, f64) {
     (light, covered, claimed)
 }
 
-/// With the angle α between the light and the eye, seen from the ball: ⅔ (sin α + (π − α) cos α) r².
+/// With the angle α between the light and the viewpoint, as seen from the ball: ⅔ (sin α + (π − α) cos α) r².
 #[test]
 fn the_light_of_a_ball_follows_lamberts_phase_law() {
     let radius = 1.3;
@@ -85,7 +85,7 @@ fn the_light_of_a_ball_follows_lamberts_phase_law() {
     }
 }
 
-/// A ball that the plane cuts shows its inner side within the circle of the cut, and its outer side beside it.
+/// A ball that is cut by the plane shows its inner side within the circle of the cut, and its outer side around it.
 #[test]
 fn a_ball_that_the_plane_cuts_shows_its_inner_side() {
     let radius: f64 = 1.5;
@@ -122,7 +122,7 @@ fn nothing_behind_the_plane_is_seen() {
     assert!(claimed < 1e-6, "{claimed}");
 }
 
-/// Zoom divides the width, and a shift moves the picture by as much of it.
+/// Zoom divides the width, and a shift moves the picture by this fraction of it.
 #[test]
 fn zoom_and_shift_are_those_of_other_lenses() {
     let world = world(
@@ -151,7 +151,7 @@ fn zoom_and_shift_are_those_of_other_lenses() {
     assert_eq!(contour.center, Some(ellipse.center));
 }
 
-/// The tests' own integrator, and plain midpoints, find the same pixels.
+/// The tests' own integrator, and plain midpoints, give the same pixels.
 #[test]
 fn the_reference_and_midpoints_agree() {
     let spheres = [

@@ -1,4 +1,4 @@
-//! A data set for photometric stereo, and the normals that least squares find in it.
+//! A data set for photometric stereo, and the normals that least squares recover from it.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use crate::python;
 
-/// OpenCV from version 5 on is not asked for elsewhere either.
+/// The other tests do not need OpenCV 5 either.
 const PACKAGES: [&str; 3] = ["numpy", "scipy", "opencv-python-headless<5"];
 
 /// Writes the data set of an example in a layout; returns its folder.
@@ -43,7 +43,7 @@ fn lights_normals_and_depths_predict_the_pictures_under_near_lights() {
     page_shows(python::run("near_lights.py", &PACKAGES, &[&folder]));
 }
 
-/// The lines of a page of the documents between the last fence of Python and its end.
+/// The lines of a page of the documentation in its last block of Python.
 fn last_python(page: &str) -> &str {
     let (_, rest) = page.rsplit_once("```python\n").unwrap();
     rest.split_once("```").unwrap().0
@@ -65,7 +65,7 @@ fn the_recipe_for_lens_noise_and_response_runs() {
     );
 }
 
-/// One after the other: all wait for the same packages.
+/// The scripts run one after the other, because they wait for the same packages.
 #[test]
 fn pictures_are_what_others_make_of_them() {
     least_squares_find_the_normals_of_a_data_set();

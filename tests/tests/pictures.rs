@@ -1,11 +1,11 @@
-//! Pictures that other programs wrote, as `marbles compare` reads them: `tests/seeds/pictures` was written by
-//! OpenEXR, by NumPy, and by hand.
+//! Pictures of other programs, as read by `marbles compare`. Those in `tests/seeds/pictures` were written by OpenEXR,
+//! by NumPy, and by hand.
 
 use std::ffi::OsString;
 use std::io::sink;
 use std::path::{Path, PathBuf};
 
-/// All of them show the colors of this one.
+/// The picture with the same colors as all the others.
 const COLORS: &str = "doubles.npy";
 
 fn seed(name: &str) -> PathBuf {

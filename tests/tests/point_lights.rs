@@ -1,4 +1,4 @@
-//! Point lights at single points, by plain geometry.
+//! The light of point lights at single points, by plain geometry.
 
 use glam::DVec3;
 use marbles_core::{Color, Light, LightFalloff, Material, PointLight, Sphere, View, World};
@@ -22,7 +22,7 @@ fn world(spheres: &[(DVec3, f64)], lights: &[Light]) -> World {
     world
 }
 
-/// The light of the ray along the view axis, in the middle of an odd picture.
+/// The light along the axis of view, in the center of a picture with odd sides.
 fn in_the_middle(world: &World) -> f64 {
     let image = picture(world, &looking_forward(5, 5, 100.0), 1, false);
     image.rgba(2, 2)[0]
@@ -84,7 +84,8 @@ fn a_light_inside_a_sphere_lights_only_what_is_inside() {
     assert!(!is_lit(&[(DVec3::new(0.0, 0.0, 5.0), 4.2)]));
 }
 
-/// The largest distance of pixels to a tolerance of 1e-3 from those of the tests' own integrator, over 1e-3.
+/// The largest difference between pixels at a tolerance of 1e-3 and those of the tests' own integrator, divided by
+/// 1e-3.
 fn worst_pixel(world: &World, view: &View) -> f64 {
     let tolerance = 1e-3;
     let reference = Reference::new(world, view);

@@ -1,4 +1,4 @@
-//! Tolerances of a part of the contrast, which samples meet.
+//! Tolerances so large that samples meet them.
 
 use glam::DVec3;
 use marbles_core::{Color, Image, World};
@@ -7,7 +7,7 @@ use crate::studio::{exact_picture, looking_forward, pixels, world_of};
 
 const SIDE: u32 = 24;
 
-/// Balls at random places that fill the picture, about so many pixels in radius.
+/// Balls at random positions that fill the picture; their radius in pixels is about this.
 fn crowd(count: u32, radius: f64) -> World {
     let mut state = u64::from(count);
     let mut random = || {

@@ -1,9 +1,8 @@
-//! The promise: every pixel is within its tolerance of the exact area average, or says so.
+//! The promise: every pixel is within its tolerance of the exact area average, or is reported as over it.
 //!
-//! Each scene of `tests/truth/promise` is rendered at its chosen pixels, most of which something
-//! changes in, and held against values of the tests' own integrator (`reference`). `cargo truth
-//! promise` prints what is measured here, `cargo truth judge` does so for random pixels of any
-//! scene.
+//! Each scene of `tests/truth/promise` is rendered at chosen pixels, most of them with edges, and compared with the
+//! values of the tests' own integrator (`reference`). `cargo truth promise` prints the measurements, and `cargo truth
+//! judge` measures random pixels of any scene.
 
 use std::collections::HashMap;
 
@@ -15,20 +14,20 @@ use rayon::prelude::*;
 
 const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
-/// Pixels of a scene at the five tolerances that may fall short, of about 140; all others none.
-/// Numbers are measured: where the renderer gets better, lower them.
+/// The number of pixels of a scene, of about 140, that may be over each of the five tolerances; in other scenes there
+/// are none. The numbers are measured: if the renderer improves, lower them.
 struct Allowance {
     scene: &'static str,
     what: Shortfall,
     pixels: [usize; 5],
 }
 
-/// Ways to fall short.
+/// Ways to exceed a tolerance.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 enum Shortfall {
-    /// Over the tolerance without a word: a broken promise.
+    /// Over the tolerance without a report: a broken promise.
     Broken,
-    /// Over the tolerance, as the status says.
+    /// Over the tolerance, and reported as such.
     Unmet,
 }
 
@@ -51,12 +50,12 @@ const ALLOWANCES: [Allowance; 3] = [
     },
 ];
 
-/// The part of all pixels of all scenes at a tolerance that may be off by more than they claim while
-/// within the tolerance; broken ones are counted above.
+/// The allowed fraction of pixels, over all scenes at a tolerance, whose error is larger than claimed but within the
+/// tolerance. Broken pixels are counted above.
 const BEYOND_CLAIM: f64 = 0.0025;
 
-/// The least median of true / claimed error over all scenes' medians, at each tolerance. At 1e-6 alpha, which is met to a
-/// part of the tolerance, makes light more exact, too, than it claims to be.
+/// The smallest allowed median ratio of true and claimed error, over the medians of all scenes, at each tolerance. At
+/// 1e-6, alpha has a smaller tolerance, which also makes light more accurate than it claims.
 const LEAST_HONESTY: [f64; 5] = [1e-3, 1e-3, 6e-4, 6e-4, 8e-4];
 
 fn allowed(scene: &str, what: Shortfall, tolerance: usize) -> usize {
@@ -108,7 +107,7 @@ fn the_promise_holds() {
     }
 }
 
-/// Whole pictures share lists among neighbors, which single pixels do not.
+/// In whole pictures neighboring pixels share lists, in single pixels they do not.
 #[test]
 fn whole_pictures_keep_the_promise_too() {
     let tolerance = 2;
@@ -126,8 +125,8 @@ fn whole_pictures_keep_the_promise_too() {
         });
 }
 
-/// The files say what the reference computes, to what both state; a part of each, as it takes
-/// its time. `cargo truth check` does all.
+/// The values in the files agree with the reference, within both errors. Only a part of each file is checked, because
+/// this takes long. `cargo truth check` checks everything.
 #[test]
 fn the_files_are_the_references() {
     pixels::scenes().par_iter().for_each(|path| {

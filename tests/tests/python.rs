@@ -1,4 +1,4 @@
-//! Python scripts that hold what marbles writes against what others have written.
+//! Python scripts that compare files written by marbles with other programs.
 
 use std::ffi::OsStr;
 use std::fs;
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::sync::{Mutex, PoisonError};
 
-/// True once packages could not be had. The virtual environment is made by one test at a time.
+/// Set once packages are not available. Only one test at a time makes the virtual environment.
 static UNAVAILABLE: Mutex<bool> = Mutex::new(false);
 
-/// Runs a script of this folder with packages from PyPI, fails where it fails, and returns its output.
+/// Runs a script of this folder with packages from PyPI, fails if the script fails, and returns its output.
 ///
-/// The packages are installed once, in a virtual environment in Cargo's folder for temporary files. Where there
-/// is no Python, or no package can be had, the script is skipped with a word on stderr, and there is no output.
+/// The packages are installed once, in a virtual environment in Cargo's folder for temporary files. If there is no
+/// Python, or a package is not available, the script is skipped with a note on stderr, and there is no output.
 pub(crate) fn run(script: &str, packages: &[&str], arguments: &[&Path]) -> Option<String> {
     let mut unavailable = UNAVAILABLE.lock().unwrap_or_else(PoisonError::into_inner);
     let python = match *unavailable {
@@ -47,7 +47,7 @@ fn skipped(script: &str, reason: &str) {
     eprintln!("skipped: {script}: {reason}");
 }
 
-/// The interpreter of an environment that has these packages.
+/// The interpreter of an environment with these packages.
 fn python_with(packages: &[&str]) -> Option<PathBuf> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("python");
     let bin = if cfg!(windows) { "Scripts" } else { "bin" };

@@ -1,4 +1,4 @@
-//! The reference against exact pixels that others computed, and against closed forms.
+//! The reference, compared with exact pixels computed by others and with closed forms.
 
 use std::path::Path;
 
@@ -43,8 +43,8 @@ fn agrees_with_the_exact_pixels() {
     }
 }
 
-/// Sums over points need no edges to be found; what they miss shrinks with their distance. And
-/// quarters sum up to the whole.
+/// Sums over points need no edges; their error decreases with the distance of the points. And the sum of the quarters
+/// is the whole.
 #[test]
 fn midpoints_approach_it_and_quarters_sum_up_to_it() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("truth/pixels");
@@ -74,8 +74,8 @@ fn midpoints_approach_it_and_quarters_sum_up_to_it() {
     assert!(edges >= 8);
 }
 
-/// A world whose light is the same all over the balls shows their area: of discs around the
-/// middle of the view, which are circles, of specks, and of a ball that fills the pixel's corner.
+/// In a world with the same light everywhere on the balls, pixels show their areas: of discs around the center of the
+/// view, which are circles, of specks, and of a ball that fills the corner of the pixel.
 #[test]
 fn areas_of_circles_are_exact() {
     for (radius_px, width) in [(0.4, 1), (0.003, 1), (7.3, 15), (1.5, 3)] {

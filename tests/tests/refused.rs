@@ -1,8 +1,7 @@
 //! Scenes that are refused, each with its exact message.
 //!
-//! `broken/NAME.ron` is the scene and `broken/NAME.txt` what is said about it. With
-//! `MARBLES_BLESS=1` the messages are written anew, and the run fails so that somebody looks at
-//! them.
+//! `broken/NAME.ron` is the scene and `broken/NAME.txt` the message. With `MARBLES_BLESS=1` the messages are written
+//! again, and the run fails so that somebody looks at them.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -14,7 +13,7 @@ fn broken() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("broken")
 }
 
-/// The names of the files in `broken` with this ending.
+/// The names of the files in `broken` with this extension.
 fn names(ending: &str) -> BTreeSet<String> {
     fs::read_dir(broken())
         .unwrap()
@@ -24,14 +23,14 @@ fn names(ending: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// The message about the scene; its path as a user in the folder `tests` would give it.
+/// The message about the scene. Its path is relative to the folder `tests`.
 fn message(path: &Path) -> String {
     let error = Scene::load(path).expect_err("a broken scene");
     let folder = format!("{}/", env!("CARGO_MANIFEST_DIR"));
     error.to_string().replace(&folder, "") + "\n"
 }
 
-/// The text without ANSI's sequences for colors.
+/// The text without ANSI color sequences.
 fn without_styles(text: &str) -> String {
     let mut parts = text.split("\u{1b}[");
     let first = parts.next().unwrap().to_owned();

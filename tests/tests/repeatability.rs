@@ -1,4 +1,4 @@
-//! The same bits from any number of threads.
+//! Any number of threads gives the same bits.
 
 use glam::DVec3;
 use marbles_core::{

@@ -1,4 +1,4 @@
-//! The light of single points, computed here from the model's formula and plain geometry.
+//! The light of single points, computed from the model's formula and plain geometry.
 
 use glam::DVec3;
 use marbles_core::{Color, Highlight, Image, Light, Material, Sphere, World};
@@ -8,8 +8,7 @@ use crate::studio::{looking_forward, picture, pixels, world_of};
 const CENTER: DVec3 = DVec3::new(0.2, -0.1, 5.0);
 const RADIUS: f64 = 1.1;
 
-/// albedo · (ambient + Σ I (n·l)^exponent) + Σ I strength (n·h)^shininess, over lights that the
-/// point faces.
+/// albedo · (ambient + Σ I (n·l)^exponent) + Σ I strength (n·h)^shininess, over the lights that the point faces.
 fn radiance(
     direction: DVec3,
     material: &Material,
@@ -91,7 +90,7 @@ fn seen(spheres: &[(f64, Color)], toward: DVec3) -> Image {
     picture(&world, &looking_forward(60, 60, 120.0), 2, true)
 }
 
-/// Coincident surfaces show the sphere that was added first, and keep no light from each other.
+/// If surfaces coincide, the sphere that was added first is visible, and they do not block each other's light.
 #[test]
 fn coincident_spheres_look_like_the_first() {
     let toward = DVec3::new(-1.0, 1.0, -1.0);
@@ -106,7 +105,7 @@ fn coincident_spheres_look_like_the_first() {
     );
 }
 
-/// A shell that lies inside another by the last bit of its radius changes nothing either.
+/// The same is true for a shell that is inside another by the last bit of its radius.
 #[test]
 fn sphere_that_hides_another_by_a_bit_looks_alone() {
     let toward = DVec3::new(-1.0, 1.0, -1.0);

@@ -1,6 +1,6 @@
-//! Pictures of cameras that move while the shutter is open, against many moments one by one.
+//! Pictures of cameras that move while the shutter is open, compared with many single moments.
 //!
-//! The moments come from the same scene with more frames, not from the shutter's own way to them.
+//! The moments come from the same scene with more frames, not from the shutter's own code.
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -11,15 +11,15 @@ use marbles_scene::Scene;
 
 use crate::studio::pixels;
 
-/// Moments that are averaged.
+/// The number of moments that are averaged.
 const MOMENTS: i32 = 192;
 /// The tolerance of each.
 const FINE: f64 = 2e-5;
-/// More than what is lost between the moments.
+/// More than the error of averaging single moments.
 const BETWEEN: f64 = 5e-5;
 /// The time for which the shutter is open, in frames.
 const SHUTTER: f64 = 0.5;
-/// Frames of the scene with many frames for one of the other.
+/// The number of frames that replace one frame.
 const FRAMES: i32 = 4 * MOMENTS;
 
 fn scene(text: &str) -> Scene {
@@ -41,10 +41,10 @@ fn open(scene: &Scene, frame: i32, method: Method) -> Image {
     render(scene, scene.exposure(&view), method)
 }
 
-/// A scene by how many frames one has been made into, and by its shutter.
+/// A function that makes a scene, from the number of frames that replace one frame, and the shutter.
 type Animated = fn(i32, &str) -> String;
 
-/// A turn of 30 degrees a frame around balls with shadows and highlights.
+/// A turn of 30 degrees per frame around balls with shadows and highlights.
 fn turntable(frames: i32, shutter: &str) -> String {
     format!(
         "(image: (width: 40, height: 30), lens: Fov(40),
@@ -64,7 +64,7 @@ fn turntable(frames: i32, shutter: &str) -> String {
     )
 }
 
-/// A pan across balls smaller than a pixel, which turns back at frame 2.
+/// A pan across balls smaller than a pixel, which reverses at frame 2.
 fn pan(frames: i32, shutter: &str) -> String {
     let mut spheres = String::new();
     for index in 0..60 {
@@ -89,7 +89,7 @@ fn pan(frames: i32, shutter: &str) -> String {
     )
 }
 
-/// A way past rough balls, with a jump at frame 2.
+/// A movement past rough balls, with a jump at frame 2.
 fn ride(frames: i32, shutter: &str) -> String {
     format!(
         "(image: (width: 40, height: 30), lens: Fov(50),
@@ -112,7 +112,8 @@ fn ride(frames: i32, shutter: &str) -> String {
     )
 }
 
-/// A parallel lens that goes past balls, one of which its plane cuts, under a light amid them and a directional one.
+/// A parallel lens that moves past balls, one of which is cut by its plane, under a point light between them and a
+/// directional light.
 fn pass(frames: i32, shutter: &str) -> String {
     format!(
         "(image: (width: 40, height: 30), lens: Parallel(width: 5),

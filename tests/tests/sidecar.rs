@@ -1,4 +1,4 @@
-//! Sidecars: what others compute with them lies where the picture has it, and they lead back to the picture.
+//! Sidecars: points computed by other programs match the picture, and the data leads back to the same picture.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -30,7 +30,7 @@ const CAMERAS: [[&str; 3]; 3] = [
     ],
 ];
 
-/// A folder that is removed in the end.
+/// A temporary folder.
 struct Folder(PathBuf);
 
 impl Folder {
@@ -72,7 +72,7 @@ fn parse(text: &str) -> Scene {
     Scene::parse(text, Path::new("a.ron")).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The numbers of a member of the sidecar, as they are written.
+/// The numbers of a member of the sidecar, as text.
 fn numbers(sidecar: &str, name: &str) -> Vec<String> {
     let mut lines = sidecar.lines().map(str::trim_start);
     let values = lines.find_map(|line| line.strip_prefix(&format!("\"{name}\": ")));
@@ -87,7 +87,7 @@ fn opencv_projects_spheres_to_where_the_picture_has_them() {
     const DISTANCES: [f64; 3] = [9.0, 14.0, 30.0];
     /// In pixels, near the axis.
     const RADIUS: f64 = 20.0;
-    /// Cells of a pixel's side, at whose centers spheres lie.
+    /// Cells of a pixel's side; spheres are at their centers.
     const CELLS: u32 = 7;
     for camera in CAMERAS {
         let folder = Folder::new();
@@ -148,7 +148,7 @@ fn a_scene_with_matrix_and_pose_of_a_sidecar_has_the_same_picture() {
     }
 }
 
-/// A parallel camera has no K: `pixels_per_unit` · (x, y) + `principal_point` is where points are seen.
+/// A parallel camera has no K: a point appears at `pixels_per_unit` · (x, y) + `principal_point`.
 #[test]
 fn a_parallel_sidecar_tells_where_points_are_seen() {
     let camera = [

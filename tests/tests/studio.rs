@@ -33,7 +33,7 @@ pub(crate) fn world_of(balls: &[(DVec3, f64, Color)], towards: &[DVec3]) -> Worl
     world
 }
 
-/// Balls that show their albedo all over, from every side.
+/// Balls with their albedo as uniform light, from every side.
 pub(crate) fn glowing(balls: &[(DVec3, f64, Color)]) -> World {
     let mut world = world_of(balls, &[]);
     world.ambient = Color::ONE;
@@ -77,7 +77,7 @@ pub(crate) fn around_retina_point(view: &View, center: DVec2, size: f64) -> View
     }
 }
 
-/// The picture by `samples` × `samples` points a pixel.
+/// The picture with `samples` × `samples` samples per pixel.
 pub(crate) fn picture(world: &World, view: &View, samples: u32, alpha: bool) -> Image {
     let samples = NonZeroU32::new(samples).unwrap();
     let settings = Settings {
@@ -95,7 +95,7 @@ pub(crate) fn pixels(image: &Image) -> impl Iterator<Item = (u32, u32)> {
     (0..height).flat_map(move |row| (0..width).map(move |col| (col, row)))
 }
 
-/// The picture to a tolerance.
+/// The picture at a tolerance.
 pub(crate) fn exact_picture(world: &World, view: &View, tolerance: f64, alpha: bool) -> Image {
     let settings = Settings {
         method: Method::Tolerance(tolerance),

@@ -23,7 +23,7 @@ const BALLS: &str = "spheres: [
     (center: (-0.5, 0.9, 7.0), radius: 0.0008),
 ]";
 
-/// A scene, and how many of its pixels may be over the tolerance without saying so: none.
+/// Scenes in which no pixel is over the tolerance without a report.
 fn scenes() -> Vec<Scene> {
     let lights = "lights: [Directional(toward: (-1, 1, -1), intensity: (0.9, 0.8, 0.6)),
         Directional(toward: (2, 0.6, -0.5), intensity: (0.1, 0.2, 0.5))], background: \"#203040\"";
@@ -91,8 +91,8 @@ fn every_kind_of_scene_meets_its_tolerance() {
     assert!(checked > 1500);
 }
 
-/// Numbers beyond what edges can be found with: the samples' value, and no claim to have met
-/// anything, unless nothing of the sphere is in sight.
+/// Numbers too extreme for computing edges: pixels have the value of samples, and do not claim to meet the tolerance,
+/// unless nothing of the sphere is visible.
 #[test]
 fn extreme_numbers_are_not_claimed_to_be_met() {
     for body in [
@@ -115,7 +115,7 @@ fn extreme_numbers_are_not_claimed_to_be_met() {
     }
 }
 
-/// Specks where four pixels meet, and elsewhere: a speck covers nearly nothing, and no pixel says more.
+/// Specks where four pixels meet, and elsewhere: a speck covers almost nothing, and no pixel shows more.
 #[test]
 fn specks_of_any_radius_are_nearly_dark() {
     for exponent in 3..=13 {
@@ -144,7 +144,7 @@ fn specks_of_any_radius_are_nearly_dark() {
     }
 }
 
-/// Relative to the viewpoint a floor of any radius is known as well as a small one.
+/// Relative to the viewpoint, a floor of any radius is computed as accurately as a small one.
 #[test]
 fn floors_of_any_radius_are_met() {
     for body in [
@@ -165,7 +165,7 @@ fn floors_of_any_radius_are_met() {
     }
 }
 
-/// A small picture of a scene to a tolerance, and by samples.
+/// A small picture of a scene at a tolerance, and by samples.
 fn small_pictures(body: &str) -> (Image, Image) {
     let scene = scene(&format!(
         "{body}, ambient: 0.5, lights: [Directional(toward: (-1, 1, -1))]"

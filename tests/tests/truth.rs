@@ -1,4 +1,4 @@
-//! Supersampling against exact pixels that were computed independently, in `tests/truth/pixels`.
+//! Supersampling, compared with exact pixels that were computed independently, in `tests/truth/pixels`.
 
 use std::path::PathBuf;
 
@@ -42,10 +42,10 @@ fn exact_pixels(name: &str) -> Vec<ExactPixel> {
 struct Score {
     pixels: u32,
     edge_pixels: u32,
-    /// Root mean square error of the edge pixels, and the largest error of the others.
+    /// Root mean square error of the pixels with edges, and the largest error of the others.
     edge_rmse: f64,
     worst_smooth: f64,
-    /// Edge pixels whose error exceeds its estimate, and the largest such error.
+    /// The number of edge pixels whose error exceeds its estimate, and the largest such error.
     over_estimate: u32,
     largest_missed: f64,
     largest_error: f64,
@@ -84,8 +84,8 @@ fn score(name: &str, samples: u32) -> Score {
     score
 }
 
-/// Supersampling converges to the exact pixels as a grid should: inside surfaces with N⁻², at
-/// edges with N^-1.5, but with N⁻¹ only where many run along the grid, as the ground's horizon.
+/// Supersampling converges to the exact pixels like a grid should: inside surfaces with N⁻², at edges with N^-1.5, but
+/// only with N⁻¹ if many edges run along the grid, like the horizon of the ground.
 #[test]
 fn supersampling_converges_to_the_exact_pixels() {
     for (name, finest, power) in [
@@ -110,9 +110,9 @@ fn supersampling_converges_to_the_exact_pixels() {
     }
 }
 
-/// The claim in the documentation of `Supersampling`: the estimate misses edges that pass between
-/// the samples and the pixel's border, in one edge pixel of five; what it misses then stays below
-/// what an edge along the grid would cost; and the largest estimate covers the largest error.
+/// The claim in the documentation of `Supersampling`: in one edge pixel of five the estimate misses an edge between the
+/// samples and the border of the pixel. Its error then stays below the cost of an edge along the grid. The largest
+/// estimate covers the largest error.
 #[test]
 fn the_error_estimate_holds_but_for_edges_that_no_sample_saw() {
     for (name, samples) in [("seed1", 4), ("seed1", 16), ("ground", 4), ("cloud1k", 4)] {
@@ -137,7 +137,7 @@ fn the_error_estimate_holds_but_for_edges_that_no_sample_saw() {
     }
 }
 
-/// Every pixel of every file is within the tolerance, and says so.
+/// Every pixel of every file is within the tolerance, and claims to be.
 #[test]
 fn tolerances_are_met() {
     for name in ["seed1", "ground", "cloud1k"] {

@@ -1,4 +1,4 @@
-//! A turntable closes: after its last frame comes the first again.
+//! A turntable is a closed loop: the frame after the last one is the first.
 
 use std::path::Path;
 

@@ -1,5 +1,5 @@
-//! Light has no unit: with all of it, and the tolerance, a power of two times as bright, each number is that many times as
-//! large, bit for bit, and costs as much.
+//! Light has no unit: if all light and the tolerance are multiplied by a power of two, each number is multiplied by it,
+//! bit for bit, and the cost is the same.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -9,7 +9,7 @@ use marbles_scene::Scene;
 
 use crate::studio::pixels;
 
-/// Balls with this material, lens, lights and more; all light is so many times as bright.
+/// Balls with this material, lens, lights and more; all light is multiplied by a factor.
 fn scene([material, lens, lights, more]: [&str; 4], factor: f64) -> Scene {
     let bright = |share: f64| format!("{:e}", share * factor);
     let lights = lights

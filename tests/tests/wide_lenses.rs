@@ -1,5 +1,5 @@
-//! Smooth balls and floors with highlights in the large pixels of wide lenses, where the view turns as far as normals do, or
-//! farther: pixels against the model's own formula, by a product rule.
+//! Smooth balls and floors with highlights in the large pixels of wide lenses, where the direction of view changes as
+//! much as normals do, or more. Pixels are compared with the model's formula, integrated by a product rule.
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Color, Highlight, Image, Light, Material, Sphere, View, World};
@@ -20,7 +20,7 @@ const GAUSS: [(f64, f64); 5] = [
     (0.453_089_922_969_332, 0.118_463_442_528_094_54),
 ];
 
-/// A ball before an eye at the origin that looks along z, and the sun.
+/// A ball in front of a viewpoint at the origin that looks along z, and the sun.
 #[derive(Debug)]
 struct Place {
     center: DVec3,
@@ -33,10 +33,10 @@ struct Place {
     half_width: f64,
 }
 
-/// The object that a ray meets.
+/// The object that a ray hits.
 #[derive(Clone, Copy)]
 enum Met {
-    /// The ball, where the sun reaches it, with this light.
+    /// The lit part of the ball, with this light.
     Lit(f64),
     Dark,
     Nothing,
@@ -133,7 +133,7 @@ impl Place {
         Some(sum * step * step)
     }
 
-    /// The average over a square and what it may be off by, if all of it is lit, and far enough from where light ends.
+    /// The average over a square, and its error, if all of it is lit and far enough from the end of the light.
     fn truth(&self, middle: DVec2, side: f64) -> Option<(f64, f64)> {
         const FARTHER: f64 = 1.1;
         self.average(middle, side * FARTHER, 4)?;

@@ -1,4 +1,4 @@
-//! The work of pictures, counted: samples, lines and candidates per pixel, never time.
+//! The work for pictures, counted in samples, lines and candidates per pixel, never in time.
 
 use std::path::PathBuf;
 
@@ -8,10 +8,10 @@ use marbles_scene::Scene;
 
 use crate::studio::{exact_picture, glowing, looking_forward, picture, world_of};
 
-/// A bound that is this many times what is counted guards nothing.
+/// A bound that is this many times the count is useless.
 const STALE: f64 = 2.0;
 
-/// The work that a picture may cost for each pixel.
+/// The largest work per pixel of a picture.
 struct Allowance {
     scene: &'static str,
     tolerance: f64,
@@ -36,7 +36,7 @@ const fn at_most(
     }
 }
 
-/// About a quarter more than was counted, 150 pixels wide.
+/// About a quarter more than counted, for pictures 150 pixels wide.
 const ALLOWANCES: [Allowance; 13] = [
     at_most("tests/truth/pixels/seed1", 1e-2, 0.65, 0.005, 0.22),
     at_most("tests/truth/pixels/seed1", 1e-6, 3.7, 0.62, 0.25),
@@ -75,7 +75,7 @@ fn load(name: &str) -> (Scene, View) {
     (scene, view)
 }
 
-/// The work for each pixel: samples, lines, candidate tests.
+/// The work per pixel: samples, lines, candidate tests.
 fn per_pixel(image: &Image) -> [f64; 3] {
     let pixels = f64::from(image.width()) * f64::from(image.height());
     let Work {
@@ -112,7 +112,7 @@ fn pictures_cost_what_they_are_allowed() {
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
 }
 
-/// Between events light is smooth: a small tolerance is not much dearer than a large one.
+/// Between events light is smooth, so a small tolerance costs little more than a large one.
 #[test]
 fn small_tolerances_cost_little_more_than_large_ones() {
     let (scene, view) = load("tests/truth/pixels/cloud1k");
@@ -132,7 +132,7 @@ fn small_tolerances_cost_little_more_than_large_ones() {
     assert!(small < 2.5 * large, "{small} instead of {large}");
 }
 
-/// One sample does where a bound tells so; else one rule with five points, which tell how good it is.
+/// One sample is enough if a bound shows it; otherwise one rule with five points, which estimate the error.
 #[test]
 fn calm_pixels_take_one_sample_or_five() {
     let world = world_of(
@@ -163,7 +163,7 @@ fn an_empty_picture_costs_nothing() {
     assert_eq!(image.work(), Work::default());
 }
 
-/// Spheres aside, behind, and in one corner of the picture.
+/// Spheres beside, behind, and in one corner of the picture.
 #[test]
 fn pixels_far_from_any_sphere_test_no_candidates() {
     let view = looking_forward(64, 64, 64.0);

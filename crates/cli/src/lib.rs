@@ -1,7 +1,7 @@
 //! The command line of marbles.
 //!
-//! Every command is a file of `commands`. Frames follow each other in `sequence`; `formats` writes and
-//! reads pictures, by way of `files`; `terminal` is where the user reads.
+//! Every command is a file of `commands`. `sequence` renders frames one after the other, `formats` writes and reads
+//! pictures through `files`, and `terminal` handles output to the user.
 
 mod base;
 mod commands;
@@ -19,14 +19,14 @@ use crate::commands::args::{Arguments, Command};
 use crate::terminal::console::Console;
 use crate::terminal::{abort, signals};
 
-/// Runs the command line `args`, the program's name first, as the binary `marbles` does.
+/// Runs the command line `args`, which begins with the name of the program, like the binary `marbles`.
 pub fn run(args: impl IntoIterator<Item = OsString>) -> ExitCode {
     abort::end_as_failure();
     ExitCode::from(run_on(args, &Console::of_process()))
 }
 
-/// Does the same as [`run`], with results and messages to `out` and `err`, which are no terminals; returns the
-/// exit code.
+/// Like [`run`], but with results and messages written to `out` and `err`, which are not terminals. Returns the exit
+/// code.
 pub fn run_with(
     args: impl IntoIterator<Item = OsString>,
     out: impl Write + Send + 'static,
@@ -35,7 +35,7 @@ pub fn run_with(
     run_on(args, &Console::to(out, err))
 }
 
-/// Does the same as [`run`], with a console to print to; returns the exit code.
+/// Like [`run`], with a console to print to. Returns the exit code.
 fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     let code = command(args, console);
     match console.lost_results() {
@@ -51,7 +51,7 @@ fn run_on(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     }
 }
 
-/// Does what the command line asks for.
+/// Runs the command.
 fn command(args: impl IntoIterator<Item = OsString>, console: &Console) -> u8 {
     signals::outlive_file_limits();
     let arguments = match Arguments::of(args, console.columns()) {

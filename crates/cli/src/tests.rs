@@ -1,4 +1,4 @@
-//! Command lines as a whole, without a process.
+//! Whole command lines, run without a process.
 
 use std::path::PathBuf;
 
@@ -20,7 +20,7 @@ pub(crate) fn temporary(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("marbles-{process}-{name}"))
 }
 
-/// The exit code, and what is on stdout and stderr.
+/// The exit code, and the output on stdout and stderr.
 pub(crate) fn run_here(args: &[&str]) -> (u8, String, String) {
     let (out, err) = (Text::default(), Text::default());
     let console = Console::to(out.clone(), err.clone());
@@ -62,7 +62,7 @@ lights      1
 shadows     on
 ambient     0
 background  0
-color       none: one channel is rendered
+color       none: pictures have a single channel
 frames      a still
 camera      Free: x 0, y 0, z 0
   pan       0°
@@ -72,8 +72,8 @@ camera      Free: x 0, y 0, z 0
     );
 }
 
-/// Seventeen lights are three groups, and their bumps are too fine: the summary counts what the core counts, and
-/// the exit code tells it.
+/// Seventeen lights make three groups, and their bumps are too fine. The summary counts the same pixels as the core,
+/// and the exit code is 3.
 #[test]
 fn pixels_over_their_budget_are_counted_and_told() {
     let lights = "Directional(toward: (-1, 1, -1), intensity: 0.05),".repeat(17);

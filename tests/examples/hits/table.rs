@@ -1,4 +1,4 @@
-//! Aligned text that is Markdown too.
+//! Aligned tables in Markdown.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -46,7 +46,7 @@ impl Display for Table {
     }
 }
 
-/// A number to two digits after the point or, when large, to two digits.
+/// A number with two decimals, or in scientific notation if it is large.
 pub(crate) fn number(value: f64) -> String {
     if value < 1e3 {
         format!("{value:.2}")
@@ -55,7 +55,7 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// The median; the upper one of an even number.
+/// The median. For an even number of values, the upper one of the two in the middle.
 pub(crate) fn median(values: &mut [f64]) -> f64 {
     let middle = values.len() / 2;
     *values.select_nth_unstable_by(middle, f64::total_cmp).1

@@ -1,4 +1,4 @@
-//! The time of a test of one ray and one sphere.
+//! The time of testing one ray against one sphere.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -10,10 +10,10 @@ use crate::table::median;
 use marbles_tests::hits::forms::{FORMS, marbles, original, perpendicular, stable};
 use marbles_tests::hits::frames::Frame;
 
-/// Every form is measured so many times, in turn with the others.
+/// The number of measurements of every form, which take turns.
 const ROUNDS: usize = 25;
 
-/// Nanoseconds a test of one ray and one sphere, for every one of [`FORMS`]: medians.
+/// The median time of a test of one ray against one sphere for each of [`FORMS`], in nanoseconds.
 pub(crate) fn nanoseconds_a_test(frame: &Frame) -> [f64; FORMS.len()] {
     let mut times = FORMS.map(|_| Vec::new());
     for _ in 0..ROUNDS {
@@ -26,7 +26,7 @@ pub(crate) fn nanoseconds_a_test(frame: &Frame) -> [f64; FORMS.len()] {
     times.map(|mut times| median(&mut times))
 }
 
-/// Finds what each ray of the frame sees, by trying all its spheres.
+/// Finds the nearest sphere for each ray of the frame by testing all spheres.
 fn one_round(frame: &Frame, form: impl Fn(&Sphere, &Ray) -> Option<(f64, DVec3)>) -> f64 {
     let start = Instant::now();
     let mut sum = 0.0;

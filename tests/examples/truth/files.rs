@@ -13,14 +13,14 @@ use marbles_tests::numbers::Numbers;
 use marbles_tests::promise::pixels::{self, ExactPixel};
 use marbles_tests::reference::Reference;
 
-/// Pixels of a file in which something changes, and pixels in which nothing does.
+/// The number of pixels of a file with edges, and of pixels without.
 const EDGES: usize = 120;
 const SMOOTH: usize = 20;
-/// Pixels that are looked at, at most, and how many at once.
+/// The largest number of pixels that are tried, and the number tried at a time.
 const TRIES: usize = 20_000;
 const BATCH: usize = 500;
 
-/// Does all scenes whose names contain `part`.
+/// Writes the files of all scenes whose names contain `part`.
 pub(crate) fn write(part: &str) -> Result<String, String> {
     each(part, |scene| {
         let pixels = choose(scene)?;
@@ -35,7 +35,7 @@ pub(crate) fn write(part: &str) -> Result<String, String> {
     })
 }
 
-/// Computes the pixels of the files again.
+/// Computes the pixels of the files again, and compares them.
 pub(crate) fn check(part: &str) -> Result<String, String> {
     each(part, |path| {
         let scene = pixels::load(path);
@@ -71,8 +71,8 @@ fn each(part: &str, work: impl Fn(&Path) -> Result<String, String>) -> Result<St
     Ok(report)
 }
 
-/// The same pixels in every run: half of those looked at lie anywhere, half where a random point
-/// of a random sphere, or its shadow, is seen.
+/// Chooses the same pixels in every run. Half of the candidates are anywhere; the other half show a random point of a
+/// random sphere, or its shadow.
 fn choose(path: &Path) -> Result<Vec<ExactPixel>, String> {
     let scene = pixels::load(path);
     let view = scene.view(1).map_err(|error| error.to_string())?;
@@ -120,7 +120,7 @@ fn anywhere(view: &View, numbers: &mut Numbers) -> (u32, u32) {
     (below(view.width), below(view.height))
 }
 
-/// The pixel in which a random point of a random sphere is seen, or of its shadow on the next one.
+/// The pixel that shows a random point of a random sphere, or its shadow on the next sphere.
 fn near_something(world: &World, view: &View, numbers: &mut Numbers) -> Option<(u32, u32)> {
     let index = (numbers.uniform() * world.spheres().len() as f64) as usize;
     let sphere = world.spheres()[index];

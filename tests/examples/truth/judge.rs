@@ -1,4 +1,4 @@
-//! Random pixels of any scene.
+//! Judges random pixels of any scene.
 
 use std::collections::HashSet;
 use std::fmt::Write;
@@ -77,7 +77,7 @@ fn load(path: &str) -> Result<Scene, String> {
     Scene::load(Path::new(path)).map_err(|error| error.to_string())
 }
 
-/// A pixel, its truth, and what the renderer says of it.
+/// A pixel, its true value, and the result of the renderer.
 struct Judged {
     col: u32,
     row: u32,
@@ -245,7 +245,8 @@ fn quantile(values: impl Iterator<Item = f64>, rank: f64) -> f64 {
     values.get(index).copied().unwrap_or(f64::NAN)
 }
 
-/// Random pixels whose truth is not that of their quarters together: doubts about the truth.
+/// Finds random pixels whose true value differs from that of their quarters together: the integrator may be wrong
+/// there.
 pub(crate) fn doubt(path: &str, arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let scene = load(path)?;
@@ -280,7 +281,7 @@ pub(crate) fn doubt(path: &str, arguments: &[&str]) -> Result<String, String> {
     Ok([head].into_iter().chain(worst).collect())
 }
 
-/// Everything about one pixel, for a closer look.
+/// Prints the details of one pixel.
 pub(crate) fn pixel(path: &str, col: &str, row: &str, rest: &[&str]) -> Result<String, String> {
     let options = Options::parse(rest)?;
     let scene = load(path)?;

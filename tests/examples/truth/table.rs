@@ -1,4 +1,4 @@
-//! The promise on all its scenes.
+//! Measures the promise in all its scenes.
 
 use std::fmt::Write;
 use std::time::Instant;

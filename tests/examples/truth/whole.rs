@@ -1,4 +1,4 @@
-//! Whole pictures of scenes, all pixels held against the same pictures with 3 × 3 as many.
+//! Compares whole pictures of scenes with pictures of 3 × 3 as many pixels.
 
 use std::fmt::Write as _;
 use std::io::{self, Write as _};
@@ -10,21 +10,21 @@ use glam::DVec4;
 use marbles_core::{Image, Method, Renderer, Settings, View};
 use marbles_scene::Scene;
 
-/// The tolerances of those who name no others: 5e-5 was a gate once.
+/// The default tolerances. At 5e-5 the renderer once changed its method.
 const TOLERANCES: [f64; 5] = [1e-2, 1e-3, 1e-4, 5e-5, 1e-5];
 
-/// The division of pixels, and the tolerance of their parts.
+/// The factor of the finer picture, and its tolerance.
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-7;
 
-/// The error of the mean of parts through rounding, in units of light.
+/// The rounding error of the mean of parts, in units of light.
 const ROUNDING: f64 = 1e-13;
 
 /// The options.
 struct Options {
     scenes: Vec<PathBuf>,
     tolerances: Vec<f64>,
-    /// None for a scene's own size and two odd ones.
+    /// `None` for the scene's own size and two odd ones.
     size: Option<(u32, u32)>,
     is_own_size: bool,
 }
@@ -89,7 +89,7 @@ fn parse_size(text: &str) -> Result<(u32, u32), String> {
     sides.ok_or_else(|| format!("a size is 120x80, not {text}"))
 }
 
-/// The scenes for people.
+/// The example scenes.
 fn examples() -> Result<Vec<PathBuf>, String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes");
     let at = |error| format!("{}: {error}", folder.display());
@@ -104,8 +104,9 @@ fn examples() -> Result<Vec<PathBuf>, String> {
     Ok(scenes)
 }
 
-/// Counts, for every scene, size and tolerance, pixels that are over it without saying so, that say so, and that are
-/// beyond their claims; an error, with the table, if there is one of the first.
+/// Counts, for every scene, size and tolerance, the pixels over the tolerance without a report, the reported ones, and
+/// those with errors larger than their claims. Returns an error that contains the table if there is a pixel of the
+/// first kind.
 pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let mut table = String::from(
@@ -176,8 +177,8 @@ pub(crate) fn whole(arguments: &[&str]) -> Result<String, String> {
     }
 }
 
-/// A scene, and the same with lines along outlines so many times as wide as its pixels are many: lines whose width is
-/// in pixels are as wide in the finer picture.
+/// A scene, and the same scene with outlines that are thicker by the factor of the finer picture: outlines whose width
+/// is in pixels then look the same in the finer picture.
 fn load(path: &Path) -> Result<(Scene, Scene), String> {
     const LINE: &str = "outline: (width: ";
     let at = |error| format!("{}: {error}", path.display());
@@ -219,11 +220,11 @@ struct Count {
     over: usize,
     given_up: usize,
     beyond: usize,
-    /// The largest error of a pixel that claims to be within, as a part of the tolerance, and of its claim where that
-    /// is exceeded.
+    /// The largest error of a pixel that is not reported, in tolerances; and the largest error in multiples of the
+    /// claim, among those that exceed it.
     worst: f64,
     worst_of_claim: f64,
-    /// Pixels that the finer picture knows no better.
+    /// The number of pixels for which the finer picture is not more precise.
     doubtful: usize,
     places: Vec<(u32, u32)>,
     beyond_places: Vec<(u32, u32)>,

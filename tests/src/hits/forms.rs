@@ -1,6 +1,6 @@
-//! The ways in which ray tracers meet spheres, to compare with.
+//! Methods to intersect a ray and a sphere, for comparison.
 //!
-//! All are inlined where they are called by name, so that none pays for a call in the timings.
+//! All are inlined where they are called by name, so that no timing includes a call.
 
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
@@ -8,7 +8,7 @@ use marbles_core::{Ray, Sphere};
 /// The result of every form: the distance and the outward normal.
 pub type Form = fn(&Sphere, &Ray) -> Option<(f64, DVec3)>;
 
-/// The forms with their names, the project's own last.
+/// The methods with their names; the last one is that of marbles.
 pub const FORMS: [(&str, Form); 4] = [
     ("(-b - sqrt(b² - 4ac)) / 2a", original),
     ("stable q", stable),
@@ -16,7 +16,7 @@ pub const FORMS: [(&str, Form); 4] = [
     ("marbles", marbles),
 ];
 
-/// The quadratic as schools teach it; the far root where the near one lies behind.
+/// The textbook quadratic; the far root if the near one is behind the origin.
 #[inline(always)]
 pub fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
@@ -32,7 +32,7 @@ pub fn original(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     in_front(sphere, ray, near, far)
 }
 
-/// The same discriminant; of the roots, the one that adds and the product of both.
+/// The same discriminant; one root by addition, the other from the product of both.
 #[inline(always)]
 pub fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     let from_center = ray.origin - sphere.center();
@@ -47,7 +47,7 @@ pub fn stable(sphere: &Sphere, ray: &Ray) -> Option<(f64, DVec3)> {
     in_front(sphere, ray, (q / a).min(c / q), (q / a).max(c / q))
 }
 
-/// The discriminant from the perpendicular of the center on the ray, and stable roots.
+/// The discriminant from the perpendicular from the center to the ray, and stable roots.
 ///
 /// # Source
 /// E. Haines, J. Günther, T. Akenine-Möller, Precision Improvements for Ray/Sphere Intersection,

@@ -1,11 +1,11 @@
-//! Ordinary frames: the rays of a camera at the origin, and all spheres for each of them.
+//! Ordinary frames: the rays of a camera at the origin, and the spheres that each ray is tested against.
 
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
 
 use super::families::Random;
 
-/// Spheres, and the rays that are held against every one of them.
+/// Spheres, and the rays that are tested against each of them.
 pub struct Frame {
     /// The name in tables.
     pub name: &'static str,
@@ -15,17 +15,17 @@ pub struct Frame {
     pub rays: Vec<Ray>,
 }
 
-/// The original's ball: 600 × 600 rays, of which one in nine hits.
+/// One ball and 600 × 600 rays; one ray in nine hits.
 pub fn ball() -> Frame {
     Frame {
-        name: "the original's ball",
+        name: "one ball",
         spheres: vec![Sphere::new(DVec3::Z * 400.0, 300.0).unwrap()],
         rays: rays(600, 1.0, 100.0),
     }
 }
 
-/// A thousand spheres in a cube of side 200, seen by every tenth pixel of a frame across and
-/// down: nearly every test of a ray and a sphere is a miss.
+/// A thousand spheres in a cube of side 200, seen through every tenth pixel in both directions. Nearly every test is a
+/// miss.
 pub fn cloud() -> Frame {
     let mut random = Random::new(1_000);
     let mut sphere = || {
@@ -39,7 +39,7 @@ pub fn cloud() -> Frame {
     }
 }
 
-/// Rays through the middles of `side` × `side` squares of a retina.
+/// Rays through the centers of `side` × `side` squares of a retina.
 fn rays(side: u32, pixel: f64, distance: f64) -> Vec<Ray> {
     let middle = |index: u32| (f64::from(index) + 0.5 - f64::from(side) / 2.0) * pixel;
     let ray = |index: u32| Ray {

@@ -1,7 +1,7 @@
-//! Exact answers about rays and spheres, and hard rays to ask.
+//! Exact intersections of rays and spheres, and difficult rays.
 //!
-//! [`judge`] knows the truth about any ray and sphere, [`families`] draws hard ones; [`forms`] are
-//! other ways to compute a hit.
+//! [`judge`] computes the exact hit of any ray and sphere, [`families`] makes difficult ones, and [`forms`] are other
+//! methods.
 
 pub mod families;
 pub mod forms;

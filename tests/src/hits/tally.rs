@@ -1,26 +1,26 @@
-//! The judge's verdicts, counted.
+//! Counts of the judge's decisions.
 
 use glam::DVec3;
 
 use super::judge::ExactHit;
 
-/// The answers for many cases, compared with the truth.
+/// The results for many cases, compared with the exact ones.
 #[derive(Clone, Default)]
 pub struct Tally {
-    /// Cases so far.
+    /// The number of cases so far.
     pub cases: usize,
-    /// Hits that are none.
+    /// The number of reported hits that are misses.
     pub false_hits: usize,
-    /// Hits that were not found.
+    /// The number of hits that were not found.
     pub false_misses: usize,
-    /// The errors of the distances of all true hits found, in units in the last place.
+    /// The errors of the distances of all correctly found hits, in units in the last place.
     pub distances: Vec<f64>,
-    /// The largest angle of a normal to the exact one, in 2⁻⁵³ radians.
+    /// The largest angle between a normal and the exact one, in 2⁻⁵³ radians.
     pub worst_angle: f64,
 }
 
 impl Tally {
-    /// Counts one case; the error of the distance and of the normal of a true hit.
+    /// Counts a case; returns the errors of distance and normal for a correctly found hit.
     pub fn count(&mut self, exact: Option<&ExactHit>, found: Option<(f64, DVec3)>) -> (f64, f64) {
         self.cases += 1;
         match (exact, found) {
@@ -42,7 +42,7 @@ impl Tally {
         }
     }
 
-    /// Adds what was found for other cases.
+    /// Adds the counts of other cases.
     pub fn add(&mut self, other: Self) {
         self.cases += other.cases;
         self.false_hits += other.false_hits;

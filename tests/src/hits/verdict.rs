@@ -1,4 +1,4 @@
-//! The claims of [`Sphere::hit`](marbles_core::Sphere::hit) about a hit, compared with the judge.
+//! Compares hits with the claims of [`Sphere::hit`](marbles_core::Sphere::hit), by means of the judge.
 
 use marbles_core::Hit;
 
@@ -11,11 +11,11 @@ const DISTANCE_CLAIM: f64 = 1.0;
 /// The claimed angle between the normal and the exact one, in 2⁻⁵³ radians.
 const ANGLE_CLAIM: f64 = 2.0;
 
-/// The claimed distance of the normal's length from 1, in 2⁻⁵³: on the first floor it carries the
-/// rounding of 1 / r besides that of its components.
+/// The claimed difference between the length of the normal and 1, in 2⁻⁵³. In the first kind of arithmetic it includes
+/// the rounding of 1 / r as well as that of the components.
 const LENGTH_CLAIM: f64 = 2.5;
 
-/// Counts a case; says what is wrong with it.
+/// Counts a case; returns a message if a claim is wrong.
 pub fn verdict(tally: &mut Tally, exact: Option<&ExactHit>, found: Option<Hit>) -> Option<String> {
     let (distance, angle) = tally.count(exact, found.map(|hit| (hit.t, hit.normal)));
     let (exact, found) = match (exact, found) {

@@ -1,6 +1,6 @@
-//! Broken input: files that are altered at random, and what becomes of them.
+//! Alters files at random, and checks how marbles handles them.
 //!
-//! Whatever a file holds, it is read or refused: a panic is a fault, and so is what takes long or much memory.
+//! Every file must be read or refused. Panics are faults, and so are inputs that take too much time or memory.
 
 mod mutate;
 mod program;
@@ -25,9 +25,9 @@ use crate::numbers::Numbers;
 pub struct Target {
     /// Its name.
     pub name: &'static str,
-    /// The files that are altered; in a folder of the search's own.
+    /// The files that are altered. They may be made in a folder of the search.
     seeds: fn(&Path) -> Vec<Seed>,
-    /// Reads an input as a user's program would; returns whether it was taken.
+    /// Reads an input like the program of a user; returns whether it was accepted.
     read: fn(&Input<'_>) -> bool,
 }
 
@@ -67,7 +67,7 @@ pub const TARGETS: [Target; 6] = [
 
 /// An altered file.
 struct Input<'a> {
-    /// The name of the file that it was.
+    /// The name of the original file.
     name: &'a str,
     bytes: &'a [u8],
     folder: &'a PathBuf,
@@ -83,28 +83,28 @@ impl Input<'_> {
     }
 }
 
-/// The results of some inputs.
+/// The results for some inputs.
 #[derive(Clone, Debug, Default)]
 pub struct Found {
     /// The number of inputs.
     pub inputs: u64,
-    /// Those that were not refused.
+    /// The number of accepted inputs.
     pub taken: u64,
-    /// The seconds that the slowest took.
+    /// The time of the slowest input, in seconds.
     pub slowest: f64,
-    /// Files on which reading panicked, or took longer or more memory than it may.
+    /// Files that caused a panic, or took too much time or memory.
     pub faults: Vec<PathBuf>,
 }
 
-/// The seconds that an input may take, on the clock or of the processors' work.
+/// The largest time for an input, in seconds, elapsed or of processor time.
 const LONGEST: f64 = 5.0;
 
 /// The length of a search.
 #[derive(Clone, Copy, Debug)]
 pub enum Limit {
-    /// So many inputs of each kind.
+    /// This many inputs of each kind.
     Inputs(u64),
-    /// So many seconds for each kind.
+    /// This many seconds for each kind.
     Seconds(u64),
 }
 
@@ -117,11 +117,11 @@ impl Limit {
     }
 }
 
-/// Searches with all kinds of input, or with one of them, as many at a time as there are processors. An input with which the
-/// process takes more memory than `memory` is faulty.
+/// Searches with all kinds of input, or with one of them, in parallel on all processors. An input is faulty if the process
+/// takes more than `memory` bytes with it.
 ///
 /// # Panics
-/// When files cannot be written.
+/// If files cannot be written.
 pub fn search_all(
     seed: u64,
     limit: Limit,
@@ -148,17 +148,17 @@ pub fn search_all(
     found.into_inner().expect("nobody panics")
 }
 
-/// The name of the input that is being read, in the folder of its kind.
+/// The name of the current input, in the folder of its kind.
 const CURRENT: &str = "current";
 
-/// The folder in which this process has a folder for each kind of input.
+/// The folder of this process, which contains a folder for each kind of input.
 pub fn folder() -> PathBuf {
     env::temp_dir().join(format!("marbles-mutations-{}", process::id()))
 }
 
 /// Alters the seeds of a target.
 ///
-/// Searches a target. Faulty inputs are kept next to other temporary files.
+/// Searches with altered inputs of a target. Faulty inputs are kept in the folder for temporary files.
 fn search(target: &Target, seed: u64, limit: Limit, memory: Option<u64>) -> Found {
     let folder = folder().join(target.name.replace(' ', "-"));
     fs::create_dir_all(&folder).expect("a folder can be made");
@@ -214,9 +214,9 @@ fn search(target: &Target, seed: u64, limit: Limit, memory: Option<u64>) -> Foun
     found
 }
 
-/// The seconds that processors have worked for the process, where the system tells.
+/// The processor time of the process in seconds, if the system reports it.
 fn processor_seconds() -> Option<f64> {
-    /// Linux tells all programs of a hundred a second.
+    /// Linux uses hundredths of a second for all programs.
     const TICK: f64 = 0.01;
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
     // The name of the program stands before, in brackets, and eleven other fields.
@@ -226,7 +226,7 @@ fn processor_seconds() -> Option<f64> {
     Some(TICK * (next()? + next()?))
 }
 
-/// The most memory that the process has had, in bytes, where the system tells.
+/// The peak memory of the process in bytes, if the system reports it.
 pub fn most_memory() -> Option<u64> {
     let status = fs::read_to_string("/proc/self/status").ok()?;
     let line = status

@@ -3,7 +3,7 @@
 use super::sums::mend_sums;
 use crate::numbers::Numbers;
 
-/// Pieces of text that readers look for, or that are at the ends of what numbers can be.
+/// Pieces of text that readers recognize, or that are numbers at the limits of their types.
 const TOKENS: [&[u8]; 36] = [
     b"0",
     b"-0",
@@ -43,7 +43,7 @@ const TOKENS: [&[u8]; 36] = [
     b"//",
 ];
 
-/// A file altered in one to eight places; `other` is one to take pieces from.
+/// Alters a file in one to eight places; `other` is a file from which pieces may be copied.
 pub(super) fn mutated(numbers: &mut Numbers, file: &[u8], other: &[u8]) -> Vec<u8> {
     let mut bytes = file.to_vec();
     for _ in 0..=numbers.below(3) * numbers.below(4) {

@@ -9,7 +9,7 @@ use super::Input;
 use super::seeds::{self, Seed};
 use crate::numbers::Numbers;
 
-/// A scene that is rendered in no time, as a still and as a sequence.
+/// A scene that renders very quickly, as a still and as a sequence.
 const SCENE: &str = "(
     image: (width: 24, height: 20),
     lens: Fov(40),
@@ -22,7 +22,7 @@ const SCENE: &str = "(
 ";
 const RENDER: &str = "render scene.ron --frames 1 --samples 2 --quiet --threads 1";
 
-/// The options in which the altered files differ, and their names.
+/// The options that lead to the different files, and the names of the files.
 const FILES: [(&str, &str); 6] = [
     ("a.png", ""),
     ("b.png", "--bits 16 --alpha --region 0,0,24,10"),
@@ -35,7 +35,7 @@ const FILES: [(&str, &str); 6] = [
 /// Runs `marbles`; returns the exit code.
 ///
 /// # Panics
-/// When it is none of those that are promised.
+/// If the exit code is not a documented one.
 fn marbles(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words = [OsString::from("marbles")].into_iter().chain(words);
     let code = marbles_cli::run_with(words, sink(), sink());
@@ -43,7 +43,7 @@ fn marbles(words: impl IntoIterator<Item = OsString>) -> u8 {
     code
 }
 
-/// Runs `marbles` with these words, a file name that is one of a folder's.
+/// Runs `marbles` with these words, the last of which is the name of a file in a folder.
 fn marbles_in(folder: &Path, words: &str) -> u8 {
     let is_file = |word: &str| word.contains(".ron") || FILES.iter().any(|(name, _)| *name == word);
     let place = |word: &str| match is_file(word) {
@@ -80,8 +80,8 @@ pub(super) fn rendered(folder: &Path) -> Vec<Seed> {
     seeds
 }
 
-/// Goes on with a sequence in which there is an altered file, and puts such a file together with another
-/// one. Returns whether the file was taken for complete.
+/// Resumes a sequence that contains an altered file, and merges such a file with another one. Returns whether the file
+/// was accepted as complete.
 pub(super) fn resume(input: &Input<'_>) -> bool {
     let path = input.write();
     let whole = input.folder.join("whole");
@@ -110,7 +110,7 @@ pub(super) fn resume(input: &Input<'_>) -> bool {
     is_skipped
 }
 
-/// Options of `marbles farm`, a word in each line, which read lists of frames, patterns, sizes and so on.
+/// Options of `marbles farm`, one word per line, for the parsers of frame lists, patterns, sizes and so on.
 pub(super) fn command_lines(folder: &Path) -> Vec<Seed> {
     fs::write(folder.join("scene.ron"), SCENE).expect("a scene can be written");
     [
@@ -129,7 +129,7 @@ pub(super) fn command_lines(folder: &Path) -> Vec<Seed> {
     .collect()
 }
 
-/// Writes the job of altered options, which renders nothing.
+/// Writes a job with altered options; this renders nothing.
 pub(super) fn plan(input: &Input<'_>) -> bool {
     let text = String::from_utf8_lossy(input.bytes);
     let engine = if input.numbers & 1 == 0 {

@@ -1,4 +1,4 @@
-//! Rays and spheres whose numbers have some other bits, held against exact arithmetic.
+//! Compares hits with exact arithmetic, for rays and spheres whose numbers have altered bits.
 
 use std::path::Path;
 
@@ -13,10 +13,10 @@ use crate::hits::tally::Tally;
 use crate::hits::verdict::verdict;
 use crate::numbers::Numbers;
 
-/// Cases of an input.
+/// The number of cases per input.
 const CASES: usize = 100;
 
-/// Nothing: the cases are those of families, drawn anew.
+/// Empty: the cases are made anew from the families.
 pub(super) fn seeds(_: &Path) -> Vec<Seed> {
     vec![Seed {
         name: "rays".to_owned(),
@@ -24,10 +24,10 @@ pub(super) fn seeds(_: &Path) -> Vec<Seed> {
     }]
 }
 
-/// Holds some hits against the judge; returns whether there were any.
+/// Compares some hits with the judge; returns whether there were any.
 ///
 /// # Panics
-/// When one is not what is claimed.
+/// If a hit is not as claimed.
 pub(super) fn judge_some(input: &Input<'_>) -> bool {
     let mut numbers = Numbers(input.numbers);
     let mut tally = Tally::default();
@@ -43,7 +43,7 @@ pub(super) fn judge_some(input: &Input<'_>) -> bool {
     !tally.distances.is_empty()
 }
 
-/// A case in which up to three numbers have another bit; `None` where that is no sphere and ray.
+/// A case in which up to three numbers have an altered bit; `None` if the result is not a sphere and a ray.
 fn altered((sphere, ray): (Sphere, Ray), numbers: &mut Numbers) -> Option<(Sphere, Ray)> {
     let mut values = [0.0; 10];
     let (center, origin, direction) = (sphere.center(), ray.origin, ray.direction);

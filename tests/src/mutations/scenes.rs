@@ -1,4 +1,4 @@
-//! Scenes and tables, read as `marbles render` reads them.
+//! Scenes and tables, read like `marbles render` reads them.
 
 use std::ops::ControlFlow;
 
@@ -24,10 +24,10 @@ pub(super) fn read_scene(input: &Input<'_>) -> bool {
     }
 }
 
-/// Spheres of scenes that are rendered.
+/// The largest number of spheres of a scene that is rendered.
 const FEW: usize = 200;
 
-/// Renders a few pixels of the first and of the last frame, and measures how much of each sphere they see.
+/// Renders a few pixels of the first and of the last frame, and computes the visible area of each sphere in them.
 fn render(scene: &Scene) {
     let frames = scene.frames().unwrap_or(1..=1);
     // A still has one.
@@ -63,7 +63,7 @@ fn render(scene: &Scene) {
     }
 }
 
-/// Reads a table by a scene that asks for one thing or another of it.
+/// Reads a table through a scene with various settings.
 pub(super) fn read_table(input: &Input<'_>) -> bool {
     input.write();
     let mut numbers = Numbers(input.numbers);

@@ -1,4 +1,4 @@
-//! Files that are whole before they are altered.
+//! Valid files, before they are altered.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,7 @@ pub(super) fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
-/// The scenes of users, those that were slow, and those that are refused; all are read as if they lay in `scenes`.
+/// Scenes of users, slow scenes, and refused scenes; all are read as if they were in `scenes`.
 pub(super) fn scenes() -> Vec<Seed> {
     // Of the latter there are ten times as many.
     let whole = ["scenes", "scenes/original"].into_iter().cycle().take(20);
@@ -29,7 +29,7 @@ pub(super) fn tables() -> Vec<Seed> {
     files("tests/seeds/tables", "").collect()
 }
 
-/// Small pictures of all formats, as other programs write them.
+/// Small pictures in all formats, written by other programs.
 pub(super) fn pictures() -> Vec<Seed> {
     files("tests/seeds/pictures", "").collect()
 }
@@ -39,12 +39,12 @@ pub(super) fn in_folder(folder: &Path) -> Vec<Seed> {
     read(folder, "").collect()
 }
 
-/// The files of a folder of the repository, in order, with an ending; any for none.
+/// The files of a folder of the repository, in order, with an extension, or with any extension.
 fn files(folder: &str, ending: &str) -> impl Iterator<Item = Seed> {
     read(&repository().join(folder), ending)
 }
 
-/// The files of a folder, in order, with an ending; any for none.
+/// The files of a folder, in order, with an extension, or with any extension.
 fn read<'e>(folder: &Path, ending: &'e str) -> impl Iterator<Item = Seed> + use<'e> {
     let entries = fs::read_dir(folder).expect("the folder is there");
     let paths = entries.map(|entry| entry.expect("entries can be read").path());

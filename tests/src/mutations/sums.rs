@@ -1,12 +1,12 @@
-//! Checksums of files that were altered: what does not fit them is read no further.
+//! The checksums of altered files, because readers stop at a wrong one.
 
 /// The bytes with which a PNG begins.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
-/// Those of a member of an archive, and of its place in the list of all.
+/// The bytes with which a member of an archive begins, and its entry in the directory.
 const MEMBER: &[u8] = b"PK\x03\x04";
 const ENTRY: &[u8] = b"PK\x01\x02";
 
-/// Gives a PNG or an archive the sums that fit its bytes.
+/// Corrects the checksums of a PNG or an archive.
 pub(super) fn mend_sums(bytes: &mut [u8]) {
     if bytes.starts_with(PNG) {
         mend_chunks(bytes);
@@ -15,7 +15,7 @@ pub(super) fn mend_sums(bytes: &mut [u8]) {
     }
 }
 
-/// Gives the chunks of a PNG the sums that fit their bytes.
+/// Corrects the checksums of the chunks of a PNG.
 fn mend_chunks(bytes: &mut [u8]) {
     let mut rest = &mut bytes[PNG.len()..];
     // A chunk has the length of its data, its name, its data and its sum.
@@ -32,7 +32,7 @@ fn mend_chunks(bytes: &mut [u8]) {
     }
 }
 
-/// Gives the members of an archive that are stored as they are the sums that fit their data, at both places of them.
+/// Corrects the checksums of uncompressed members of an archive, in the members and in the directory.
 ///
 /// # Source
 /// PKWARE, "APPNOTE.TXT", 4.3.

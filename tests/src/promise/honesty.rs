@@ -1,14 +1,14 @@
-//! Errors of pixels, as shares of their claims.
+//! Errors of pixels relative to their claims.
 
-/// True errors over claimed ones of some pixels, each of which may stand for several.
+/// The ratios of true and claimed errors of some pixels, each of which may represent several.
 #[derive(Clone, Debug, Default)]
 pub struct Honesty {
-    /// Ratios, and how many pixels they stand for. Two digits of a ratio are ever told.
+    /// Ratios, and the number of pixels that they represent. Output never shows more than two digits of a ratio.
     ratios: Vec<(f32, u32)>,
 }
 
 impl Honesty {
-    /// Counts a pixel for so many like it, unless its ratio is not a number.
+    /// Adds a pixel that represents several, unless its ratio is not a number.
     pub fn count(&mut self, ratio: f64, pixels: u32) {
         if !ratio.is_nan() {
             self.ratios.push((ratio as f32, pixels));
@@ -20,7 +20,7 @@ impl Honesty {
         self.ratios.extend(&other.ratios);
     }
 
-    /// The median, the upper one of an even number; none of no pixels.
+    /// The median, or the upper one of the two in the middle; `None` without pixels.
     pub fn median(&self) -> Option<f64> {
         let mut sorted = self.ratios.clone();
         sorted.sort_unstable_by(|(one, _), (other, _)| one.total_cmp(other));

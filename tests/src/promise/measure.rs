@@ -9,26 +9,27 @@ use rayon::prelude::*;
 
 use super::pixels::{self, ExactPixel};
 
-/// A claim counts as idle or not only where it is so many times the truth's own error: what is
-/// left of a true error below that moves a ratio of 1/1000 by a tenth of it.
+/// A ratio of true and claimed error counts only if the claim is at least this many times the error of the exact value,
+/// which then changes a ratio of 1/1000 by at most a tenth.
 const TELLING: f64 = 1e4;
 
 /// The results of a scene's pixels at a tolerance.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Score {
-    /// Pixels that were compared.
+    /// The number of compared pixels.
     pub pixels: usize,
-    /// Pixels over the tolerance whose status does not say so.
+    /// The number of pixels over the tolerance that are not reported as such.
     pub broken: usize,
-    /// Those of them that are over three times the tolerance.
+    /// The number of those that are over three times the tolerance.
     pub badly_broken: usize,
-    /// Pixels whose status says that the tolerance was not met.
+    /// The number of pixels that are reported as over the tolerance.
     pub unmet: usize,
-    /// Pixels that are off by more than they claim, of those that claim to be within.
+    /// The number of pixels with errors larger than claimed, among those that are not reported.
     pub beyond_claim: usize,
-    /// The largest error of those that claim to be within.
+    /// The largest error among the pixels that are not reported.
     pub worst: f64,
-    /// The median of true / claimed error over pixels with edges, where the truth can tell.
+    /// The median ratio of true and claimed error over pixels with edges, as far as the exact values are precise
+    /// enough.
     pub honesty: f64,
 }
 
@@ -43,7 +44,7 @@ struct Judged {
 
 /// Renders the pixels of a scene's file, as pictures of one pixel each, or as one whole picture.
 ///
-/// Every other pixel is asked for with its background instead of its coverage.
+/// Every other pixel is rendered with its background instead of alpha.
 pub fn score(scene: &Path, tolerance: f64, whole: bool) -> Score {
     let exact = pixels::read(scene);
     let scene = pixels::load(scene);

@@ -1,4 +1,4 @@
-//! Exact pixels of the scenes in `tests/truth/promise`, and how far the renderer is off from them.
+//! Exact pixels of the scenes in `tests/truth/promise`, and the errors of the renderer in them.
 
 pub mod honesty;
 pub mod measure;

@@ -9,14 +9,14 @@ use marbles_scene::Scene;
 /// The first line of the files.
 const HEAD: &str = "row,col,edge,red,green,blue,alpha,error";
 
-/// A pixel, and what is known of it.
+/// A pixel with its exact value.
 #[derive(Clone, Copy, Debug)]
 pub struct ExactPixel {
     /// Column, from the left.
     pub col: u32,
     /// Row, from the top.
     pub row: u32,
-    /// Whether something changes abruptly in the pixel.
+    /// Whether the pixel contains an edge.
     pub has_edge: bool,
     /// The spheres' light without the background, and the covered fraction.
     pub value: DVec4,
@@ -47,7 +47,7 @@ pub fn load(scene: &Path) -> Scene {
     Scene::load(scene).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The pixels beside a scene.
+/// The exact pixels of a scene.
 pub fn read(scene: &Path) -> Vec<ExactPixel> {
     let path = scene.with_extension("csv");
     let text = std::fs::read_to_string(&path).unwrap_or_default();

@@ -1,5 +1,4 @@
-//! The integral over a patch: Gauss–Kronrod across lines, between those where their structure
-//! changes.
+//! The integral over a patch: Gauss–Kronrod across lines, between the lines where their structure changes.
 
 use std::cell::Cell;
 
@@ -11,24 +10,24 @@ use super::patch::{Candidate, Patch};
 use super::quadrature::{Integral, changes, integrate};
 use super::seeds::{Seeds, touching_lines};
 
-/// Lines of the first look, beside those that seeds suggest.
+/// The number of lines at first, in addition to those that seeds suggest.
 const FIRST_LINES: usize = 24;
-/// The accuracy, in pixels, of the lines between which the structure changes: what begins
-/// there does so with zero width. Less closely where less is asked: by so much of the patch's goal.
+/// The accuracy, in pixels, of the lines at which the structure changes: what begins there begins with zero width. If
+/// less accuracy is requested, it is this fraction of the patch's goal.
 const CLOSE: f64 = 1e-11;
 const CLOSE_SHARE: f64 = 1e-2;
-/// The error that the integral across lines may have, in addition to the noise, as a share of the patch's goal.
+/// The allowed error of the integral across lines, in addition to noise, as a fraction of the patch's goal.
 const SHARE: f64 = 2e-2;
 const HALVINGS: u32 = 10;
 const RETRIES: u32 = 4;
-/// Lines that may be cut in one direction; and after how many changes count as found ten times
-/// less closely: grazing light on far balls makes shadows flicker at their ends.
+/// The largest number of lines in one direction; and the number of changes after which changes are located ten times
+/// less precisely: at the ends of shadows, grazing light on distant balls alternates quickly.
 const BUDGET: u32 = 6_000;
 const PATIENCE: u32 = 1_000;
-/// An error that no one will take for small, for work left undone.
+/// An obviously large error, for work that was not finished.
 const UNDONE: f64 = 1e-3;
 
-/// The direction in which lines run.
+/// The direction of lines.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Way {
     Right,
@@ -43,7 +42,7 @@ impl Way {
         }
     }
 
-    /// Along and across the lines.
+    /// Converts coordinates along and across the lines to those of the patch.
     fn parts(self, point: DVec2) -> (f64, f64) {
         match self {
             Self::Right => (point.x, point.y),
@@ -62,7 +61,7 @@ impl Way {
 /// The result of an integral over a patch.
 pub(crate) struct Found {
     pub(crate) integral: Integral,
-    /// Whether more than one thing is seen.
+    /// Whether the patch shows more than one thing.
     pub(crate) has_edge: bool,
     pub(crate) lines: u32,
 }
@@ -168,7 +167,7 @@ impl<'patch> Across<'patch> {
         unreachable!("the loop ends by itself")
     }
 
-    /// Lines between all neighbors among the seeds, and evenly.
+    /// Lines between all neighbors among the seeds, and evenly spread ones.
     fn first_look(&self, places: &[f64], low: f64, high: f64) -> Vec<(f64, Vec<Signature>)> {
         let ends: Vec<f64> = [low]
             .into_iter()
@@ -208,7 +207,7 @@ impl<'patch> Across<'patch> {
         cuts
     }
 
-    /// The integral between two lines; notes lines with another structure than the middle's.
+    /// The integral between two lines. Records lines whose structure differs from that of the middle.
     fn between(
         &self,
         start: f64,
@@ -257,7 +256,7 @@ impl<'patch> Across<'patch> {
         sum
     }
 
-    /// The places where edges leave the patch through the sides that the lines run between.
+    /// The places where edges leave the patch through the two sides that lines connect.
     fn border_events(&self) -> Vec<f64> {
         let crosswise = Across {
             patch: self.patch,

@@ -1,4 +1,4 @@
-//! A sphere as the viewpoint sees it.
+//! A sphere in relation to the viewpoint.
 
 use glam::DVec3;
 
@@ -7,11 +7,11 @@ use glam::DVec3;
 pub(crate) struct Ball {
     pub(crate) center: DVec3,
     pub(crate) radius: f64,
-    /// |center|² − radius², from twice as many digits: near a floor of radius 10⁶ the two agree in
-    /// most of theirs. At most 0 where the viewpoint is inside or on the surface.
+    /// |center|² − radius², computed with twice as many digits: near a floor of radius 10⁶, most digits of the two
+    /// agree. At most 0 if the viewpoint is inside or on the surface.
     pub(crate) power: f64,
-    /// The direction of all rays, where they are parallel: then a ray is told by where it begins, relative to the
-    /// viewpoint, in place of its direction.
+    /// The direction of all rays, if they are parallel. A ray is then given by its origin, relative to the viewpoint,
+    /// instead of its direction.
     pub(crate) forward: Option<DVec3>,
 }
 
@@ -35,12 +35,12 @@ impl Ball {
         }
     }
 
-    /// Whether the one viewpoint of all rays lies inside.
+    /// Whether the common viewpoint of all rays is inside.
     pub(crate) fn has_eye_inside(&self) -> bool {
         self.forward.is_none() && self.power <= 0.0
     }
 
-    /// Whether a ray begins inside.
+    /// Whether the origin of a ray is inside.
     pub(crate) fn begins_inside(&self, direction: DVec3) -> bool {
         match self.forward {
             None => self.power <= 0.0,
@@ -48,14 +48,14 @@ impl Ball {
         }
     }
 
-    /// The radius of the circle in which the plane that parallel rays begin in cuts the ball.
+    /// The radius of the circle in which the ball is cut by the plane in which parallel rays begin.
     pub(crate) fn cut_radius(&self) -> Option<f64> {
         let along = self.center.dot(self.forward?);
         let square = (self.radius - along) * (self.radius + along);
         (square > 0.0).then(|| square.sqrt())
     }
 
-    /// The point of a ray at `t` multiples of its direction.
+    /// The point of a ray at `t` times its direction.
     pub(crate) fn point(&self, direction: DVec3, t: f64) -> DVec3 {
         match self.forward {
             None => direction * t,
@@ -63,8 +63,8 @@ impl Ball {
         }
     }
 
-    /// Half the chord that the line through the viewpoint along `direction` cuts, squared;
-    /// negative where it passes by. In scene units.
+    /// The square of half the chord of the line through the viewpoint along `direction`, in scene units; negative if
+    /// the line misses the ball.
     pub(crate) fn chord_sq(&self, direction: DVec3) -> f64 {
         if let Some(forward) = self.forward {
             let from_ray = self.center - direction;
@@ -74,7 +74,7 @@ impl Ball {
         chord_sq(self.center, self.radius, self.power, direction.normalize())
     }
 
-    /// The place where the ray from the viewpoint meets the surface, in multiples of `direction`.
+    /// The point where the ray from the viewpoint hits the surface, in multiples of `direction`.
     pub(crate) fn hit(&self, direction: DVec3) -> Option<f64> {
         let chord_sq = self.chord_sq(direction);
         if self.forward.is_some() {
@@ -88,7 +88,7 @@ impl Ball {
         (t > 0.0).then_some(t)
     }
 
-    /// As [`Ball::hit`] for a ray that is known to meet the ball, though rounding may deny it.
+    /// Like [`Ball::hit`], for a ray that is known to hit the ball although rounding may contradict.
     pub(crate) fn forced_hit(&self, direction: DVec3) -> f64 {
         self.clamped_hit(direction, self.chord_sq(direction))
     }
@@ -123,8 +123,8 @@ impl Ball {
         (point - self.center) / self.radius
     }
 
-    /// Half the chord that a ray from `point` (relative to the viewpoint) toward a light cuts,
-    /// squared; negative where it passes by. And whether such a chord lies ahead.
+    /// The square of half the chord of a ray from `point` (relative to the viewpoint) toward a light, negative if the
+    /// ray misses the ball; and whether the chord lies ahead.
     pub(crate) fn shadow(&self, point: DVec3, toward: DVec3) -> (f64, bool) {
         let center = self.center - point;
         // |center − point|² − radius²; for a large ball near the viewpoint without the
@@ -139,8 +139,8 @@ impl Ball {
     }
 }
 
-/// Half the chord of a line through the origin along a unit vector, squared: from the foot of the
-/// perpendicular, or near a large ball, where that cancels, from the power of the origin.
+/// The square of half the chord of a line through the origin along a unit vector: from the foot of the perpendicular,
+/// or, near a large ball, where this cancels, from the power of the origin.
 fn chord_sq(center: DVec3, radius: f64, power: f64, unit: DVec3) -> f64 {
     let along = center.dot(unit);
     if center.length_squared() > 4.0 * radius * radius {
@@ -168,7 +168,7 @@ impl Twice {
     }
 }
 
-/// The rounded sum and what rounding took from it.
+/// The rounded sum, and its rounding error.
 fn exact_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let of_b = sum - a;

@@ -1,4 +1,4 @@
-//! A light as points see it.
+//! A light in relation to points.
 
 use glam::DVec3;
 use marbles_core::{Light, LightFalloff};
@@ -12,7 +12,7 @@ pub(crate) enum Lamp {
     Far(DVec3),
     Near {
         position: DVec3,
-        /// The distance at which it has its intensity, if it falls off.
+        /// The distance at which it has its intensity, if it has a falloff.
         reference: Option<f64>,
     },
 }
@@ -31,7 +31,7 @@ impl Lamp {
         }
     }
 
-    /// The unit vector toward it from a point, and the factor of its intensity there.
+    /// The unit vector toward it from a point, and the factor on its intensity there.
     pub(crate) fn seen_from(&self, point: DVec3) -> (DVec3, f64) {
         match *self {
             Self::Far(toward) => (toward, 1.0),
@@ -47,7 +47,7 @@ impl Lamp {
         }
     }
 
-    /// Whether it lies inside of a ball: its outer side is dark.
+    /// Whether it is inside a ball, whose outer side is then dark.
     pub(crate) fn is_inside(&self, ball: &Ball) -> bool {
         match *self {
             Self::Far(_) => false,
@@ -55,10 +55,10 @@ impl Lamp {
         }
     }
 
-    /// A function that changes its sign where the shadow of a ball ends on the way of points, negative where it passes
-    /// by; and whether the ball lies between.
+    /// A function of points that changes its sign where the shadow of a ball ends, negative if the line to the light
+    /// misses the ball; and whether the ball is between the point and the light.
     ///
-    /// Between two points the surface of a ball is met where one of them alone is inside, or where the line cuts it
+    /// Between two points, the surface of a ball is met if exactly one of them is inside, or if the line cuts the ball
     /// between them.
     pub(crate) fn shadow(&self, caster: &Ball, point: DVec3) -> (f64, bool) {
         let (toward, _) = self.seen_from(point);

@@ -1,27 +1,27 @@
-//! The view of a ray: the sphere, the lights that reach it there, and the light that it sends.
+//! The view along a ray: the sphere, the lights that reach it, and the reflected light.
 
 use glam::{DVec3, DVec4};
 
 use super::noise::bump;
 use super::patch::{Candidate, Patch};
 
-/// The properties that may jump, or bend sharply, from one ray to the next.
+/// The properties that may jump, or change sharply, from one ray to the next.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub(crate) struct Signature {
-    /// One more than the index in the patch's candidates; 0 for the background.
+    /// The index among the patch's candidates plus one; 0 for the background.
     pub(crate) seen: usize,
-    /// Whether that is its inner side.
+    /// Whether its inner side is visible.
     is_inner: bool,
-    /// Whether that is its outline.
+    /// Whether its outline is visible.
     is_outline: bool,
-    /// The lights that reach the point, and those whose highlight does.
+    /// The lights that reach the point, and those with a highlight there.
     lit: u64,
     shines: u64,
-    /// The cell of the surface's noise.
+    /// The cell of the noise on the surface.
     cell: [i64; 3],
 }
 
-/// A point of a sphere's outer side.
+/// A point on the outer side of a sphere.
 pub(crate) struct Spot {
     /// Relative to the viewpoint.
     pub(crate) point: DVec3,
@@ -31,7 +31,7 @@ pub(crate) struct Spot {
 }
 
 impl Patch<'_> {
-    /// The nearest candidate in a direction, and where, in multiples of it.
+    /// The nearest candidate in a direction, and its distance in multiples of the direction.
     pub(crate) fn front(&self, direction: DVec3) -> Option<(usize, f64)> {
         let mut nearest: Option<(usize, f64)> = None;
         for (index, candidate) in self.candidates.iter().enumerate() {
@@ -44,7 +44,7 @@ impl Patch<'_> {
         nearest
     }
 
-    /// The point of a candidate at `t` multiples of a direction.
+    /// The point of a candidate at `t` times a direction.
     pub(crate) fn spot(&self, candidate: &Candidate, direction: DVec3, t: f64) -> Spot {
         let point = candidate.ball.point(direction, t);
         let normal = candidate.ball.normal(point);
@@ -66,7 +66,7 @@ impl Patch<'_> {
         }
     }
 
-    /// Half-way between a light and the direction toward the viewpoint.
+    /// The half vector between a light and the direction toward the viewpoint.
     pub(crate) fn half_way(&self, light: DVec3, direction: DVec3) -> DVec3 {
         let away = self.stage.forward.unwrap_or_else(|| direction.normalize());
         (light - away).normalize_or_zero()
@@ -76,7 +76,7 @@ impl Patch<'_> {
         self.look(direction, false).0
     }
 
-    /// The sphere seen in a direction, and its light and coverage, if `is_asked`.
+    /// The sphere in a direction, with its light and coverage if `is_asked`.
     pub(crate) fn look(&self, direction: DVec3, is_asked: bool) -> (Signature, DVec4) {
         let mut signature = Signature::default();
         let Some((index, t)) = self.front(direction) else {

@@ -1,7 +1,7 @@
-//! A line across a patch: where what is seen changes, and the light along it.
+//! A line across a patch: the places where the visible surface or its light changes, and the light along the line.
 //!
-//! Formulas and smooth functions only say where to look: what is seen is decided by looking, on
-//! both sides of every place, in the middle between them, and at every node of the quadrature.
+//! Formulas and smooth functions only suggest places. What is visible is decided by rays: on both sides of every place,
+//! in the middle between places, and at every node of the quadrature.
 
 use glam::DVec3;
 
@@ -10,18 +10,19 @@ use super::light::{Signature, Spot};
 use super::patch::{Candidate, Patch};
 use super::quadrature::{Integral, changes, integrate, zeros};
 
-/// Places closer than this are one, in pixels, beside the noise of rounding; closer than so much of the patch's goal, too.
+/// The distance, in pixels, below which places count as one, in addition to rounding noise; it is at least this
+/// fraction of the patch's goal.
 const CLOSE: f64 = 2e-12;
 const CLOSE_SHARE: f64 = 2e-3;
-/// Parts shorter than this many times that do not count as a difference between two lines.
+/// Parts shorter than this multiple of it are not counted as a difference between two lines.
 const SHORT: f64 = 10.0;
-/// The error that the light along a line may have, in pixels times light, in addition to the noise, as a share of the
+/// The allowed error of the light along a line, in pixels times light, in addition to noise, as a fraction of the
 /// patch's goal.
 const SHARE: f64 = 2e-3;
-/// The number of times that a part of a line may be halved, and that a line is cut again.
+/// How often a part of a line may be halved, and how often a line is divided again.
 const HALVINGS: u32 = 12;
 const RETRIES: u32 = 4;
-/// Places at which functions along a visible part are known, before their zeros are sought.
+/// The number of places at which functions along a visible part are evaluated before their zeros are searched for.
 const NODES: usize = 16;
 
 /// The directions `origin + s · along`, s from `low` to `high`.
@@ -31,7 +32,7 @@ pub(crate) struct Line<'patch> {
     pub(crate) along: DVec3,
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// Places where quadrature had better start anew, as the light has a peak.
+    /// Places where quadrature should divide the line, because the light has a peak.
     pub(crate) peaks: Vec<f64>,
 }
 
@@ -85,7 +86,7 @@ impl Line<'_> {
         unreachable!("the loop ends by itself")
     }
 
-    /// Notes a place inside the piece where something else is seen.
+    /// Records a place inside the piece where something else is visible.
     fn piece_integral(&self, piece: &Piece, surprises: &mut Vec<f64>) -> Integral {
         let mut surprise = None;
         let mut light = |s: f64| {
@@ -117,7 +118,7 @@ impl Line<'_> {
         sum
     }
 
-    /// The line, cut where what is seen changes; `extra` are places to look at, too.
+    /// The line, divided where the view changes; `extra` are additional places to check.
     pub(crate) fn pieces(&self, extra: &[f64]) -> Vec<Piece> {
         let mut pieces = Vec::new();
         for (start, end, front) in self.runs(extra) {
@@ -145,7 +146,7 @@ impl Line<'_> {
         pieces
     }
 
-    /// The parts on which the same sphere is seen.
+    /// The parts on which the same sphere is visible.
     fn runs(&self, extra: &[f64]) -> Vec<(f64, f64, Option<usize>)> {
         let mut seeds = Vec::new();
         let candidates = &self.patch.candidates;
@@ -202,7 +203,7 @@ impl Line<'_> {
         }
     }
 
-    /// The places where a line of parallel rays grazes a ball, or enters the circle in which these begin inside.
+    /// The places where a line of parallel rays grazes a ball, or enters the circle in which the rays begin inside it.
     fn circle_seeds(&self, ball: &Ball, seeds: &mut Vec<f64>) {
         let Some(forward) = ball.forward else { return };
         let to_center = ball.center - self.origin;
@@ -267,8 +268,8 @@ impl Line<'_> {
         }
     }
 
-    /// The places where terminators, edges of shadows, and cells of the noise may cross the line on a ball
-    /// that is seen from `start` to `end`.
+    /// The places where terminators, edges of shadows, and borders of noise cells may cross the line, on a ball that is
+    /// visible from `start` to `end`.
     fn seeds_on(&self, candidate: &Candidate, start: f64, end: f64, seeds: &mut Vec<f64>) {
         let world = self.patch.stage.world;
         let material = world.material(candidate.sphere);
@@ -328,7 +329,7 @@ impl Line<'_> {
     }
 }
 
-/// Cuts a range where the results of `look` change.
+/// Divides a range where the results of `look` change.
 fn cut<S: PartialEq + Clone>(
     (low, high): (f64, f64),
     mut seeds: Vec<f64>,
@@ -361,7 +362,7 @@ fn cut<S: PartialEq + Clone>(
     cuts
 }
 
-/// From 0 to 1, with more near both ends, where zeros come in pairs more easily.
+/// Numbers from 0 to 1, denser near both ends, where pairs of zeros are more likely.
 fn nodes() -> Vec<f64> {
     let step = 1.0 / NODES as f64;
     let near = [0.0, 0.2 * step, 0.5 * step];

@@ -1,15 +1,14 @@
-//! The exact average of light over a pixel, by other means than the renderer's.
+//! The exact average of light over a pixel, computed by other means than the renderer's.
 //!
-//! Written from the model in `docs/scenes.md` alone, to hold the renderer's promise against: hits,
-//! shadows and shading are computed here in plain double precision, every point by looking at all
-//! spheres that may matter. The integral over a pixel goes along lines and across them by
-//! Gauss–Kronrod rules between the places where what is seen changes. Formulas suggest such
-//! places; looking on both sides confirms them, and every node of every rule looks again. Lines
-//! run once to the right and once up; where the two answers differ, the pixel is quartered.
+//! Written from the model in `docs/scenes.md` alone, to check the promise of the renderer. Hits, shadows and shading
+//! are computed in plain double precision, and every point checks all spheres that may matter. The integral over a
+//! pixel is computed along lines and across them, by Gauss–Kronrod rules between the places where the view changes.
+//! Formulas suggest such places; rays on both sides confirm them, and every node of every rule checks again. Lines run
+//! once to the right and once up; if the two results differ, the pixel is divided into quarters.
 //!
 //! # Accuracy
-//! A [`Truth`] states what it may be off by: the difference of the two directions and their own
-//! estimates. `checks.rs` measures both against pixels in `tests/truth/pixels` and closed forms.
+//! A [`Truth`] states its possible error: the difference between the two directions, and their own estimates.
+//! `checks.rs` measures both against pixels in `tests/truth/pixels` and closed forms.
 
 mod across;
 mod ball;
@@ -29,12 +28,12 @@ use across::Way;
 use patch::{Patch, Stage};
 use seeds::Seeds;
 
-/// The difference of both directions above which a pixel is quartered.
+/// The difference between both directions above which a pixel is divided into quarters.
 const TOLERANCE: f64 = 1e-10;
-/// The number of times that quarters are quartered, and the lines that a pixel may cost.
+/// How often quarters are divided again, and the largest number of lines per pixel.
 const DEPTH: u32 = 5;
 const BUDGET: u32 = 40_000;
-/// The error from the last digits of lines and edges if all else agrees.
+/// The rounding error of lines and edges if everything else agrees.
 const ROUNDING: f64 = 1e-12;
 
 /// The four quarters of a patch.
@@ -43,17 +42,17 @@ const SIDES: [DVec2; 4] = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE];
 /// The average of light and coverage over a pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Truth {
-    /// Red, green, blue of the spheres' light, without the background, and the covered fraction.
+    /// Red, green and blue of the spheres' light, without the background, and the covered fraction.
     pub value: DVec4,
     /// The largest error of any channel.
     pub error: f64,
-    /// Whether something changes inside the pixel: a sphere's contour, a shadow, a terminator.
+    /// Whether there is an edge inside the pixel: a sphere's contour, a shadow, a terminator.
     pub has_edge: bool,
-    /// Lines that it took.
+    /// The number of lines that it took.
     pub lines: u32,
 }
 
-/// A world and a view whose pixels can be asked for.
+/// A world and a view, whose exact pixels can be computed.
 pub struct Reference<'world> {
     stage: Stage<'world>,
 }
@@ -65,12 +64,12 @@ impl<'world> Reference<'world> {
         Self { stage }
     }
 
-    /// The truth of a pixel.
+    /// The exact value of a pixel.
     pub fn pixel(&self, col: u32, row: u32) -> Truth {
         self.pixel_to(col, row, TOLERANCE)
     }
 
-    /// The truth of a pixel where it need not be known better than to this error.
+    /// The value of a pixel with at most about this error.
     pub fn pixel_to(&self, col: u32, row: u32, tolerance: f64) -> Truth {
         let tolerance = tolerance.max(TOLERANCE);
         let patch = Patch::of_pixel(&self.stage, col, row, tolerance);
@@ -80,7 +79,7 @@ impl<'world> Reference<'world> {
         truth
     }
 
-    /// The truth as the sum of its four quarters': what hides in one hardly hides in both.
+    /// The value as the sum of four quarters: details that one misses are hardly missed by both.
     pub fn pixel_by_quarters(&self, col: u32, row: u32) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let mut budget = BUDGET;
@@ -107,7 +106,7 @@ impl<'world> Reference<'world> {
             .is_empty()
     }
 
-    /// Whether corners and middle of a pixel, a few points in all, differ in what they see.
+    /// Whether the views at corners and center of a pixel, and a few points more, differ.
     pub fn seems_to_change(&self, col: u32, row: u32) -> bool {
         let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let look = |x: i32, y: i32| {
@@ -119,7 +118,7 @@ impl<'world> Reference<'world> {
         points.any(|(x, y)| look(x, y) != middle)
     }
 
-    /// The mean of N × N midpoints: slow and rough, but hard to get wrong.
+    /// The mean of N × N midpoints: slow and imprecise, but hard to get wrong.
     pub fn midpoints(&self, col: u32, row: u32, count: u32) -> DVec4 {
         let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let place = |index: u32| (f64::from(index) + 0.5) / f64::from(count) - 0.5;

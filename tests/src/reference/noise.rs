@@ -1,21 +1,21 @@
-//! The noise of rough surfaces, from its description.
+//! The noise of rough surfaces, implemented from its description.
 //!
-//! Every lattice point has three random numbers in [−1, 1), from the hash of the seed, the sphere
-//! and the point's three integers (z, then y, then x); a hash mixes one word into a key by one
-//! round of SplitMix64. Quadratic B-splines blend the numbers of the 27 lattice points around.
+//! Every lattice point has three random numbers in [−1, 1), from the hash of the seed, the sphere and the three
+//! integers of the point (z, then y, then x). A hash mixes one word into a key by one round of SplitMix64. Quadratic
+//! B-splines combine the numbers of the surrounding 27 lattice points.
 
 use glam::DVec3;
 use marbles_core::{Grain, Roughness};
 
-/// A shading normal, and which lattice cell its noise came from: the numbers are polynomials of the
-/// place inside a cell, but not across cells.
+/// A shading normal, and the lattice cell of its noise. Within a cell the noise is a polynomial of the position, but
+/// not across cells.
 pub(crate) struct Bump {
     pub(crate) normal: DVec3,
     pub(crate) cell: [i64; 3],
 }
 
-/// The bump at the point of a sphere with the outward normal `normal`; `pixel` is the column and
-/// row, and the frame.
+/// The bump at the point of a sphere with the outward normal `normal`. `pixel` consists of the column, the row, and the
+/// frame.
 pub(crate) fn bump(
     rough: &Roughness,
     sphere: usize,
@@ -64,7 +64,7 @@ fn blend(key: u64, point: DVec3) -> (DVec3, [i64; 3]) {
     (sum, cell)
 }
 
-/// The quadratic B-spline, which reaches from −3/2 to 3/2.
+/// The quadratic B-spline, which is not 0 from −3/2 to 3/2.
 fn spline(x: f64) -> f64 {
     let x = x.abs();
     if x <= 0.5 {
@@ -76,7 +76,7 @@ fn spline(x: f64) -> f64 {
     }
 }
 
-/// Three fields of 21 bits, from the top, as numbers in [−1, 1).
+/// Three fields of 21 bits, from the highest bits, as numbers in [−1, 1).
 fn numbers(bits: u64) -> DVec3 {
     let field = |shift: u32| ((bits >> shift) % (1 << 21)) as f64 / f64::from(1 << 20) - 1.0;
     DVec3::new(field(43), field(22), field(1))

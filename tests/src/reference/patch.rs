@@ -1,4 +1,4 @@
-//! A rectangle of the retina, and the spheres that matter to it.
+//! A rectangle of the retina, and the spheres that affect it.
 
 use glam::{DVec2, DVec3};
 use marbles_core::{OutlineWidth, View, World};
@@ -6,13 +6,13 @@ use marbles_core::{OutlineWidth, View, World};
 use super::ball::Ball;
 use super::lamp::Lamp;
 
-/// Slack of the search for spheres, in units of what is compared: far above rounding.
+/// Relative slack in the search for spheres: far above rounding.
 const SLACK: f64 = 1e-7;
 
-/// The error of rounding a direction or a point, in units of its own size: some eight operations.
+/// The relative rounding error of a direction or a point: about eight operations.
 const ROUNDING: f64 = 8.0 * 0.5 * f64::EPSILON;
 
-/// A world as seen from a viewpoint.
+/// A world from a viewpoint.
 pub(crate) struct Stage<'world> {
     pub(crate) world: &'world World,
     pub(crate) view: View,
@@ -71,7 +71,7 @@ impl Stage<'_> {
         self.smaller(sphere, width)
     }
 
-    /// A ball whose radius is smaller by this.
+    /// A ball whose radius is smaller by this amount.
     fn smaller(&self, sphere: usize, width: f64) -> Option<Ball> {
         let sphere = &self.world.spheres()[sphere];
         let radius = (sphere.radius() - width).max(0.0);
@@ -84,8 +84,8 @@ impl Stage<'_> {
     }
 }
 
-/// A part of a pixel: the directions `origin + s · right + t · up` for s, t in the given ranges,
-/// which lie in [−½, ½]. Parallel rays are told by where they begin instead, relative to the viewpoint.
+/// A part of a pixel: the directions `origin + s · right + t · up` for s and t in the given ranges, which are within
+/// [−½, ½]. Parallel rays are given by their origins instead, relative to the viewpoint.
 pub(crate) struct Patch<'stage> {
     pub(crate) stage: &'stage Stage<'stage>,
     pub(crate) key: (u32, u32, i64),
@@ -94,20 +94,20 @@ pub(crate) struct Patch<'stage> {
     pub(crate) up: DVec3,
     pub(crate) low: DVec2,
     pub(crate) high: DVec2,
-    /// The error of rounding: places along lines are off by so many pixels, light by so much. Lines
-    /// of both directions share it.
+    /// The effect of rounding: the error of places along lines, in pixels, and of light. Lines of both directions share
+    /// it.
     pub(crate) noise: f64,
-    /// The error that the integral may have; lines and their parts have shares of it.
+    /// The allowed error of the integral. Lines and their parts get fractions of it.
     pub(crate) goal: f64,
-    /// Spheres that may be seen in it.
+    /// The spheres that may be visible in it.
     pub(crate) candidates: Vec<Candidate>,
 }
 
-/// A sphere that may be seen, and for every light those that may keep it from the visible part.
+/// A sphere that may be visible, and for every light the spheres that may block it for the visible part.
 pub(crate) struct Candidate {
     pub(crate) sphere: usize,
     pub(crate) ball: Ball,
-    /// The smaller ball that rays pass which see the sphere's outline.
+    /// The smaller ball that rays miss if they show the outline of the sphere.
     pub(crate) inside: Option<Ball>,
     pub(crate) casters: Vec<Vec<usize>>,
 }
@@ -153,8 +153,7 @@ impl<'stage> Patch<'stage> {
         self.origin + self.right * point.x + self.up * point.y
     }
 
-    /// The point of the pixel's plane in a direction, if that lies ahead; with parallel rays that at which a point is
-    /// seen.
+    /// The point of the pixel's plane in a direction, if it is in front; with parallel rays, the projection of a point.
     pub(crate) fn project(&self, direction: DVec3) -> Option<DVec2> {
         let pixel_sq = self.right.length_squared();
         if self.stage.forward.is_some() {
@@ -246,7 +245,7 @@ impl<'stage> Patch<'stage> {
         Cone { axis, angle }
     }
 
-    /// The spheres that reach the beam from the part of a sphere inside the cone toward a light.
+    /// The spheres that reach into the beam from the part of a sphere inside the cone toward a light.
     fn casters(&self, beam: &Beam, sphere: usize) -> Vec<Vec<usize>> {
         let world = self.stage.world;
         let ball = &self.stage.balls[sphere];
@@ -306,7 +305,7 @@ impl Beam {
         }
     }
 
-    /// The ends of a segment, and how far around it that part of a ball may lie which is seen.
+    /// The ends of a segment, and the distance around it that contains the visible part of a ball.
     fn part_of(&self, ball: &Ball) -> ([DVec3; 2], f64) {
         match self {
             Self::Cone(cone) => {
@@ -358,7 +357,7 @@ impl Cone {
         angle(self.axis, ball.center) <= (size + self.angle) * (1.0 + SLACK) + 1e-15
     }
 
-    /// The range of distances from the viewpoint at which it meets the near side of a ball.
+    /// The range of distances from the viewpoint to the near side of a ball.
     fn distances(&self, ball: &Ball) -> (f64, f64) {
         let between = angle(self.axis, ball.center);
         let distance = |angle: f64| {

@@ -1,9 +1,9 @@
-//! Gauss–Kronrod quadrature, zeros of functions, and changes of what a probe reports.
+//! Gauss–Kronrod quadrature, zeros of functions, and changes of the result of a probe.
 
 use glam::DVec4;
 
-/// Nodes of the Kronrod rule with 15 points on [−1, 1] from the outside to the middle, their
-/// weights, and the weights of the Gauss rule with 7 points (0 where it has no node).
+/// Nodes of the Kronrod rule with 15 points on [−1, 1], from the outside to the middle, their weights, and the weights
+/// of the Gauss rule with 7 points (0 at the other nodes).
 ///
 /// # Source
 /// Piessens, de Doncker-Kapenga, Überhuber, Kahaner: QUADPACK, 1983, routine QK15.
@@ -30,18 +30,18 @@ const RULE: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 
-/// The number of times that halving may gain nothing, before it is given up.
+/// How often halving may bring no improvement before it is abandoned.
 const IDLE: u32 = 6;
 
-/// More changes than this in one range are noise.
+/// If a range has more changes than this, they are noise.
 const MOST_CHANGES: usize = 300;
 
-/// An integral and its own estimate of how far it is off.
+/// An integral, and an estimate of its error.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Integral {
     pub(crate) value: DVec4,
     pub(crate) error: f64,
-    /// The estimate that holds where the function is not smooth, too: the distance of two rules.
+    /// The estimate that is also valid if the function is not smooth: the difference of two rules.
     pub(crate) cautious: f64,
 }
 
@@ -53,8 +53,8 @@ impl Integral {
     }
 }
 
-/// The integral from `start` to `end`, by halving until each part is within its share of
-/// `tolerance`, at most `depth` times.
+/// The integral from `start` to `end`. Parts are halved, at most `depth` times, until the error of each is within its
+/// share of `tolerance`.
 ///
 /// Both ends may have singularities like a square root: the substitution x²(3 − 2x) removes them.
 pub(crate) fn integrate(
@@ -84,7 +84,7 @@ pub(crate) fn integrate(
     )
 }
 
-/// `before` is the error of what was halved, and how often more a half may disappoint.
+/// `before` is the error of the part that was halved, and the number of halvings that may still bring no improvement.
 fn halve(
     (start, end): (f64, f64),
     tolerance: f64,
@@ -107,8 +107,8 @@ fn halve(
     sum
 }
 
-/// The Kronrod rule, with QUADPACK's estimate: the distance from the Gauss rule would be that of
-/// the weaker of the two, so its power 3/2, in units of the function's variation, is taken.
+/// The Kronrod rule with QUADPACK's estimate. The difference from the Gauss rule would be the error of the weaker rule,
+/// so the estimate is its power 3/2, in units of the function's variation.
 fn rule(start: f64, end: f64, f: &mut impl FnMut(f64) -> DVec4) -> Integral {
     let (middle, half) = (0.5 * (start + end), 0.5 * (end - start));
     let mut values = [(DVec4::ZERO, 0.0); 15];
@@ -146,8 +146,8 @@ fn rule(start: f64, end: f64, f: &mut impl FnMut(f64) -> DVec4) -> Integral {
     }
 }
 
-/// A zero of `f` between two places with values of different sign, by regula falsi in the variant
-/// of Anderson and Björck.
+/// A zero of `f` between two places with values of different sign, by regula falsi in the variant of Anderson and
+/// Björck.
 pub(crate) fn zero_between(
     mut a: (f64, f64),
     mut b: (f64, f64),
@@ -182,8 +182,8 @@ pub(crate) fn zero_between(
     0.5 * (a.0 + b.0)
 }
 
-/// Zeros of a smooth function that is known at the places `at`: where the sign changes between
-/// two, and where a minimum of the magnitude hides a pair of zeros.
+/// The zeros of a smooth function that was evaluated at the places `at`: where the sign changes between two places, and
+/// where a minimum of the absolute value may hide a pair of zeros.
 pub(crate) fn zeros(
     at: &[f64],
     values: &[f64],
@@ -210,7 +210,7 @@ pub(crate) fn zeros(
     }
 }
 
-/// A pair of zeros in a dip, sought by parabolas through three places.
+/// A pair of zeros in a dip, found by parabolas through three places.
 fn dip(
     mut a: (f64, f64),
     mut b: (f64, f64),
@@ -264,10 +264,10 @@ fn dip(
     }
 }
 
-/// Finds all places between two probes of different result where the result changes.
+/// Finds all places between two probes with different results where the result changes.
 ///
-/// A place among `seeds` is taken when the results on both its sides agree with the probes';
-/// otherwise the way is bisected down to `width`. Changes that cancel between probes stay hidden.
+/// A place among `seeds` is accepted if the results on both sides of it agree with those of the probes; otherwise the
+/// range is bisected down to `width`. Changes that cancel between probes are not found.
 pub(crate) fn changes<S: PartialEq + Clone>(
     from: (f64, &S),
     to: (f64, &S),

@@ -1,7 +1,7 @@
-//! Points of a patch where small things may begin, end, or cross.
+//! Points of a patch where small details may begin, end, or cross.
 //!
-//! They only say where to put lines for a first look: too many do no harm, and what they miss the
-//! lines between may still find.
+//! They only suggest where to put lines at first. Too many do no harm, and the lines in between may still find what
+//! they miss.
 
 use glam::{DVec2, DVec3};
 
@@ -9,15 +9,15 @@ use super::ball::Ball;
 use super::lamp::Lamp;
 use super::patch::{Candidate, Patch};
 
-/// Points of the edge of a shadow that are projected, beside its center.
+/// The number of projected points on the edge of a shadow, in addition to its center.
 const EDGE_POINTS: u32 = 8;
-/// With more casters than this, pairs of them are not followed.
+/// The number of occluders above which pairs of them are not considered.
 const MANY: usize = 60;
 
-/// Places to look at in a patch.
+/// Places to check in a patch.
 #[derive(Debug, Default)]
 pub(crate) struct Seeds {
-    /// Points around which something may change.
+    /// Points around which the view may change.
     pub(crate) points: Vec<DVec2>,
     /// The brightest points of highlights.
     pub(crate) peaks: Vec<DVec2>,
@@ -50,7 +50,7 @@ impl Seeds {
     }
 }
 
-/// The lines `t` = constant that touch a ball's contour: the plane of the directions
+/// The lines `t` = constant that touch the contour of a ball. The plane of the directions
 /// `origin + s · along + t · across` has the normal `origin × along + t · across × along`.
 pub(crate) fn touching_lines(
     ball: &Ball,
@@ -78,8 +78,7 @@ pub(crate) fn touching_lines(
     vec![sum / a, c / sum].into_iter()
 }
 
-/// The two directions in which the contours of two balls cross: those of the unit vectors d with
-/// d · c = √K for both.
+/// The two directions in which the contours of two balls cross: the unit vectors d with d · c = √K for both.
 fn contour_crossings(a: &Ball, b: &Ball) -> Vec<DVec3> {
     let normal = a.center.cross(b.center);
     if a.has_eye_inside() || b.has_eye_inside() || normal == DVec3::ZERO {
@@ -95,7 +94,7 @@ fn contour_crossings(a: &Ball, b: &Ball) -> Vec<DVec3> {
     vec![foot + step, foot - step]
 }
 
-/// Directions toward centers and edges of shadows on a candidate, and where these cross each
+/// Directions toward centers and edges of shadows on a candidate, and toward the points where these edges cross each
 /// other and the terminators.
 fn shadow_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
     let ball = &candidate.ball;
@@ -148,8 +147,8 @@ fn shadow_points(patch: &Patch<'_>, candidate: &Candidate) -> Vec<DVec3> {
     points
 }
 
-/// Points of the edges of shadows that a light at a point makes on a candidate, their middles, and where these edges
-/// cross each other and the terminator.
+/// Points on the edges of the shadows that a point light casts on a candidate, the centers of the shadows, and the
+/// points where the edges cross each other and the terminator.
 fn near_shadow_points(
     patch: &Patch<'_>,
     candidate: &Candidate,
@@ -188,7 +187,7 @@ fn near_shadow_points(
     points
 }
 
-/// The points where the contours of two balls cross, as a light sees them.
+/// The points where the contours of two balls cross, as seen from a light.
 fn disc_crossings(a: &Ball, b: &Ball, toward: DVec3) -> Vec<DVec3> {
     let way = b.center - a.center;
     let way = way - toward * way.dot(toward);

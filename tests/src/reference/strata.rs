@@ -1,17 +1,18 @@
-//! The average over a pixel by random samples, for bumps that are far smaller than it.
+//! The average over a pixel by random samples, for bumps far smaller than the pixel.
 
 use glam::{DVec2, DVec4};
 
 use super::patch::Patch;
 use super::{Reference, TOLERANCE, Truth};
 
-/// Standard deviations that the mean is taken to be off by at most.
+/// The assumed largest error of the mean, in standard deviations.
 const DEVIATIONS: f64 = 6.0;
 
 impl Reference<'_> {
-    /// The truth of a pixel by two random samples in each of `side` × `side` strata.
+    /// The value of a pixel from two random samples in each of `side` × `side` strata.
     ///
-    /// The error follows from how far both samples of a stratum are apart; what no sample sees is not in it.
+    /// The error follows from the difference between the two samples of a stratum. It does not include details that no
+    /// sample hits.
     pub fn by_strata(&self, col: u32, row: u32, side: u32, seed: u64) -> Truth {
         let patch = Patch::of_pixel(&self.stage, col, row, TOLERANCE);
         let mut state = (u64::from(col) << 32 | u64::from(row)) ^ seed;

@@ -1,4 +1,4 @@
-//! The geometry at the centers of pixels, compared with rational arithmetic.
+//! The geometry at pixel centers, compared with rational arithmetic.
 
 mod scenes;
 
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use self::scenes::{SIDE, scenes, view};
 
-/// Units in the last place that a number may be off by.
+/// The largest error of a number, in units in the last place.
 const CLAIM: f64 = 2.0;
 
 /// Binary digits and least exponents of floats and doubles.
@@ -34,7 +34,7 @@ fn settings(axes: Axes, depth: Depth, precision: Precision) -> GeometrySettings 
     }
 }
 
-/// The sphere that a ray sees, and where.
+/// The sphere that a ray hits, and the point.
 fn truth(world: &World, ray: &Ray) -> Option<(usize, ExactPoint)> {
     let mut nearest: Option<(usize, ExactPoint)> = None;
     for (index, sphere) in world.spheres().iter().enumerate() {
@@ -51,7 +51,7 @@ fn truth(world: &World, ray: &Ray) -> Option<(usize, ExactPoint)> {
     nearest
 }
 
-/// The ray through the center of a pixel, and its point of the retina.
+/// The ray through the center of a pixel, and its point on the retina.
 fn center_ray(view: &View, col: usize, row: u32) -> (Ray, DVec3) {
     let center = view.cell_center(col as u64, u64::from(row), 1);
     if view.lens.is_parallel() {
@@ -61,8 +61,8 @@ fn center_ray(view: &View, col: usize, row: u32) -> (Ray, DVec3) {
     (view.ray(center), retina)
 }
 
-/// The largest errors of depths, positions and normals, in units in the last place, and the number of pixels
-/// that see anything.
+/// The largest errors of depths, positions and normals, in units in the last place, and the number of pixels in which a
+/// sphere is visible.
 #[derive(Clone, Copy, Default)]
 struct Errors {
     worst: [f64; 3],
@@ -79,7 +79,7 @@ impl Errors {
     }
 }
 
-/// Judges a row of pixels; ids have to be right.
+/// Judges a row of pixels; the indices must be correct.
 fn judge(
     (name, world, view): &(&str, World, View),
     settings: &GeometrySettings,
@@ -190,7 +190,7 @@ fn ten_thousand_doubles_are_the_exact_ones() {
     ));
 }
 
-/// Pictures and geometries of parts, which they put together.
+/// Pictures and geometries of parts, which together form the whole.
 #[derive(Default)]
 struct Collector {
     parts: Mutex<Vec<(u32, u32, Geometry, Image)>>,

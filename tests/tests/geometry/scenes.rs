@@ -1,13 +1,13 @@
-//! Scenes that are hard for hits.
+//! Scenes in which hits are difficult.
 
 use glam::{DVec2, DVec3};
 use marbles_core::{Angle, Camera, Color, Lens, Material, Sphere, View, World};
 use marbles_tests::hits::families::Random;
 
-/// Columns and rows of each picture; odd, so that some rays lie in planes of the axes.
+/// Columns and rows of each picture. They are odd, so that some rays are in planes of the axes.
 pub(super) const SIDE: u32 = 51;
 
-/// A world whose spheres glow, each in a color of its own.
+/// A world of luminous spheres, each with its own color.
 fn world(spheres: &[(DVec3, f64)]) -> World {
     let mut world = World::new();
     world.ambient = Color::ONE;
@@ -22,7 +22,7 @@ fn world(spheres: &[(DVec3, f64)]) -> World {
     world
 }
 
-/// A view whose retina is so wide at the distance of 1.
+/// A view with a retina of this width at the distance 1.
 pub(super) fn view(position: DVec3, [pan, tilt, roll]: [f64; 3], width: f64) -> View {
     let [pan, tilt, roll] = [pan, tilt, roll].map(Angle::from_degrees);
     View {
@@ -39,7 +39,7 @@ pub(super) fn view(position: DVec3, [pan, tilt, roll]: [f64; 3], width: f64) -> 
     }
 }
 
-/// A floor with a radius of 1e9 and balls on it, straight ahead and from aside.
+/// A floor with a radius of 1e9 and balls on it, seen straight and at an angle.
 fn floors() -> Vec<(World, View)> {
     let mut spheres = vec![(DVec3::Y * -(1e9 + 1.0), 1e9)];
     spheres.extend([-3.0, 0.0, 2.5].map(|x| (DVec3::new(x, -0.5, 8.0 + x), 0.5)));
@@ -52,7 +52,7 @@ fn floors() -> Vec<(World, View)> {
     ]
 }
 
-/// Spheres with radii about 1e-6, near and around the middle of a turned view, one behind the other.
+/// Spheres with radii of about 1e-6, near the center of a turned view, one behind the other.
 fn tiny() -> Vec<(World, View)> {
     let position = DVec3::new(3.0, -4.0, 5.0);
     let seen = view(position, [31.0, 12.0, -7.0], 1.2e-5);
@@ -65,7 +65,7 @@ fn tiny() -> Vec<(World, View)> {
     vec![(world(&spheres), seen)]
 }
 
-/// Distant spheres that cross each other, two of them the same, and a dome around it all.
+/// Distant spheres that intersect, two of them identical, and a dome around everything.
 fn crowd() -> Vec<(World, View)> {
     let position = DVec3::new(-20.0, 1.0, 3.0);
     let seen = view(position, [-140.0, 20.0, 0.0], 0.4);
@@ -84,7 +84,7 @@ fn crowd() -> Vec<(World, View)> {
     vec![(world(&spheres), seen), (world(&far), seen)]
 }
 
-/// Spheres that the ray in the middle touches, and one whose surface holds the viewpoint.
+/// Spheres that the central ray touches, and a sphere whose surface contains the viewpoint.
 fn touching() -> Vec<(World, View)> {
     let ahead = view(DVec3::ZERO, [0.0; 3], 0.5);
     let tangent = [(DVec3::new(0.0, 1.0, 5.0), 1.0), (DVec3::Z * 9.0, 2.0)];
@@ -92,7 +92,7 @@ fn touching() -> Vec<(World, View)> {
     vec![(world(&tangent), ahead), (world(&around), ahead)]
 }
 
-/// The same through parallel lenses: a floor, tiny spheres, a crowd, and spheres that the plane cuts.
+/// Similar scenes through parallel lenses: a floor, tiny spheres, a crowd, and spheres cut by the plane.
 fn parallel() -> Vec<(World, View)> {
     let through = |(world, view): (World, View), width: f64| {
         let lens = Lens::parallel(width, DVec2::new(0.1 * width, 0.0));
@@ -118,7 +118,7 @@ fn parallel() -> Vec<(World, View)> {
     ]
 }
 
-/// All scenes, by names.
+/// All scenes, with names.
 pub(super) fn scenes() -> Vec<(&'static str, World, View)> {
     let named = [
         ("parallel", parallel()),

@@ -1,4 +1,4 @@
-//! The promises of [`Sphere::hit`], over every family, and on each of its floors alone.
+//! The promises of [`Sphere::hit`], for every family, and for each kind of arithmetic alone.
 
 use marbles_core::{Floor, Hit, Ray, Sphere};
 use rayon::prelude::*;
@@ -12,12 +12,12 @@ use marbles_tests::hits::verdict::verdict;
 
 const FLOORS: [Floor; 3] = [Floor::Fast, Floor::Double, Floor::Exact];
 
-/// The results of the cases of a family: of whoever answered, then of each floor alone.
+/// The results for the cases of a family: of the arithmetic that decided, then of each kind alone.
 #[derive(Clone, Default)]
 struct Record {
     all: Tally,
     alone: [Tally; 3],
-    /// The largest distance of a normal's length from 1, in 2⁻⁵³.
+    /// The largest difference between the length of a normal and 1, in 2⁻⁵³.
     worst_length: f64,
     failures: Vec<String>,
 }
@@ -74,12 +74,12 @@ impl Record {
     }
 }
 
-/// Whether a floor alone found what the whole found, to the bit.
+/// Whether one kind of arithmetic alone gave the same bits as all of them together.
 fn same(answer: Option<Option<Hit>>, sphere: &Sphere, ray: &Ray) -> bool {
     answer == Some(sphere.hit(ray))
 }
 
-/// Judges so many cases of every family.
+/// Judges a number of cases of every family.
 #[expect(clippy::print_stdout, reason = "cargo hits-all shows what it measured")]
 fn hold_all(cases: u64) -> Record {
     let mut whole = Record::default();
@@ -130,7 +130,7 @@ fn millions_of_cases_are_right_to_the_last_place() {
     assert!(whole.all.cases >= 4_000_000);
 }
 
-/// A judge who finds no fault in the others would prove nothing.
+/// A judge that finds no errors in the other methods would prove nothing.
 #[test]
 fn other_forms_are_found_wrong() {
     for (name, form) in &FORMS[..FORMS.len() - 1] {
@@ -147,7 +147,7 @@ fn other_forms_are_found_wrong() {
     }
 }
 
-/// None of 360,000 tests needed more than doubles and, when this was written, 7 of 3,600,000.
+/// Of 360,000 tests none needed more than doubles, and of 3,600,000 tests 7, when this was written.
 #[test]
 fn ordinary_frames_stay_on_the_first_floor() {
     for (frame, most) in [(frames::ball(), 0), (frames::cloud(), 10)] {

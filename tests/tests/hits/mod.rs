@@ -1,7 +1,7 @@
-//! Hits and misses held against exact answers.
+//! Hits and misses, compared with exact answers.
 //!
-//! [`claims`] holds the promises of `Sphere::hit` against the judge of the library, [`truth`] against
-//! exact answers from elsewhere; `examples/hits.rs` compares other forms.
+//! [`claims`] compares the promises of `Sphere::hit` with the judge of the library, [`truth`] with exact answers from
+//! elsewhere. `examples/hits.rs` compares other methods.
 
 mod claims;
 mod truth;

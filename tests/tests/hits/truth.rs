@@ -1,4 +1,4 @@
-//! Exact answers that were computed independently, in `tests/truth/hits`.
+//! Exact hits that were computed independently, in `tests/truth/hits`.
 
 use std::path::{Path, PathBuf};
 

@@ -9,7 +9,7 @@ use super::tokens::{Token, tokens};
 pub(crate) struct Module {
     /// Its path below the file's own module.
     pub(crate) path: Vec<String>,
-    /// The modules that have files of their own.
+    /// The modules in files of their own.
     pub(crate) children: Vec<String>,
     pub(crate) definitions: BTreeSet<String>,
     pub(crate) uses: Vec<Use>,
@@ -19,7 +19,7 @@ pub(crate) struct Module {
     pub(crate) words: BTreeSet<String>,
 }
 
-/// A name that a `use` brings.
+/// A name from a `use`.
 #[derive(Clone, Debug)]
 pub(crate) struct Use {
     pub(crate) path: Vec<String>,
@@ -47,7 +47,7 @@ pub(crate) fn modules(source: &str) -> Vec<Module> {
 struct Reader<'t> {
     tokens: &'t [Token<'t>],
     modules: Vec<Module>,
-    /// The braces that are open: of a module, with its index, or of something else.
+    /// The open braces: of a module, with its index, or of something else.
     open: Vec<Option<usize>>,
 }
 
@@ -71,7 +71,7 @@ impl Reader<'_> {
         &mut self.modules[index.unwrap_or(0)]
     }
 
-    /// Reads what is at `at`; returns where it ends.
+    /// Reads the item at `at`; returns its end.
     fn step(&mut self, at: usize) -> usize {
         match self.text(at) {
             "#" => self.attribute(at),
@@ -93,7 +93,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Passes over an attribute, and over what it keeps for tests.
+    /// Skips an attribute, and the item after it if it is only for tests.
     fn attribute(&self, at: usize) -> usize {
         let start = at + 1 + usize::from(self.text(at + 1) == "!");
         if self.text(start) != "[" {
@@ -175,7 +175,7 @@ impl Reader<'_> {
         self.before(at) == "pub" || self.before(at) == ")" && is_limited()
     }
 
-    /// Reads a part of a `use` declaration; returns where it ends.
+    /// Reads a part of a `use` declaration; returns its end.
     fn use_tree(&mut self, mut at: usize, mut path: Vec<String>, is_public: bool) -> usize {
         let line = self.tokens.get(at).map_or(0, |token| token.line);
         loop {
@@ -224,7 +224,7 @@ impl Reader<'_> {
         });
     }
 
-    /// Reads a word of the code and the path that it may start, or what it defines.
+    /// Reads a word of the code, with the path that it may start or the name that it defines.
     fn path(&mut self, at: usize) -> usize {
         let Token { text, line } = self.tokens[at];
         if matches!(self.before(at), "." | "::") {
@@ -256,7 +256,7 @@ impl Reader<'_> {
     }
 }
 
-/// Whether the word stands before the name of what it defines.
+/// Whether the word precedes the name in a definition.
 fn is_definition(word: &str) -> bool {
     let words = [
         "fn",

@@ -1,4 +1,4 @@
-//! Imports run one way.
+//! Imports go in one direction.
 //!
 //! `ARCHITECTURE.md` lists the layers of each crate, from the bottom, in blocks of this form:
 //!
@@ -10,28 +10,27 @@
 //! ```
 //! ````
 //!
-//! A layer is a folder or a file at the top of the crate's `src`, without its ending. In `a ← b`
-//! the layer `b` may use `a`; layers that a comma joins do not use each other. A line without a
-//! name and a colon goes on with the line before it. Every folder and file but `lib.rs` and
-//! `main.rs` stands in the list, so that the list cannot grow old.
+//! A layer is a folder or a file at the top of the crate's `src`, without its extension. In `a ← b` the layer `b` may
+//! use `a`; layers separated by a comma do not use each other. A line without a name and a colon continues the previous
+//! line. Every folder and file except for `lib.rs` and `main.rs` must be in the list, so that it stays up to date.
 //!
 //! The test reads the code without its tests and refuses
 //!
 //! - an import of a layer that is not to the left of its own, and any import of `lib.rs`;
-//! - a circle of files that import each other.
+//! - a cycle of files that import each other.
 //!
-//! An import is a `use` or a path in the code; it leads to the file that defines the name, through
-//! every re-export on the way. A file with modules of its own may re-export their names; that is an
-//! import only where its code uses the name. Macros that need no import are not seen.
+//! An import is a `use` or a path in the code. It leads to the file that defines the name, through all re-exports. A
+//! file with modules of its own may re-export their names; this is an import only if its code uses the name. Macros
+//! that need no import are not detected.
 //!
-//! This folder needs nothing but `std`, so that it can be tried on any checkout within seconds:
+//! This folder needs only `std`, so you can run it on any checkout within seconds:
 //!
 //! ```text
 //! rustc --edition 2024 --test tests/tests/layers/mod.rs -o layers
 //! MARBLES_LAYERS_ROOT=ANOTHER_CHECKOUT ./layers
 //! ```
 //!
-//! With `MARBLES_LAYERS_ROOT` every crate that has a line is tried, otherwise those of [`CRATES`].
+//! With `MARBLES_LAYERS_ROOT`, every crate with a line is checked, otherwise those of [`CRATES`].
 
 mod items;
 mod order;
@@ -46,10 +45,10 @@ use std::{env, fs};
 use order::Layers;
 use tree::Tree;
 
-/// The crates whose imports run one way.
+/// The crates whose imports go in one direction.
 const CRATES: &[&str] = &["core", "scene", "cli"];
 
-/// The Rust files below `folder` by their paths, which start with `prefix`.
+/// The Rust files below `folder`, by their paths, which start with `prefix`.
 fn sources(folder: &Path, prefix: &str, files: &mut BTreeMap<String, String>) {
     for entry in fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();

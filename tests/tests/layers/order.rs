@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-/// The layers of a crate from the bottom; those of one level do not use each other.
+/// The layers of a crate from the bottom; those of the same level do not use each other.
 pub(crate) type Layers = Vec<Vec<String>>;
 
-/// The layers that the blocks of the document list, by the names of the crates.
+/// The layers in the blocks of the document, by the names of the crates.
 pub(crate) fn layers(document: &str) -> Result<BTreeMap<String, Layers>, String> {
     let mut texts: Vec<(String, String)> = Vec::new();
     let mut is_inside = false;

@@ -1,11 +1,11 @@
-//! The rules that imports follow.
+//! The rules for imports.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::order::{Layers, level};
 use super::tree::{Import, Tree};
 
-/// The faults in the imports of a crate, for people.
+/// The faults in the imports of a crate, as messages.
 pub(crate) fn faults(tree: &Tree, layers: &Layers) -> Vec<String> {
     let imports = tree.imports();
     let mut faults = unlisted(tree, layers);
@@ -14,14 +14,14 @@ pub(crate) fn faults(tree: &Tree, layers: &Layers) -> Vec<String> {
     faults
 }
 
-/// The layer of a file; `None` for that of the crate itself.
+/// The layer of a file; `None` for the crate itself.
 fn layer(file: &str) -> Option<&str> {
     let first = file.split('/').next().unwrap_or(file);
     let name = first.strip_suffix(".rs").unwrap_or(first);
     (name != "lib").then_some(name)
 }
 
-/// Layers that the list does not name, and names without a layer.
+/// Layers that are missing in the list, and names without a layer.
 fn unlisted(tree: &Tree, layers: &Layers) -> Vec<String> {
     let files: BTreeSet<&str> = tree.files.iter().filter_map(|file| layer(file)).collect();
     let names: BTreeSet<&str> = layers.iter().flatten().map(String::as_str).collect();
@@ -46,7 +46,7 @@ fn show(tree: &Tree, import: &Import) -> String {
     )
 }
 
-/// Imports of a layer that is not below, the first from one file to another.
+/// Imports of a layer that is not below; only the first from one file to another.
 fn upward(tree: &Tree, imports: &BTreeSet<Import>, layers: &Layers) -> Vec<String> {
     let mut faults = Vec::new();
     let mut told = BTreeSet::new();
@@ -72,7 +72,7 @@ fn upward(tree: &Tree, imports: &BTreeSet<Import>, layers: &Layers) -> Vec<Strin
     faults
 }
 
-/// Circles of files: through each file that is in one, the shortest.
+/// Cycles of files: the shortest one through each file that is in a cycle.
 fn circles(tree: &Tree, imports: &BTreeSet<Import>) -> Vec<String> {
     let mut from: BTreeMap<usize, BTreeMap<usize, &Import>> = BTreeMap::new();
     for import in imports {

@@ -13,7 +13,7 @@ impl Token<'_> {
     }
 }
 
-/// The tokens of `source`; `::` is one token, comments, lifetimes, characters and texts are none.
+/// The tokens of `source`. `::` is one token; comments, lifetimes, character literals and strings are not tokens.
 pub(crate) fn tokens(source: &str) -> Vec<Token<'_>> {
     let mut tokens = Vec::new();
     let (mut rest, mut line) = (source, 1);
@@ -30,7 +30,7 @@ pub(crate) fn tokens(source: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// The length of what `rest` starts with, and whether it is a token.
+/// The length of the first element of `rest`, and whether it is a token.
 fn token(rest: &str, first: char) -> (usize, bool) {
     if rest.starts_with("//") {
         return (rest.find('\n').unwrap_or(rest.len()), false);
@@ -82,7 +82,7 @@ fn word_length(rest: &str) -> usize {
     rest.find(is_end).unwrap_or(rest.len())
 }
 
-/// A number with a fraction goes on behind its point; a range and a method's name do not.
+/// A number with a fraction continues after its point; a range and the name of a method do not belong to it.
 fn number_length(rest: &str) -> usize {
     let whole = word_length(rest);
     let fraction = rest[whole..].strip_prefix('.');
@@ -108,7 +108,7 @@ fn block_comment(rest: &str) -> usize {
     at
 }
 
-/// The length of the text in quotation marks, plain or raw, that `rest` starts with.
+/// The length of the string literal, plain or raw, that `rest` starts with.
 fn text(rest: &str) -> Option<usize> {
     let prefix = rest.find(|letter| !matches!(letter, 'b' | 'c' | 'r'))?;
     let (letters, behind) = rest.split_at(prefix);
@@ -128,7 +128,7 @@ fn text(rest: &str) -> Option<usize> {
     Some((prefix + hashes + 1 + length + closing.len()).min(rest.len()))
 }
 
-/// The length up to the closing mark, which is not behind a backslash.
+/// The length up to the closing quotation mark, which is not preceded by a backslash.
 fn quoted(rest: &str, mark: char) -> usize {
     let mut is_escaped = false;
     for (at, letter) in rest.char_indices().skip(1) {

@@ -1,4 +1,4 @@
-//! The modules of a crate, and the files to which its imports lead.
+//! The modules of a crate, and the files that they import.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,12 +7,12 @@ use super::items::{self, Use};
 /// The modules of a crate.
 #[derive(Debug)]
 pub(crate) struct Tree {
-    /// The files with code that is not for tests alone.
+    /// The files with code that is not only for tests.
     pub(crate) files: Vec<String>,
     modules: Vec<Module>,
 }
 
-/// A module, which is a file or stands in one.
+/// A module, which is a file or a part of one.
 #[derive(Debug)]
 struct Module {
     parent: Option<usize>,
@@ -21,30 +21,30 @@ struct Module {
     items: items::Module,
 }
 
-/// An import, which leads from one file to another.
+/// An import from one file to another.
 #[derive(Clone, Debug, Eq, Ord, PartialEq, PartialOrd)]
 pub(crate) struct Import {
     pub(crate) from: usize,
     pub(crate) to: usize,
     pub(crate) line: usize,
-    /// The path as the code writes it.
+    /// The path as written in the code.
     pub(crate) path: String,
 }
 
-/// The target of a path: nothing of this crate where both are absent.
+/// The target of a path. Both fields are empty if it is not in this crate.
 #[derive(Clone, Copy, Debug, Default)]
 struct Found {
     module: Option<usize>,
     file: Option<usize>,
-    /// Whether the name is known here, though it may come from another crate.
+    /// Whether the name is known here; it may come from another crate.
     is_known: bool,
 }
 
-/// Re-exports of re-exports that are followed; only circles have more.
+/// The longest chain of re-exports that is followed; only cycles are longer.
 const MOST_STEPS: usize = 16;
 
 impl Tree {
-    /// The crate whose files are `sources`, from its `lib.rs` on.
+    /// The crate with the files `sources`, starting with its `lib.rs`.
     pub(crate) fn new(sources: &BTreeMap<String, String>) -> Result<Self, String> {
         let mut tree = Self {
             files: Vec::new(),
@@ -54,7 +54,7 @@ impl Tree {
         Ok(tree)
     }
 
-    /// Adds a file whose modules have theirs in `folder`; returns its module.
+    /// Adds a file whose modules have their files in `folder`; returns its module.
     fn add_file(
         &mut self,
         sources: &BTreeMap<String, String>,
@@ -114,7 +114,7 @@ impl Tree {
         Ok(first)
     }
 
-    /// The imports that lead from one file to another.
+    /// The imports from one file to another.
     pub(crate) fn imports(&self) -> BTreeSet<Import> {
         let mut imports = BTreeSet::new();
         for (index, module) in self.modules.iter().enumerate() {
@@ -152,7 +152,7 @@ impl Tree {
         imports
     }
 
-    /// Whether the module only hands on a name of one of its own modules.
+    /// Whether the module only re-exports a name of one of its own modules.
     fn is_re_export(&self, module: usize, import: &Use, found: Found) -> bool {
         let items = &self.modules[module].items;
         let leads_to = found
@@ -170,7 +170,7 @@ impl Tree {
         parents.any(|parent| parent == outer)
     }
 
-    /// The files of the names that `use module::*` brings.
+    /// The files of the names that `use module::*` imports.
     fn all_of(&self, module: usize) -> Vec<usize> {
         let Module { file, items, .. } = &self.modules[module];
         let own = (!items.definitions.is_empty()).then_some(*file);
@@ -179,7 +179,7 @@ impl Tree {
         own.into_iter().chain(handed_on).collect()
     }
 
-    /// The target of the path, written in this module.
+    /// The target of a path that is written in this module.
     fn resolve(&self, module: usize, path: &[String], steps: usize) -> Found {
         let mut current = module;
         let mut is_own = false;

@@ -12,7 +12,7 @@ use super::status;
 /// A message for the user, and with it the exit code.
 #[derive(Debug, Error)]
 pub(crate) enum Failure {
-    /// The command line asks for what cannot be, or frames of the scene have no view.
+    /// The command line is wrong, or frames of the scene have no view.
     #[error("{0}")]
     Usage(String),
     /// The scene file was refused.
@@ -21,7 +21,7 @@ pub(crate) enum Failure {
     /// Something else went wrong.
     #[error("{0}")]
     Work(String),
-    /// A table changed while its frames were rendered: those that follow would show another one.
+    /// A table changed while its frames were rendered: the remaining frames would show different data.
     #[error("{0}")]
     Changed(String),
 }
@@ -32,12 +32,12 @@ impl Failure {
         Self::Work(format!("{}: {what}", path.shown()))
     }
 
-    /// A command line that names the file at `path`, which cannot be used.
+    /// An error in the command line: it names the file at `path`, which cannot be used.
     pub(crate) fn unusable(path: &Path, why: &str) -> Self {
         Self::Usage(format!("{}: {why}", path.shown()))
     }
 
-    /// A failure of the operating system to do what `what` names with the file at `path`.
+    /// A failure of the operating system to do what `what` describes with the file at `path`.
     pub(crate) fn io(path: &Path, what: &str, error: &io::Error) -> Self {
         Self::at(path, &format!("{what}: {}", reason(error)))
     }
@@ -50,18 +50,19 @@ impl Failure {
     }
 }
 
-/// The words of the operating system, in our manner.
+/// The message of the operating system, in the style of our messages.
 pub(crate) fn reason(error: &io::Error) -> String {
     without_number(&error.to_string())
 }
 
-/// A message of the operating system in our manner: the number in "No such file or directory (os error 2)" helps nobody.
+/// A message of the operating system in the style of our messages: without the number, as in "No such file or directory
+/// (os error 2)".
 pub(crate) fn without_number(message: &str) -> String {
     let end = message.rfind(" (os error").unwrap_or(message.len());
     lower(&message[..end])
 }
 
-/// A message of others in our manner, without a capital letter at the start.
+/// A message of a library in the style of our messages: without a capital letter at the start.
 pub(crate) fn lower(message: &str) -> String {
     let mut letters = message.chars();
     match letters.next() {

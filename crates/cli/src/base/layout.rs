@@ -1,6 +1,6 @@
-//! Texts with tables, laid out for a number of columns.
+//! Texts with tables, wrapped at a number of columns.
 
-/// The least room for descriptions beside their names; where there is less, they stand below.
+/// The smallest width for descriptions next to their names. If there is less room, they are placed below the names.
 const LEAST: usize = 30;
 /// The indents of names, and of descriptions below them.
 const NAME: &str = "  ";
@@ -13,17 +13,17 @@ enum Part {
     Row(Row),
 }
 
-/// A name, and what it means; nothing where the name speaks for itself.
+/// A name and its description, which is empty if the name needs none.
 struct Row {
     name: String,
     description: String,
 }
 
-/// A text laid out for so many columns.
+/// Wraps a text at `columns`.
 ///
-/// Lines that begin at the margin are paragraphs, up to a line that is empty, or that ends with a colon.
-/// Lines that begin with two spaces are rows of tables: two more spaces end the name. Lines that begin with
-/// more continue the description above.
+/// Lines without indent form paragraphs, which end at an empty line or at a colon. Lines indented by two spaces are
+/// rows of tables: two more spaces separate the name from the description. Lines with a larger indent continue the
+/// description above.
 pub(crate) fn lay_out(text: &str, columns: usize) -> String {
     let blocks = text.split("\n\n").map(|block| {
         let parts = parts(block);
@@ -70,7 +70,7 @@ fn parts(block: &str) -> Vec<Part> {
     parts
 }
 
-/// A row, the description in the column `beside` where there is room for it.
+/// A row. The description begins in the column `beside`, if there is room for it.
 fn laid_out(Row { name, description }: &Row, beside: Option<usize>, columns: usize) -> String {
     match beside {
         _ if description.is_empty() => wrap(name, NAME, BELOW, columns),
@@ -86,8 +86,8 @@ fn laid_out(Row { name, description }: &Row, beside: Option<usize>, columns: usi
     }
 }
 
-/// The words of a text on lines of at most so many columns, unless a word alone has more; the first line
-/// begins with `first` and the others with `indent`.
+/// Wraps the words of a text at `columns`; a longer word gets a line of its own. The first line begins with `first`,
+/// the others with `indent`.
 fn wrap(text: &str, first: &str, indent: &str, columns: usize) -> String {
     let mut wrapped = first.to_owned();
     let mut width = first.chars().count();

@@ -1,4 +1,4 @@
-//! Failures and exit codes, sizes and parts of pictures, numbers for people.
+//! Failures and exit codes, sizes and parts of pictures, formatted numbers.
 
 pub(crate) mod failure;
 pub(crate) mod layout;

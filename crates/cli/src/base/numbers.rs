@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers formatted for people.
 
 use std::time::Duration;
 
@@ -7,7 +7,7 @@ pub(crate) fn bound(value: f64) -> String {
     bound_with(value, 1)
 }
 
-/// An upper bound with so many decimals, rounded up: `8.314e-04` with three.
+/// An upper bound with a given number of decimals, rounded up: `8.314e-04` with three.
 pub(crate) fn bound_with(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return value.to_string();
@@ -30,7 +30,7 @@ pub(crate) fn bound_with(value: f64, decimals: usize) -> String {
     format!("{mantissa:.decimals$}e{sign}{:02}", exponent.abs())
 }
 
-/// A number with six digits at most, without zeros that say nothing.
+/// A number with at most six digits, without trailing zeros.
 pub(crate) fn short(value: f64) -> String {
     const DIGITS: i32 = 6;
     let magnitude = value.abs();
@@ -50,7 +50,7 @@ pub(crate) fn short(value: f64) -> String {
     }
 }
 
-/// A time that was measured, with three digits: `1.23 ms`.
+/// A measured time, with three digits: `1.23 ms`.
 pub(crate) fn duration(seconds: f64) -> String {
     const UNITS: [(f64, &str); 3] = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];
     let unit = UNITS.iter().find(|(size, _)| seconds >= 0.9995 * size);
@@ -77,7 +77,7 @@ pub(crate) fn factor(ratio: f64) -> String {
     }
 }
 
-/// A part of a whole, with two digits: `0.12`, `0.0012`, `1.2e-7`.
+/// A fraction of a whole, with two digits: `0.12`, `0.0012`, `1.2e-7`.
 pub(crate) fn fraction(ratio: f64) -> String {
     if ratio == 0.0 {
         "0".to_owned()
@@ -88,8 +88,8 @@ pub(crate) fn fraction(ratio: f64) -> String {
     }
 }
 
-/// A number above 0 with so many digits, those that count; no digit before the point is lost, but
-/// it may be a zero.
+/// A number above 0 with a given number of significant digits. Digits before the decimal point are kept, possibly as
+/// zeros.
 fn digits(value: f64, digits: i32) -> String {
     if !value.is_finite() || value <= 0.0 {
         return value.to_string();
@@ -114,7 +114,7 @@ pub(crate) fn bytes(bytes: u64) -> String {
     in_units(bytes, [(1e9, "GB"), (1e6, "MB"), (1e3, "kB")], "bytes")
 }
 
-/// A number of units, in the largest of which there is one.
+/// A quantity, in the largest unit in which it is at least one.
 fn in_units(count: u64, units: [(f64, &str); 3], one: &str) -> String {
     for (size, unit) in units {
         let count = count as f64 / size;
@@ -128,13 +128,13 @@ fn in_units(count: u64, units: [(f64, &str); 3], one: &str) -> String {
     format!("{count} {one}")
 }
 
-/// A number of things: `1 pixel`, `12 pixels`.
+/// A count with a noun: `1 pixel`, `12 pixels`.
 pub(crate) fn counted(count: u64, noun: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {noun}{plural}")
 }
 
-/// A time to wait: `12 s`, `3 min 20 s`, `2 h 5 min`.
+/// A waiting time: `12 s`, `3 min 20 s`, `2 h 5 min`.
 pub(crate) fn wait(time: Duration) -> String {
     let seconds = time.as_secs_f64().ceil() as u64;
     let (minutes, hours) = (seconds / 60, seconds / 3600);
@@ -147,7 +147,7 @@ pub(crate) fn wait(time: Duration) -> String {
     }
 }
 
-/// The least and the largest of some numbers, as one number where they look the same.
+/// The smallest and the largest of some numbers, as a single number if both look the same.
 pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> String {
     let (least, largest) = numbers.fold(
         (f64::INFINITY, f64::NEG_INFINITY),

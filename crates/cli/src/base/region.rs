@@ -1,4 +1,4 @@
-//! Parts of pictures, and where they lie.
+//! Parts of pictures, and their positions.
 
 use std::fmt;
 use std::str::FromStr;
@@ -16,7 +16,7 @@ pub(crate) struct Region {
 }
 
 impl Region {
-    /// A part of a picture of this size; `None` where it is not inside.
+    /// A part of a picture of this size; `None` if it is not inside the picture.
     pub(crate) fn new(window: Window, whole: Size) -> Option<Self> {
         let is_inside = |first: u32, length: u32, all: u32| {
             length > 0 && first.checked_add(length).is_some_and(|end| end <= all)
@@ -26,7 +26,7 @@ impl Region {
         is_inside.then_some(Self { window, whole })
     }
 
-    /// All of a picture.
+    /// The whole picture.
     pub(crate) fn all(whole: Size) -> Self {
         let Size { width, height } = whole;
         let window = Window {
@@ -49,7 +49,7 @@ impl Region {
     }
 }
 
-/// The form in which files keep it: `32,0,16,8 of 600x400`.
+/// The form in which files store a region: `32,0,16,8 of 600x400`.
 impl fmt::Display for Region {
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Size { width, height } = self.whole;
@@ -79,7 +79,7 @@ pub(crate) fn shown(window: &Window) -> String {
     format!("{col},{row},{width},{height}")
 }
 
-/// The window that users write as `32,0,16,8`: the first column and row, then how many there are.
+/// The window that users write as `32,0,16,8`: first column, first row, width and height.
 pub(crate) fn window_of(text: &str) -> Result<Window, String> {
     let number = |text: &str| {
         let digits = text.bytes().all(|byte| byte.is_ascii_digit());
@@ -93,7 +93,10 @@ pub(crate) fn window_of(text: &str) -> Result<Window, String> {
             width,
             height,
         }),
-        _ => Err("expected COLUMN,ROW,WIDTH,HEIGHT in pixels, the last two from 1".to_owned()),
+        _ => Err(
+            "expected COLUMN,ROW,WIDTH,HEIGHT in pixels, with a width and a height of at least 1"
+                .to_owned(),
+        ),
     }
 }
 

@@ -1,12 +1,12 @@
-//! Names of files as messages show them.
+//! Names of files in messages.
 
 use std::path::Path;
 
 use marbles_scene::harmless;
 
-/// Names that messages can show.
+/// Names that can be shown in messages.
 pub(crate) trait Shown {
-    /// The name, with nothing in it that does something to a terminal, or ends the line.
+    /// The name without control characters: it cannot control a terminal or end the line.
     fn shown(&self) -> String;
 }
 
@@ -33,7 +33,7 @@ mod tests {
         }
     }
 
-    /// Names that are no Unicode have a sign in place of what cannot be shown.
+    /// Names that are not Unicode show a replacement character for each invalid sequence.
     #[test]
     #[cfg(unix)]
     fn other_bytes_are_replaced() {

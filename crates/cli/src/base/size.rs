@@ -7,7 +7,7 @@ use marbles_core::View;
 /// The longest side of a picture, as in scene files.
 pub(crate) const LONGEST_SIDE: u32 = 65_536;
 
-/// Columns and rows of a picture.
+/// The number of columns and rows of a picture.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Size {
     pub(crate) width: u32,

@@ -1,17 +1,17 @@
 //! Exit codes of the process.
 
-/// All was done, and every pixel met the tolerance.
+/// Everything was done, and every pixel met the tolerance.
 pub(crate) const SUCCESS: u8 = 0;
 /// Something could not be done, or two pictures differ.
 pub(crate) const FAILURE: u8 = 1;
 /// The command line, the scene file or a picture to read is wrong.
 pub(crate) const REFUSED: u8 = 2;
-/// All is written, and some pixel did not meet the tolerance.
+/// Everything is written, and some pixel is over the tolerance.
 pub(crate) const OVER_TOLERANCE: u8 = 3;
-/// The user ended the work; 128 and the number of the signal, as shells have it.
+/// The user interrupted the work: 128 plus the number of the signal, as in shells.
 pub(crate) const INTERRUPTED: u8 = 130;
 
-/// The code of two things that were done one after the other: the one that says more of what is missing.
+/// The combined exit code of two steps: the more serious one.
 pub(crate) fn worse(one: u8, other: u8) -> u8 {
     let rank = |code: u8| match code {
         SUCCESS => 0,

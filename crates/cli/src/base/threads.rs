@@ -1,4 +1,4 @@
-//! The threads that render, and those beside them.
+//! The rendering threads, and auxiliary threads.
 
 use std::thread::{Builder, Scope, ScopedJoinHandle, available_parallelism};
 
@@ -7,26 +7,23 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use super::failure::{Failure, without_number};
 use super::memory;
 
-/// The fewest that are started where as many are asked for, and how many more there may be than processors: more only
-/// wait for each other.
+/// The number of threads that are always allowed, and the largest surplus over the number of processors: more threads
+/// would only wait for each other.
 const ENOUGH: usize = 64;
 const MOST_ON_A_PROCESSOR: usize = 4;
 
-/// Addresses that a thread needs at once, more than its stack has.
+/// The address space that a thread needs at its start, in addition to its stack.
 const ADDRESSES: u64 = 1 << 22;
 
-/// Starts `count` threads, but no more than have any use, or one per core.
+/// Starts `count` threads, but no more than are useful; without a count one per core.
 pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
     let processors = available_parallelism().map_or(1, usize::from);
     let count = useful(count, processors);
-    let refused = |reason: &str| {
-        Failure::Work(format!(
-            "cannot start {count} threads that render: {reason}"
-        ))
-    };
+    let refused =
+        |reason: &str| Failure::Work(format!("cannot start {count} rendering threads: {reason}"));
     // The standard library ends the process where a thread has memory for its stack, but not for more.
     if !memory::is_available(count as u64 * ADDRESSES) {
-        return Err(refused("there is no memory for them"));
+        return Err(refused("there is not enough memory for them"));
     }
     ThreadPoolBuilder::new()
         .num_threads(count)
@@ -34,13 +31,13 @@ pub(crate) fn start(count: Option<usize>) -> Result<ThreadPool, Failure> {
         .map_err(|error| refused(&without_number(&error.to_string())))
 }
 
-/// The number of threads to start, where `asked` for or not.
+/// The number of threads to start, for the number that was `asked` for.
 fn useful(asked: Option<usize>, processors: usize) -> usize {
     let most = ENOUGH.max(processors.saturating_mul(MOST_ON_A_PROCESSOR));
     asked.map_or(processors, |asked| asked.min(most))
 }
 
-/// Starts a thread beside those that render, where the system has one left. `what` it does is told where it has none.
+/// Starts an auxiliary thread. If the system has no threads left, the error names its purpose, `what`.
 pub(crate) fn start_one<'scope, T: Send + 'scope>(
     scope: &'scope Scope<'scope, '_>,
     what: &str,

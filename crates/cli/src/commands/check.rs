@@ -1,4 +1,4 @@
-//! `marbles check`: validates a scene file, tells what it contains, and warns of what costs much.
+//! `marbles check`: validates a scene file, prints its contents, and warns about expensive settings.
 
 mod columns;
 mod contents;
@@ -22,9 +22,9 @@ use crate::formats::sidecar::{Sidecar, turns};
 use crate::sequence::frames::frames_of;
 use crate::terminal::console::Console;
 
-/// Frames that are looked at, spread evenly over longer animations.
+/// The most frames that are checked; of longer animations, evenly spread ones.
 const FRAMES_LOOKED_AT: i64 = 100_000;
-/// Lights that are listed one by one.
+/// The most lights that are listed.
 const LIGHTS_LISTED: usize = 8;
 /// Width of the column with the names of things.
 const NAMES: usize = 12;
@@ -52,7 +52,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     rows.push(("frames", duration(&scene)));
     let (count, looked_at) = (count(&frames), views.len() + errors.len());
     if looked_at as i64 != count {
-        rows.push(("", format!("{looked_at} of {count} were looked at")));
+        rows.push(("", format!("{looked_at} of {count} were checked")));
     }
     rows.extend(cameras(scene.description().camera, &views));
     for (name, text) in rows {
@@ -67,7 +67,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
             let mut message = format!("{}: {error}", arguments.scene.shown());
             if errors.len() > 1 {
                 message.push_str(&format!(
-                    ", and {} more of the {looked_at} frames that were looked at have no view",
+                    ", and {} more of the {looked_at} checked frames have no view",
                     errors.len() - 1
                 ));
             }
@@ -76,7 +76,7 @@ fn check(arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     }
 }
 
-/// Warnings about views of a world, those of some frames, of which `frame` is the first.
+/// Warnings about the views of a world in some frames; `frame` is the first of these frames.
 fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
     let mut warnings = costs::warnings(&world, views);
     warnings.extend(oversights::warnings(&world, views, frame));
@@ -85,7 +85,7 @@ fn warnings(world: World, views: &[View], frame: i32) -> Vec<String> {
     warnings
 }
 
-/// Prints what is known of a frame before it is rendered, and the warnings about it.
+/// Prints the properties of a frame that are known before rendering, and the warnings about it.
 fn print_json(scene: &Scene, arguments: &CheckArguments, console: &Console) -> Result<u8, Failure> {
     let view = scene::view(scene, &arguments.scene, arguments.frame)?;
     let frame = arguments.frame.unwrap_or(*frames_of(scene).start());
@@ -111,8 +111,7 @@ fn count(frames: &RangeInclusive<i32>) -> i64 {
     i64::from(*frames.end()) - i64::from(*frames.start()) + 1
 }
 
-/// Views of evenly spread frames, the first and the last among them, and the errors of frames that
-/// have none.
+/// Views of evenly spread frames, including the first and the last, and the errors of frames without a view.
 fn views(scene: &Scene, frames: &RangeInclusive<i32>) -> (Vec<View>, Vec<FrameError>) {
     let (first, last) = (i64::from(*frames.start()), i64::from(*frames.end()));
     let steps = (last - first).clamp(0, FRAMES_LOOKED_AT - 1);
@@ -167,21 +166,24 @@ fn world(scene: &Scene, world: &World) -> Vec<(&'static str, String)> {
         rows.push(("", "…".to_owned()));
     }
     if scene.has_moving_lights() {
-        rows.push(("", "they move: here they are in the first frame".to_owned()));
+        rows.push((
+            "",
+            "animated; these are the values of the first frame".to_owned(),
+        ));
     }
     let shadows = if world.shadows { "on" } else { "off" };
     rows.push(("shadows", shadows.to_owned()));
     rows.push(("ambient", color(world.ambient)));
     rows.push(("background", color(world.background)));
     let channels = match Channels::of(world, false) {
-        Channels::Grey => "none: one channel is rendered",
+        Channels::Grey => "none: pictures have a single channel",
         Channels::Rgb => "red, green, blue",
     };
     rows.push(("color", channels.to_owned()));
     rows
 }
 
-/// A table, and a camera that has all of it in the picture.
+/// A table, and a camera that shows all of it.
 fn cloud(
     scene: &Scene,
     world: &World,
@@ -194,7 +196,7 @@ fn cloud(
     rows.extend(bounds(all));
     let hands = match cloud.is_right_handed {
         true => "right-handed",
-        false => "left-handed, as the scene's",
+        false => "left-handed, like the scene",
     };
     rows.push(("  axes", hands.to_owned()));
     if let Some(steps) = cloud.steps {
@@ -283,7 +285,7 @@ fn duration(scene: &Scene) -> String {
     text
 }
 
-/// The places and the directions of the camera.
+/// The positions and directions of the camera.
 fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     let along = |axis: fn(DVec3) -> f64| range(views.iter().map(|v| axis(v.camera.position)));
     let angles = |index: usize| {
@@ -306,7 +308,7 @@ fn cameras(kind: &str, views: &[View]) -> Vec<(&'static str, String)> {
     rows
 }
 
-/// Angles in degrees without jumps: each is less than half a turn from the one before.
+/// Continuous angles in degrees: each differs from the previous one by less than half a turn.
 fn unwound(angles: impl Iterator<Item = f64>) -> impl Iterator<Item = f64> {
     const TURN: f64 = 360.0;
     let mut before = None;
@@ -323,7 +325,7 @@ fn vector(vector: DVec3) -> String {
     format!("({x}, {y}, {z})")
 }
 
-/// A color as scene files have it: a number where it is grey.
+/// A color in the form of scene files: a single number if it is gray.
 fn color(color: Color) -> String {
     if color.x == color.y && color.y == color.z {
         short(color.x)

@@ -1,4 +1,4 @@
-//! `marbles completions`: the files by which shells complete the command line.
+//! `marbles completions`: completion scripts for shells.
 
 use clap::CommandFactory;
 

@@ -1,17 +1,18 @@
-//! Light that is not far above the tolerance: pixels may then be off by a part of it that anybody sees.
+//! Warns if light is not much brighter than the tolerance: pixels may then have a visible error.
 
 use marbles_core::{Color, Light, World};
 use rayon::prelude::*;
 
 use crate::base::numbers::{bound, counted, short};
 
-/// The largest part of the brightest light that a tolerance may be without a warning.
+/// The largest tolerance without a warning, as a fraction of the brightest light.
 const LARGEST_PART: f64 = 0.02;
-/// The part of the brightest light that the warning proposes as a tolerance, to a power of ten.
+/// The tolerance that the warning proposes, as a fraction of the brightest light, before it is rounded to a power of
+/// ten.
 const GOOD_PART: f64 = 1e-3;
 
-/// A warning that the light of some pictures is not far above the tolerance, for pictures of these worlds; `option` is
-/// where the tolerance comes from. Works on the threads of the current rayon pool.
+/// A warning if the light in some pictures is not much brighter than the tolerance. There is one world per picture;
+/// `option` is the source of the tolerance. Works on the threads of the current rayon pool.
 pub(super) fn warning(
     worlds: impl IntoIterator<Item = World>,
     tolerance: f64,
@@ -37,22 +38,22 @@ pub(super) fn warning(
     }
     let better = libm::exp10((GOOD_PART * dimmest).log10().floor());
     let tolerance = bound(tolerance);
-    let cure = format!("`--tolerance {better:e}`, or brighter lights, make pixels known");
+    let cure = format!("use `--tolerance {better:e}` or brighter lights");
     let most = short(dimmest);
     match (dim, pictures) {
         (0, _) => None,
         (_, 1) => Some(format!(
-            "no sphere is brighter than {most}, and with {option} pixels may be off by {tolerance}: {cure}"
+            "no sphere is brighter than {most}, and with {option} pixels may have errors of {tolerance}: {cure}"
         )),
         _ => Some(format!(
-            "in {dim} of {} no sphere is brighter than {most} or little more, and with {option} pixels may be off by \
+            "in {dim} of {} no sphere is much brighter than {most}, and with {option} pixels may have errors of \
              {tolerance}: {cure}",
             counted(pictures, "picture")
         )),
     }
 }
 
-/// A bound of the light that a sphere sends to the camera.
+/// An upper bound of the light that a sphere sends to the camera.
 fn brightest(world: &World, sphere: usize) -> f64 {
     let ball = &world.spheres()[sphere];
     let lights = world
@@ -95,8 +96,8 @@ mod tests {
         assert_eq!(light(0.11), None);
         assert_eq!(
             light(0.08).unwrap(),
-            "no sphere is brighter than 0.04, and with --tolerance 1e-3 pixels may be off by 1.0e-03: \
-             `--tolerance 1e-5`, or brighter lights, make pixels known"
+            "no sphere is brighter than 0.04, and with --tolerance 1e-3 pixels may have errors of 1.0e-03: \
+             use `--tolerance 1e-5` or brighter lights"
         );
         for (fields, is_told) in [
             ("ambient: 0.01", true),
@@ -122,7 +123,7 @@ mod tests {
         let each = [0, 1].map(|index| world.under(LightPart::Light(index)));
         let found = warning(each, 1e-3, "").unwrap();
         assert!(
-            found.starts_with("in 1 of 2 pictures no sphere is brighter than 0.0005 "),
+            found.starts_with("in 1 of 2 pictures no sphere is much brighter than 0.0005,"),
             "{found}"
         );
     }

@@ -1,4 +1,4 @@
-//! The drawings beside a picture: legend and scale bar.
+//! Drawings that explain a picture: legend and scale bar.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +10,7 @@ use crate::files::destination::{is_same, prepare};
 use crate::files::save::write_bytes;
 use crate::sequence::request::Request;
 
-/// Writes the drawings that are asked for, of the first frame where it matters.
+/// Writes the requested drawings; for the first frame, if they depend on it.
 pub(super) fn write(
     request: &Request,
     legend: Option<PathBuf>,
@@ -56,7 +56,7 @@ pub(super) fn check_name(option: &str, noun: &str, path: &Path) -> Result<(), Fa
         return Ok(());
     }
     Err(Failure::Usage(format!(
-        "{option}: expected a file name that ends in .svg, the one format of {noun}, found `{}`",
+        "{option}: expected a file name that ends in .svg, the only format of {noun}, found `{}`",
         path.shown()
     )))
 }

@@ -1,4 +1,4 @@
-//! The files that a command reads, which no output may replace.
+//! The input files of a command, which no output may replace.
 
 use std::collections::HashSet;
 use std::fs;
@@ -8,9 +8,9 @@ use marbles_scene::Scene;
 
 use crate::base::failure::Failure;
 
-/// The files that are read.
+/// The input files.
 pub(super) struct Inputs {
-    /// At the ends of links.
+    /// Their paths, with symbolic links resolved.
     places: HashSet<PathBuf>,
     /// The reason to refuse an output.
     why: &'static str,
@@ -34,7 +34,7 @@ impl Inputs {
         }
     }
 
-    /// Refuses outputs that would replace one of them.
+    /// Refuses outputs that would replace an input file.
     pub(super) fn refuse(&self, outputs: impl IntoIterator<Item = PathBuf>) -> Result<(), Failure> {
         let is_input = |path: &PathBuf| {
             let place = fs::canonicalize(path);
@@ -47,7 +47,7 @@ impl Inputs {
     }
 }
 
-/// The places of files. A file that is gone since it was read can be replaced.
+/// The resolved paths of files. A file that was removed since it was read may be replaced.
 fn places(files: impl IntoIterator<Item = impl AsRef<Path>>) -> impl Iterator<Item = PathBuf> {
     let places = files.into_iter().map(fs::canonicalize);
     places.filter_map(Result::ok)

@@ -1,4 +1,4 @@
-//! `--legend`: what the colors of a picture stand for, in a drawing of its own.
+//! `--legend`: a drawing that explains the colors of a picture.
 
 use std::path::Path;
 
@@ -14,17 +14,17 @@ use crate::base::numbers::short;
 use crate::base::shown::Shown;
 use marbles_core::srgb;
 
-/// The width of the drawing, and the space around everything, in pixels.
+/// The width of the drawing, and its margin, in pixels.
 const WIDTH: f64 = 340.0;
 const MARGIN: f64 = 16.0;
-/// A scale of colors: as many pixels as a colormap has colors.
+/// The size of a color scale, with one pixel for each color of a colormap.
 const SCALE: (f64, f64) = (256.0, 18.0);
 const LINE: f64 = 20.0;
-/// Between what belongs to one table and the next.
+/// The space between the parts of different tables.
 const GAP: f64 = 14.0;
-/// The most categories that are listed.
+/// The largest number of listed categories.
 const MOST_CATEGORIES: usize = 40;
-/// About the width of a digit of the marks' numbers.
+/// The approximate width of a digit in labels.
 const DIGIT: f64 = 7.0;
 
 const PLAIN: Style = Style {
@@ -37,12 +37,12 @@ const PLAIN: Style = Style {
 /// Draws the legend of a scene.
 ///
 /// # Errors
-/// Refuses scenes whose colors stand for nothing.
+/// Refuses scenes whose colors have no meaning.
 pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
     let colors = |cloud: &CloudDescription| Some((cloud.file.shown(), cloud.colors.clone()?));
     let all: Vec<(String, ColorDescription)> = scene.clouds().iter().filter_map(colors).collect();
     if all.is_empty() {
-        let why = "--legend: no cloud has colors that stand for a column: `value: …` gives it some";
+        let why = "--legend: no cloud is colored by a column: choose one with `value: …`";
         return Err(Failure::unusable(path, why));
     }
     let whole: f64 = all
@@ -80,7 +80,7 @@ pub(super) fn draw(scene: &Scene, path: &Path) -> Result<String, Failure> {
     Ok(svg.finish())
 }
 
-/// The column, which has its unit behind it, or else the table.
+/// The name of the column with its unit, or else of the table.
 fn title(colors: &ColorDescription, file: &str) -> String {
     match &colors.column {
         Some(column) => column.clone(),
@@ -155,7 +155,8 @@ fn draw_categories(svg: &mut Svg, top: f64, categories: &[(String, Color)]) {
     }
 }
 
-/// A time on a scale of so many seconds: the date, or of less than two days the time of day.
+/// A label for a time on a scale that covers some seconds: the date, or the time of day if the scale covers less than
+/// two days.
 fn time(seconds: f64, length: f64) -> String {
     const TWO_DAYS: f64 = 172_800.0;
     let text = written_time(seconds);
@@ -165,7 +166,7 @@ fn time(seconds: f64, length: f64) -> String {
     shown.to_owned()
 }
 
-/// The place of a number on a scale, from 0 to 1.
+/// The position of a number on a scale, from 0 to 1.
 fn place(number: f64, low: f64, high: f64, kind: ScaleKind) -> f64 {
     if low == high {
         return 0.5;
@@ -176,7 +177,7 @@ fn place(number: f64, low: f64, high: f64, kind: ScaleKind) -> f64 {
     }
 }
 
-/// The numbers beside a scale: round ones between its ends, or the ends.
+/// The labels of a scale: round numbers within its range, or its ends.
 fn marks(low: f64, high: f64, kind: ScaleKind) -> Vec<f64> {
     if low == high {
         return vec![low];
@@ -213,7 +214,7 @@ fn marks(low: f64, high: f64, kind: ScaleKind) -> Vec<f64> {
     }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is not above a number.
+/// The largest product of 1, 2 or 5 and a power of ten that is not above a number.
 pub(super) fn round_step(number: f64) -> f64 {
     let power = libm::pow(10.0, libm::floor(libm::log10(number)));
     let multiple = [5.0, 2.0]
@@ -222,7 +223,7 @@ pub(super) fn round_step(number: f64) -> f64 {
     multiple.unwrap_or(1.0) * power
 }
 
-/// A color as SVG writes it.
+/// A color in the syntax of SVG.
 fn hexadecimal(color: DVec3) -> String {
     let [red, green, blue] = color.to_array().map(srgb::encode_8);
     format!("#{red:02x}{green:02x}{blue:02x}")

@@ -33,23 +33,23 @@ pub(crate) fn run(arguments: &ManArguments, console: &Console) -> Result<u8, Fai
     let page = page.ok_or_else(|| {
         let command = arguments.command.as_deref().unwrap_or_default();
         Failure::Usage(format!(
-            "expected a command that `marbles --help` names, found `{command}`"
+            "expected a command listed by `marbles --help`, found `{command}`"
         ))
     })?;
     console.print(&String::from_utf8_lossy(&text(page)?));
     Ok(status::SUCCESS)
 }
 
-/// Columns of lines that stay as they are, so that they fit beside the margin of a page on 80.
+/// The width of lines that are not wrapped. They fit next to the margin of a page with 80 columns.
 const COLUMNS: usize = 72;
 
-/// A page, and its end as clap has it: examples, exit codes and so on.
+/// A page, with the end of clap's help text: examples, exit codes and so on.
 struct Page {
     man: Man,
     end: String,
 }
 
-/// All pages, that of marbles first, and those of commands before those of their commands.
+/// All pages: first that of marbles, then those of the commands, each before those of its subcommands.
 fn pages() -> Vec<Page> {
     let mut command = Arguments::command().disable_help_subcommand(true);
     command.build();
@@ -81,7 +81,7 @@ fn text(page: &Page) -> Result<Vec<u8>, Failure> {
     Ok(text)
 }
 
-/// A section for each list with a title, whose lines stay as they are, and paragraphs between them.
+/// A section for each list with a title, whose lines are not wrapped, and paragraphs between them.
 fn end(help: &str) -> Roff {
     let mut roff = Roff::new();
     for paragraph in help.split("\n\n") {

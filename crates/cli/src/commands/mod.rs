@@ -1,4 +1,4 @@
-//! The commands, each a file or a folder named after it, and their arguments.
+//! The commands, each in a file or a folder with its name, and their arguments.
 
 pub(crate) mod args;
 pub(crate) mod check;

@@ -1,4 +1,4 @@
-//! `marbles new`: a scene to start from.
+//! `marbles new`: writes a first scene.
 
 use std::fs::{self, File};
 use std::io::{ErrorKind, Write};
@@ -12,7 +12,7 @@ use crate::terminal::console::Console;
 
 const STILL: &str = include_str!("new/still.ron");
 const TURNTABLE: &str = include_str!("new/turntable.ron");
-/// The word that stands for the file in the comments of the scenes.
+/// The word in the comments of the scenes that is replaced by the name of the file.
 const NAME: &str = "NAME";
 
 pub(crate) fn run(arguments: &NewArguments, console: &Console) -> Result<u8, Failure> {
@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &NewArguments, console: &Console) -> Result<u8, Fai
     Ok(status::SUCCESS)
 }
 
-/// The file's name in a comment or a message, which are one line, in quotes where a shell needs them.
+/// The name of the file in a comment or a message of one line, quoted if a shell needs it.
 fn shown(path: &Path) -> String {
     let name = path.display().to_string();
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-/\\:~+@%".contains(letter);
@@ -51,7 +51,7 @@ fn shown(path: &Path) -> String {
     }
 }
 
-/// Writes a file that must not be there yet.
+/// Writes a file that must not exist yet.
 fn write(path: &Path, text: &str) -> Result<(), Failure> {
     if let Some(folder) = path.parent() {
         fs::create_dir_all(folder)
@@ -59,7 +59,7 @@ fn write(path: &Path, text: &str) -> Result<(), Failure> {
     }
     // Which asks and creates at once: nobody else's file is ever lost.
     let mut file = File::create_new(path).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::at(path, "the file is already there"),
+        ErrorKind::AlreadyExists => Failure::at(path, "the file already exists"),
         _ => Failure::io(path, "cannot create the file", &error),
     })?;
     file.write_all(text.as_bytes()).map_err(|error| {

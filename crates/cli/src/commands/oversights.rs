@@ -1,15 +1,15 @@
-//! Oversights that make a picture black, or all of one color.
+//! Mistakes that make a picture black, or a single color.
 
 use marbles_core::{Sphere, View, World};
 use rayon::prelude::*;
 
 use crate::base::numbers::short;
 
-/// The most views that are looked at, spread evenly over those of an animation.
+/// The most views that are checked; of longer animations, evenly spread ones.
 const VIEWS: usize = 9;
 
-/// Plain sentences about views of some frames, `frame` the first: what is wrong, and what to do. Works on the threads
-/// of the current rayon pool.
+/// Warnings about views of some frames, the first of which is `frame`: the mistake, and the remedy. Works on the
+/// threads of the current rayon pool.
 pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String> {
     let spheres = world.spheres();
     let Some(view) = views.first() else {
@@ -17,21 +17,20 @@ pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String>
     };
     let mut looked_at = views.iter().step_by(views.len().div_ceil(VIEWS));
     if spheres.is_empty() {
-        return vec!["there are no spheres: the picture is the background".to_owned()];
+        return vec!["the scene has no spheres: the picture shows only the background".to_owned()];
     }
     let mut warnings = Vec::new();
     let is_empty = |view: &View| !spheres.par_iter().any(|sphere| may_be_seen(sphere, view));
     if looked_at.all(is_empty) {
         warnings.push(
-            "no sphere is in view: `marbles check` tells where they are, and `camera: Frame()` has all of them in \
-             the picture"
+            "no sphere is in view: `marbles check` prints where they are, and `camera: Frame()` shows all of them"
                 .to_owned(),
         );
     }
     if world.lights.is_empty() && world.ambient.max_element() <= 0.0 {
         warnings.push(
-            "nothing is lit: `lights: [Directional(toward: (1, 2, -1))]` is a light, and `ambient: 0.2` is one \
-             from everywhere"
+            "the scene has no light: add one, such as `lights: [Directional(toward: (1, 2, -1))]`, or ambient \
+             light, such as `ambient: 0.2`"
                 .to_owned(),
         );
     }
@@ -44,15 +43,15 @@ pub(super) fn warnings(world: &World, views: &[View], frame: i32) -> Vec<String>
     {
         let radius = short(spheres[index].radius());
         warnings.push(format!(
-            "frame {frame}: the camera is inside sphere {}, whose radius is {radius}: its inner side hides \
-             everything outside",
+            "frame {frame}: the camera is inside sphere {}, whose radius is {radius}: the inner side of the \
+             sphere hides everything outside",
             index + 1
         ));
     }
     warnings
 }
 
-/// Says whether a sphere may be in the picture: none of which it is certain that it is not.
+/// Returns false only if no sphere can be in the picture.
 fn may_be_seen(sphere: &Sphere, view: &View) -> bool {
     let camera = &view.camera;
     let from_eye = camera.world_from_camera.transpose() * (sphere.center() - camera.position);
@@ -113,9 +112,9 @@ mod tests {
             (sphere(0.0, 0.0, 0.5), "frame 1: the camera is i"),
             (
                 sphere(0.0, 0.0, 5.0).replace("ambient: 1", "ambient: 0"),
-                "nothing is lit: `lights:",
+                "the scene has no light: ",
             ),
-            (LIT.to_owned(), "there are no spheres: th"),
+            (LIT.to_owned(), "the scene has no spheres"),
         ] {
             assert_eq!(of(&fields), expected, "{fields}");
         }

@@ -1,4 +1,4 @@
-//! `marbles render`: the frames of a scene, one file each.
+//! `marbles render`: renders the frames of a scene to picture files.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -108,7 +108,7 @@ fn run_scene(
     Ok(code)
 }
 
-/// Reads the scene and checks what can be before anything is rendered.
+/// Reads the scene, and checks everything that can be checked before rendering.
 pub(super) fn request(
     arguments: &RenderArguments,
     path: &Path,
@@ -188,14 +188,14 @@ pub(super) fn request(
     Ok(request)
 }
 
-/// Warns of what is amiss in the first frame.
+/// Warns about mistakes in the first frame.
 fn check_view(
     request: &Request,
     arguments: &RenderArguments,
     threads: &ThreadPool,
     console: &Console,
 ) -> Result<(), Failure> {
-    /// Frames that are looked at; more would take long.
+    /// The most frames that are checked.
     const FRAMES: usize = 1000;
     let scene = &request.scene;
     let frame = request.frames.first();
@@ -229,7 +229,7 @@ fn name_of(path: &Path) -> &OsStr {
     path.file_stem().unwrap_or_default()
 }
 
-/// Refuses names that are too many or too few for the frames.
+/// Refuses a pattern of file names that does not fit the number of frames.
 fn check_names(
     pattern: &Pattern,
     frames: &FrameList,
@@ -239,7 +239,7 @@ fn check_names(
     if is_animation && pattern.is_numbered() {
         return Err(Failure::unusable(
             output.unwrap_or(Path::new("")),
-            "all frames are one file, whose name has no place for their number",
+            "all frames go into one file, so its name cannot contain the frame number",
         ));
     }
     let count = frames.count();
@@ -247,14 +247,14 @@ fn check_names(
         return Err(Failure::unusable(
             &pattern.path(FRAME_OF_A_STILL),
             &format!(
-                "{count} frames need a place for their number in the name: ####, %04d or {{frame:04}}"
+                "{count} frames need the frame number in the file name: ####, %04d or {{frame:04}}"
             ),
         ));
     }
     Ok(())
 }
 
-/// Refuses to replace the scene or its tables by pictures, or by what lies beside them.
+/// Refuses to replace the scene or its tables by pictures or by their accompanying files.
 fn check_outputs(request: &Request) -> Result<(), Failure> {
     let beside = |picture: PathBuf| {
         let sidecar = request.sidecar.then(|| sidecar::beside(&picture));
@@ -272,7 +272,7 @@ fn check_outputs(request: &Request) -> Result<(), Failure> {
     inputs.refuse(pictures.flat_map(beside))
 }
 
-/// The options of the format; those of others are refused.
+/// The options of the format. Refuses options of other formats.
 fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Failure> {
     let output = match format {
         Format::Png | Format::Apng => "PNG",
@@ -299,12 +299,12 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     ] {
         if is_given && !formats.contains(&output) {
             let formats = formats.join(" and ");
-            let message = format!("{option} is for {formats} files, and the output is {output}");
+            let message = format!("{option} is for {formats} files, but the output is {output}");
             return Err(Failure::Usage(message));
         }
     }
     if arguments.linear && arguments.bits == Some(8) {
-        let message = "--linear writes 16 bit, and --bits asks for 8";
+        let message = "--linear writes 16 bits, but --bits asks for 8";
         return Err(Failure::Usage(message.to_owned()));
     }
     for (is_given, option) in [
@@ -314,7 +314,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     ] {
         if is_given && format == Format::Apng {
             let message =
-                format!("{option} is for files of one frame each, and the output has all of them");
+                format!("{option} needs one file per frame, but this output contains all frames");
             return Err(Failure::Usage(message));
         }
     }
@@ -338,7 +338,7 @@ fn encoding(arguments: &RenderArguments, format: Format) -> Result<Encoding, Fai
     })
 }
 
-/// Tells how a run has ended, and returns its exit code.
+/// Prints how a run ended, and returns its exit code.
 pub(super) fn conclusion(outcome: &Outcome, noun: &str, console: &Console) -> u8 {
     if outcome.interrupted {
         console.warn(&format!("interrupted: {}", messages::counts(outcome, noun)));

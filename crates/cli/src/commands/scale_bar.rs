@@ -1,4 +1,4 @@
-//! `--scale-bar`: a length of the scene beside the pixels that it takes, in a drawing of its own.
+//! `--scale-bar`: a drawing that shows a length of the scene and its length in pixels.
 
 use std::path::Path;
 
@@ -12,24 +12,24 @@ use crate::base::numbers::short;
 
 const MARGIN: f64 = 16.0;
 
-/// Draws the scale bar of a view of a frame: a round length that takes at most a quarter of the picture's width.
+/// Draws the scale bar for a view of a frame: a round length that takes at most a quarter of the width of the picture.
 ///
-/// Through a parallel lens it is that of all distances; else of the plane through the camera's target.
+/// Through a parallel lens the length is valid at all distances, else in the plane through the camera's target.
 ///
 /// # Errors
-/// Refuses a camera with perspective that has no target before it.
+/// Refuses a camera with perspective that has no target in front of it.
 pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Result<String, Failure> {
     let (pixels, place) = if view.lens.is_parallel() {
         (view.pixels_per_unit(), String::new())
     } else {
         let target = scene.target_at(frame).ok_or_else(|| {
-            let why = "--scale-bar: with perspective the bar is at the distance of the camera's target, and this \
-                       camera has none: `LookAt`, `Orbit` and `Frame` have one, and `Parallel` lenses need none";
+            let why = "--scale-bar: with perspective, the bar is valid at the distance of the camera's target, \
+                 but this camera has no target: use `LookAt`, `Orbit` or `Frame`, or a `Parallel` lens";
             Failure::unusable(path, why)
         })?;
         let distance = (target - view.camera.position).dot(view.camera.forward());
         if distance <= 0.0 {
-            let why = "--scale-bar: the camera's target is not before the camera";
+            let why = "--scale-bar: the camera's target is not in front of the camera";
             return Err(Failure::unusable(path, why));
         }
         let place = format!(" at the target, {} away", short(distance));
@@ -55,7 +55,7 @@ pub(super) fn draw(scene: &Scene, frame: i32, view: &View, path: &Path) -> Resul
     Ok(svg.finish())
 }
 
-/// Says whether the same length takes other numbers of pixels in the first or the last frame.
+/// Returns whether the same length has a different number of pixels in the first or the last frame.
 fn changes(
     scene: &Scene,
     frames: &std::ops::RangeInclusive<i32>,

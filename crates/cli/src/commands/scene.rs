@@ -1,4 +1,4 @@
-//! Scenes from their files, and on a terminal how far the reading is.
+//! Loads scenes, and shows the progress of reading on a terminal.
 
 use std::fs;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::sequence::frames::frames_of;
 use crate::terminal::bar::{bar, show_line};
 use crate::terminal::console::Console;
 
-/// Smaller files are read before anybody has read a line about them, in bytes.
+/// The size in bytes below which no progress is shown, because reading takes too little time.
 const LARGE: u64 = 1 << 20;
 
 /// Loads the scene file at `path`, and the tables that it names, on the threads of the current
@@ -56,7 +56,7 @@ pub(super) fn load(
     Ok(scene)
 }
 
-/// Prints warnings about the scene at `path`, which `--strict` makes reasons to refuse it.
+/// Prints warnings about the scene at `path`; with `--strict` they are errors.
 pub(super) fn warn(
     warnings: &[String],
     path: &Path,
@@ -80,14 +80,14 @@ pub(super) fn warn(
     }
 }
 
-/// The view of the frame that `--frame` names, which has to be one of the scene's, from the file at `path`; of the first
-/// where it names none.
+/// The view of the frame that `--frame` chooses, or else of the first one. The frame must belong to the scene, which
+/// was read from `path`.
 pub(super) fn view(scene: &Scene, path: &Path, frame: Option<i32>) -> Result<View, Failure> {
     let frame = frame.unwrap_or(*frames_of(scene).start());
     view_of((scene, path), frame, "--frame")
 }
 
-/// The view of a frame that an option asks for, which has to be one of the scene's, from the file at `path`.
+/// The view of a frame chosen by an option. The frame must belong to the scene, which was read from `path`.
 pub(super) fn view_of(
     (scene, path): (&Scene, &Path),
     frame: i32,
@@ -98,7 +98,7 @@ pub(super) fn view_of(
     view.map_err(|error| Failure::unusable(path, &error.to_string()))
 }
 
-/// Refuses frames that an option asks for and the scene does not have.
+/// Refuses frames that an option chooses and the scene does not have.
 pub(super) fn require_frames(
     scene: &Scene,
     mut asked: impl Iterator<Item = i32>,
@@ -117,12 +117,12 @@ pub(super) fn require_frames(
     Ok(())
 }
 
-/// The world of the frame that `--frame` names; of the first where it names none.
+/// The world of the frame that `--frame` chooses, or else of the first one.
 pub(super) fn world(scene: &Scene, frame: Option<i32>) -> Result<World, Failure> {
     world_of(scene, frame.unwrap_or(*frames_of(scene).start()))
 }
 
-/// The world of a frame, if there is memory to prepare it.
+/// The world of a frame, if there is enough memory to prepare it.
 pub(super) fn world_of(scene: &Scene, frame: i32) -> Result<World, Failure> {
     let world = scene.world_at(frame);
     let world = world.map_err(|error| Failure::Scene(Box::new(error)))?;

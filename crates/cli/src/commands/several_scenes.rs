@@ -1,4 +1,4 @@
-//! Several scenes on one command line, whose files have to stay apart.
+//! Several scenes on one command line, whose files must have different names.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use crate::base::shown::Shown;
 use crate::sequence::pattern::{SCENE, has_place_for_scene};
 use crate::sequence::request::Request;
 
-/// The files of the scenes before, and the scenes that they belong to; `None` where there is only one scene.
+/// The files of previous scenes, with their scenes; `None` if there is only one scene.
 pub(super) struct Others(Option<HashMap<PathBuf, PathBuf>>);
 
 impl Others {
-    /// No files yet. Refuses outputs without a place for the scenes' names, and names that are the same.
+    /// No files yet. Refuses outputs without `{scene}`, and scenes with the same name.
     pub(super) fn of(arguments: &RenderArguments) -> Result<Self, Failure> {
         if let [_] = arguments.scenes[..] {
             return Ok(Self(None));
@@ -21,15 +21,15 @@ impl Others {
         let outputs = [&arguments.output, &arguments.legend, &arguments.scale_bar];
         let mut outputs = outputs.into_iter().flatten();
         if let Some(output) = outputs.find(|output| !has_place_for_scene(output)) {
-            let why = format!("several scenes need a place for their names: {SCENE}");
+            let why = format!("several scenes need {SCENE} in the file name");
             return Err(Failure::unusable(output, &why));
         }
         refuse_same_names(&arguments.scenes)?;
         Ok(Self(Some(HashMap::new())))
     }
 
-    /// Adds the pictures of another scene. Refuses those that would replace one of a scene before: names and numbers of
-    /// frames may make the same names.
+    /// Adds the pictures of another scene. Refuses pictures that would replace those of a previous scene: different
+    /// names and frame numbers can combine to the same file name.
     pub(super) fn add(&mut self, request: &Request) -> Result<(), Failure> {
         let Some(files) = &mut self.0 else {
             return Ok(());

@@ -1,17 +1,17 @@
-//! SVG: plain shapes and text, without scripts, styles or links, which a page may show as it is.
+//! SVG: plain shapes and text, without scripts, styles or links, so that a page can show it as it is.
 
 use std::fmt::Write;
 
-/// Fonts that readers have: an SVG carries none.
+/// Fonts that most systems have: an SVG contains none.
 const FONTS: &str = "system-ui, 'Segoe UI', 'Helvetica Neue', Arial, 'Liberation Sans', sans-serif";
 
-/// A place on the drawing in pixels; x goes right, y goes down from the top left corner.
+/// A position on the drawing in pixels: x to the right, y downward, from the top left corner.
 pub(crate) type Place = (f64, f64);
 
 /// A drawing on white, to which shapes are added in the order of painting.
 pub(crate) struct Svg(String);
 
-/// The look of a text, and the part of it that is at its place.
+/// The look of a text, and its anchor.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Style {
     pub(crate) anchor: Anchor,
@@ -20,7 +20,7 @@ pub(crate) struct Style {
     pub(crate) color: &'static str,
 }
 
-/// The part of a text that is at its place.
+/// The part of a text that is at its position.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Anchor {
     Start,
@@ -81,7 +81,7 @@ impl Svg {
         ));
     }
 
-    /// Adds a square that stands on its side.
+    /// Adds a square that stands on a corner.
     pub(crate) fn square(&mut self, (x, y): Place, side: f64, color: &str) {
         let [x, y, side] = [x - side / 2.0, y - side / 2.0, side].map(number);
         self.element(format_args!(
@@ -89,7 +89,7 @@ impl Svg {
         ));
     }
 
-    /// Adds a text with its base line at a place.
+    /// Adds a text with its base line at a position.
     pub(crate) fn text(&mut self, place: Place, style: Style, text: &str) {
         self.text_element(place, style, &escaped(text));
     }
@@ -129,14 +129,14 @@ impl Svg {
     }
 }
 
-/// Two decimals are finer than any screen.
+/// Two decimals are finer than the pixels of any screen.
 fn number(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A text between tags or quotes; what XML cannot hold becomes a replacement character.
+/// A text for use between tags or quotes; characters that XML does not allow become replacement characters.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for letter in text.chars() {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::failure::Failure;
 
-/// Makes sure that there is a folder for the file at `path`.
+/// Makes sure that the folder for the file at `path` exists.
 pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
     let destination = destination(path)?;
     let folder = folder(&destination);
@@ -13,8 +13,7 @@ pub(crate) fn prepare(path: &Path) -> Result<(), Failure> {
         .map_err(|error| Failure::io(folder, "cannot create the folder", &error))
 }
 
-/// The place of the file for `path`: at the end of symbolic links, which stay as they are, and only in
-/// place of another file.
+/// The destination of the file for `path`: symbolic links are followed and kept, and only a file may be replaced.
 pub(super) fn destination(path: &Path) -> Result<PathBuf, Failure> {
     /// The number of links that Linux follows.
     const MOST_LINKS: usize = 40;
@@ -22,8 +21,8 @@ pub(super) fn destination(path: &Path) -> Result<PathBuf, Failure> {
     for _ in 0..=MOST_LINKS {
         let Ok(target) = fs::read_link(&destination) else {
             return match fs::metadata(&destination) {
-                Ok(found) if found.is_dir() => Err("there is a folder"),
-                Ok(found) if !found.is_file() => Err("there is something that is no file"),
+                Ok(found) if found.is_dir() => Err("a folder has this name"),
+                Ok(found) if !found.is_file() => Err("something that is not a file has this name"),
                 _ => Ok(destination),
             }
             .map_err(|what| Failure::at(path, &format!("cannot write the file: {what}")));
@@ -43,7 +42,7 @@ pub(super) fn folder(path: &Path) -> &Path {
     }
 }
 
-/// Returns whether both paths are the same, or lead to one file that is there.
+/// Returns whether both paths are the same, or lead to the same existing file.
 pub(crate) fn is_same(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| fs::canonicalize(path).ok();
     one == other || place(one).is_some_and(|one| place(other) == Some(one))

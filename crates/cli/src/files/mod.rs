@@ -1,5 +1,5 @@
-//! Files that are written whole or not at all: under a temporary name beside their place, and moved
-//! there when they are complete.
+//! Files that are written completely or not at all: under a temporary name in the same folder, and renamed when they
+//! are complete.
 
 pub(crate) mod destination;
 pub(crate) mod save;

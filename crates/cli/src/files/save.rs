@@ -1,4 +1,4 @@
-//! Files by way of temporary ones.
+//! Saves files through temporary files.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,16 +11,16 @@ use crate::base::failure::{Failure, lower};
 #[derive(Debug)]
 pub(crate) enum Unwritten {
     Failed(Failure),
-    /// Parts of the picture will not come.
+    /// The remaining parts of the picture will not come.
     Stopped,
 }
 
-/// A reason why something could not be encoded or written, before it is known to which file.
+/// A reason why something could not be encoded or written, before the file is known.
 #[derive(Debug)]
 pub(crate) enum Fault {
     Io(io::Error),
     Encoding(String),
-    /// Another file is the reason.
+    /// Another file is the cause.
     Failed(Failure),
     /// See [`Unwritten`].
     Stopped,
@@ -46,7 +46,7 @@ pub(crate) fn begin(path: &Path) -> Result<TemporaryFile, Failure> {
     TemporaryFile::beside(&destination(path)?).map_err(|error| uncreated(path, &error))
 }
 
-/// Begins a file for `path` unless another process that lives is writing it.
+/// Begins a file for `path` unless another running process is writing it.
 pub(crate) fn claim(path: &Path) -> Result<Option<TemporaryFile>, Failure> {
     TemporaryFile::claim(&destination(path)?).map_err(|error| uncreated(path, &error))
 }
@@ -62,7 +62,7 @@ fn uncreated(path: &Path, error: &io::Error) -> Failure {
     Failure::io(path, "cannot create the file", error)
 }
 
-/// Writes a file that is no picture, or already encoded.
+/// Writes a file that is not a picture, or is already encoded.
 pub(crate) fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), Failure> {
     Ok(save(path, |mut file| {
         file.file().write_all(bytes)?;
@@ -70,7 +70,7 @@ pub(crate) fn write_bytes(bytes: &[u8], path: &Path) -> Result<(), Failure> {
     })?)
 }
 
-/// Puts the file that `write` has written where it belongs.
+/// Moves the file that `write` has written to its destination.
 pub(crate) fn save(
     path: &Path,
     write: impl FnOnce(TemporaryFile) -> Result<TemporaryFile, Fault>,
@@ -80,7 +80,7 @@ pub(crate) fn save(
     finish(path, file.and_then(write))
 }
 
-/// Puts a file that was written for `path` where it belongs.
+/// Moves a file that was written for `path` to its destination.
 pub(crate) fn finish(path: &Path, written: Result<TemporaryFile, Fault>) -> Result<(), Unwritten> {
     let moved = written.and_then(|file| Ok(file.persist()?));
     moved.map_err(|fault| match fault {

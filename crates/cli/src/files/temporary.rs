@@ -1,9 +1,9 @@
 //! Files that exist under a temporary name until they are complete.
 //!
-//! `a.png` is written as `a.png.tmp`, and by a second process at the same time as `a.png.1.tmp`.
-//! The process that writes a file holds a lock on it, which ends with the process however that ends: a
-//! file that is not locked was left by one that was killed, and may be removed. Only the process that
-//! has the lock removes or moves a file, so that its name cannot come to mean another one meanwhile.
+//! `a.png` is written as `a.png.tmp`, or as `a.png.1.tmp` by a second process at the same time. The process that writes
+//! a file holds a lock on it, which ends with the process in any case. So a file that is not locked is left over from a
+//! killed process, and may be removed. Only the process with the lock removes or moves a file, so that its name cannot
+//! refer to another file meanwhile.
 
 use std::collections::HashMap;
 use std::ffi::{OsStr, OsString};
@@ -14,39 +14,39 @@ use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 use std::time::Duration;
 use std::{mem, thread};
 
-/// The longest names, in bytes, that common file systems take.
+/// The length of the longest file names, in bytes, on common file systems.
 const LONGEST_NAME: usize = 255;
-/// Bytes that stay free for endings.
+/// Bytes reserved for the suffix.
 const LONGEST_ENDING: usize = 16;
 const ENDING: &str = ".tmp";
-/// The number of others that may be writing the same file.
+/// The largest number of other processes that may write the same file.
 const MOST_OTHERS: u32 = 1000;
 
-/// The temporary files of this process; a thread that holds the lock knows that none appears or moves.
+/// The temporary files of this process. While a thread holds the lock, no such file appears or moves.
 static OPEN: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// A file beside the place where it belongs, removed when it is dropped before its time.
+/// A file in the folder of its destination. It is removed if it is dropped before it is complete.
 #[derive(Debug)]
 pub(crate) struct TemporaryFile {
-    /// Locked, where the file system knows locks.
+    /// Locked, if the file system supports locks.
     file: File,
     path: PathBuf,
     destination: PathBuf,
 }
 
 impl TemporaryFile {
-    /// Creates the file, named after its destination, with a shorter stem where there is no room.
+    /// Creates the file, named after its destination; the name is shortened if it would be too long.
     pub(crate) fn beside(destination: &Path) -> io::Result<Self> {
         for number in 0..MOST_OTHERS {
             if let Some(file) = Self::numbered(destination, number)? {
                 return Ok(file);
             }
         }
-        let message = "too many temporary files are in the way";
+        let message = "too many temporary files exist already";
         Err(io::Error::new(ErrorKind::AlreadyExists, message))
     }
 
-    /// Creates the file unless another process is writing what belongs there.
+    /// Creates the file unless another process is writing the same destination.
     pub(crate) fn claim(destination: &Path) -> io::Result<Option<Self>> {
         Self::numbered(destination, 0)
     }
@@ -70,17 +70,17 @@ impl TemporaryFile {
         }))
     }
 
-    /// Another file for the same place.
+    /// Another file for the same destination.
     pub(crate) fn another(&self) -> io::Result<Self> {
         Self::beside(&self.destination)
     }
 
-    /// The file, to be read from and written to.
+    /// The file, for reading and writing.
     pub(crate) fn file(&mut self) -> &mut File {
         &mut self.file
     }
 
-    /// Moves the complete file to its destination, in place of what was there.
+    /// Moves the complete file to its destination, and replaces the previous file.
     pub(crate) fn persist(self) -> io::Result<()> {
         // Without this a crash of the machine could leave the name without the bytes.
         self.file.sync_all()?;
@@ -102,9 +102,9 @@ impl Drop for TemporaryFile {
     }
 }
 
-/// Creates a file and locks it; `None` where there is one that is not left over.
+/// Creates a file and locks it. `None` if a file exists that is not left over.
 fn create(path: &Path) -> io::Result<Option<File>> {
-    /// Each time that another process comes in between, that one gets on.
+    /// Each failure because of another process means that the other process made progress.
     const ATTEMPTS: u32 = 10;
     for _ in 0..ATTEMPTS {
         let mut options = File::options();
@@ -128,7 +128,7 @@ fn create(path: &Path) -> io::Result<Option<File>> {
     Ok(None)
 }
 
-/// Removes a file that no process writes any more; returns whether it is gone.
+/// Removes a file that no process is writing; returns whether it is gone.
 fn remove_left_over(path: &Path) -> io::Result<bool> {
     match File::options().read(true).write(true).open(path) {
         Ok(file) => match file.try_lock() {
@@ -144,7 +144,7 @@ fn remove_left_over(path: &Path) -> io::Result<bool> {
     }
 }
 
-/// Returns whether this is the file that has that name now. It needs no descriptor, of which there may be none left.
+/// Returns whether this file still has its name. Needs no file descriptor, because there may be none left.
 #[cfg(unix)]
 fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     use std::os::unix::fs::MetadataExt;
@@ -157,7 +157,7 @@ fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     }
 }
 
-/// Returns whether this is the file that has that name now.
+/// Returns whether this file still has its name.
 #[cfg(not(unix))]
 fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     use same_file::Handle;
@@ -170,7 +170,7 @@ fn is_at(file: &File, path: &Path) -> io::Result<bool> {
     }
 }
 
-/// The name of a file, cut at the end of a character where endings would make it too long.
+/// The name of a file, cut at a character boundary if it would be too long with suffixes.
 fn stem(path: &Path) -> OsString {
     let name = path.file_name().unwrap_or_default();
     let room = LONGEST_NAME - LONGEST_ENDING;
@@ -184,7 +184,7 @@ fn stem(path: &Path) -> OsString {
     OsString::from(&name[..end])
 }
 
-/// The start of a temporary file's name: the name of its destination, or the start of that.
+/// The start of a temporary file's name: the name of its destination, or the beginning of it.
 fn stem_of_temporary(name: &OsStr) -> Option<&str> {
     let name = name.to_str()?.strip_suffix(ENDING)?;
     Some(match name.rsplit_once('.') {
@@ -193,14 +193,14 @@ fn stem_of_temporary(name: &OsStr) -> Option<&str> {
     })
 }
 
-/// Temporary files that were there at the start, folder by folder.
+/// Temporary files that existed at the start, folder by folder.
 #[derive(Debug, Default)]
 pub(crate) struct LeftOver {
     folders: HashMap<PathBuf, HashMap<OsString, Vec<PathBuf>>>,
 }
 
 impl LeftOver {
-    /// Removes those for one place that no process writes any more.
+    /// Removes those for one destination that no process is writing.
     pub(crate) fn remove(&mut self, destination: &Path) {
         let folder = super::destination::folder(destination);
         if !self.folders.contains_key(folder) {
@@ -215,7 +215,7 @@ impl LeftOver {
     }
 }
 
-/// The temporary files in a folder, by what their names begin with.
+/// The temporary files in a folder, by the start of their names.
 fn temporaries(folder: &Path) -> HashMap<OsString, Vec<PathBuf>> {
     let mut found: HashMap<OsString, Vec<PathBuf>> = HashMap::new();
     // What cannot be looked at cannot be written to either, which others will say.
@@ -227,7 +227,7 @@ fn temporaries(folder: &Path) -> HashMap<OsString, Vec<PathBuf>> {
     found
 }
 
-/// Removes all temporary files; as long as the answer lives, no file appears or moves.
+/// Removes all temporary files. While the returned value lives, no file appears or moves.
 pub(crate) fn abandon_all() -> impl Sized {
     let mut open = lock();
     for path in open.drain(..) {
@@ -237,10 +237,10 @@ pub(crate) fn abandon_all() -> impl Sized {
     open
 }
 
-/// Removes all temporary files of a process that ends before the answer could matter; those that another thread is
-/// about to make or move may stay.
+/// Removes all temporary files of a process that is about to end; a file that another thread is just creating or moving
+/// may stay.
 ///
-/// It asks for no memory, unless names are very long, and waits for no more than a moment.
+/// Allocates no memory unless names are very long, and does not wait for more than a moment.
 pub(crate) fn abandon_now() {
     const ATTEMPTS: u32 = 100;
     const PAUSE: Duration = Duration::from_millis(1);

@@ -1,32 +1,32 @@
-//! The channels that tell what the rays through the centers of pixels see, and averages over what pixels see.
+//! Channels with properties of the first hits of rays through pixel centers, and with averages over pixels.
 
 use clap::ValueEnum;
 use marbles_core::{Average, AverageSettings, Axes, Depth, GeometrySettings, Precision, Quantity};
 
-/// A group of channels, as users name it.
+/// A group of channels, with the name on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum CenterChannel {
     /// Distance
     Depth,
-    /// Shading normal, and the geometric one besides where there are bumps
+    /// Shading normal; in scenes with bumps also the geometric normal
     Normal,
-    /// Point that is seen
+    /// Visible point
     Position,
     /// Index of the sphere, an unsigned integer
     Id,
     /// Albedo of the sphere
     Albedo,
-    /// 1 where a sphere is seen
+    /// 1 if a sphere is visible
     Mask,
-    /// Mean of the shading normal over what the pixel sees
+    /// Mean of the shading normal over the visible spheres of the pixel
     #[value(name = "mean_normal")]
     MeanNormal,
-    /// Index of the sphere that most of the pixel sees, and the part of the pixel
+    /// Index of the sphere that covers most of the pixel, and the fraction of the pixel that it covers
     #[value(name = "coverage_id")]
     CoverageId,
 }
 
-/// The meaning of a depth, as users name it.
+/// A kind of depth, with the name on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum DepthForm {
     /// Distance along the axis of view
@@ -35,55 +35,55 @@ pub(crate) enum DepthForm {
     Ray,
 }
 
-/// The axes of normals and positions, as users name them.
+/// The axes of normals and positions, with the names on the command line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum AxesForm {
-    /// Those of the scene: x right, y up, z forward, left-handed
+    /// Axes of the scene: x right, y up, z forward, left-handed
     World,
-    /// The camera's: x right, y down, z forward
+    /// Axes of the camera: x right, y down, z forward
     #[value(name = "camera-opencv")]
     CameraOpenCv,
-    /// The camera's: x right, y up, z toward the viewer
+    /// Axes of the camera: x right, y up, z toward the viewer
     #[value(name = "camera-opengl")]
     CameraOpenGl,
 }
 
-/// The channels that a file has besides its picture.
+/// The additional channels of a file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct CenterChannels {
-    /// The groups as bits.
+    /// The groups, as bits.
     wanted: u16,
-    /// The error that averages may have.
+    /// The tolerance of averages.
     pub(crate) tolerance: f64,
     pub(crate) depth: DepthForm,
     pub(crate) axes: AxesForm,
-    /// True where shading normals differ from the geometric ones, which are then told besides.
+    /// Whether shading normals differ from geometric normals. If so, the file contains both.
     has_bumps: bool,
 }
 
-/// The place where a channel's numbers come from.
+/// The source of a channel's numbers.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Source {
     /// A component of a quantity.
     Value(Quantity, usize),
     /// The index of the sphere.
     Id,
-    /// 1 where a sphere is seen.
+    /// 1 if a sphere is visible.
     Mask,
     /// A component of an average.
     Average(Average, usize),
-    /// The index of the sphere that most of the pixel sees.
+    /// The index of the sphere that covers most of the pixel.
     CoverageId,
 }
 
 impl Source {
-    /// True for unsigned integers: the indices of spheres.
+    /// Returns whether the numbers are unsigned integers: indices of spheres.
     pub(crate) fn is_index(self) -> bool {
         matches!(self, Self::Id | Self::CoverageId)
     }
 }
 
-/// A component of a quantity, by name.
+/// A channel name, and the source of the channel.
 type Named = (&'static str, Source);
 
 /// The channels of every group, in the order of the file formats without names.
@@ -148,7 +148,7 @@ const CHANNELS: [(CenterChannel, &[Named]); 9] = {
 };
 
 impl CenterChannels {
-    /// Some groups of channels of a world with or without bumps, whose averages have this tolerance.
+    /// Some groups of channels for a world with or without bumps; averages have this tolerance.
     pub(crate) fn new(
         groups: &[CenterChannel],
         depth: DepthForm,
@@ -165,12 +165,12 @@ impl CenterChannels {
         }
     }
 
-    /// True if the group is wanted.
+    /// Whether the group was requested.
     pub(crate) fn has(&self, group: CenterChannel) -> bool {
         self.wanted >> group as u16 & 1 == 1
     }
 
-    /// True if averages are wanted.
+    /// Whether averages were requested.
     pub(crate) fn has_averages(&self) -> bool {
         self.has(CenterChannel::MeanNormal) || self.has(CenterChannel::CoverageId)
     }
@@ -185,7 +185,7 @@ impl CenterChannels {
         })
     }
 
-    /// The settings by which they are found, for numbers of this type.
+    /// The settings for computing them with numbers of this type.
     pub(crate) fn settings(&self, precision: Precision) -> GeometrySettings {
         let quantities = self.list().filter_map(|(_, source)| match source {
             Source::Value(quantity, _) => Some(quantity),
@@ -212,7 +212,7 @@ impl CenterChannels {
     }
 }
 
-/// The name by which users choose it.
+/// The name on the command line.
 pub(crate) fn name_of(value: &impl ValueEnum) -> String {
     let name = value.to_possible_value();
     name.map_or_else(String::new, |value| value.get_name().to_owned())

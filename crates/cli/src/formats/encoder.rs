@@ -1,4 +1,4 @@
-//! The encoder of a sequence's pictures: strips become pieces of files, and pieces become files.
+//! The encoder of a sequence: strips become pieces of files, and pieces become files.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -19,14 +19,14 @@ use super::png::write::{texts, write};
 use crate::files::save::{Fault, Unwritten, finish, save};
 use crate::files::temporary::TemporaryFile;
 
-/// The encoder of the pictures of a sequence, which are all of one form.
+/// The encoder of the pictures of a sequence, which all have the same form.
 #[derive(Debug)]
 pub(crate) struct Encoder {
     pub(crate) form: Form,
     pub(super) layout: Layout,
 }
 
-/// The layout of samples in a file.
+/// The layout of the samples in a file.
 #[derive(Debug)]
 pub(super) enum Layout {
     Png {
@@ -38,17 +38,17 @@ pub(super) enum Layout {
     Npy(Files),
 }
 
-/// A part of a file, made of a strip.
+/// A part of a file, made from a strip.
 #[derive(Debug)]
 pub(crate) enum Piece {
-    /// To be compressed after what comes before.
+    /// To be compressed after the previous pieces.
     Samples(Vec<u8>),
-    /// Ready to be written, or why it is not.
+    /// Ready to be written, or an error.
     Block(Result<Chunk, String>),
 }
 
 impl Encoder {
-    /// The encoder of pictures with these layers beside them, which an EXR alone has.
+    /// The encoder of pictures with these additional layers, which only an EXR can have.
     pub(crate) fn new(encoding: Encoding, form: Form, layers: &[String]) -> Self {
         let layout = match encoding {
             Encoding::Png(options) | Encoding::Apng(options) => Layout::Png {
@@ -61,7 +61,7 @@ impl Encoder {
         Self { form, layout }
     }
 
-    /// The number of layers, the picture the first of them.
+    /// The number of layers; the picture is the first one.
     pub(crate) fn layers(&self) -> usize {
         match &self.layout {
             Layout::Exr(blocks) => blocks.layers(),
@@ -69,7 +69,7 @@ impl Encoder {
         }
     }
 
-    /// Rows of a strip.
+    /// The number of rows in a strip.
     pub(crate) fn rows(&self) -> u32 {
         let step = Rendering::ROW_STEP;
         match self.layout {
@@ -80,14 +80,14 @@ impl Encoder {
         }
     }
 
-    /// Pieces of a picture, one for each strip.
+    /// The number of pieces of a picture, one for each strip.
     pub(crate) fn pieces(&self) -> u32 {
         self.form.region.window.height.div_ceil(self.rows())
     }
 
-    /// Bytes that a strip takes at most on its way to the file.
+    /// The largest number of bytes that a strip takes until it is written.
     pub(crate) fn strip_bytes(&self) -> u64 {
-        /// The samples; while a block is compressed, three copies more.
+        /// The samples; during the compression of a block also three copies.
         const COPIES_OF_A_BLOCK: u64 = 4;
         let samples = self.sample_bytes(0) as u64;
         match self.layout {
@@ -96,7 +96,7 @@ impl Encoder {
         }
     }
 
-    /// Bytes of the samples of the strip with this index.
+    /// The number of bytes of the samples of the strip with this index.
     pub(crate) fn sample_bytes(&self, index: u32) -> usize {
         let rows = (self.form.region.window.height - index * self.rows()).min(self.rows());
         let row_bytes = match &self.layout {
@@ -107,9 +107,8 @@ impl Encoder {
         rows as usize * row_bytes
     }
 
-    /// Puts some rows of a layer's image where they belong in a strip of as many rows, from the column `col`
-    /// on; returns how many pixels of a PNG were clipped, or how many finite numbers were too large
-    /// for those of an EXR.
+    /// Copies rows of a layer's image to their positions in a strip with the same rows, starting at the column `col`.
+    /// Returns how many pixels of a PNG were clipped, or how many finite numbers were too large for an EXR.
     pub(crate) fn encode(
         &self,
         layer: usize,
@@ -128,7 +127,7 @@ impl Encoder {
         }
     }
 
-    /// The geometry that an image has to contain for its file; the settings are those of the format's numbers.
+    /// The geometry that an image must contain for its file, in the number type of the format.
     pub(crate) fn geometry(&self) -> Option<GeometrySettings> {
         let centers = self.form.centers?;
         let precision = match self.layout {
@@ -138,7 +137,7 @@ impl Encoder {
         Some(centers.settings(precision))
     }
 
-    /// Puts what the pixels of a strip see where it belongs, from the column `col` on.
+    /// Copies the center values of the pixels of a strip to their positions, starting at the column `col`.
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         match &self.layout {
             // It has no such channels.
@@ -148,7 +147,7 @@ impl Encoder {
         }
     }
 
-    /// The piece that the samples of the strip with this index become.
+    /// Converts the samples of the strip with this index to a piece.
     pub(crate) fn piece(&self, index: u32, samples: Vec<u8>) -> Piece {
         match &self.layout {
             Layout::Png { .. } | Layout::Npy(_) => Piece::Samples(samples),
@@ -156,8 +155,8 @@ impl Encoder {
         }
     }
 
-    /// The files of a picture whose own is at `path`, that one first, and the digests that they tell
-    /// where its own is `digest`.
+    /// The files of the picture at `path`, its main file first, and the digests that they contain if that of the main
+    /// file is `digest`.
     pub(crate) fn files(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
         match &self.layout {
             Layout::Png { .. } | Layout::Exr(_) => vec![(path.to_owned(), *digest)],
@@ -165,11 +164,10 @@ impl Encoder {
         }
     }
 
-    /// Writes the file of a picture to `path`, whole or not at all, by way of `file`.
+    /// Writes the file of a picture to `path`, completely or not at all, through `file`.
     ///
-    /// `next` gives the pieces from the top downward, and `None` for one that will not come; `summary`
-    /// gives what they achieved, after the last one. `complete` is called before the complete file gets
-    /// its name.
+    /// `next` returns the pieces from the top downward, and `None` for a piece that will not come. `summary` returns
+    /// the results after the last piece. `complete` is called before the complete file gets its name.
     pub(crate) fn write(
         &self,
         facts: &Facts,
@@ -201,10 +199,10 @@ impl Encoder {
         finish(path, written.and_then(|file| complete().map(|()| file)))
     }
 
-    /// Writes a file of so many pictures to `path`, whole or not at all; `written` is called after each
-    /// of them, and ends it all with `None`.
+    /// Writes a file with a number of pictures to `path`, completely or not at all. `written` is called after each
+    /// picture; if it returns `None`, nothing is written.
     ///
-    /// An animated PNG, which repeats for ever, of so many frames per second, where that is known.
+    /// The file is an animated PNG that repeats forever, with this number of frames per second, if known.
     pub(crate) fn write_animation(
         &self,
         path: &Path,

@@ -1,8 +1,8 @@
-//! The formats of pictures, and the ways to write each.
+//! Picture formats, and the settings for writing each of them.
 
 use std::path::Path;
 
-/// A file format, known by the ending of the name.
+/// A file format, chosen by the extension of the file name.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Format {
     Png,
@@ -13,7 +13,7 @@ pub(crate) enum Format {
 }
 
 impl Format {
-    /// The format that the ending of a name asks for.
+    /// The format for an extension.
     pub(crate) fn of(name: &str) -> Option<Self> {
         const ENDINGS: [(&str, Format); 4] = [
             ("png", Format::Png),
@@ -37,45 +37,45 @@ impl Format {
         }
     }
 
-    /// The format that the ending of a file's name asks for.
+    /// The format for the extension of a file name.
     pub(crate) fn of_file(path: &Path) -> Option<Self> {
         Self::of(path.file_name()?.to_str()?)
     }
 }
 
-/// The way in which pictures are turned into bytes.
+/// The format of pictures, with its settings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Encoding {
     Png(PngOptions),
-    /// The pictures of a sequence in one file.
+    /// All pictures of a sequence in one file.
     Apng(PngOptions),
     Exr(ExrOptions),
     Npy(NpyOptions),
 }
 
-/// The way in which a PNG file is written.
+/// The settings for writing a PNG file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PngOptions {
-    /// 16 bit instead of 8.
+    /// 16 bits instead of 8.
     pub(crate) deep: bool,
-    /// Three channels for pictures without color as well.
+    /// Three channels even for gray pictures.
     pub(crate) rgb: bool,
-    /// Codes of 16 bit in proportion to light, instead of those of sRGB.
+    /// Linear codes with 16 bits instead of sRGB codes.
     pub(crate) linear: bool,
-    /// The factor by which light is multiplied before it becomes codes; above 0.
+    /// The factor by which light is multiplied before it is converted to codes; above 0.
     pub(crate) gain: f64,
 }
 
-/// The way in which an EXR file is written.
+/// The settings for writing an EXR file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct ExrOptions {
     /// Single precision instead of half.
     pub(crate) float: bool,
-    /// A channel with the error of each pixel.
+    /// An additional channel with the error of each pixel.
     pub(crate) error: bool,
 }
 
-/// The way in which NPY files are written.
+/// The settings for writing NPY files.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct NpyOptions {
     /// A second file with the error of each pixel.

@@ -8,16 +8,16 @@ use crate::base::region::Region;
 /// The form that all pictures of a sequence share.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
-    /// The part of the picture that is rendered.
+    /// The rendered part of the picture.
     pub(crate) region: Region,
     pub(crate) channels: Channels,
     pub(crate) alpha: bool,
-    /// The channels besides the picture.
+    /// The additional channels.
     pub(crate) centers: Option<CenterChannels>,
 }
 
 impl Form {
-    /// The form of a part of a world's pictures.
+    /// The form for a part of the pictures of a world.
     pub(crate) fn new(
         region: Region,
         world: &World,

@@ -1,14 +1,14 @@
 //! Frame rates as the fractions that film and television use.
 
-/// The rates that television slows down by 1000 / 1001.
+/// Rates that television reduces by the factor 1000 / 1001.
 const SLOWED: [u32; 5] = [24, 30, 48, 60, 120];
 /// The distance from such a rate at which people write it: 23.98, 29.97.
 const SLOWED_WITHIN: f64 = 0.005;
 /// The largest denominator that is tried.
 const LARGEST_DENOMINATOR: f64 = 1e6;
 
-/// The fraction (numerator, denominator) closest to `rate`, in lowest terms except for
-/// 24000/1001 and its kind; `None` where there is none near.
+/// The fraction (numerator, denominator) closest to `rate`, in lowest terms except for rates such as 24000/1001; `None`
+/// if no fraction is close.
 pub(crate) fn nearest(rate: f64) -> Option<(i32, u32)> {
     for nominal in SLOWED {
         let slowed = f64::from(nominal) * (1000.0 / 1001.0);

@@ -1,17 +1,17 @@
-//! Half floats, rounded once.
+//! Half-precision floats, rounded once.
 
 use exr::prelude::f16;
 
 /// The largest finite half.
 pub(super) const LARGEST: f64 = 65504.0;
 
-/// The half nearest to `value`, ties to even.
+/// The half nearest to `value`; ties round to even.
 ///
-/// `f16::from_f64` would round twice, and not on every machine in the same way.
+/// `f16::from_f64` would round twice, and not in the same way on every machine.
 pub(super) fn nearest(value: f64) -> f16 {
     /// The exponent that subnormal halves have as well.
     const LEAST_EXPONENT: i64 = -14;
-    /// The numbers of mantissa bits of a half and a double.
+    /// The number of mantissa bits of a half and of a double.
     const BITS: i64 = 10;
     const DOUBLE_BITS: i64 = 52;
     const DOUBLE_BIAS: i64 = 1023;

@@ -1,5 +1,4 @@
-//! Pictures are loaded from files of any format, which is known by the first bytes and not by the
-//! name.
+//! Loads pictures in any format. The format is recognized by the first bytes, not by the name.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -23,7 +22,7 @@ const NPY_MAGIC: &[u8] = b"\x93NUM";
 
 /// Begins to read the picture at `path`.
 ///
-/// All that can be wrong is like an invalid scene: the command cannot begin.
+/// All errors count like an invalid scene: the command cannot begin.
 pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     let refused = |reason: &str| Failure::unusable(path, reason);
     if path.is_dir() {
@@ -34,13 +33,13 @@ pub(crate) fn picture(path: &Path) -> Result<Picture, Failure> {
     let (source, start) = source.map_err(|error| match error.kind() {
         ErrorKind::NotFound => refused("no such file"),
         ErrorKind::PermissionDenied => refused("no permission to read this file"),
-        ErrorKind::OutOfMemory => refused("there is no memory to read this file"),
+        ErrorKind::OutOfMemory => refused("there is not enough memory to read this file"),
         _ => refused(&reason(&error)),
     })?;
     begin(&source, &start).map_err(|reason| refused(&reason))
 }
 
-/// Begins to read the picture in a file with this start, or says what is wrong with it.
+/// Begins to read the picture in a file with these first bytes, or returns an error.
 fn begin(source: &Source, start: &[u8]) -> Result<Picture, String> {
     let Some(format) = format_of(start) else {
         const EXPECTED: &str = "expected a PNG, EXR or NPY picture, found";
@@ -58,7 +57,7 @@ fn begin(source: &Source, start: &[u8]) -> Result<Picture, String> {
     picture.map_err(|reason| unusable(format, &reason))
 }
 
-/// The format of a picture by the start of its file.
+/// The format of a picture, according to the first bytes of its file.
 fn format_of(start: &[u8]) -> Option<Format> {
     let formats = [
         (PNG_MAGIC, Format::Png),
@@ -70,14 +69,14 @@ fn format_of(start: &[u8]) -> Option<Format> {
     format.map(|(_, format)| format)
 }
 
-/// The digest that the file at `path` tells and the part of the picture that it holds.
+/// The digest stored in the file at `path`, and the part of the picture that it contains.
 ///
-/// A file has its name only when it is complete: it is moved there. What copying or a disk has damaged since is
-/// found by reading all of it, as far as its format has checksums, and a cut by the end that is missing. Else the
-/// reason says what is wrong.
+/// A file gets its name only when it is complete. Later damage, by copying or by a disk, is found by reading the whole
+/// file, as far as the format has checksums; truncation is found because the end is missing. Otherwise the error names
+/// the damage.
 pub(crate) fn contents(path: &Path) -> Result<(Hash, Region), String> {
     if !path.is_file() {
-        return Err("it is no file".to_owned());
+        return Err("it is not a file".to_owned());
     }
     contents_of(&Source::File(path.to_owned()))
 }
@@ -91,7 +90,7 @@ fn contents_of(source: &Source) -> Result<(Hash, Region), String> {
         exr::stored::contents(file)
     } else if magic == NPY_MAGIC {
         npy::stored::contents(&mut file)
-            .ok_or_else(|| "it tells no digest, or ends early".to_owned())
+            .ok_or_else(|| "it contains no digest, or ends early".to_owned())
     } else {
         png::stored::contents(&mut file)
     }

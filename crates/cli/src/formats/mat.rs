@@ -1,8 +1,8 @@
-//! MAT-files of version 5, as MATLAB, Octave and SciPy read them: one array of doubles.
+//! MAT-files of version 5, for MATLAB, Octave and SciPy: one array of doubles.
 //!
 //! # Source
-//! *MAT-File Format*, The MathWorks: a header of 128 bytes, then elements with their type and their length in bytes,
-//! each at a multiple of 8. Arrays are stored column by column.
+//! *MAT-File Format*, The MathWorks: a header of 128 bytes, then elements, each with its type and length in bytes and
+//! aligned to 8 bytes. Arrays are stored column by column.
 
 use std::io::{self, Write};
 
@@ -16,19 +16,19 @@ const MATRIX: u32 = 14;
 /// The class of arrays of doubles.
 const CLASS_OF_DOUBLES: u32 = 6;
 
-/// Elements begin at multiples of so many bytes.
+/// The alignment of elements, in bytes.
 const ALIGNMENT: usize = 8;
 
-/// Bytes of an element's type and length.
+/// Bytes of the type and the length of an element.
 const TAG: usize = 8;
 
-/// Bytes of the text with which a file begins.
+/// Bytes of the text at the start of a file.
 const TEXT: usize = 116;
 
-/// Writes an array of rows × columns × layers under a name; `value` gives the number in a row, a column and a layer.
+/// Writes an array of rows × columns × layers with a name; `value` returns the number for a row, a column and a layer.
 ///
 /// # Errors
-/// Where it cannot be written, or is larger than the format's 4 GiB.
+/// If the file cannot be written, or would exceed the format's 4 GiB.
 pub(crate) fn write_array(
     to: &mut dyn Write,
     name: &str,
@@ -70,7 +70,7 @@ pub(crate) fn write_array(
     Ok(())
 }
 
-/// A text, no place of other data, the version, and the order of bytes: `MI` as a number, little end first.
+/// A text, no subsystem data, the version, and the byte order: `MI` as a little-endian number.
 fn header() -> Vec<u8> {
     const VERSION: [u8; 2] = [0, 1];
     let mut header = b"MATLAB 5.0 MAT-file, written by marbles".to_vec();

@@ -1,4 +1,4 @@
-//! Picture formats: PNG, alone and animated, EXR and NPY, each with the writing and the reading of it.
+//! Picture formats: PNG, single and animated, EXR and NPY, each with writing and reading.
 
 pub(crate) mod center_channels;
 pub(crate) mod encoder;

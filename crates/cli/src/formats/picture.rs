@@ -1,7 +1,7 @@
 //! A picture from a file, as linear light, row by row.
 //!
-//! Samples stay as the file has them, and become light where a pixel is asked for: a table turns codes
-//! into light, and it is known what a number of the file may have been before it was rounded.
+//! Samples stay encoded as in the file until a pixel is requested. A table converts codes to light, and the rounding of
+//! every number is known.
 
 use std::any::Any;
 use std::ops::Range;
@@ -10,45 +10,45 @@ use crate::base::failure::lower;
 use crate::base::size::{LONGEST_SIDE, Size};
 use crate::formats::encoding::Format;
 
-/// A picture that is being read: linear light, premultiplied by its alpha.
+/// A picture that is being read: linear light, premultiplied by alpha.
 ///
-/// No more of it is in memory than the rows that its file holds together.
+/// Only the rows that the file stores together are in memory.
 pub(crate) struct Picture {
     pub(crate) size: Size,
-    /// True where there is one channel of light instead of three.
+    /// Whether there is one channel of light instead of three.
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
     pub(crate) format: Format,
-    /// The kind of the file, for people: `PNG, 8 bit sRGB, grey`.
+    /// The description of the file for people: `PNG, 8 bit sRGB, gray`.
     pub(crate) description: String,
-    /// A warning about how the file was understood.
+    /// A warning about contents that were ignored.
     pub(crate) warning: Option<&'static str>,
     pub(crate) row: Box<dyn Samples>,
 }
 
-/// The samples of one row of a picture, before the first of them where none was read.
+/// The samples of one row of a picture; at the start no row is read.
 ///
-/// Column 0 is the left one. All values come as red, green, blue and alpha; grey stands in all three
-/// colors, and alpha is 1 where the file has none.
+/// Column 0 is the left one. All pixels have red, green, blue and alpha; in gray pictures the three colors are equal,
+/// and alpha is 1 if the file has none.
 pub(crate) trait Samples: Any {
-    /// Goes on to the next row, the first of which is the top one. There must be one.
+    /// Advances to the next row, starting with the top one. There must be a next row.
     ///
     /// # Errors
-    /// What is wrong with the file.
+    /// If the file is damaged.
     fn advance(&mut self) -> Result<(), String>;
 
-    /// The columns of the row outside of which all pixels are alike.
+    /// The columns of the row that may contain data; outside of them all pixels are equal.
     fn held(&self) -> Range<u32> {
         0..LONGEST_SIDE
     }
 
     /// The columns outside of which this row has the same finite numbers as that of another picture of the same size;
-    /// `None` where that is not known without looking at pixels.
+    /// `None` if this is not known without decoding pixels.
     fn differing(&self, _other: &dyn Samples) -> Option<Range<u32>> {
         None
     }
 
-    /// The end of the columns from this one on that are known to hold the same numbers as it does.
+    /// The end of the columns, starting with this one, that are known to have equal numbers.
     fn end_of_run(&self, col: u32) -> u32 {
         col + 1
     }
@@ -56,12 +56,11 @@ pub(crate) trait Samples: Any {
     /// The light of a pixel, and its alpha.
     fn rgba(&self, col: u32) -> [f64; 4];
 
-    /// The distances from these to the numbers that the file may have rounded: half a step of the
-    /// format there.
+    /// The largest rounding error of these numbers: half a step of the format.
     fn rounding(&self, col: u32) -> [f64; 4];
 
-    /// Returns for each value whether it is the largest that the file can hold, so that a larger one
-    /// may be meant.
+    /// Returns for each value whether it is the largest number of the format, so that the original number may have been
+    /// larger.
     fn is_full(&self, col: u32) -> [bool; 4];
 }
 
@@ -73,12 +72,12 @@ impl Picture {
     }
 }
 
-/// The words about a file that cannot be used, for this reason.
+/// The message about an unusable file, with the reason.
 pub(super) fn unusable(format: Format, reason: &str) -> String {
     format!("not a usable {}: {}", format.name(), lower(reason))
 }
 
-/// The size of a picture, where it is one that pictures may have.
+/// The size of a picture, if it is allowed.
 pub(super) fn size_of(width: usize, height: usize) -> Result<Size, String> {
     let side = |length: usize| {
         let length = u32::try_from(length).ok();
@@ -96,7 +95,7 @@ pub(super) fn size_of(width: usize, height: usize) -> Result<Size, String> {
 pub(crate) mod tests {
     use super::*;
 
-    /// All of a picture, for tests that ask for pixels in any order.
+    /// The whole picture, for tests that need pixels in any order.
     pub(crate) struct Whole {
         pub(crate) rgba: Vec<Vec<[f64; 4]>>,
         pub(crate) rounding: Vec<Vec<[f64; 4]>>,

@@ -1,4 +1,4 @@
-//! Files whose rows are read one after the other, and files of the same kind that are written of rows.
+//! Reads and writes files row by row, in the same kind of file.
 
 use std::fs::File;
 use std::ops::Range;
@@ -45,15 +45,15 @@ impl Kind {
         }
     }
 
-    /// Takes in what the header of another part of the same picture tells of it alone.
+    /// Adds the metadata from the header of another part of the same picture.
     pub(crate) fn add(&mut self, other: &Self) {
         if let (Self::Exr(header), Self::Exr(other)) = (self, other) {
             add_achieved(&mut header.own_attributes, &other.own_attributes);
         }
     }
 
-    /// Bytes of a sample: of a whole pixel in a PNG or NPY, and channel by channel in an EXR, whose rows
-    /// hold one after the other.
+    /// Bytes per sample: of a whole pixel in a PNG or NPY; of a channel in an EXR, whose rows store one channel after
+    /// the other.
     pub(crate) fn sample_bytes(&self) -> Vec<usize> {
         match self {
             Self::Png(shape) => vec![shape.pixel_bytes()],
@@ -67,7 +67,7 @@ impl Kind {
         }
     }
 
-    /// Writes a picture with this digest, whole or not at all; `samples` gives those of some rows.
+    /// Writes a picture with this digest, completely or not at all; `samples` returns those of some rows.
     pub(crate) fn write(
         &self,
         path: &Path,
@@ -75,7 +75,7 @@ impl Kind {
         digest: &Hash,
         mut samples: impl FnMut(Range<u32>) -> Result<Vec<u8>, Failure>,
     ) -> Result<(), Failure> {
-        /// Rows that are asked for together.
+        /// The number of rows that are requested together.
         const ROWS: u32 = 16;
         let mut samples = |rows| samples(rows).map_err(Fault::Failed);
         let saved = match self {

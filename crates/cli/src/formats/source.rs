@@ -1,4 +1,4 @@
-//! Files that are read from any place, several times where that is needed.
+//! Files that can be read from any position, and several times.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Cursor, Read, Seek};
@@ -8,11 +8,11 @@ use std::sync::Arc;
 /// Bytes that are read at a time.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// The place where the bytes of a file are.
+/// The source of the bytes of a file.
 #[derive(Debug)]
 pub(crate) enum Source {
     File(PathBuf),
-    /// A pipe can be read once and forward alone; this is what came out of it.
+    /// The contents of a pipe, which can be read only once and forward.
     Memory(Arc<[u8]>),
 }
 
@@ -22,9 +22,9 @@ pub(crate) trait Input: BufRead + Seek {}
 impl<T: BufRead + Seek> Input for T {}
 
 impl Source {
-    /// The file at `path`, and its first bytes, `start` of them where it has so many.
+    /// The file at `path`, and its first bytes: `start` of them, if it has that many.
     ///
-    /// A pipe may have no end: all of it is read only if `is_wanted` says so after it saw the start.
+    /// A pipe is read completely only if `is_wanted` accepts its first bytes: it may have no end.
     pub(crate) fn of(
         path: &Path,
         start: usize,
@@ -45,7 +45,7 @@ impl Source {
         Ok((Self::Memory(bytes.into()), first))
     }
 
-    /// The bytes from the first on.
+    /// A reader that starts at the first byte.
     pub(crate) fn open(&self) -> io::Result<Box<dyn Input>> {
         Ok(match self {
             Self::File(path) => Box::new(BufReader::with_capacity(BUFFER_BYTES, File::open(path)?)),

@@ -19,7 +19,7 @@ use super::png::write::{compress, texts};
 use crate::base::region::Region;
 use crate::base::size::Size;
 
-/// Codes of sRGB, of 8 bit, in grey where the picture is.
+/// sRGB codes with 8 bits, gray if the picture is gray.
 pub(crate) const PNG: PngOptions = PngOptions {
     deep: false,
     rgb: false,
@@ -27,7 +27,7 @@ pub(crate) const PNG: PngOptions = PngOptions {
     gain: 1.0,
 };
 
-/// The digest that the pictures tell.
+/// The digest stored in the pictures.
 pub(super) const DIGEST: Hash = Hash::from_bytes([0x5a; 32]);
 
 /// The bytes of a PNG file.
@@ -119,7 +119,7 @@ pub(crate) fn view() -> View {
     }
 }
 
-/// A small picture of a ball before a background.
+/// A small picture of a ball in front of a background.
 pub(crate) fn render(scene: Scene, alpha: bool) -> Image {
     let (albedo, background, intensity) = match scene {
         Scene::Grey => (DVec3::ONE, DVec3::splat(0.25), 1.0),

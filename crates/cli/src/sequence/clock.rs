@@ -1,19 +1,19 @@
-//! The times of pictures that are rendered one into the other.
+//! The times of pictures whose rendering overlaps.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Tells how long each picture of a sequence took, though one begins while others end: the sum is
-/// the time that went by.
+/// Measures the time of each picture of a sequence, although one begins while others end. The sum of the times is the
+/// elapsed time.
 #[derive(Debug)]
 pub(super) struct Clock {
     threads: usize,
-    /// The time at which a picture ended last.
+    /// The time at which the previous picture ended.
     last: Mutex<Option<Instant>>,
 }
 
 impl Clock {
-    /// A clock for pictures on so many threads.
+    /// A clock for pictures rendered on this number of threads.
     pub(super) fn new(threads: usize) -> Self {
         Self {
             threads,
@@ -21,8 +21,8 @@ impl Clock {
         }
     }
 
-    /// Ends a picture that was begun at some time, of which all threads together spent `aside` on
-    /// something else; returns how long it took, after those that ended before.
+    /// Ends a picture that began at this time; all threads together spent `aside` on other work. Returns the time that
+    /// it took, beginning at the end of the previous picture.
     pub(super) fn stop(&self, started: Instant, aside: Duration) -> Duration {
         let now = Instant::now();
         let last = self.last.lock();

@@ -1,7 +1,7 @@
-//! The digest of all that a picture is made from: two files with the same digest show the same.
+//! The digest of everything that a picture depends on: two files with the same digest show the same picture.
 //!
-//! It covers what the renderer is given, so what a scene and its tables mean and not how they are
-//! written or where they lie. Neither threads nor the clock have a part in it.
+//! It covers the input of the renderer: the meaning of a scene and its tables, but not their wording or their paths. It
+//! does not depend on threads or on the time.
 
 use blake3::{Hash, Hasher};
 use glam::{DMat3, DVec2, DVec3};
@@ -14,33 +14,32 @@ use rayon::prelude::*;
 use crate::formats::center_channels::{CenterChannels, name_of};
 use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
 
-/// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
-/// the same scene do.
+/// The context of the hash. It must change whenever the hashed data changes its meaning, or the same scene makes
+/// different pictures.
 const PURPOSE: &str = "marbles 2026-11-25.1 digest of a picture";
 
-/// Spheres that are hashed at a time; the digest depends on it.
+/// The number of spheres that are hashed at a time. The digest depends on it.
 const SPHERES: usize = 1 << 14;
 
 /// The digests of a sequence's pictures.
 #[derive(Clone, Debug)]
 pub(super) struct Digests {
-    /// The digest of what all of them share.
+    /// The digest of what all pictures share.
     shared: Feed,
 }
 
-/// The part of a picture's origin that a sequence does not share, beside the world, the settings and
-/// the format.
+/// The part of a picture's input that differs within a sequence, in contrast to the world, the settings and the format.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shot<'a> {
-    /// Its view, and what the camera does while the shutter is open.
+    /// Its view, and the motion of the camera while the shutter is open.
     pub(super) exposure: &'a Exposure<'a>,
-    /// The number that the user knows, which may be beyond a turn of the view's.
+    /// The frame number for the user, which may be beyond the full turn of the view's number.
     pub(super) frame: i32,
     pub(super) frames_per_second: Option<f64>,
 }
 
 impl Digests {
-    /// The digests of pictures of a world whose spheres have these hashes.
+    /// The digests for the pictures of a world whose spheres have these hashes.
     pub(super) fn new(
         world: &World,
         spheres: &[Hash],
@@ -59,7 +58,7 @@ impl Digests {
         Self { shared }
     }
 
-    /// The same where the lights have names, which sidecars tell; without any, nothing changes.
+    /// The same for lights with names, which are part of sidecars. Without names, nothing changes.
     pub(super) fn with_names(mut self, names: &[Option<String>]) -> Self {
         if names.iter().any(Option::is_some) {
             for name in names {
@@ -72,7 +71,7 @@ impl Digests {
         self
     }
 
-    /// The same where their files have these layers as well; without any, nothing changes.
+    /// The same for files with additional layers. Without layers, nothing changes.
     pub(super) fn with_layers(mut self, names: &[String]) -> Self {
         if !names.is_empty() {
             self.shared.count(names.len());
@@ -84,7 +83,7 @@ impl Digests {
         self
     }
 
-    /// The digest of one of them.
+    /// The digest of one picture.
     pub(super) fn of(&self, shot: &Shot<'_>) -> Hash {
         let Shot {
             exposure,
@@ -108,9 +107,9 @@ impl Digests {
     }
 }
 
-/// A hasher that takes numbers.
+/// A hasher for numbers.
 ///
-/// Structures are taken apart field by field, so that nobody can add one and forget it here.
+/// Structures are destructured field by field, so that the compiler reports a new field that is missing here.
 #[derive(Clone, Debug)]
 struct Feed(Hasher);
 
@@ -133,7 +132,7 @@ impl Feed {
         }
     }
 
-    /// A value that may be missing.
+    /// An optional value.
     fn maybe<T>(&mut self, value: Option<T>, feed: impl FnOnce(&mut Self, T)) {
         self.integer(value.is_some());
         if let Some(value) = value {
@@ -311,8 +310,8 @@ impl Feed {
     }
 }
 
-/// The hashes of some spheres at a time, each with its material and its color, made on the threads of the current
-/// rayon pool.
+/// The hashes of groups of spheres, each with its material and its color, computed on the threads of the current rayon
+/// pool.
 pub(super) fn hashes_of_spheres(world: &World) -> Vec<Hash> {
     let parts = world.spheres().par_chunks(SPHERES).enumerate();
     let hash = |(part, spheres): (usize, &[Sphere])| {

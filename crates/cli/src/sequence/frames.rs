@@ -1,18 +1,18 @@
-//! Lists of frame numbers, as the user writes them: `7`, `1-100`, `1-100x2`, `1-9:2,50,-5`.
+//! Lists of frame numbers in the user's notation: `7`, `1-100`, `1-100x2`, `1-9:2,50,-5`.
 //!
-//! Range expressions of Open Job Description are such lists, where `10-1:-1` counts down and there
-//! may be spaces around numbers.
+//! Range expressions of Open Job Description are also accepted: `10-1:-1` counts down, and spaces are allowed around
+//! numbers.
 
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
 use marbles_scene::{Scene, harmless};
 
-/// The longest list that users may write, each frame as often as it is named: nobody waits for
-/// more pictures, and so many frames are counted in no time.
+/// The largest number of frames in a list, counting repetitions. More pictures would take too long, and so many are
+/// counted quickly.
 const MOST_FRAMES: u64 = 10_000_000;
 
-/// The frame that a scene without animation is rendered as.
+/// The frame number of a scene without animation.
 pub(crate) const FRAME_OF_A_STILL: i32 = 1;
 
 /// The frames of a scene.
@@ -21,16 +21,16 @@ pub(crate) fn frames_of(scene: &Scene) -> RangeInclusive<i32> {
     frames.unwrap_or(FRAME_OF_A_STILL..=FRAME_OF_A_STILL)
 }
 
-/// Frame numbers in the order of the list, each once.
+/// Frame numbers in the order of the list, without repetitions.
 ///
-/// The list stays as short as its text: it costs nothing before it is iterated.
+/// The list stays as short as its text: it is expanded only during iteration.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(crate) struct FrameList {
     /// At least one.
     ranges: Vec<Range>,
 }
 
-/// The frames `first`, `first + step`, … up to `last`, or down to it where `step` is negative.
+/// The frames `first`, `first + step`, … up to `last`, or down to it if `step` is negative.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 struct Range {
     first: i64,
@@ -39,7 +39,7 @@ struct Range {
 }
 
 impl FrameList {
-    /// The frames in order, a frame that is named twice only the first time.
+    /// The frames in order; repetitions are left out.
     pub(crate) fn iter(&self) -> impl Iterator<Item = i32> {
         self.ranges.iter().enumerate().flat_map(|(index, range)| {
             let earlier = &self.ranges[..index];
@@ -68,7 +68,7 @@ impl FrameList {
     }
 }
 
-/// Frames as users write them, in order: `3-7,9`, and no more than one can look at.
+/// Frames in the user's notation, in order: `3-7,9`. Long lists are shortened.
 pub(crate) fn listed(frames: &[i32]) -> String {
     const MOST_RANGES: usize = 20;
     let mut sorted = frames.to_vec();
@@ -112,7 +112,7 @@ impl FromStr for FrameList {
         match ranges.iter().map(|range| range.len()).sum() {
             0..=MOST_FRAMES => Ok(Self { ranges }),
             frames => Err(format!(
-                "expected a list of at most {MOST_FRAMES} frames, found one of {frames}"
+                "expected a list of at most {MOST_FRAMES} frames, found {frames}"
             )),
         }
     }
@@ -164,7 +164,7 @@ impl FromStr for Range {
         }
         if step < 0 && last > first {
             return Err(format!(
-                "expected the larger frame first where the step is negative, from {last} to \
+                "expected the larger frame first, because the step is negative, from {last} to \
                  {first}, found `{first}-{last}`"
             ));
         }
@@ -172,7 +172,7 @@ impl FromStr for Range {
     }
 }
 
-/// Splits an optional sign and at least one digit off, with the spaces around them.
+/// Splits off an optional sign and at least one digit, with the spaces around them.
 fn leading_number(text: &str) -> Option<(&str, &str)> {
     let text = text.trim_start();
     let digits = text.strip_prefix('-').unwrap_or(text);

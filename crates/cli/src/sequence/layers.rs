@@ -1,4 +1,4 @@
-//! The layers of a file: pictures of a frame under one light each, beside the one under all of them.
+//! The layers of a file: pictures of single lights, next to the picture of all lights.
 
 use std::collections::HashSet;
 
@@ -7,7 +7,7 @@ use marbles_core::{LightPart, World};
 use super::parts::light_number;
 use crate::formats::center_channels::CenterChannels;
 
-/// The picture under a part of a world's light, in a layer of the frame's file.
+/// The picture of a part of a world's light, in a layer of the frame's file.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(crate) struct LightLayer {
     pub(crate) light: LightPart,
@@ -16,9 +16,9 @@ pub(crate) struct LightLayer {
 }
 
 impl LightLayer {
-    /// A layer for each part of a world's light, whose lights have these names: a light's name, or else `light-` and
-    /// its [`light_number`], and `ambient` for what is left. Readers make identifiers of layers, so that all of them
-    /// begin with a letter. Refuses names that other channels of the file have.
+    /// One layer for each part of a world's light. Its name is the name of the light, or else `light-` and its
+    /// [`light_number`], and `ambient` for the rest. Some readers use the names as identifiers, so all of them begin
+    /// with a letter. Refuses names that other channels of the file have.
     pub(crate) fn each(
         world: &World,
         names: &[Option<String>],
@@ -40,12 +40,12 @@ impl LightLayer {
             };
             if key.len() > LONGEST {
                 return Err(format!(
-                    "a layer has at most {LONGEST} characters, and the light `{key}` has more"
+                    "the name of a layer has at most {LONGEST} characters, but that of the light `{key}` is longer"
                 ));
             }
             if others.contains(&*key) {
                 return Err(format!(
-                    "the light `{key}` would have the layer of the channels `{key}`"
+                    "the layer of the light `{key}` would have the name of the channels `{key}`"
                 ));
             }
             if !keys.insert(key.clone()) {
@@ -57,11 +57,11 @@ impl LightLayer {
     }
 }
 
-/// Names of channels have at most 255 bytes; this leaves room for the channel's own.
+/// Names of channels have at most 255 bytes. This leaves room for the name of the channel within the layer.
 const LONGEST: usize = 200;
 
-/// A light's name with a dash for every character that names of layers had better not contain, the period among them,
-/// which ends them, and `light-` before one that begins with no letter.
+/// The name of a light, with a dash for every character that is problematic in names of layers, including the period,
+/// which separates layers, and with the prefix `light-` if it does not begin with a letter.
 fn layer_safe(name: &str) -> String {
     let safe = |letter: char| match letter {
         '-' | '_' => letter,
@@ -132,7 +132,7 @@ mod tests {
             (
                 [Some("albedo"), None],
                 CenterChannel::Albedo,
-                "layer of the channels `albedo`",
+                "the name of the channels `albedo`",
             ),
             (
                 [Some(&*long), None],

@@ -1,4 +1,4 @@
-//! Messages about files that were written.
+//! Messages about written files.
 
 use std::path::Path;
 use std::time::Duration;
@@ -12,8 +12,7 @@ use crate::base::numbers::{bound, counted};
 use crate::base::shown::Shown;
 use crate::formats::encoding::Encoding;
 
-/// The line of results; `time` is the rendering's alone, and `clipped` the number of pixels that are
-/// too bright for a PNG.
+/// The line of results. `time` is the rendering time, and `clipped` the number of pixels that are too bright for a PNG.
 pub(super) fn result(path: &str, summary: &Summary, clipped: u64, time: Duration) -> String {
     let clipped = match clipped {
         0 => String::new(),
@@ -27,21 +26,23 @@ pub(super) fn result(path: &str, summary: &Summary, clipped: u64, time: Duration
     )
 }
 
-/// The line of results of all files together, in the form of a file's own; `None` where none was
-/// written. `noun` is the word for one of them.
+/// The line of results for all files together, in the form of the line for one file; `None` if no file was written.
+/// `noun` is the word for one of them.
 pub(crate) fn total(outcome: &Outcome, noun: &str) -> Option<String> {
     let files = counted(outcome.written, noun);
     let summary = outcome.total.as_ref()?;
     Some(result(&files, summary, outcome.clipped, outcome.time))
 }
 
-/// The line of results of a file that was there.
+/// The line of results for a file that existed already.
 pub(super) fn skipped(path: &Path) -> String {
-    format!("{}: skipped, complete and of this scene", path.shown())
+    format!(
+        "{}: skipped, complete and made from this scene",
+        path.shown()
+    )
 }
 
-/// The number of files that were written, whose word is `noun`, and the frames that failed, in the form that `--frames`
-/// reads.
+/// The number of written files, with the word `noun`, and the failed frames, in the notation of `--frames`.
 pub(crate) fn counts(outcome: &Outcome, noun: &str) -> String {
     let Outcome {
         pictures,
@@ -60,8 +61,8 @@ pub(crate) fn counts(outcome: &Outcome, noun: &str) -> String {
     counts
 }
 
-/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (97 % bounds)`, or `error unknown`
-/// where single samples tell nothing of it.
+/// The size of the errors, and the evidence for it: `error <= 8.3e-04 (97 % bounds)`, or `error unknown` for single
+/// samples.
 pub(crate) fn claim(summary: &Summary) -> String {
     if summary.largest_error == f64::INFINITY {
         return "error unknown".to_owned();
@@ -88,19 +89,19 @@ pub(crate) fn bound_percent(summary: &Summary) -> u128 {
     u128::from(summary.bounds) * 100 / u128::from(summary.pixels.max(1))
 }
 
-/// The warning that numbers were too large for the file's floats.
+/// The warning about numbers that were too large for the file's number type.
 pub(super) fn clipped(path: &str, count: u64, encoding: Encoding) -> String {
     let numbers = counted(count, "number");
     match encoding {
         Encoding::Exr(options) if !options.float => format!(
-            "{path}: {numbers} above 65504, the largest half, stored as that; \
-             --float has room for more"
+            "{path}: {numbers} above 65504, the largest half-precision number, stored as this number; use --float \
+             for larger ones"
         ),
         _ => format!("{path}: {numbers} too large for the file, stored as the largest"),
     }
 }
 
-/// The warning that pixels did not meet the tolerance, with the worst of them.
+/// The warning about pixels over the tolerance, with the worst of them.
 pub(super) fn over_tolerance(path: &str, count: u64, worst: Option<WorstPixel>) -> String {
     let worst = worst.map_or(String::new(), |WorstPixel { col, row, error }| {
         let error = bound(error);

@@ -1,5 +1,5 @@
-//! Frames one after the other: while one is rendered, the one before is encoded and written, and the
-//! next one begins as soon as threads have nothing else to do.
+//! Renders frames one after the other. While a frame is rendered, the previous one is encoded and written, and the next
+//! one begins as soon as threads have nothing else to do.
 
 mod clock;
 mod digest;

@@ -1,4 +1,4 @@
-//! The outcome of a sequence: frames that were written, skipped and failed.
+//! The outcome of a sequence: written, skipped and failed frames.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -15,26 +15,26 @@ use crate::terminal::progress::Progress;
 /// The outcome of a sequence.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Outcome {
-    /// Pictures that were asked for: as a rule one for each frame.
+    /// The number of requested pictures: usually one per frame.
     pub(crate) pictures: u64,
-    /// Pictures whose files were written.
+    /// The number of pictures whose files were written.
     pub(crate) written: u64,
-    /// Pictures whose files were there.
+    /// The number of pictures whose files existed.
     pub(crate) skipped: u64,
     /// Frames that could not be rendered or written.
     pub(crate) failed: Vec<i32>,
-    /// The results of the written frames together.
+    /// The combined results of the written frames.
     pub(crate) total: Option<Summary>,
-    /// Pixels of the written frames that are too bright for a PNG.
+    /// The number of pixels of the written frames that are too bright for a PNG.
     pub(crate) clipped: u64,
-    /// The time that rendering the written frames took.
+    /// The rendering time of the written frames.
     pub(crate) time: Duration,
-    /// True where the user ended the work.
+    /// Whether the user interrupted the work.
     pub(crate) interrupted: bool,
 }
 
 impl Outcome {
-    /// Counts a frame that was written.
+    /// Adds a written frame.
     pub(crate) fn add(&mut self, summary: Summary, clipped: u64, time: Duration) {
         self.written += 1;
         self.clipped += clipped;
@@ -42,15 +42,15 @@ impl Outcome {
         self.total = Some(self.total.map_or(summary, |total| total.and(&summary)));
     }
 
-    /// Returns whether some pixel of a written frame did not meet the tolerance.
+    /// Returns whether some pixel of a written frame is over the tolerance.
     pub(crate) fn is_over_tolerance(&self) -> bool {
         self.total.is_some_and(|total| total.over_tolerance > 0)
     }
 }
 
-/// Frames that failed, as several threads find out.
+/// The failed frames, collected by several threads.
 pub(super) struct Failures {
-    /// True where the first failure ends the work.
+    /// Whether the first failure ends the work.
     is_fatal: bool,
     stop: AtomicBool,
     state: Mutex<State>,
@@ -59,7 +59,7 @@ pub(super) struct Failures {
 #[derive(Default)]
 struct State {
     frames: Vec<i32>,
-    /// Reasons that were told already.
+    /// The reasons that were already reported.
     reasons: HashSet<String>,
 }
 
@@ -73,8 +73,8 @@ impl Failures {
         }
     }
 
-    /// Counts a frame whose file would be at `path`, and tells the reason unless it was told of another
-    /// frame: on a full disk a thousand fail alike.
+    /// Adds a failed frame whose file would be at `path`. Reports the reason unless it was reported for another frame:
+    /// on a full disk, a thousand frames fail for the same reason.
     pub(super) fn add(&self, frame: i32, path: &Path, failure: &Failure, progress: &Progress) {
         let message = failure.to_string();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
@@ -91,12 +91,12 @@ impl Failures {
         }
     }
 
-    /// Returns whether no more frames are wanted.
+    /// Returns whether the work should end.
     pub(super) fn stop(&self) -> bool {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// The frames that failed.
+    /// The failed frames.
     pub(super) fn into_frames(self) -> Vec<i32> {
         let state = self.state.into_inner();
         state.unwrap_or_else(PoisonError::into_inner).frames

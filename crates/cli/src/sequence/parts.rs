@@ -1,4 +1,4 @@
-//! The pictures of a frame: one under all light, or one for each part of it.
+//! The pictures of a frame: one of all light, or one for each part of the light.
 
 use std::collections::HashSet;
 use std::ffi::OsString;
@@ -9,7 +9,7 @@ use marbles_core::{LightPart, World};
 /// A picture of a frame.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(crate) struct PicturePart {
-    /// The part of the light that it is taken under; `None` for all of it.
+    /// The part of the light that it shows; `None` for all of it.
     pub(crate) light: Option<LightPart>,
     name: Name,
 }
@@ -17,14 +17,14 @@ pub(crate) struct PicturePart {
 /// The name of a picture's file.
 #[derive(Clone, Debug, Eq, PartialEq)]
 enum Name {
-    /// The frame's, with this before its ending.
+    /// The name for the frame, with this text before the extension.
     Inserted(String),
-    /// This one, in the same folder.
+    /// This name, in the same folder.
     Whole(String),
 }
 
 impl PicturePart {
-    /// The picture under all light.
+    /// The picture of all light.
     pub(crate) fn whole() -> Self {
         Self {
             light: None,
@@ -32,8 +32,8 @@ impl PicturePart {
         }
     }
 
-    /// A picture for each part of a world's light, whose lights have these names: `.light-KEY` comes before the
-    /// ending, where KEY is the light's name or else its [`light_number`], and `.ambient` for what is left.
+    /// One picture for each part of a world's light. `.light-KEY` is added before the extension, where KEY is the name
+    /// of the light or else its [`light_number`], and `.ambient` for the rest.
     pub(crate) fn each(world: &World, names: &[Option<String>]) -> Result<Vec<Self>, String> {
         let mut keys = HashSet::new();
         let count = world.lights.len();
@@ -57,7 +57,7 @@ impl PicturePart {
         world.light_parts().map(part).collect()
     }
 
-    /// The picture under one of the lights, in a file of this name.
+    /// The picture of one of the lights, in a file with this name.
     pub(crate) fn named(light: LightPart, name: String) -> Self {
         Self {
             light: Some(light),
@@ -73,7 +73,7 @@ impl PicturePart {
         }
     }
 
-    /// The names of the lights that the picture shows, of those of a world's.
+    /// The names of the lights that the picture shows, among those of the world.
     pub(crate) fn names_of<'a>(&self, names: &'a [Option<String>]) -> &'a [Option<String>] {
         match self.light {
             Some(LightPart::Light(index)) => names.get(index..=index).unwrap_or_default(),
@@ -82,12 +82,12 @@ impl PicturePart {
         }
     }
 
-    /// Returns whether the picture has what the centers of pixels see, which is the same under all lights.
+    /// Returns whether the picture contains the center values, which are the same for all lights.
     pub(crate) fn has_centers(&self) -> bool {
         matches!(self.light, None | Some(LightPart::Ambient))
     }
 
-    /// The file of the picture, in place of the one at `path`.
+    /// The file of the picture, derived from the one at `path`.
     pub(crate) fn path(&self, path: PathBuf) -> PathBuf {
         match &self.name {
             Name::Inserted(part) if part.is_empty() => path,
@@ -105,14 +105,14 @@ impl PicturePart {
     }
 }
 
-/// The number of one of so many lights, from 1, with as many digits as the last one has: names that have it sort as the
-/// lights do.
+/// The number of one of several lights, from 1, with as many digits as the last one has, so that names sort in the
+/// order of the lights.
 pub(super) fn light_number(index: usize, count: usize) -> String {
     let digits = count.to_string().len();
     format!("{:0digits$}", index + 1)
 }
 
-/// A light's name with a dash for every character that file names had better not contain.
+/// The name of a light, with a dash for every character that is problematic in file names.
 fn file_safe(name: &str) -> String {
     let safe = |letter: char| match letter {
         '-' | '_' => letter,

@@ -7,27 +7,26 @@ use std::path::{Path, PathBuf};
 use crate::base::shown::Shown;
 use crate::formats::encoding::Format;
 
-/// More digits than this are a slip of the keyboard, and no file system takes them.
+/// The largest number of digits. More are a typing error, and no file system allows them.
 const MOST_DIGITS: usize = 100;
-/// Digits of the frame number in names that the user left out.
+/// Digits of the frame number in default names.
 const DEFAULT_DIGITS: usize = 4;
 
 /// The names of the files of a picture or a sequence.
 ///
-/// The place for the frame number is looked for in the file name only; folders are taken as they
-/// are written.
+/// The place for the frame number is searched for only in the file name; folders are used as they are written.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(crate) struct Pattern {
     folder: PathBuf,
     before: OsString,
-    /// The width to which a frame number is padded with zeros; `None` where there is no place for it.
+    /// The width to which a frame number is padded with zeros; `None` if there is no place for it.
     digits: Option<usize>,
     after: OsString,
     format: Format,
 }
 
 impl Pattern {
-    /// Reads a pattern as users write it, or says what is wrong with it.
+    /// Parses the user's pattern, or returns an error.
     pub(crate) fn parse(path: &Path) -> Result<Self, String> {
         let wrong_ending = || {
             let path = path.shown();
@@ -71,8 +70,8 @@ impl Pattern {
         })
     }
 
-    /// Reads a pattern in which [`SCENE`] may stand for the scene's name, which becomes a part of the files' names as
-    /// it is: nothing in it is a place for a number.
+    /// Parses a pattern in which [`SCENE`] may stand for the name of the scene. This name becomes a part of the file
+    /// names unchanged: nothing in it is a place for a number.
     pub(crate) fn of_scene(path: &Path, scene: &OsStr) -> Result<Self, String> {
         let pattern = Self::parse(path)?;
         Ok(Self {
@@ -83,7 +82,7 @@ impl Pattern {
         })
     }
 
-    /// The names of a user who gave none: those of the scene, in the current folder.
+    /// The default names: those of the scene, in the current folder.
     pub(crate) fn named_after(scene: &Path, numbered: bool) -> Self {
         let mut before = scene
             .file_stem()
@@ -111,7 +110,7 @@ impl Pattern {
         self.folder.join(name)
     }
 
-    /// The format that the ending asks for.
+    /// The format for the extension.
     pub(crate) fn format(&self) -> Format {
         self.format
     }
@@ -122,16 +121,16 @@ impl Pattern {
     }
 }
 
-/// The place for the name of the scene in names of files.
+/// The placeholder for the name of the scene.
 pub(crate) const SCENE: &str = "{scene}";
 
-/// Returns whether some folder or the name of a file has a place for the scene's name.
+/// Returns whether a folder or the file name contains the placeholder for the name of the scene.
 pub(crate) fn has_place_for_scene(path: &Path) -> bool {
     let mut parts = path.iter().filter_map(OsStr::to_str);
     parts.any(|part| part.contains(SCENE))
 }
 
-/// The path with the scene's name in its places. Folders whose names are not UTF-8 have none.
+/// The path with the name of the scene. Folders whose names are not UTF-8 contain no placeholder.
 pub(crate) fn with_scene(path: &Path, scene: &OsStr) -> PathBuf {
     if !has_place_for_scene(path) {
         return path.to_owned();
@@ -151,8 +150,7 @@ pub(crate) fn with_scene(path: &Path, scene: &OsStr) -> PathBuf {
     path.iter().map(replaced).collect()
 }
 
-/// The place for the frame number at the start of `text`, if there is one: its length, and the width
-/// of the number.
+/// The place for the frame number at the start of `text`, if there is one: its length, and the width of the number.
 fn place(text: &str) -> Result<Option<(usize, usize)>, String> {
     let refused = |length: usize| {
         let found = &text[..length];

@@ -1,4 +1,4 @@
-//! The state that the threads which render and the one which writes have in common.
+//! The state that the rendering threads and the writer thread share.
 
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicU64;
@@ -22,41 +22,41 @@ use crate::formats::form::Form;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
 
-/// Memory that strips between rendering and file may take together, where two of them do not take
-/// more: enough to keep many threads busy with wide pictures, and for whole pictures of common sizes.
+/// The memory for strips that are rendered and not yet written, unless two strips need more. It keeps many threads busy
+/// with wide pictures, and is enough for whole pictures of common sizes.
 const STRIPS_BYTES: u64 = 1 << 27;
 
-/// The state that the threads which render and the one which writes have in common.
+/// The state that the rendering threads and the writer thread share.
 pub(super) struct Pipeline<'a> {
     pub(super) request: &'a Request,
     pub(super) progress: &'a Progress<'a>,
     /// One for each picture of a frame.
     pub(super) encoders: Vec<Encoder>,
-    /// The number of pictures of a frame that are rendered together, at most.
+    /// The largest number of pictures of a frame that are rendered together.
     pub(super) together: usize,
     pub(super) buffer: ReorderBuffer,
     pub(super) clock: Clock,
     pub(super) failures: Failures,
-    /// Frames whose files were there.
+    /// The number of frames whose files existed.
     pub(super) skipped: AtomicU64,
 }
 
-/// A picture that is on its way to its file.
+/// A picture that is to be written.
 pub(super) struct Order {
     pub(super) facts: Facts,
     /// The number of this picture among the frame's pictures.
     pub(super) part: usize,
     pub(super) path: PathBuf,
-    /// The file to write; `None` where all frames are one file.
+    /// The file to write; `None` if all frames go into one file.
     pub(super) file: Option<TemporaryFile>,
     /// The number of the first piece in the buffer that belongs to the next picture.
     pub(super) end: u64,
-    /// The results; nothing comes where the picture was not finished.
+    /// The results; nothing is sent if the picture was not finished.
     pub(super) finished: Receiver<Finished>,
 }
 
 impl<'a> Pipeline<'a> {
-    /// The state before the first frame, if there is memory for the strips.
+    /// The state before the first frame, if there is enough memory for the strips.
     pub(super) fn new(
         request: &'a Request,
         threads: usize,
@@ -100,21 +100,21 @@ impl<'a> Pipeline<'a> {
         })
     }
 
-    /// Returns whether nothing more is wanted.
+    /// Returns whether the work should end.
     pub(super) fn stop(&self) -> bool {
         interrupt::requested() || self.failures.stop()
     }
 
-    /// Counts a frame that could not be rendered or written, and says so.
+    /// Counts and reports a frame that could not be rendered or written.
     pub(super) fn fail(&self, frame: i32, path: &Path, failure: &Failure) {
         self.failures.add(frame, path, failure, self.progress);
     }
 }
 
-/// The number of pictures of a frame that are rendered together, so that what the view sees is found out once for
-/// them: no more than fit into the memory for them, twice.
+/// The number of pictures of a frame that are rendered together, so that visibility is computed once for them. Their
+/// strips must fit into the memory twice.
 fn together(encoder: &Encoder, parts: usize) -> usize {
-    /// More save hardly any time, and the files of all of them are open.
+    /// Larger numbers save hardly any time, and the files of all these pictures are open.
     const MOST: usize = 12;
     const BYTES: u64 = 1 << 29;
     let picture = encoder.strip_bytes() * u64::from(encoder.pieces());
@@ -125,8 +125,8 @@ fn together(encoder: &Encoder, parts: usize) -> usize {
         .clamp(1, parts.max(1))
 }
 
-/// The number of strips that may be between rendering and file, at least 2; refuses pictures that are
-/// too wide even for these.
+/// The number of strips that may be rendered and not yet written, at least 2. Refuses pictures that are too wide even
+/// for two.
 fn capacity(encoder: &Encoder) -> Result<u64, Failure> {
     const LEAST: u64 = 2;
     let strip = encoder.strip_bytes();

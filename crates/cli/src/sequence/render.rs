@@ -1,4 +1,4 @@
-//! The rendering of a sequence: threads that render, one that writes, and one that reads what changes over time.
+//! Renders a sequence with rendering threads, a writer thread, and a thread that reads clouds that change over time.
 
 use std::panic;
 use std::sync::mpsc::sync_channel;
@@ -17,14 +17,14 @@ use crate::base::threads::start_one;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
 
-/// Pictures that wait to be written while another one is. If more waited, it would not help: in the
-/// long run the slower of rendering and writing sets the pace.
+/// The number of pictures that wait to be written while another one is. More would not help: in the long run the slower
+/// one of rendering and writing determines the speed.
 const WAITING_PICTURES: usize = 1;
 
-/// Renders and writes all frames in order, but for those that another process is rendering: they
-/// come last, if they are not there then.
+/// Renders and writes all frames in order. Frames that another process is rendering come last, unless they are complete
+/// by then.
 ///
-/// A frame that cannot be rendered or written is reported and left out.
+/// A frame that cannot be rendered or written is reported and skipped.
 pub(crate) fn render(
     request: &Request,
     threads: &ThreadPool,

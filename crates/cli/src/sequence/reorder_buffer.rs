@@ -1,26 +1,26 @@
-//! The reorder buffer between the threads that render and the one that writes: pieces of pictures come
-//! as they are made, and go in order.
+//! The reorder buffer between the rendering threads and the writer: pieces of pictures arrive in any order, and leave
+//! in order.
 
 use std::collections::BTreeMap;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
 use crate::formats::encoder::Piece;
 
-/// A buffer of pieces, which are put into it as they are made and taken in the order of their numbers;
-/// these go on from picture to picture.
+/// A buffer of pieces. They are added as they are made, and removed in the order of their numbers, which continue from
+/// picture to picture.
 pub(super) struct ReorderBuffer {
     state: Mutex<State>,
-    /// The next piece is there, or the buffer is closed.
+    /// Signals that the next piece has arrived, or that the buffer is closed.
     arrived: Condvar,
-    /// A piece was taken, or the buffer is closed.
+    /// Signals that a piece was removed, or that the buffer is closed.
     moved: Condvar,
-    /// The number of pieces that there may be at a time.
+    /// The largest number of pieces at a time.
     capacity: u64,
 }
 
 #[derive(Default)]
 struct State {
-    /// The number of the next piece: how many were taken.
+    /// The number of the next piece: the number of removed pieces.
     taken: u64,
     waiting: BTreeMap<u64, Piece>,
     is_closed: bool,
@@ -29,14 +29,14 @@ struct State {
 /// Closes the buffer when it goes out of scope, so that no thread waits for one that has ended.
 pub(super) struct Closing<'buffer>(&'buffer ReorderBuffer);
 
-/// The slot of a piece; closes the buffer when nothing is put into it though the piece is wanted.
+/// The slot of a piece. If it is dropped empty although the piece is needed, the buffer is closed.
 pub(super) struct Slot<'buffer> {
     buffer: &'buffer ReorderBuffer,
     number: u64,
 }
 
 impl ReorderBuffer {
-    /// An empty buffer for `capacity` pieces at a time, at least 1.
+    /// An empty buffer for `capacity` pieces, at least 1.
     pub(super) fn new(capacity: u64) -> Self {
         Self {
             state: Mutex::default(),
@@ -46,8 +46,8 @@ impl ReorderBuffer {
         }
     }
 
-    /// Waits until the piece with this number may be made, and returns its slot. `None` when the buffer
-    /// is closed, or the piece is not wanted.
+    /// Waits until the piece with this number may be made, and returns its slot. Returns `None` if the buffer is
+    /// closed, or the piece is not needed.
     pub(super) fn admit(&self, number: u64) -> Option<Slot<'_>> {
         let mut state = self.lock();
         while number >= state.taken + self.capacity && !state.is_closed {
@@ -57,7 +57,7 @@ impl ReorderBuffer {
         (!state.is_closed && number >= state.taken).then(|| Slot { buffer, number })
     }
 
-    /// Waits for the next piece and takes it; `None` when it will not come.
+    /// Waits for the next piece and removes it; returns `None` if it will not come.
     pub(super) fn take(&self) -> Option<Piece> {
         let mut state = self.lock();
         loop {
@@ -74,7 +74,7 @@ impl ReorderBuffer {
         }
     }
 
-    /// Leaves out the pieces with smaller numbers, those that are still to come among them.
+    /// Skips the pieces with smaller numbers, including those that have not arrived.
     pub(super) fn skip_to(&self, number: u64) {
         let mut state = self.lock();
         state.waiting = state.waiting.split_off(&number);
@@ -82,14 +82,14 @@ impl ReorderBuffer {
         self.moved.notify_all();
     }
 
-    /// Ends the waiting of all, now and later; pieces that are there can still be taken.
+    /// Ends all waiting, now and later. Pieces in the buffer can still be removed.
     fn close(&self) {
         self.lock().is_closed = true;
         self.arrived.notify_all();
         self.moved.notify_all();
     }
 
-    /// Returns whether nothing more will come.
+    /// Returns whether no more pieces will come.
     pub(super) fn is_closed(&self) -> bool {
         self.lock().is_closed
     }
@@ -112,7 +112,7 @@ impl Drop for Closing<'_> {
 }
 
 impl Slot<'_> {
-    /// Puts the piece there, if it is wanted.
+    /// Adds the piece, if it is needed.
     pub(super) fn put(self, piece: Piece) {
         let mut state = self.buffer.lock();
         if self.number >= state.taken {

@@ -16,50 +16,50 @@ use crate::formats::center_channels::CenterChannels;
 use crate::formats::encoding::Encoding;
 use crate::formats::form::Form;
 
-/// The pictures that are rendered, and the files that they become.
+/// The requested pictures, and their files.
 pub(crate) struct Request {
     pub(crate) scene: Scene,
     /// The scene file.
     pub(crate) scene_path: PathBuf,
     pub(crate) frames: FrameList,
-    /// A size in place of the scene's.
+    /// A size instead of the scene's.
     pub(crate) size: Option<Size>,
-    /// The part of the picture that is wanted, if not all of it.
+    /// The requested part of the picture, if it is not the whole.
     pub(crate) window: Option<Window>,
     pub(crate) frames_per_second: Option<f64>,
     pub(crate) settings: Settings,
-    /// The factor on errors wherever results tell them: that on the light of a data set's pictures, else 1.
+    /// The factor for errors in the results: the factor on the light of a data set's pictures, else 1.
     pub(crate) error_scale: f64,
     /// The pictures of each frame, at least one.
     pub(crate) parts: Vec<PicturePart>,
-    /// The layers of each file beside its picture.
+    /// The additional layers of each file.
     pub(crate) layers: Vec<LightLayer>,
     pub(crate) pattern: Pattern,
     pub(crate) encoding: Encoding,
-    /// The channels of the files besides the pictures.
+    /// The additional channels of the files.
     pub(crate) centers: Option<CenterChannels>,
-    /// True where each picture has a sidecar.
+    /// Whether each picture has a sidecar.
     pub(crate) sidecar: bool,
-    /// True where frames are left out whose files are there.
+    /// Whether frames with existing files are skipped.
     pub(crate) skip_existing: bool,
-    /// True where the first failure ends the work.
+    /// Whether the first failure ends the work.
     pub(crate) fail_fast: bool,
 }
 
 impl Request {
-    /// Refuses a frame that has no view, or whose picture does not contain what is wanted of it.
+    /// Refuses a frame without a view, or whose picture does not contain the requested part.
     pub(crate) fn check(&self, frame: i32) -> Result<(), Failure> {
         let view = self.scene.view(frame);
         let view = view.map_err(|error| Failure::unusable(&self.scene_path, &error.to_string()))?;
         self.region(Size::of(&self.resized(view))).map(drop)
     }
 
-    /// Returns whether all frames are one file.
+    /// Returns whether all frames go into one file.
     pub(crate) fn is_animation(&self) -> bool {
         matches!(self.encoding, Encoding::Apng(_))
     }
 
-    /// The view of a frame, in the size that is wanted.
+    /// The view of a frame, in the requested size.
     pub(crate) fn view(&self, frame: i32) -> Result<View, Failure> {
         let view = self.scene.view(frame);
         let view = view.map_err(|error| Failure::at(&self.scene_path, &error.to_string()))?;
@@ -85,7 +85,7 @@ impl Request {
         self.parts[part].path(self.pattern.path(frame))
     }
 
-    /// The forms of the pictures of a frame, the same for all frames; `None` where no frame has a view.
+    /// The forms of the pictures of a frame, the same for all frames; `None` if no frame has a view.
     pub(super) fn forms(&self) -> Result<Option<Vec<Form>>, Failure> {
         let views = self.frames.iter();
         let mut views = views.filter_map(|frame| self.scene.view(frame).ok());
@@ -102,7 +102,7 @@ impl Request {
         Ok(Some(self.parts.iter().map(form).collect()))
     }
 
-    /// The part of a picture of this size that is rendered.
+    /// The rendered part of a picture of this size.
     fn region(&self, whole: Size) -> Result<Region, Failure> {
         let Some(window) = self.window else {
             return Ok(Region::all(whole));

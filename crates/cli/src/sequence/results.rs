@@ -1,4 +1,4 @@
-//! The results of a picture: how large its errors are, and what its file could not hold.
+//! The results of a picture: the size of its errors, and the number of values that its file could not store.
 
 use marbles_core::{Image, Summary};
 
@@ -7,12 +7,11 @@ use crate::base::size::Size;
 /// The results of a picture, or of a part of one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Results {
-    /// `None` where there is no pixel yet.
+    /// `None` if there are no pixels yet.
     pub(super) summary: Option<Summary>,
-    /// The worst of the pixels that did not meet the tolerance.
+    /// The worst pixel over the tolerance.
     pub(super) worst: Option<WorstPixel>,
-    /// The number of pixels of a PNG that were clipped, or of finite numbers that were too large for
-    /// those of an EXR.
+    /// The number of clipped pixels of a PNG, or of finite numbers that were too large for an EXR.
     pub(super) clipped: u64,
 }
 
@@ -25,7 +24,7 @@ pub(super) struct WorstPixel {
 }
 
 impl Results {
-    /// The results of the part of a picture whose first pixel is (`col`, `row`).
+    /// The results for the part of a picture whose first pixel is (`col`, `row`).
     pub(super) fn of(part: &Image, (col, row): (u32, u32), clipped: u64) -> Self {
         let summary = part.summary();
         let mut worst = None;
@@ -57,7 +56,7 @@ impl Results {
 }
 
 impl WorstPixel {
-    /// The same with its error times `scale`.
+    /// The same with all errors multiplied by `scale`.
     pub(super) fn scaled(self, scale: f64) -> Self {
         Self {
             error: self.error * scale,
@@ -65,7 +64,7 @@ impl WorstPixel {
         }
     }
 
-    /// The worse of two; of equals the one that is further down, or else to the right.
+    /// The worse of two pixels; of equal ones the one farther down, or farther to the right.
     fn of(one: Option<Self>, other: Option<Self>) -> Option<Self> {
         let (Some(first), Some(second)) = (one, other) else {
             return one.or(other);

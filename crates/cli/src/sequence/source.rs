@@ -1,4 +1,4 @@
-//! The source of pictures: which frame comes next, and all that is made ready for it.
+//! The source of pictures: chooses the next frame, and prepares everything for it.
 
 use std::collections::VecDeque;
 use std::iter::Peekable;
@@ -26,7 +26,7 @@ use crate::formats::encoding::Encoding;
 use crate::formats::facts::Facts;
 use crate::formats::{load, sidecar};
 
-/// Gives pictures to render, and orders to write them.
+/// Prepares pictures for rendering, and orders their writing.
 pub(super) struct Source<'a> {
     pipeline: &'a Pipeline<'a>,
     steps: Steps<'a>,
@@ -35,11 +35,11 @@ pub(super) struct Source<'a> {
     /// Pictures that another process is rendering.
     postponed: VecDeque<Shot>,
     left_over: LeftOver,
-    /// The number of pictures that were begun.
+    /// The number of pictures that have been started.
     begun: u64,
 }
 
-/// A picture that is to be taken.
+/// A picture to be rendered.
 #[derive(Clone, Copy, Debug)]
 struct Shot {
     frame: i32,
@@ -54,7 +54,7 @@ pub(super) struct InFlight<'a> {
     pipeline: &'a Pipeline<'a>,
 }
 
-/// The world that is rendered, and how it is seen.
+/// A world and the exposure of a frame.
 struct Seen<'a> {
     step: Arc<Step>,
     exposure: Exposure<'a>,
@@ -71,24 +71,24 @@ self_cell!(
 /// The decision about a picture.
 enum Decision {
     Render(Box<Wanted>),
-    /// Its file is there.
+    /// Its file exists.
     Skip,
     /// Another process is writing its file.
     Wait,
 }
 
-/// A picture that is wanted.
+/// A picture that is needed.
 struct Wanted {
     step: Arc<Step>,
     facts: Facts,
     part: usize,
     path: PathBuf,
-    /// The file to write; `None` where all frames are one file.
+    /// The file to write; `None` if all frames go into one file.
     file: Option<TemporaryFile>,
 }
 
 impl<'a> Source<'a> {
-    /// Begins before the first frame. Orders go to `writer`.
+    /// The source before the first frame. Orders are sent to `writer`.
     pub(super) fn new(
         pipeline: &'a Pipeline<'a>,
         steps: Steps<'a>,
@@ -112,8 +112,8 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The next pictures that are to be rendered together, after their orders; `None` when there are no more, or
-    /// no more are wanted.
+    /// The next pictures that are rendered together, after their orders are sent. `None` if there are no more, or the
+    /// work should end.
     pub(super) fn next(&mut self) -> Option<InFlight<'a>> {
         let mut wanted: Vec<Wanted> = Vec::new();
         let mut most = 1;
@@ -146,7 +146,7 @@ impl<'a> Source<'a> {
         }
     }
 
-    /// The next picture, of this frame where one is given, and whether it was postponed.
+    /// The next picture, of this frame if one is given, and whether it was postponed.
     fn next_shot(&mut self, of_frame: Option<i32>) -> Option<(Shot, bool)> {
         let is_of_frame = |shot: &Shot| of_frame.is_none_or(|frame| shot.frame == frame);
         if self.shots.peek().is_some() {
@@ -156,8 +156,8 @@ impl<'a> Source<'a> {
         Some((self.postponed.pop_front().filter(|_| is_next)?, true))
     }
 
-    /// The number of pictures of a frame that are rendered together. Those of a moving camera keep so much of what it
-    /// sees that they are rendered one by one.
+    /// The number of pictures of a frame that are rendered together. With a moving camera they are rendered one by one,
+    /// because each keeps a lot of data about what is visible.
     fn together(&self, frame: i32) -> usize {
         let Pipeline {
             request, together, ..
@@ -170,10 +170,10 @@ impl<'a> Source<'a> {
         if moves { 1 } else { *together }
     }
 
-    /// Begins the file of a picture, unless it is there or another process writes it.
+    /// Begins the file of a picture, unless it exists or another process is writing it.
     ///
-    /// A process that has waited once begins it all the same: another one that stands still would else
-    /// keep all others from the end, and both write the same.
+    /// A picture for which the process has already waited once is begun anyway: otherwise a stopped process would block
+    /// all others, and both write the same bytes.
     fn decide(
         &mut self,
         Shot { frame, part }: Shot,
@@ -237,8 +237,7 @@ impl<'a> Source<'a> {
         })))
     }
 
-    /// Orders that pictures of a frame be written, and makes them ready to be rendered; `None` when the writer has
-    /// ended.
+    /// Orders the writing of pictures of a frame, and prepares them for rendering. `None` if the writer has ended.
     fn begin(&mut self, wanted: Vec<Wanted>) -> Option<InFlight<'a>> {
         let pipeline = self.pipeline;
         let Pipeline {
@@ -282,7 +281,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Orders that a picture be written; returns the encoder of its strips.
+    /// Orders the writing of a picture; returns the encoder of its strips.
     fn order(&self, wanted: Wanted) -> Option<PictureEncoder<'a>> {
         let Pipeline {
             encoders,
@@ -319,7 +318,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Returns whether the files of a picture are there, with these digests, and its sidecar where it is to have one.
+/// Returns whether the files of a picture exist with these digests, and its sidecar if it needs one.
 fn is_there(
     files: &[(PathBuf, Hash)],
     sidecar: Option<&Path>,

@@ -1,7 +1,8 @@
-//! The worlds of a sequence, each ready to be rendered: one, or one for each step of clouds that change over time.
+//! The worlds of a sequence, prepared for rendering: a single one, or one for each step of clouds that change over
+//! time.
 //!
-//! A thread of its own reads the step that comes next while one is rendered. No more than two are in memory: it waits
-//! until the one before is dropped.
+//! A separate thread reads the next step while the current one is rendered. It waits until the previous step is
+//! dropped, so at most two are in memory.
 
 use std::iter::Peekable;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
@@ -17,16 +18,16 @@ use super::request::Request;
 use crate::base::failure::Failure;
 use crate::base::memory;
 
-/// The most steps that are in memory.
+/// The largest number of steps in memory.
 const MOST: usize = 2;
 
-/// A world, and what was made ready of it.
+/// A world, with the data prepared for it.
 pub(super) struct Step {
     key: Option<StepKey>,
     world: PreparedWorld,
     /// One for each picture of a frame.
     pub(super) digests: Vec<Digests>,
-    /// Counts it among those in memory, as long as it is.
+    /// Counts the step as long as it is in memory.
     _place: Place,
 }
 
@@ -38,7 +39,7 @@ self_cell!(
     }
 );
 
-/// Ready as soon as a frame is; one for each picture of a frame, and then one for each layer.
+/// Prepared when the first frame needs them: one for each picture of a frame, then one for each layer.
 type Renderers<'world> = OnceLock<Vec<Renderer<'world>>>;
 
 impl Step {
@@ -62,12 +63,12 @@ impl Step {
         }
     }
 
-    /// The number of its spheres.
+    /// The number of spheres.
     pub(super) fn spheres(&self) -> usize {
         self.world.borrow_owner().spheres().len()
     }
 
-    /// Refuses a step that cannot be prepared for want of memory.
+    /// Refuses a step if there is not enough memory to prepare it.
     pub(super) fn require_memory(&self) -> Result<(), Failure> {
         self.world
             .with_dependent(|world, renderers| match renderers.get() {
@@ -76,7 +77,7 @@ impl Step {
             })
     }
 
-    /// Hands over the renderers, which are made when they are wanted first; `begin` is called before.
+    /// Passes on the renderers, which are made at the first use; `begin` is called before.
     pub(super) fn with_renderers<'a, T>(
         &'a self,
         request: &Request,
@@ -101,25 +102,25 @@ impl Step {
     }
 }
 
-/// The steps of a sequence, of which one is at hand.
+/// The steps of a sequence, with the current one.
 pub(super) struct Steps<'a> {
     request: &'a Request,
     current: Option<Arc<Step>>,
     /// The frame whose step is being read.
     asked: Option<i32>,
-    /// The frames whose steps were not yet read ahead.
+    /// The frames whose steps have not been read ahead.
     upcoming: Peekable<Box<dyn Iterator<Item = i32> + Send + 'a>>,
     reader: Option<Reader>,
     places: Places,
 }
 
-/// The thread that reads.
+/// The reading thread.
 struct Reader {
     frames: Sender<i32>,
     worlds: Receiver<(Result<World, SceneError>, Place)>,
 }
 
-/// The other ends of a [`Reader`].
+/// The opposite ends of the channels of a [`Reader`].
 pub(super) struct ReaderTask {
     frames: Receiver<i32>,
     worlds: SyncSender<(Result<World, SceneError>, Place)>,
@@ -127,7 +128,7 @@ pub(super) struct ReaderTask {
 }
 
 impl<'a> Steps<'a> {
-    /// The steps of a request, and the task of the thread that reads them, where there are any to read.
+    /// The steps of a request, and the task of the reading thread, if there are steps to read.
     pub(super) fn new(request: &'a Request) -> (Self, Option<ReaderTask>) {
         let places = Places::default();
         let (reader, task) = if request.scene.has_steps() {
@@ -154,10 +155,10 @@ impl<'a> Steps<'a> {
         (steps, task)
     }
 
-    /// The step that a frame shows.
+    /// The step for a frame.
     ///
     /// # Errors
-    /// Fails where its tables cannot be read.
+    /// If its tables cannot be read.
     pub(super) fn of(&mut self, frame: i32) -> Result<Arc<Step>, Failure> {
         let request = self.request;
         let scene = &request.scene;
@@ -180,7 +181,7 @@ impl<'a> Steps<'a> {
         Ok(step)
     }
 
-    /// Has the step read that is likely to come next.
+    /// Requests the step that is likely to come next.
     fn read_ahead(&mut self, step: &Step) {
         let Some(reader) = self.reader.as_ref().filter(|_| self.asked.is_none()) else {
             return;
@@ -198,7 +199,7 @@ impl<'a> Steps<'a> {
 }
 
 impl Reader {
-    /// The world of a frame, which may have been asked for before.
+    /// The world of a frame, which may have been requested before.
     fn read(
         &self,
         scene: &Scene,
@@ -219,7 +220,7 @@ impl Reader {
 }
 
 impl ReaderTask {
-    /// Reads worlds as long as some are wanted.
+    /// Reads worlds as long as they are requested.
     pub(super) fn run(self, scene: &Scene) {
         // The threads that render are busy: what is asked of their pool waits for them.
         let own = ThreadPoolBuilder::new()
@@ -239,15 +240,15 @@ impl ReaderTask {
     }
 }
 
-/// The places for steps in memory.
+/// The slots for steps in memory.
 #[derive(Clone, Default)]
 struct Places(Arc<(Mutex<usize>, Condvar)>);
 
-/// A place that is taken until it is dropped.
+/// A slot that is taken until it is dropped.
 struct Place(Places);
 
 impl Places {
-    /// Waits for a place.
+    /// Waits for a free slot.
     fn take(&self) -> Place {
         let (taken, changed) = &*self.0;
         let mut taken = taken.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! The encoders of strips: what is rendered becomes pieces of a file, and its results are summed up.
+//! The encoders of strips: rendered strips become pieces of a file, and their results are combined.
 
 use std::mem;
 use std::sync::atomic::{AtomicU32, AtomicU64, Ordering};
@@ -13,38 +13,38 @@ use super::reorder_buffer::{ReorderBuffer, Slot};
 use super::results::Results;
 use crate::formats::encoder::Encoder;
 
-/// The encoder of a picture, which hands out one for each layer of each strip.
+/// The encoder of a picture, which provides one encoder for each layer of each strip.
 pub(super) struct PictureEncoder<'a> {
     encoder: &'a Encoder,
     buffer: &'a ReorderBuffer,
     /// The number of the picture's first piece in the buffer.
     first: u64,
     results: Mutex<Results>,
-    /// Strips that have not ended.
+    /// The number of strips that have not ended.
     left: AtomicU32,
     started: Instant,
-    /// The time that threads spent on something else than rendering, in nanoseconds, all together.
+    /// The time that all threads together spent on work other than rendering, in nanoseconds.
     aside: AtomicU64,
     clock: &'a Clock,
     finished: Sender<Finished>,
 }
 
-/// A picture all of whose strips were rendered.
+/// A picture whose strips have all been rendered.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Finished {
     pub(super) results: Results,
-    /// The time that rendering it took.
+    /// The rendering time.
     pub(super) time: Duration,
 }
 
-/// The encoder of one layer of a picture: the picture itself, or one of the layers beside it.
+/// The encoder of one layer of a picture: of the picture itself, or of an additional layer.
 pub(super) struct LayerEncoder<'a, 'p> {
     picture: &'p PictureEncoder<'a>,
     layer: usize,
     open: &'p OpenStrip<'a>,
 }
 
-/// The strip that a thread renders, of which it begins and ends all layers one after the other.
+/// The strip that a thread renders. The thread begins and ends all of its layers one after the other.
 pub(super) type OpenStrip<'a> = Mutex<Weak<SharedStrip<'a>>>;
 
 /// A strip that is being rendered, with all its layers.
@@ -57,11 +57,11 @@ struct StripState<'a> {
     samples: Vec<u8>,
     results: Results,
     slot: Option<Slot<'a>>,
-    /// Layers that have not ended.
+    /// The number of layers that have not ended.
     left: usize,
 }
 
-/// The encoder of a layer of such a strip.
+/// The encoder of a layer of an open strip.
 struct StripEncoder<'a, 'p> {
     picture: &'p PictureEncoder<'a>,
     layer: usize,
@@ -69,8 +69,7 @@ struct StripEncoder<'a, 'p> {
 }
 
 impl<'a> PictureEncoder<'a> {
-    /// The encoder of a picture whose pieces go to the buffer, from the number `first` on; its results
-    /// go to `finished`.
+    /// The encoder of a picture. Its pieces go to the buffer, with numbers from `first`; its results go to `finished`.
     pub(super) fn new(
         encoder: &'a Encoder,
         buffer: &'a ReorderBuffer,
@@ -103,7 +102,7 @@ impl<'a> PictureEncoder<'a> {
         })
     }
 
-    /// Begins a strip; `None` where it is not wanted.
+    /// Begins a strip; `None` if it is not needed.
     fn begin(&self, index: u32) -> Option<SharedStrip<'a>> {
         let slot = self.buffer.admit(self.first + u64::from(index))?;
         let state = StripState {
@@ -118,7 +117,7 @@ impl<'a> PictureEncoder<'a> {
         })
     }
 
-    /// Ends the picture, all of whose strips have ended.
+    /// Ends the picture after all of its strips.
     fn finish(&self) {
         let results = *self.results.lock().unwrap_or_else(PoisonError::into_inner);
         let aside = Duration::from_nanos(self.aside.load(Ordering::Relaxed));
@@ -127,7 +126,7 @@ impl<'a> PictureEncoder<'a> {
         let _ = self.finished.send(Finished { results, time });
     }
 
-    /// Does something else than rendering.
+    /// Does work other than rendering, and measures its time.
     fn apart<T>(&self, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
         let done = work();

@@ -1,5 +1,5 @@
-//! The workers: threads that go from picture to picture. A thread that finds no part left to begin
-//! prepares the next picture, or starts on it, while others finish the one before.
+//! The workers: threads that move from picture to picture. A thread with nothing left to begin prepares the next
+//! picture, or starts on it, while others finish the previous one.
 
 use std::ops::ControlFlow;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -9,18 +9,17 @@ use rayon::Yield;
 
 /// Work that threads share.
 pub(super) trait SharedWork: Send + Sync {
-    /// The number of its parts that no thread has begun.
+    /// The number of parts that no thread has begun.
     fn left(&self) -> u32;
 
-    /// Does parts of it until every one is begun; breaks when all work ends.
+    /// Does parts of it until all of them are begun; breaks if all work should end.
     fn help(&self) -> ControlFlow<()>;
 }
 
-/// Does all the work that `prepare` gives, in its order, on the threads of the current rayon pool.
+/// Does all the work that `prepare` returns, in its order, on the threads of the current rayon pool.
 ///
-/// While the last parts of something are done, the next is prepared, and not more: `prepare` is called
-/// by one thread at a time, and those that have nothing to do take parts in what it does by way of
-/// rayon.
+/// While the last parts of some work are done, the next work is prepared, but no more. Only one thread at a time calls
+/// `prepare`; threads with nothing to do can help it through rayon.
 pub(super) fn run<T: SharedWork>(prepare: impl FnMut() -> Option<T> + Send) {
     let workers = Workers {
         state: Mutex::new(State {
@@ -41,20 +40,20 @@ struct Workers<T> {
 }
 
 struct State<T> {
-    /// The work that is being done.
+    /// The current work.
     current: Option<Arc<T>>,
-    /// The work that comes after it.
+    /// The work after it.
     next: Option<Arc<T>>,
     preparation: Preparation,
     is_over: bool,
 }
 
-/// The state of the preparation of what comes after that.
+/// The state of the preparation of the next work.
 #[derive(Clone, Copy, Eq, PartialEq)]
 enum Preparation {
     /// No thread has begun it.
     Waiting,
-    /// A thread is at it.
+    /// A thread is preparing it.
     Running,
     /// There is no more work.
     Over,
@@ -98,7 +97,7 @@ impl<T: SharedWork> Workers<T> {
 
     /// Waits until there is something to do.
     fn next_step(&self, threads: u32) -> Step<T> {
-        /// The time that a thread waits before it looks again for work that another one shares.
+        /// The time that a thread waits before it looks for work again.
         const PAUSE: Duration = Duration::from_micros(200);
         let mut state = self.lock();
         loop {

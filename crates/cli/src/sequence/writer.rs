@@ -1,4 +1,4 @@
-//! The thread that writes: pictures become files in the order of their rendering.
+//! The writer thread: pictures become files in the order of their rendering.
 
 use std::cell::Cell;
 use std::path::Path;
@@ -20,7 +20,7 @@ use crate::formats::facts::Facts;
 use crate::formats::sidecar::{self, Sidecar};
 use crate::terminal::lines::Frame;
 
-/// Writes pictures as they come, each to its file.
+/// Writes pictures as they arrive, each to its file.
 pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
     let _closing = pipeline.buffer.closing();
     let mut outcome = Outcome::default();
@@ -53,8 +53,8 @@ pub(super) fn write_files(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> O
     outcome
 }
 
-/// Writes a picture and says so; returns its results, how many pixels are too bright for a PNG, and the
-/// time that it took.
+/// Writes a picture and reports it; returns its results, the number of pixels that are too bright for a PNG, and the
+/// time.
 fn write_file(
     order: Order,
     pipeline: &Pipeline<'_>,
@@ -138,7 +138,7 @@ fn write_sidecar(
     write_bytes(text.as_bytes(), &path)
 }
 
-/// Writes pictures as they come, all to one file. Without all of them there is no file, and none counts
+/// Writes pictures as they arrive, all to one file. Unless all of them arrive there is no file, and no picture counts
 /// as written.
 pub(super) fn write_animation(orders: Receiver<Order>, pipeline: &Pipeline<'_>) -> Outcome {
     let Pipeline {

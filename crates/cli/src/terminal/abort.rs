@@ -1,8 +1,8 @@
-//! The end of a process that has no memory left.
+//! Ends a process that has run out of memory.
 //!
-//! Large pieces of memory are asked for before they are needed. Where a small one cannot be had, in a library or in the
-//! standard library, the process aborts: it would leave its temporary files behind, and an exit code that means a
-//! signal.
+//! Large amounts of memory are checked before they are needed. If a small allocation fails, in a library or in the
+//! standard library, the process aborts. Without the code here, it would leave its temporary files behind, and its exit
+//! code would mean a signal.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -12,13 +12,13 @@ use super::{alternate_screen, keyboard, signals};
 use crate::base::status;
 use crate::files::temporary;
 
-/// The last line of a process that aborts. The standard library says before how much it asked for.
-const FAREWELL: &[u8] = b"marbles: there is no memory to go on; fewer threads need less\n";
+/// The last line of a process that aborts. Before it, the standard library prints the size of the failed allocation.
+const FAREWELL: &[u8] = b"marbles: out of memory; fewer threads need less\n";
 
-/// The time after which a second thread that aborts does not wait for the first one to end the process.
+/// The time after which a second aborting thread no longer waits for the first one to end the process.
 const LONGEST: Duration = Duration::from_secs(1);
 
-/// Lets an abort end the process as a failure does, from now on.
+/// From now on, an abort ends the process like an ordinary failure.
 pub(crate) fn end_as_failure() {
     static IS_ENDING: AtomicBool = AtomicBool::new(false);
     signals::on_abort(|| {

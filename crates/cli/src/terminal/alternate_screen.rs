@@ -1,17 +1,17 @@
-//! The alternate screen of a terminal, which goes without a trace.
+//! The alternate screen of a terminal, which leaves no trace.
 
 use std::io::{self, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::console::Console;
 
-/// To the alternate screen, with the cursor hidden, and back.
+/// The sequences that switch to the alternate screen with a hidden cursor, and back.
 const ENTER: &str = "\x1b[?1049h\x1b[?25l";
 const LEAVE: &str = "\x1b[?25h\x1b[?1049l";
 
 static HAS_ENTERED: AtomicBool = AtomicBool::new(false);
 
-/// The alternate screen as long as this lives, and then the one that was before.
+/// Shows the alternate screen as long as it lives, and then the previous one.
 pub(crate) struct AlternateScreen;
 
 impl AlternateScreen {
@@ -28,7 +28,7 @@ impl Drop for AlternateScreen {
     }
 }
 
-/// Leaves the terminal as it was, also where a signal ends the process.
+/// Restores the terminal, also if a signal ends the process.
 pub(super) fn restore() {
     if HAS_ENTERED.swap(false, Ordering::Relaxed) {
         let mut out = io::stdout();

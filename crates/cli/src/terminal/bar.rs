@@ -1,4 +1,4 @@
-//! Bars of progress, on terminals that can have them.
+//! Progress bars, on terminals that support them.
 
 use std::fmt::Write;
 
@@ -7,18 +7,17 @@ use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 use super::console::Console;
 use crate::base::numbers;
 
-/// A line that is cut where the terminal ends.
+/// A line that is cut at the edge of the terminal.
 const LINE: &str = "{wide_msg}";
 
-/// Two columns at the end of the line, and the way back before them: there terminals show `^C`, which
-/// would else begin another line, and the bar would stay where it was.
+/// Two columns at the end of the line, and the way back. Terminals print `^C` there; otherwise it would begin another
+/// line, and the bar would not be erased.
 const ROOM: &str = "  \x1b[2D";
 
 /// Shades of the bar, from full to empty.
 const SHADES: &str = "█▉▊▋▌▍▎▏ ";
 
-/// A bar; `None` where messages go to no terminal, or to one that cannot go back to the start of
-/// a line.
+/// A bar; `None` if messages do not go to a terminal, or go to one that cannot return to the start of a line.
 pub(crate) fn bar(console: &Console) -> Option<ProgressBar> {
     let bar = console.is_interactive().then(|| ProgressBar::new(0))?;
     (!bar.is_hidden()).then_some(bar)
@@ -33,7 +32,7 @@ pub(crate) fn show_line(bar: &ProgressBar, line: String) {
     bar.tick();
 }
 
-/// A bar in pixels, after a message where there is one.
+/// A bar that counts pixels, after an optional message.
 pub(crate) fn style(has_message: bool) -> ProgressStyle {
     let message = if has_message { "{msg} " } else { "" };
     let template = format!("{message}{{wide_bar}} {{percent:>3}}% of {{total}}{{left}}{ROOM}");

@@ -1,4 +1,4 @@
-//! The console: results on stdout, all else on stderr.
+//! The console: results go to stdout, everything else to stderr.
 
 use std::env;
 use std::io::{self, ErrorKind, IsTerminal, Write};
@@ -16,27 +16,27 @@ const RESET: &str = "\x1b[0m";
 
 /// The two streams, shared by threads.
 ///
-/// Printing does not fail: the work goes on. Whether results were lost is told at the end.
+/// Printing does not fail: the work continues. Lost results are reported at the end.
 pub(crate) struct Console {
     out: Stream,
     err: Stream,
-    /// The reader of messages, where it is known not to be people.
+    /// The reader of messages, if it is a program.
     reader: OnceLock<Reader>,
 }
 
-/// A reader of messages, in a form of its own.
+/// A reader of messages, with its own form.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Reader {
     People,
-    /// A program that reads objects of JSON, one a line, on stderr.
+    /// A program that reads JSON objects from stderr, one per line.
     Json,
-    /// A runner of jobs of Open Job Description, which reads what went wrong on stdout.
+    /// A runner of Open Job Description, which reads failures from stdout.
     OpenJd,
 }
 
 struct Stream {
     write: Mutex<Box<dyn Write + Send>>,
-    /// The reason why something could not be printed, the first time.
+    /// The first reason why something could not be printed.
     error: OnceLock<io::Error>,
     terminal: bool,
     styled: bool,
@@ -65,7 +65,7 @@ impl Console {
         }
     }
 
-    /// Speaks to this reader from now on.
+    /// Sets the reader of all further messages.
     pub(crate) fn speak_to(&self, reader: Reader) {
         self.reader.get_or_init(|| reader);
     }
@@ -85,14 +85,14 @@ impl Console {
         self.out.terminal
     }
 
-    /// Columns for text of several lines: no more than people like to read, and no more than the terminal has.
+    /// The width of text with several lines: no more than is comfortable to read, and no more than the terminal has.
     pub(crate) fn columns(&self) -> usize {
         const MOST: usize = 100;
         let err = || self.err.columns(&Term::stderr());
         self.result_columns().or_else(err).unwrap_or(MOST).min(MOST)
     }
 
-    /// Columns of the terminal to which results go, if they go to one.
+    /// The columns of the terminal to which results go, if they go to one.
     pub(crate) fn result_columns(&self) -> Option<usize> {
         self.out.columns(&Term::stdout())
     }
@@ -102,19 +102,19 @@ impl Console {
         self.print(&format!("{}\n", self.harmless(lines)));
     }
 
-    /// Results that are no line: as they are.
+    /// Results that are not lines, unchanged.
     pub(crate) fn print(&self, text: &str) {
         self.out.print(text);
     }
 
-    /// The failure to print results, where a reader still waits for them.
+    /// The failure to print results, unless nobody reads them any more.
     pub(crate) fn lost_results(&self) -> Option<Failure> {
         let error = self.out.error.get()?;
         let message = format!("cannot write the results: {}", reason(error));
         Some(Failure::Work(message))
     }
 
-    /// A line about how things go.
+    /// A line about the progress.
     pub(crate) fn note(&self, line: &str) {
         self.styled_note(&self.harmless(line));
     }
@@ -124,8 +124,8 @@ impl Console {
         self.err.print(&format!("{line}\n"));
     }
 
-    /// Lines in which nothing does something to a terminal, whatever names and contents of files are in them. Programs
-    /// get them as they are.
+    /// Lines without control characters, so that file names and contents cannot control a terminal. Programs get them
+    /// unchanged.
     fn harmless(&self, lines: &str) -> String {
         if self.reader() == Reader::Json {
             return lines.to_owned();
@@ -140,7 +140,7 @@ impl Console {
         harmless.collect()
     }
 
-    /// Something that the user should know, though the work goes on.
+    /// A warning: the work continues.
     pub(crate) fn warn(&self, message: &str) {
         if self.reader() == Reader::Json {
             return self.message_event("warning", message);
@@ -149,7 +149,7 @@ impl Console {
         self.styled_note(&format!("{name} {}", self.harmless(message)));
     }
 
-    /// The reason why something was not done.
+    /// The reason for a failure.
     pub(crate) fn failure(&self, failure: &Failure) {
         let text = failure.to_string();
         let message = text.trim_end();
@@ -167,7 +167,7 @@ impl Console {
         self.note(&format!(r#"{{"event":"{event}","message":{message}}}"#));
     }
 
-    /// The text that [`Self::failure`] prints, without the end of the last line.
+    /// The text that [`Self::failure`] prints, without the final line feed.
     pub(crate) fn message(&self, failure: &Failure) -> String {
         let text = match failure {
             Failure::Usage(message) | Failure::Work(message) | Failure::Changed(message) => {
@@ -182,7 +182,7 @@ impl Console {
         text.trim_end().to_owned()
     }
 
-    /// The last line on stderr of a process that has to end at once.
+    /// The last line on stderr of a process that must end at once.
     pub(crate) fn farewell(&self) -> &'static str {
         match self.reader() {
             Reader::Json => r#"{"event":"warning","message":"interrupted"}"#,
@@ -191,7 +191,7 @@ impl Console {
         }
     }
 
-    /// The reason why the exit code will not be 0, for runners of jobs, which show only this of a log.
+    /// The reason why the exit code will not be 0, for runners of jobs, which show only this part of a log.
     pub(crate) fn reason(&self, message: &str) {
         if self.reader() == Reader::OpenJd {
             let first = message.lines().next().unwrap_or_default();
@@ -199,7 +199,7 @@ impl Console {
         }
     }
 
-    /// The text of clap, about a wrong command line or as help.
+    /// A text from clap: an error in the command line, or help.
     pub(crate) fn clap(&self, message: &StyledStr, is_error: bool) {
         let stream = if is_error { &self.err } else { &self.out };
         if stream.styled {
@@ -221,7 +221,7 @@ impl Stream {
         }
     }
 
-    /// Columns, where this is a terminal that has a size.
+    /// The number of columns, if the stream is a terminal of known size.
     fn columns(&self, terminal: &Term) -> Option<usize> {
         let (_, columns) = terminal.size_checked().filter(|_| self.terminal)?;
         (columns > 0).then(|| columns.into())

@@ -1,8 +1,7 @@
-//! Ctrl-C, and the signals by which systems end programs.
+//! Ctrl-C, and the signals that ask a process to end.
 //!
-//! The first one asks: rendering stops at the next tile, and pictures that are ready are still
-//! written. If that takes too long, or at the second one, the process ends at once and takes its
-//! temporary files along.
+//! The first one is a request: rendering stops at the next tile, and finished pictures are still written. If that takes
+//! too long, or at the second one, the process ends at once and removes its temporary files.
 
 use std::io::Write;
 use std::sync::OnceLock;
@@ -15,24 +14,24 @@ use super::{alternate_screen, keyboard, signals};
 use crate::base::status::INTERRUPTED;
 use crate::files::temporary;
 
-/// The time in which pictures that are ready may be written: users are promised a second.
+/// The time for writing finished pictures: one second is promised.
 const GRACE: Duration = Duration::from_millis(700);
-/// The time that the farewell may take on a terminal that does not answer.
+/// The time for the last message, on a terminal that does not respond.
 const FAREWELL: Duration = Duration::from_millis(50);
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
-/// Returns whether the user wants the work to end.
+/// Returns whether the user asked to end the work.
 pub(crate) fn requested() -> bool {
     REQUESTED.load(Ordering::Relaxed)
 }
 
-/// Asks for the end of the work, as the first Ctrl-C does but without a time for it.
+/// Asks to end the work, like the first Ctrl-C, but without a time limit.
 pub(crate) fn request() {
     REQUESTED.store(true, Ordering::Relaxed);
 }
 
-/// Listens from now on, for as long as the process lives.
+/// Handles signals from now on, as long as the process lives.
 pub(crate) fn listen(console: &Console) {
     static LISTENING: OnceLock<()> = OnceLock::new();
     let farewell = console.farewell();

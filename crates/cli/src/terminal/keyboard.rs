@@ -1,16 +1,15 @@
-//! Keys that end a program which has nothing else to ask.
+//! Keys that end a program without other input.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// True as soon as one of the keys was pressed.
+/// Whether one of the keys was pressed.
 static PRESSED: AtomicBool = AtomicBool::new(false);
 
-/// A keyboard whose keys count one by one and are not shown, as long as this lives; then it is as it was
-/// before.
+/// Switches the keyboard to single keys without echo, as long as it lives, and restores it afterwards.
 pub(crate) struct Keyboard;
 
 impl Keyboard {
-    /// From now on `q` and Esc `end` the work. Where stdin is no terminal, there are no keys.
+    /// From now on `q` and Esc `end` the work. If stdin is not a terminal, there are no keys.
     pub(crate) fn listen(end: fn()) -> Self {
         system::listen(move |keys| {
             // Other keys send several bytes, of which the first may be that of Esc.
@@ -34,7 +33,7 @@ impl Drop for Keyboard {
     }
 }
 
-/// Leaves the keyboard as it was, also where a signal ends the process.
+/// Restores the keyboard, also if a signal ends the process.
 pub(super) fn restore() {
     system::restore();
 }
@@ -83,7 +82,7 @@ mod system {
     }
 }
 
-/// Elsewhere Ctrl-C alone ends programs.
+/// On other systems, only Ctrl-C ends programs.
 #[cfg(not(unix))]
 mod system {
     pub(super) fn listen(_press: impl Fn(&[u8]) + Send + 'static) {}

@@ -12,35 +12,35 @@ use serde::Serialize;
 use super::console::{Console, Reader};
 use crate::base::numbers;
 
-/// The time that passes at least before a log tells people anything again: results have lines of their own.
+/// The minimum time between lines for people: results have lines of their own.
 const SILENCE: Duration = Duration::from_secs(5);
 
-/// Counts what is done, and says so.
+/// Counts the progress, and prints it.
 pub(super) struct Lines<'a> {
     console: &'a Console,
     frames: u64,
     started: Instant,
-    /// Pixels of a frame, as soon as one begins; frames are supposed to be as large.
+    /// The number of pixels per frame, known when the first one begins; all frames are assumed to have the same size.
     pixels: AtomicU64,
     rendered: AtomicU64,
     left_out: AtomicU64,
     told: Mutex<Told>,
-    /// The time that passes at least between lines for people.
+    /// The minimum time between lines for people.
     silence: Duration,
 }
 
-/// A frame that is complete.
+/// A complete frame.
 pub(crate) struct Frame<'a> {
     pub(crate) number: i32,
-    /// Its file, which all frames of an animation share.
+    /// Its file, which may contain all frames of an animation.
     pub(crate) path: &'a Path,
-    /// The time that rendering it took.
+    /// The rendering time.
     pub(crate) time: Duration,
     pub(crate) summary: &'a Summary,
 }
 
 impl Frame<'_> {
-    /// The object in JSON that tells it.
+    /// The JSON object for it.
     fn event(&self, done: u64, frames: u64) -> String {
         let error = self.summary.largest_error;
         let event = Event {
@@ -58,21 +58,21 @@ impl Frame<'_> {
     }
 }
 
-/// A report about a frame, for programs.
+/// The report about a frame, for programs.
 #[derive(Serialize)]
 struct Event<'a> {
     event: &'static str,
     frame: i32,
     path: Cow<'a, str>,
     seconds: f64,
-    /// Nothing where it is unknown.
+    /// `None` if it is unknown.
     error: Option<f64>,
     over: u64,
     done: u64,
     frames: u64,
 }
 
-/// The last line.
+/// The previous line.
 struct Told {
     percent: u64,
     at: Instant,
@@ -97,7 +97,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A frame of so many pixels begins.
+    /// A frame with this number of pixels begins.
     pub(super) fn begin(&self, pixels: u64) {
         self.pixels.store(pixels, Ordering::Relaxed);
     }
@@ -126,7 +126,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// A frame is complete, and so many were written and skipped until now.
+    /// A frame is complete; so far this many were written and skipped.
     pub(super) fn written(&self, frame: &Frame<'_>, written: u64, skipped: u64) {
         let done = written + skipped;
         let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
@@ -174,7 +174,7 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Whole percents of all frames, those that are left out counted as done.
+    /// The progress of all frames in whole percents; skipped frames count as done.
     fn percent(&self, rendered: u64) -> u64 {
         let pixels = u128::from(self.pixels.load(Ordering::Relaxed).max(1));
         let done = u128::from(self.left_out.load(Ordering::Relaxed)) * pixels;
@@ -182,7 +182,7 @@ impl<'a> Lines<'a> {
         percent.min(100) as u64
     }
 
-    /// The time that the other frames will take, as far as that is known.
+    /// The estimated time for the remaining frames, if it is known.
     fn left(&self, rendered: u64) -> Option<Duration> {
         let pixels = self.pixels.load(Ordering::Relaxed);
         let frames = self.frames - self.left_out.load(Ordering::Relaxed).min(self.frames);

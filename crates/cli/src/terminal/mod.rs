@@ -1,4 +1,4 @@
-//! The user's terminal, or the program in its place: results, messages, progress, signals.
+//! Output to the user's terminal, or to another program: results, messages, progress; and signals.
 
 pub(crate) mod abort;
 pub(crate) mod alternate_screen;

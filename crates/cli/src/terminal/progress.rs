@@ -13,12 +13,12 @@ use crate::base::failure::Failure;
 /// A form of progress, for people or programs.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum ProgressForm {
-    /// Lines on stdout that a runner of Open Job Description reads
+    /// Lines on stdout for runners of Open Job Description
     #[value(name = "openjd")]
     OpenJd,
-    /// Lines on stderr, each an object in JSON
+    /// A JSON object per line on stderr
     Json,
-    /// A line on stderr every five seconds at most
+    /// A line on stderr at most every five seconds
     Plain,
     /// Nothing
     None,
@@ -35,7 +35,7 @@ impl ProgressForm {
     }
 }
 
-/// The progress of a sequence, and the way by which lines reach the user without disturbing it.
+/// The progress of a sequence. Lines for the user are printed without disturbing it.
 pub(crate) struct Progress<'a> {
     console: &'a Console,
     quiet: bool,
@@ -53,8 +53,7 @@ enum Display<'a> {
 impl<'a> Progress<'a> {
     /// Begins with none of `frames` frames done.
     ///
-    /// It takes the form that is asked for; else where the user wants it `quiet` there is nothing, on a
-    /// terminal a bar, and lines elsewhere.
+    /// The form is the requested one. Otherwise there is nothing if `quiet`, a bar on a terminal, and lines elsewhere.
     pub(crate) fn new(
         console: &'a Console,
         form: Option<ProgressForm>,
@@ -79,9 +78,9 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// The rendering of so many spheres is prepared.
+    /// The preparation of a number of spheres begins.
     pub(crate) fn prepare(&self, spheres: usize) {
-        /// Fewer take no time.
+        /// Fewer spheres take no noticeable time.
         const MANY: usize = 1 << 15;
         if let Display::Bar(bar) = &self.display
             && spheres >= MANY
@@ -90,8 +89,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame begins, the one with this index of those that are not left out; the others are
-    /// supposed to be as large.
+    /// A frame begins; its index does not count skipped frames. The other frames are assumed to have the same size.
     pub(crate) fn begin(&self, index: u64, pixels: u64) {
         match &self.display {
             Display::Bar(bar) => {
@@ -127,7 +125,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A frame is complete, and so many were written and skipped until now.
+    /// A frame is complete; so far this many were written and skipped.
     pub(crate) fn written(&self, frame: &Frame<'_>, written: u64, skipped: u64) {
         if let Display::Lines(lines) = &self.display {
             lines.written(frame, written, skipped);
@@ -141,12 +139,12 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Something that the user should know.
+    /// A warning.
     pub(crate) fn warn(&self, message: &str) {
         self.aside(|| self.console.warn(message));
     }
 
-    /// The reason why something was not done.
+    /// The reason for a failure.
     pub(crate) fn failure(&self, failure: &Failure) {
         self.aside(|| self.console.failure(failure));
     }
@@ -158,7 +156,7 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// Prints while the bar is out of the way.
+    /// Prints while the bar is hidden.
     fn aside(&self, print: impl FnOnce()) {
         match &self.display {
             Display::Bar(bar) => bar.suspend(print),

@@ -1,9 +1,9 @@
 //! Signals of the operating system.
 
-/// Calls `handle` for each signal that asks the process to end, from now on, in a thread of its own: SIGINT, SIGTERM and
-/// SIGHUP, but for those that were ignored when the process began, as `nohup` has it.
+/// From now on, calls `handle` on a separate thread for each signal that asks the process to end: SIGINT, SIGTERM and
+/// SIGHUP. Signals that were ignored when the process began stay ignored, as with `nohup`.
 ///
-/// If no handler can be installed, the signals end the process as they always do.
+/// If no handler can be installed, the signals end the process as usual.
 #[cfg(unix)]
 pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
@@ -21,13 +21,13 @@ pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
     }
 }
 
-/// The same where there are no signals but that of Ctrl-C.
+/// The same on systems whose only signal is Ctrl-C.
 #[cfg(not(unix))]
 pub(super) fn on_each(handle: impl Fn() + Send + 'static) {
     let _ = ctrlc::set_handler(handle);
 }
 
-/// Lets writing beyond the limit of a file's size fail, instead of ending the process.
+/// Makes writing beyond the file size limit fail, instead of ending the process.
 pub(crate) fn outlive_file_limits() {
     #[cfg(unix)]
     {
@@ -37,9 +37,9 @@ pub(crate) fn outlive_file_limits() {
     }
 }
 
-/// Calls `handle` on the thread that aborts the process, which then ends with the code that it returns.
+/// Calls `handle` on the thread that aborts the process. The process then ends with the returned code.
 ///
-/// `handle` may neither wait for long nor ask for memory.
+/// `handle` must neither wait for long nor allocate memory.
 #[cfg(unix)]
 pub(super) fn on_abort(handle: impl Fn() -> i32 + Send + Sync + 'static) {
     use signal_hook::{consts::SIGABRT, low_level};
@@ -57,7 +57,7 @@ pub(super) fn on_abort(handle: impl Fn() -> i32 + Send + Sync + 'static) {
     let _ = registered;
 }
 
-/// Nothing is sent there.
+/// Other systems send no such signal.
 #[cfg(not(unix))]
 pub(super) fn on_abort(_handle: impl Fn() -> i32 + Send + Sync + 'static) {}
 
@@ -70,7 +70,7 @@ pub(super) fn say(text: &[u8]) {
 #[cfg(not(unix))]
 pub(super) fn say(_text: &[u8]) {}
 
-/// The ignored signals as bits, that of the signal 1 the lowest; none where the system does not tell.
+/// The ignored signals as bits, with signal 1 as the lowest bit; none if the system does not report them.
 #[cfg(unix)]
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

@@ -23,7 +23,7 @@ const TURN: &str = "(
 )
 ";
 
-/// The pictures of a file, and what is said about the animation: frames, plays, delay.
+/// The pictures of a file, and a description of the animation: frames, plays, delay.
 struct Decoded {
     pictures: Vec<Vec<u8>>,
     animation: Option<(u32, u32, (u16, u16))>,
@@ -114,7 +114,7 @@ fn frames_are_chosen_as_for_files() {
     assert_eq!(code(&output), 2);
     assert_eq!(
         text(&output.stderr),
-        "marbles: turn.##.apng: all frames are one file, whose name has no place for their number\n"
+        "marbles: turn.##.apng: all frames go into one file, so its name cannot contain the frame number\n"
     );
 }
 
@@ -124,11 +124,11 @@ fn loops_are_neither_resumed_nor_shared_by_tasks() {
     for (arguments, message) in [
         (
             "render ball.ron -o turn.apng --skip-existing",
-            "--skip-existing is for files of one frame each, and the output has all of them",
+            "--skip-existing needs one file per frame, but this output contains all frames",
         ),
         (
             "farm slurm ball.ron -o turn.apng",
-            "tasks write a file for each frame, and the output has all of them",
+            "a task writes one file per frame, but this output contains all frames",
         ),
     ] {
         let output = folder.run(arguments);

@@ -1,4 +1,4 @@
-//! Tables of atoms: what is said of their hands, elements and colors.
+//! Tables of atoms: output about their handedness, elements and colors.
 
 use std::fs;
 
@@ -37,7 +37,7 @@ fn hands_and_elements_are_told() {
     let left = folder.run("check a.ron --set clouds[0].right_handed=false");
     let left = text(&left.stdout);
     assert!(
-        left.contains("\n  axes      left-handed, as the scene's\n"),
+        left.contains("\n  axes      left-handed, like the scene\n"),
         "{left}"
     );
     assert_eq!(code(&folder.run("render a.ron -o a.png --legend a.svg")), 0);

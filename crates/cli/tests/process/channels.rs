@@ -1,4 +1,4 @@
-//! Channels of what the rays through the centers of pixels see.
+//! Channels with values of rays through pixel centers.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -8,7 +8,7 @@ use exr::prelude::{FlatSamples, ReadChannels, ReadLayers};
 use crate::folder::{Folder, code, text};
 use crate::sequences::turntable;
 
-/// A ball straight ahead, another beside it, and nothing around them.
+/// A ball straight ahead, another ball next to it, and nothing else.
 const BALLS: &str = "(
     image: (width: 41, height: 31),
     lens: Retina(width: 41, distance: 50),
@@ -22,7 +22,7 @@ const BALLS: &str = "(
 
 const ALL: &str = "--channels depth,normal,position,id,albedo,mask";
 
-/// The numbers of a file's channels.
+/// The numbers of the channels of a file.
 pub(crate) type Channels = BTreeMap<String, FlatSamples>;
 
 /// Reads an EXR of the folder.
@@ -53,7 +53,7 @@ fn balls() -> Folder {
     folder
 }
 
-/// A number of a channel of floats, in the column and the row of the picture.
+/// A number of a float channel, at a column and row of the picture.
 fn at(channels: &Channels, name: &str, col: usize, row: usize) -> f32 {
     match &channels[name] {
         FlatSamples::F32(floats) => floats[row * 41 + col],
@@ -155,7 +155,7 @@ fn channels_do_not_depend_on_the_picture() {
     }
 }
 
-/// Readers that convert all channels to the type of the first lose nothing: that of the picture is a float as well.
+/// Some readers convert all channels to the type of the first, which is the picture: it has floats as well.
 #[test]
 fn all_channels_but_numbers_of_spheres_are_floats() {
     let folder = balls();
@@ -335,7 +335,7 @@ fn a_png_has_no_such_channels() {
     let folder = balls();
     let output = folder.run("render balls.ron -o a.png --channels depth,id");
     assert_eq!(code(&output), 2);
-    let expected = "marbles: --channels is for EXR and NPY files, and the output is PNG\n";
+    let expected = "marbles: --channels is for EXR and NPY files, but the output is PNG\n";
     assert!(
         text(&output.stderr).contains(expected),
         "{}",

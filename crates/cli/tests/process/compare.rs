@@ -5,7 +5,7 @@ use std::process::Output;
 
 use crate::folder::{Folder, code, text};
 
-/// A ball before the camera.
+/// A ball in front of the camera.
 const BALL: &str = "(
     image: (width: 60, height: 40),
     lens: Retina(width: 60, distance: 50),
@@ -161,7 +161,7 @@ fn the_error_channel_is_told_and_not_compared() {
     assert_eq!(refused.status.code(), Some(2));
     assert_eq!(
         text(&refused.stderr),
-        "marbles: --error-channel is for EXR and NPY files, and the output is PNG\n"
+        "marbles: --error-channel is for EXR and NPY files, but the output is PNG\n"
     );
 }
 
@@ -173,7 +173,7 @@ fn quiet_prints_nothing() {
     assert!(output.stdout.is_empty() && output.stderr.is_empty());
 }
 
-/// Pixels that neither file holds count all the same.
+/// Pixels that neither file contains are counted as well.
 #[test]
 fn parts_are_compared_as_whole_pictures() {
     let folder = Folder::new();

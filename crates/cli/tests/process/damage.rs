@@ -1,6 +1,6 @@
-//! Files that something has damaged after they were written, byte by byte, before they are kept or merged.
+//! Files that were damaged after they were written, byte by byte, before they are kept or merged.
 //!
-//! Runs are in this process: there are thousands of them.
+//! The commands run in this process, because there are thousands of them.
 
 use std::ffi::OsString;
 use std::fs;
@@ -10,14 +10,14 @@ use exr::meta::MetaData;
 
 use crate::folder::Folder;
 
-/// A ball so small that its files have some hundred bytes.
+/// A ball so small that its files have a few hundred bytes.
 const SCENE: &str = "(
     image: (width: 6, height: 6), lens: Fov(40), camera: Free(), background: 0.25,
     lights: [Directional(toward: (-1, 1, -1))],
     spheres: [(center: (0, 0, 4), radius: 1)],
 )";
 
-/// The exit code of `marbles` with these words, in which `@` stands for the folder.
+/// The exit code of `marbles` with these words; `@` stands for the folder.
 fn run(folder: &Folder, words: &str) -> u8 {
     let place = folder.path("").display().to_string();
     let words = words.split(' ').map(|word| word.replace('@', &place));
@@ -27,8 +27,8 @@ fn run(folder: &Folder, words: &str) -> u8 {
     marbles_cli::run_with(words, sink(), sink())
 }
 
-/// The file of a part, and the places of its bytes from the place `first` on whose change neither `--skip-existing` nor
-/// `merge` notices: those of the one, and those of the other.
+/// The file of a part, and the positions of bytes, from `first`, whose change is not noticed: by `--skip-existing`, and
+/// by `merge`.
 fn unnoticed(ending: &str, size: u32, first: fn(&[u8]) -> usize) -> (Vec<u8>, [Vec<usize>; 2]) {
     let folder = Folder::new();
     fs::write(folder.path("small.ron"), SCENE).unwrap();
@@ -81,7 +81,7 @@ fn no_byte_of_a_png_is_damaged_unnoticed() {
     assert_eq!(places.concat(), Vec::<usize>::new());
 }
 
-/// An NPY has no checksum over its numbers, as `docs/sequences.md` says; all before them has to be as it was written.
+/// An NPY has no checksum for its numbers, as `docs/sequences.md` explains; everything before them must be unchanged.
 #[test]
 fn what_is_wrong_in_the_header_of_an_npy_is_noticed() {
     let (bytes, places) = unnoticed("npy", 4, |_| 0);
@@ -91,7 +91,7 @@ fn what_is_wrong_in_the_header_of_an_npy_is_noticed() {
     }
 }
 
-/// An EXR has checksums over its compressed blocks, and the table of them has to be right.
+/// An EXR has checksums for its compressed blocks, and the table of blocks must be correct.
 #[test]
 fn what_is_wrong_in_the_blocks_of_an_exr_is_noticed() {
     let (_, places) = unnoticed("exr", 24, |bytes| {

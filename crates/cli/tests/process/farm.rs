@@ -1,4 +1,4 @@
-//! Jobs for farms, run by a shell with a renderer that only tells what it was asked for.
+//! Jobs for farms, run by a shell with a renderer that only prints its arguments.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -11,18 +11,18 @@ use serde_json::{Value, json};
 use crate::folder::{BALL, Folder, code, text};
 use crate::signals::is_ignored;
 
-/// Names that shells, directives and templates would read as something else.
+/// Names with characters that have a meaning for shells, directives and templates.
 const ODD: &str = "it's \"one\" $HOME `id` \\n !x *;& #1 {é} ";
 /// Prints the words of its command line.
 const ECHO: &str = "#!/bin/sh\nprintf '%s\\n' \"$@\"\n";
-/// Renders until somebody asks it to end, but not for ever.
+/// Runs until it gets a signal, but not forever.
 const ENDLESS: &str = "#!/bin/sh
 trap 'exit 130' TERM
 touch started
 for turn in $(seq 1200); do sleep 0.05; done
 ";
 
-/// A program by this name that jobs find.
+/// A program with this name, which jobs find.
 fn program(folder: &Folder, name: &str, script: &str) {
     let path = folder.path("bin");
     fs::create_dir_all(&path).unwrap();
@@ -30,7 +30,7 @@ fn program(folder: &Folder, name: &str, script: &str) {
     fs::set_permissions(path.join(name), fs::Permissions::from_mode(0o755)).unwrap();
 }
 
-/// `marbles farm` with these arguments, one a word, and further ones as they are.
+/// `marbles farm` with these arguments, separated by spaces, and additional unchanged ones.
 fn farm(folder: &Folder, arguments: &str, odd: &[&str]) -> Output {
     let mut command = folder.marbles(&format!("farm {arguments}"));
     command.args(odd).output().unwrap()
@@ -194,7 +194,7 @@ fn tasks_are_queued_again_at_the_time_limit() {
     }
 }
 
-/// A renderer that does not listen to signals yet is ended by them.
+/// A renderer that does not handle signals yet is ended by them.
 #[test]
 fn tasks_are_queued_again_though_the_renderer_has_just_started() {
     let folder = Folder::new();
@@ -269,7 +269,7 @@ fn a_template_hands_words_over_as_they_are() {
     assert!(name.starts_with("marbles-it_s__one"), "{name}");
 }
 
-/// The specification has room for 128 characters.
+/// The specification allows 128 characters.
 #[test]
 fn long_names_are_cut_in_names_of_jobs() {
     let folder = Folder::new();
@@ -303,7 +303,10 @@ fn what_cannot_be_rendered_is_no_job() {
             ("ball.ron", "--output"),
             ("no.ron -o #.png", "no.ron"),
             ("bad.ron -o #.png", "bad.ron:6:"),
-            ("roll.ron -o a.png --frames 1-9", "a place for their number"),
+            (
+                "roll.ron -o a.png --frames 1-9",
+                "need the frame number in the file name",
+            ),
             ("ball.ron -o #.png --float", "--float is for EXR files"),
             ("ball.ron -o #.png --tolerance 0", "tolerance"),
             ("ball.ron -o #.png --chunk 0", "--chunk"),

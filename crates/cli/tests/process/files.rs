@@ -25,8 +25,8 @@ fn results_that_cannot_be_written_are_an_error() {
     assert_eq!(folder.names(".").len(), 4);
 }
 
-/// Runs `marbles` while a file system with these options is mounted at `out`, which nobody else
-/// sees. The output ends with the names in `out`; `None` where nothing can be mounted.
+/// Runs `marbles` while a file system with these options is mounted at `out`, visible only to this command. The output
+/// ends with the names in `out`; `None` if nothing can be mounted.
 pub(crate) fn run_on_file_system(
     folder: &Folder,
     options: &str,
@@ -110,7 +110,7 @@ fn a_file_in_place_of_a_folder_is_an_error() {
     assert_eq!(code(&output), 0);
     let output = folder.run("render ball.ron -o a.png --size 9x9");
     assert_eq!(code(&output), 1);
-    let expected = "marbles: a.png: cannot write the file: there is a folder\n";
+    let expected = "marbles: a.png: cannot write the file: a folder has this name\n";
     assert_eq!(text(&output.stderr), expected);
 }
 
@@ -161,7 +161,10 @@ fn links_are_written_through() {
     symlink("/dev/null", folder.path("null.png")).unwrap();
     for (name, expected) in [
         ("circle", "cannot create the file: too many"),
-        ("null", "cannot write the file: there is something"),
+        (
+            "null",
+            "cannot write the file: something that is not a file",
+        ),
     ] {
         let output = folder.run(&format!("render ball.ron --size 9x9 -o {name}.png"));
         assert_eq!(code(&output), 1);
@@ -171,7 +174,7 @@ fn links_are_written_through() {
     }
 }
 
-/// Whatever a file is called and contains, nothing of it does something to a terminal.
+/// Names and contents of files cannot control a terminal.
 #[test]
 #[cfg(unix)]
 fn names_and_contents_are_shown_harmless() {
@@ -215,7 +218,7 @@ fn names_and_contents_are_shown_harmless() {
     }
 }
 
-/// Neither the scene nor its tables, whatever they are called, and by whatever links they are reached.
+/// Neither the scene nor its tables are replaced, whatever their names, and through whatever links they are reached.
 #[test]
 #[cfg(unix)]
 fn no_output_replaces_an_input() {
@@ -281,7 +284,7 @@ fn no_output_replaces_an_input() {
     assert_eq!(folder.read("scene.png"), cloud.as_bytes());
 }
 
-/// Messages of the system are told in our manner, without their numbers.
+/// Messages of the system appear in our style, without their numbers.
 #[test]
 #[cfg(unix)]
 fn links_in_a_circle_are_told() {

@@ -1,4 +1,4 @@
-//! A folder in which `marbles` runs, and what is asked of what it leaves there.
+//! A folder in which `marbles` runs, and its contents afterwards.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// A ball before the camera.
+/// A ball in front of the camera.
 pub(crate) const BALL: &str = "(
     image: (width: 600, height: 600),
     lens: Retina(width: 600, distance: 100),
@@ -20,7 +20,7 @@ pub(crate) const BALL: &str = "(
 /// The animation of `roll.ron`, in which nothing moves.
 const ROLL: &str = "animation: Keyframes(frames: (-9, 20100), keys: [(frame: 1)])";
 
-/// An empty folder but for `ball.ron` and `roll.ron`, the same as a sequence; removed when the test ends.
+/// A folder with `ball.ron` and `roll.ron`, the same scene as a sequence. It is removed when the test ends.
 pub(crate) struct Folder(pub(crate) PathBuf);
 
 impl Folder {
@@ -34,7 +34,7 @@ impl Folder {
         folder
     }
 
-    /// Writes the scene of a still as `ball.ron`, and as a sequence of the same pictures, `roll.ron`.
+    /// Writes a still scene as `ball.ron`, and a sequence of the same pictures as `roll.ron`.
     pub(crate) fn write_scene(&self, still: &str) {
         fs::write(self.path("ball.ron"), still).unwrap();
         let roll = still.replacen("lights:", &format!("{ROLL},\n    lights:"), 1);
@@ -45,7 +45,7 @@ impl Folder {
         self.0.join(name)
     }
 
-    /// `marbles` with these arguments, one a word, in this folder.
+    /// `marbles` with these arguments, separated by spaces, in this folder.
     pub(crate) fn marbles(&self, arguments: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_marbles"));
         command.args(arguments.split_whitespace());
@@ -58,7 +58,7 @@ impl Folder {
         self.marbles(arguments).output().unwrap()
     }
 
-    /// The names in the folder `name` but for `roll.ron`, sorted.
+    /// The names in the folder `name` except for `roll.ron`, sorted.
     pub(crate) fn names(&self, name: &str) -> Vec<String> {
         let Ok(entries) = fs::read_dir(self.path(name)) else {
             return Vec::new();

@@ -49,7 +49,7 @@ fn frames_that_cannot_be_rendered_do_not_stop_the_others() {
     let errors = text(&output.stderr);
     for part in [
         "marbles: through.ron: frame 2: ",
-        "marbles: through.0003.png: cannot write the file: there is a folder\n",
+        "marbles: through.0003.png: cannot write the file: a folder has this name\n",
     ] {
         assert_eq!(errors.matches(part).count(), 1, "{errors}");
     }

@@ -1,4 +1,4 @@
-//! Pictures under one light each.
+//! Pictures of single lights.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use exr::prelude::FlatSamples;
 use crate::channels::{Channels, read};
 use crate::folder::{Folder, code, text};
 
-/// The scene of `balls`, with what comes before its spheres left open.
+/// The scene of `balls`, without the part before its spheres.
 fn balls(light: &str) -> String {
     format!(
         "(image: (width: 50, height: 37), lens: Fov(40), camera: Free(position: (0, 0, -6)), {light}
@@ -24,7 +24,7 @@ const LIGHTS: [&str; 3] = [
 ];
 const SURROUNDINGS: &str = "ambient: 0.0625, background: (0.125, 0.25, 0.5),";
 
-/// A folder with the scene under all light, and one scene for each part of it.
+/// A folder with the scene under all light, and one scene for each part of the light.
 pub(crate) fn folder() -> Folder {
     let folder = Folder::new();
     let write = |name: &str, light: &str| {
@@ -128,7 +128,7 @@ fn each_file_is_that_of_the_scene_with_this_light() {
     assert!(!folder.path("a.png").exists());
 }
 
-/// The same while the shutter is open, by a parallel lens, under a light amid the balls and one at the camera.
+/// The same with an open shutter, a parallel lens, a light between the balls and a light at the camera.
 #[test]
 fn each_file_is_that_of_the_scene_with_this_light_in_motion() {
     const LIGHTS: [&str; 2] = [
@@ -203,7 +203,7 @@ fn pictures_of_lights_are_resumed_one_by_one() {
     );
 }
 
-/// The numbers of a channel of floats.
+/// The numbers of a float channel.
 fn floats<'a>(channels: &'a Channels, name: &str) -> &'a [f32] {
     match &channels[name] {
         FlatSamples::F32(floats) => floats,
@@ -211,7 +211,7 @@ fn floats<'a>(channels: &'a Channels, name: &str) -> &'a [f32] {
     }
 }
 
-/// Layers have the names of files.
+/// Layers have the same names as files.
 const LAYERS: [&str; 4] = KEYS;
 
 #[test]
@@ -323,15 +323,15 @@ fn layers_are_refused_where_there_can_be_none() {
     for (arguments, why) in [
         (
             "all.ron -o a.png",
-            "--per-light=layers is for EXR files, and the output is PNG",
+            "--per-light=layers is for EXR files, but the output is PNG",
         ),
         (
             "all.ron -o a.npy",
-            "--per-light=layers is for EXR files, and the output is NPY",
+            "--per-light=layers is for EXR files, but the output is NPY",
         ),
         (
             "named.ron -o a.exr --channels depth",
-            "the light `depth` would have the layer of the channels `depth`",
+            "the layer of the light `depth` would have the name of the channels `depth`",
         ),
     ] {
         let output = folder.run(&format!("render {arguments} --per-light=layers"));
@@ -371,5 +371,5 @@ fn all_lights_of_all_frames_are_not_one_file() {
     let folder = folder();
     let output = folder.run("render all.ron --per-light -o a.apng");
     assert_eq!(code(&output), 2);
-    assert!(text(&output.stderr).contains("--per-light is for files of one frame each"));
+    assert!(text(&output.stderr).contains("--per-light needs one file per frame"));
 }

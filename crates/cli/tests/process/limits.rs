@@ -1,4 +1,4 @@
-//! Limits of the system: descriptors, room in files, signals.
+//! Limits of the system: file descriptors, disk space, signals.
 
 use std::process::{Child, Command, Output, Stdio};
 use std::thread;
@@ -6,7 +6,7 @@ use std::thread;
 use crate::folder::{Folder, assert_complete, code, is_picture, text};
 use crate::signals::{is_ignored, signal, wait_until};
 
-/// Runs `marbles` in a shell that does something before.
+/// Runs `marbles` in a shell after another command.
 fn after(folder: &Folder, before: &str, arguments: &str) -> Command {
     let marbles = folder.marbles(arguments);
     let mut command = Command::new("sh");
@@ -35,7 +35,7 @@ fn begin(folder: &Folder, before: &str, arguments: &str) -> Child {
     child
 }
 
-/// Asserts that there are whole pictures alone; returns their number.
+/// Asserts that all pictures are complete; returns their number.
 fn whole_pictures(folder: &Folder, name: &str) -> usize {
     let names = folder.names(name);
     for picture in &names {
@@ -143,13 +143,13 @@ fn what_is_ended_while_it_writes_leaves_nothing() {
     }
 }
 
-/// However many threads are asked for, there are as many as have a use, or an error.
+/// However many threads are requested, only useful ones are started, or there is an error.
 #[test]
 fn threads_without_memory_are_an_error() {
     let folder = Folder::new();
     let processors = thread::available_parallelism().map_or(1, usize::from);
     let most = 64.max(4 * processors);
-    let cannot_start = format!("marbles: cannot start {most} threads that render: ");
+    let cannot_start = format!("marbles: cannot start {most} rendering threads: ");
     let mut codes = Vec::new();
     for kilobytes in (100_000..8_000_000).step_by(390_000) {
         let arguments = "render ball.ron -o a.png --size 64x64 --samples 1 --threads 1024";
@@ -157,7 +157,7 @@ fn threads_without_memory_are_an_error() {
         let errors = text(&output.stderr);
         let code = output.status.code();
         assert!(matches!(code, Some(0 | 1)), "{kilobytes}: {errors}");
-        let is_short = errors.contains(" memory") && !errors.contains(" threads that render");
+        let is_short = errors.contains(" memory") && !errors.contains(" rendering threads");
         // A thread that begins without memory may say so before.
         let cannot_start = errors.lines().any(|line| line.starts_with(&cannot_start));
         let refused = cannot_start || is_short;

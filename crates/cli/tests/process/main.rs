@@ -1,4 +1,4 @@
-//! Tests of what only the real process shows: exit codes, signals, disks, pipes.
+//! Tests that need a real process: exit codes, signals, disks, pipes.
 
 #![allow(
     clippy::print_stderr,
@@ -174,7 +174,7 @@ fn tables_are_found_beside_the_scene_and_told() {
     let told = "cloud       tables/salt.csv: 2, radius 0.5
   from      (-0.5, -2.5, -3.5)
   to        (2.5, 2.5, 3.5)
-  axes      left-handed, as the scene's
+  axes      left-handed, like the scene
   columns   x: -1 to 1; colors from -1 to 1
             y: -2 to 2
             z: -3 to 3

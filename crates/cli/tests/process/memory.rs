@@ -6,7 +6,7 @@ use std::process::Command;
 
 use crate::folder::{BALL, Folder, assert_complete, code, text};
 
-/// `marbles` with no more addresses than so many.
+/// `marbles` with a limited address space.
 fn in_memory(folder: &Folder, kilobytes: u32, arguments: &str) -> Command {
     let marbles = folder.marbles(arguments);
     let mut command = Command::new("sh");
@@ -18,7 +18,7 @@ fn in_memory(folder: &Folder, kilobytes: u32, arguments: &str) -> Command {
     command
 }
 
-/// A folder in which the picture of the ball has color, so that none of its channels can be left out.
+/// A folder with a picture in color, so that all of its channels are needed.
 fn colored() -> Folder {
     let folder = Folder::new();
     let colored = BALL.replace("lights:", "background: (0, 0, 1), lights:");
@@ -112,7 +112,8 @@ fn tables_larger_than_the_memory_are_errors() {
     }
 }
 
-/// Pieces that are too small to be asked for, in the libraries that decompress and the standard library among them.
+/// Allocations that are too small to be checked before, including those of decompression libraries and of the standard
+/// library.
 #[test]
 fn memory_that_ends_in_small_pieces_is_an_error() {
     let folder = Folder::new();
@@ -147,10 +148,10 @@ fn memory_that_ends_in_small_pieces_is_an_error() {
         assert!(errors.contains(" memory"), "{kilobytes} kB: {errors}");
         said += &errors;
     }
-    assert!(said.contains("no memory to go on"), "{said}");
+    assert!(said.contains("out of memory"), "{said}");
 }
 
-/// A grey picture of one line that repeats.
+/// A gray picture with one repeated line.
 fn write_grey(folder: &Folder, name: &str, side: u32, profile: Option<Vec<u8>>) {
     let mut info = png::Info::with_size(side, side);
     info.color_type = png::ColorType::Grayscale;
@@ -184,7 +185,7 @@ fn pictures_larger_than_the_memory_are_compared() {
     assert_eq!(code(&folder.run("compare d.exr d.exr")), 0);
 }
 
-/// A profile of colors may be compressed a thousand times; it has no meaning here.
+/// A compressed color profile may expand a thousandfold. Its contents do not matter here.
 #[test]
 fn profiles_take_no_memory() {
     let folder = Folder::new();

@@ -1,11 +1,11 @@
-//! Parts of pictures, and the pictures that they are merged into.
+//! Parts of pictures, and the merged pictures.
 
 use std::fs;
 
 use crate::folder::{assert_complete, code, text};
 use crate::sequences::{TURNTABLE, turntable};
 
-/// Sixteen parts of a picture, none of them where tiles begin.
+/// Sixteen parts of a picture; none of them begins at the border of a tile.
 fn parts(width: u32, height: u32) -> Vec<String> {
     let cuts = |all: u32| [0, all / 4 + 1, all / 2 - 3, 3 * all / 4, all];
     let (columns, rows) = (cuts(width), cuts(height));
@@ -102,7 +102,8 @@ fn errors_beside_light_are_merged_on_their_own() {
     assert!(text(&folder.run(&again).stdout).contains(": skipped"));
     let output = folder.run("merge mixed.npy left.npy right_error.npy");
     assert_eq!(code(&output), 2);
-    let reason = "marbles: right_error.npy: not of the same scene, frame and settings as left.npy";
+    let reason =
+        "marbles: right_error.npy: not made from the same scene, frame and settings as left.npy";
     assert!(text(&output.stderr).starts_with(reason));
 }
 
@@ -131,16 +132,16 @@ fn parts_that_are_no_picture_together_are_refused() {
         ),
         (
             "left.png narrow.png",
-            "the parts leave a gap: none has the pixel in column 10, row 0",
+            "the parts leave a gap: none contains the pixel in column 10, row 0",
         ),
         ("left.png", "the parts leave a gap"),
         (
             "left.png other.png",
-            "other.png: not of the same scene, frame and settings as left.png",
+            "other.png: not made from the same scene, frame and settings as left.png",
         ),
         (
             "left.png right.exr",
-            "right.exr: not of the same scene, frame and settings as left.png",
+            "right.exr: not made from the same scene, frame and settings as left.png",
         ),
         (
             "left.png broken.png",

@@ -1,10 +1,11 @@
-//! The commands that the pages print, run as they stand there.
+//! Runs the commands of the pages as they are printed.
 //!
-//! Each page is run alone, its blocks in order, in a folder with the repository's scenes and pages. A block of `sh` must
-//! end with exit code 0, or with N after a line `<!-- exit: N -->`. A block of `text` right after it is its output: `…`
-//! stands for anything in a line, a line `…` for any lines. A block after `<!-- file: NAME -->` is written to that file.
-//! `<!-- not run: REASON -->` marks placeholders and programs of others, `<!-- not output -->` other text. What a measuring
-//! command writes, between `<!-- measured: NAME -->` and `<!-- end -->`, is not run.
+//! Each page runs by itself, with its blocks in order, in a folder with the scenes and pages of the repository. A block
+//! of `sh` must end with exit code 0, or with N after a line `<!-- exit: N -->`. A block of `text` right after it is
+//! its output: `…` stands for anything within a line, a line `…` for any number of lines. A block after `<!-- file:
+//! NAME -->` is written to that file. `<!-- not run: REASON -->` marks placeholders and other programs, `<!-- not
+//! output -->` other text. Blocks written by a measuring command, between `<!-- measured: NAME -->` and `<!-- end -->`,
+//! are not run.
 
 use std::env;
 use std::fs;
@@ -17,13 +18,13 @@ use crate::folder::{Folder, text};
 /// A fenced block of a page.
 #[derive(Debug, PartialEq)]
 struct Block {
-    /// The line of its fence, from 1.
+    /// The number of the line of its fence, from 1.
     line: usize,
     language: String,
     /// The comment on the line before the fence, without its `<!--` and `-->`.
     note: Option<String>,
     text: String,
-    /// Whether nothing but one line of prose separates it from the block before.
+    /// Whether at most one line of prose separates it from the previous block.
     follows: bool,
 }
 
@@ -74,7 +75,7 @@ fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// Whether a line is as a page shows it, where `…` stands for anything.
+/// Whether a line matches the line on a page, in which `…` stands for anything.
 fn line_matches(shown: &str, printed: &str) -> bool {
     let mut parts = shown.trim_end().split('…');
     let first = parts.next().unwrap_or_default();
@@ -94,7 +95,7 @@ fn line_matches(shown: &str, printed: &str) -> bool {
     rest.ends_with(last)
 }
 
-/// Whether lines are as a page shows them, where a line `…` stands for any lines.
+/// Whether lines match those on a page, where a line `…` stands for any number of lines.
 fn lines_match(shown: &[&str], printed: &[&str]) -> bool {
     match shown.split_first() {
         None => printed.is_empty(),
@@ -123,7 +124,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// Runs a script, and returns its output and its exit code, with `marbles` among the programs.
+/// Runs a script with `marbles` in its path, and returns its output and its exit code.
 fn run(folder: &Path, script: &str) -> (String, i32) {
     let script = script.replace("cargo run --release -- ", "marbles ");
     let program = Path::new(env!("CARGO_BIN_EXE_marbles")).parent().unwrap();
@@ -147,7 +148,7 @@ fn run(folder: &Path, script: &str) -> (String, i32) {
     (text(&output.stdout), output.status.code().unwrap_or(-1))
 }
 
-/// Runs a page, and says what is not as the page says.
+/// Runs a page, and returns the differences from the page.
 fn faults(name: &str, page: &str) -> Vec<String> {
     let folder = Folder::new();
     for name in ["ball.ron", "roll.ron"] {

@@ -1,11 +1,11 @@
-//! The numbers of PNG pictures: linear ones, exposures, and pixels that are too bright.
+//! The codes of PNG pictures: linear codes, exposures, and pixels that are too bright.
 
 use std::fs;
 use std::io::Cursor;
 
 use crate::folder::{BALL, Folder, code, text};
 
-/// A ball in two lights, of which the brightest pixels have more than 1.
+/// A ball in two lights, whose brightest pixels are above 1.
 fn bright() -> Folder {
     let folder = Folder::new();
     let scene = BALL.replace("(-1, 1, -1))]", "(-1, 1, -1), intensity: 2)]");
@@ -22,13 +22,13 @@ fn printed(folder: &Folder, arguments: &str) -> String {
     text(&output.stdout)
 }
 
-/// The number of pixels that a line says are clipped.
+/// The number of clipped pixels in a line of results.
 fn clipped(line: &str) -> Option<u64> {
     let (start, _) = line.split_once(" clipped, ")?;
     start.rsplit_once(' ').unwrap().1.parse().ok()
 }
 
-/// The codes of a PNG, as they are in the file.
+/// The codes of a PNG, as stored in the file.
 fn codes(bytes: &[u8]) -> Vec<u8> {
     let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     let mut codes = vec![0; reader.output_buffer_size().unwrap()];
@@ -115,27 +115,27 @@ fn what_a_format_cannot_have_is_refused() {
     for (options, reason) in [
         (
             "-o a.exr --linear",
-            "--linear is for PNG files, and the output is EXR",
+            "--linear is for PNG files, but the output is EXR",
         ),
         (
             "-o a.npy --exposure 1",
-            "--exposure is for PNG files, and the output is NPY",
+            "--exposure is for PNG files, but the output is NPY",
         ),
         (
             "-o a.exr --exposure 0",
-            "--exposure is for PNG files, and the output is EXR",
+            "--exposure is for PNG files, but the output is EXR",
         ),
         (
             "-o a.npy --float",
-            "--float is for EXR files, and the output is NPY",
+            "--float is for EXR files, but the output is NPY",
         ),
         (
             "-o a.npy --bits 16",
-            "--bits is for PNG files, and the output is NPY",
+            "--bits is for PNG files, but the output is NPY",
         ),
         (
             "-o a.png --linear --bits 8",
-            "--linear writes 16 bit, and --bits asks for 8",
+            "--linear writes 16 bits, but --bits asks for 8",
         ),
     ] {
         let output = folder.run(&format!("render ball.ron {options}"));

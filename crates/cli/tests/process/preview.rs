@@ -1,4 +1,4 @@
-//! Pictures in a terminal, which the program `script` plays.
+//! Pictures in a terminal, which is simulated by the program `script`.
 
 use std::fs;
 use std::io::{Read, Write};
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use crate::folder::{BALL, Folder};
 use crate::signals::wait_until;
 
-/// `marbles` on a terminal, and what that was told to show so far.
+/// `marbles` in a terminal, and the output so far.
 struct Terminal {
     script: Child,
     keyboard: ChildStdin,
@@ -19,12 +19,12 @@ struct Terminal {
 }
 
 impl Terminal {
-    /// A terminal of this size; `None` where there is no way to have one.
+    /// A terminal of this size; `None` if it is not available.
     fn run(folder: &Folder, size: (u32, u32), arguments: &str) -> Option<Self> {
         Self::run_beside(folder, size, ":", arguments)
     }
 
-    /// The same, with something else running on it.
+    /// The same, after another command.
     fn run_beside(
         folder: &Folder,
         (columns, rows): (u32, u32),
@@ -65,10 +65,10 @@ impl Terminal {
         })
     }
 
-    /// The screens that are complete: each ends with these words.
+    /// The complete screens: each ends with these words.
     fn screens(&self) -> Vec<String> {
         let shown = self.shown();
-        let mut screens: Vec<String> = shown.split("q ends").map(str::to_owned).collect();
+        let mut screens: Vec<String> = shown.split("q quits").map(str::to_owned).collect();
         screens.pop();
         screens
     }
@@ -77,9 +77,9 @@ impl Terminal {
         String::from_utf8_lossy(&self.shown.lock().unwrap()).into_owned()
     }
 
-    /// Waits for the end of `marbles`, though not for ever: the exit code, and all that was shown.
+    /// Waits for the end of `marbles`, but not forever; returns the exit code and all output.
     fn end(mut self) -> (Option<i32>, String) {
-        /// Ending takes no time; this much only where others have the processors.
+        /// Ending takes no time, except when other processes use the processors.
         const LIMIT: Duration = Duration::from_secs(60);
         let started = Instant::now();
         let status = loop {
@@ -95,7 +95,7 @@ impl Terminal {
     }
 }
 
-/// A test that fails leaves no process behind.
+/// A failing test leaves no process behind.
 impl Drop for Terminal {
     fn drop(&mut self) {
         // It may have ended.

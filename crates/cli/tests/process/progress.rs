@@ -1,4 +1,4 @@
-//! Progress in the forms that are asked for.
+//! Progress in the different forms.
 
 use std::fs;
 
@@ -49,7 +49,7 @@ fn runners_of_open_job_description_read_stdout() {
     }
 }
 
-/// Frames that are there, and frames that fail, are done with.
+/// Existing frames and failed frames count as done.
 #[test]
 fn progress_comes_to_an_end_whatever_becomes_of_frames() {
     let folder = Folder::new();

@@ -1,7 +1,7 @@
-//! Readers of others: every kind of file has the same numbers for all of them.
+//! Other programs read the same numbers from every kind of file.
 //!
-//! `tests/formats.py` asks them. They come from the registry of Python, once, into the folder of the
-//! build; the test is skipped where there is no Python, or no registry.
+//! `tests/formats.py` runs the readers. They are installed once, from the Python registry, into the build folder. The
+//! test is skipped if there is no Python, or no registry.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use std::process::Command;
 
 use crate::folder::{Folder, code, text};
 
-/// Two balls in color, parts of them brighter than white, seen by a camera off every axis. The small one is
+/// Two balls in color, partly brighter than white, with a camera that is not aligned with any axis. The small ball is
 /// alone in the right half of the picture.
 const SCENE: &str = "(
     image: (width: 40, height: 30),
@@ -25,7 +25,7 @@ const SCENE: &str = "(
 )
 ";
 
-/// OpenCV from version 5 on has no OpenEXR, and OpenEXR before 3.3 no `File`.
+/// OpenCV 5 and later has no OpenEXR, and OpenEXR before 3.3 has no `File`.
 const PACKAGES: [&str; 5] = [
     "numpy",
     "Pillow",
@@ -34,7 +34,7 @@ const PACKAGES: [&str; 5] = [
     "OpenEXR>=3.3",
 ];
 
-/// The folder with the packages, installed where they are not; or why there is none.
+/// The folder with the packages, which are installed if necessary; or the reason why there is none.
 fn packages() -> Result<PathBuf, String> {
     let version = "import sys; print(*sys.version_info[:2], sep='.')";
     let output = Command::new("python3").args(["-c", version]).output();

@@ -1,8 +1,8 @@
-//! Files that other programs' authors wrote, as they are.
+//! Files written by the authors of other programs, unchanged.
 //!
-//! `tests/real_files.py` fetches small packages of its list from the registry of Python, once, into the folder of the
-//! build; the test is skipped where there is no Python, or no registry. `docs/real_files.md` is written by the same
-//! script, from all packages.
+//! `tests/real_files.py` downloads the small packages of its list once, from the Python registry, into the build
+//! folder. The test is skipped if there is no Python, or no registry. The same script writes `docs/real_files.md`, from
+//! all packages.
 
 use std::fs;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::folder::{code, text};
 
 #[test]
 fn files_of_others_are_rendered_as_they_are() {
-    /// The largest package that is fetched, in megabytes.
+    /// The largest package that is downloaded, in megabytes.
     const MOST: &str = "0.5";
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("real-files");
     fs::create_dir_all(&folder).unwrap();

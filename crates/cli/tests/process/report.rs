@@ -8,7 +8,7 @@ use crate::folder::{Folder, text};
 #[cfg(unix)]
 use crate::signals::{ending, signal};
 
-/// A ball before the camera, so small that all settings are measured in no time.
+/// A ball in front of the camera, so small that all settings are measured quickly.
 const BALL: &str = "(
     image: (width: 6, height: 4),
     lens: Retina(width: 60, distance: 50),
@@ -20,7 +20,7 @@ const BALL: &str = "(
 )
 ";
 
-/// One run of the fewest settings, whatever the machine.
+/// One run of as few settings as possible, on any machine.
 const QUICK: &str = "--seconds 0 --runs 1";
 
 /// A folder with the scene.
@@ -46,22 +46,22 @@ fn exit_codes_tell_what_happened() {
         (
             "ball.ron --csv folder.csv",
             1,
-            "folder.csv: cannot write the file: there is a folder",
+            "folder.csv: cannot write the file: a folder has this name",
         ),
         (
             "ball.ron --plot a.jpg",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `a.jpg`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `a.jpg`",
         ),
         (
             "ball.ron --plot svg",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `svg`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `svg`",
         ),
         (
             "ball.ron --plot a.png",
             2,
-            "--plot: expected a file name that ends in .svg, the one format of plots, found `a.png`",
+            "--plot: expected a file name that ends in .svg, the only format of plots, found `a.png`",
         ),
         (
             "ball.ron --frame 8",
@@ -195,7 +195,7 @@ fn pixels_that_miss_their_tolerance_end_with_3() {
     let output = folder.run(&format!("report huge.ron --csv a.csv {QUICK}"));
     assert_eq!(output.status.code(), Some(3));
     let results = text(&output.stdout);
-    assert!(results.contains(" pixels left out, the reference is not good enough there"));
+    assert!(results.contains(" pixels excluded: the reference is not accurate enough there"));
     assert!(results.contains("tolerance 1e-3: "), "{results}");
     assert!(folder.path("a.csv").exists());
 }

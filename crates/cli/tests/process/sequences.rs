@@ -1,4 +1,4 @@
-//! Sequences that are killed, resumed, rendered by several processes, and that fail in the middle.
+//! Sequences that are killed, resumed, or rendered by several processes, and sequences that fail in the middle.
 
 use std::fs;
 use std::process::{Child, Command, Output, Stdio};
@@ -30,7 +30,7 @@ pub(crate) fn turntable() -> Folder {
     folder
 }
 
-/// The names in a folder, and what the files are.
+/// The names in a folder, with the contents of the files.
 pub(crate) fn contents(folder: &Folder, name: &str) -> Vec<(String, Vec<u8>)> {
     let names = folder.names(name).into_iter();
     let read = |file: String| {
@@ -40,7 +40,7 @@ pub(crate) fn contents(folder: &Folder, name: &str) -> Vec<(String, Vec<u8>)> {
     names.map(read).collect()
 }
 
-/// Files that differ, or are in one list alone.
+/// Files that differ, or are in only one of two lists.
 pub(crate) fn differences(one: &[(String, Vec<u8>)], other: &[(String, Vec<u8>)]) -> Vec<String> {
     let missing = |a: &[(String, Vec<u8>)], b: &[(String, Vec<u8>)]| -> Vec<String> {
         let new = a.iter().filter(|file| !b.contains(file));
@@ -291,11 +291,11 @@ fn a_frame_without_its_file_of_errors_is_rendered_again() {
     assert_eq!(code(&output), 2, "an option that is given twice");
     let output = folder.run(&render.replace("7-8", "7"));
     assert_eq!(code(&output), 1);
-    let expected = "marbles: out/7_error.npy: cannot write the file: there is a folder\n";
+    let expected = "marbles: out/7_error.npy: cannot write the file: a folder has this name\n";
     assert_eq!(text(&output.stderr), expected);
 }
 
-/// A noisy ball comes into the picture in the middle, where the files become large.
+/// A noisy ball enters the picture in the middle, and the files become large.
 const NOISE: &str = "(
     image: (width: 64, height: 64),
     lens: Fov(20),
@@ -308,8 +308,8 @@ const NOISE: &str = "(
 )
 ";
 
-/// Runs `marbles` where files may have so many blocks, of half a kilobyte or a whole one: asking for
-/// more is an error and not the end.
+/// Runs `marbles` with a limit on the size of files, in blocks of half a kilobyte or of a kilobyte. Exceeding it is an
+/// error, and does not end the process.
 #[cfg(unix)]
 fn run_with_small_files(folder: &Folder, blocks: u32, arguments: &str) -> Output {
     let marbles = folder.marbles(arguments);
@@ -320,7 +320,7 @@ fn run_with_small_files(folder: &Folder, blocks: u32, arguments: &str) -> Output
     shell.output().unwrap()
 }
 
-/// The writer fails long before all is rendered, and the rest is given up.
+/// The writer fails long before everything is rendered, and the rest is given up.
 #[cfg(unix)]
 #[test]
 fn a_frame_that_is_given_up_does_not_stop_the_others() {

@@ -31,7 +31,7 @@ fn scene(cloud: &str, animation: &str) -> String {
     )
 }
 
-/// A folder with `run.ron`, of all steps in one file, and `files.ron`, of a file for each.
+/// A folder with `run.ron`, which reads all steps from one file, and `files.ron`, which reads one file per step.
 fn folder() -> Folder {
     let folder = Folder::new();
     let animation = format!(", animation: Turntable(frames: {STEPS})");
@@ -144,7 +144,7 @@ fn a_step_that_is_broken_does_not_stop_the_others() {
     assert_eq!(folder.names("out").len(), STEPS - 1);
 }
 
-/// A table that another program overwrites ends the sequence: its frames would be those of two tables.
+/// If another program overwrites a table, the sequence ends with an error: its frames would show two different tables.
 #[test]
 fn a_table_that_changes_ends_the_sequence() {
     const FRAMES: usize = 400;
@@ -173,11 +173,7 @@ fn a_table_that_changes_ends_the_sequence() {
     let output = child.wait_with_output().unwrap();
     let errors = text(&output.stderr);
     assert_eq!(code(&output), 1, "{errors}");
-    assert_eq!(
-        errors.matches("found that it has changed since").count(),
-        1,
-        "{errors}"
-    );
+    assert_eq!(errors.matches("found a change").count(), 1, "{errors}");
     let written = folder.names("run");
     assert!(written.len() < FRAMES, "{}", written.len());
     let frames = written.len();
@@ -190,7 +186,7 @@ fn a_table_that_changes_ends_the_sequence() {
     );
 }
 
-/// Waiting for somebody who writes to it would never end.
+/// A named pipe without a writer would block forever.
 #[cfg(unix)]
 #[test]
 fn pipes_with_names_are_refused() {
@@ -205,12 +201,12 @@ fn pipes_with_names_are_refused() {
     for (arguments, expected) in [
         (
             "check pipe.ron",
-            "it is a pipe or a device, and tables are read more than once",
+            "it is a pipe or a device, but marbles reads tables more than once",
         ),
         ("render pipe.ron -o a.png", "it is a pipe or a device"),
         (
             "check pipe.csv",
-            "expected a scene file, found a pipe with a name",
+            "expected a scene file, found a named pipe",
         ),
     ] {
         let output = folder.run(arguments);
@@ -223,7 +219,7 @@ fn pipes_with_names_are_refused() {
     }
 }
 
-/// Every command tells doubts, and they are errors where warnings are.
+/// Every command prints warnings, and they are errors with `--strict`.
 #[test]
 fn what_is_left_out_of_a_series_is_said() {
     let folder = Folder::new();
@@ -241,7 +237,7 @@ fn what_is_left_out_of_a_series_is_said() {
         let errors = text(&output.stderr);
         assert_eq!(code(&output), 0, "{errors}");
         for expected in [
-            "step.###.xyz: 1 file is nearly of this form and not shown: \"step.5.xyz\"",
+            "step.###.xyz: 1 file with a similar name, not shown: \"step.5.xyz\"",
             "step.###.xyz: files are missing between the numbers 2 and 4",
         ] {
             assert!(errors.contains(expected), "{arguments}: {errors}");
@@ -285,7 +281,7 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     let expected = "two scenes are called `x`, and would share their files";
     assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
     let (status, errors) = run("render edited.ron plain.ron -o {scene}.png --legend legend.svg");
-    let expected = "legend.svg: several scenes need a place for their names: {scene}";
+    let expected = "legend.svg: several scenes need {scene} in the file name";
     assert_eq!((status, errors.contains(expected)), (2, true), "{errors}");
     // One that is missing does not stop the others, unless that is wanted.
     let missing = "render missing.ron edited.ron -q -o d/{scene}.png";
@@ -303,7 +299,7 @@ fn settings_and_several_scenes_are_those_of_edited_files() {
     assert_eq!(run("check plain.ron --strict").0, 2);
 }
 
-/// Names of scenes are no patterns, and no two scenes share a file.
+/// Names of scenes are not patterns, and no two scenes share a file.
 #[test]
 fn names_of_scenes_stay_apart() {
     let folder = Folder::new();
@@ -336,7 +332,7 @@ fn names_of_scenes_stay_apart() {
     assert_eq!(folder.names("p"), ["c1.png", "c11.png"]);
 }
 
-/// Names that are not UTF-8 differ though they are shown alike.
+/// Names that are not UTF-8 remain distinct although they look alike in messages.
 #[test]
 #[cfg(unix)]
 fn names_that_are_no_text_stay_apart() {

@@ -1,4 +1,4 @@
-//! Sidecars: files beside pictures.
+//! Sidecars of pictures.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ fn read(folder: &Folder, name: &str) -> Value {
     serde_json::from_slice(&folder.read(name)).unwrap()
 }
 
-/// The names in the folder but for the scene.
+/// The names in the folder except for the scene.
 fn names(folder: &Folder) -> Vec<String> {
     let mut names = folder.names(".");
     names.retain(|name| name != "ball.ron");
@@ -65,7 +65,7 @@ fn every_picture_has_a_sidecar_beside_it() {
     assert_eq!(whole, known);
 }
 
-/// A renderer that knows nothing of the scene file finds the brightest point of a ball where it is.
+/// A program without the scene file computes the brightest point of a ball, and finds it there.
 #[test]
 fn check_tells_all_that_another_renderer_needs() {
     let folder = Folder::new();
@@ -179,7 +179,7 @@ fn sidecars_that_cannot_be_are_refused() {
     for (arguments, expected) in [
         (
             "render ball.ron -o a.apng --sidecar",
-            "marbles: --sidecar is for files of one frame each, and the output has all of them\n",
+            "marbles: --sidecar needs one file per frame, but this output contains all frames\n",
         ),
         (
             "render ball.json --sidecar",
@@ -204,7 +204,7 @@ fn sidecars_that_cannot_be_are_refused() {
     let errors = text(&output.stderr);
     assert_eq!(
         errors,
-        "marbles: a.json: cannot write the file: there is a folder\n"
+        "marbles: a.json: cannot write the file: a folder has this name\n"
     );
     assert_eq!(names(&folder), ["a.json", "ball.json"]);
 }

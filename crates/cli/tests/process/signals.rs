@@ -1,4 +1,4 @@
-//! Processes that are ended, and pipes that nobody reads.
+//! Processes that get signals, and pipes that nobody reads.
 
 use std::io::Read;
 use std::process::{Child, Command, Stdio};
@@ -25,8 +25,8 @@ pub(crate) fn signal(name: &str, child: &Child) {
     assert!(kill.unwrap().success());
 }
 
-/// Returns whether what this process starts ignores the signal with this name, as all do under `nohup` (HUP) and in the
-/// background of a script (INT).
+/// Whether processes started by this one ignore the signal with this name, as under `nohup` (HUP) and in the background
+/// of a script (INT).
 pub(crate) fn is_ignored(name: &str) -> bool {
     let command = format!("kill -{name} $$");
     let shell = Command::new("sh").args(["-c", &command]).status();
@@ -38,7 +38,7 @@ pub(crate) fn ending() -> &'static str {
     if is_ignored("INT") { "TERM" } else { "INT" }
 }
 
-/// Asks the process to end and waits: its exit code, and how long it took.
+/// Asks the process to end, and waits; returns its exit code and the time.
 pub(crate) fn interrupt(child: &mut Child) -> (Option<i32>, Duration) {
     let started = Instant::now();
     signal(ending(), child);
@@ -136,11 +136,10 @@ fn a_stuck_process_ends_soon_when_interrupted() {
     assert!(names.iter().all(|name| is_picture(name)));
 }
 
-/// However slow the machine is, nobody ends sooner than in the time that is granted who does not
-/// hurry.
+/// However slow the machine, a process that does not finish earlier is not ended before the promised time.
 #[test]
 fn a_second_interrupt_hurries_a_stuck_process() {
-    /// The time that a process which is interrupted once has, at least, to write what is ready.
+    /// The least time that an interrupted process has for writing finished pictures.
     const GRACE: Duration = Duration::from_millis(700);
     const ATTEMPTS: u32 = 5;
     let folder = Folder::new();

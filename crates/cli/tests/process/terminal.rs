@@ -1,16 +1,16 @@
-//! Tests of what a terminal shows while the work goes on.
+//! Tests of the output on a terminal while the work continues.
 
 use std::fs;
 use std::process::{Command, Stdio};
 
 use crate::folder::{BALL, Folder, code, text};
 
-/// The output of `marbles` on a terminal of this width; `None` where there is no way to have one.
+/// The output of `marbles` on a terminal of this width; `None` if no terminal is available.
 fn run_on_terminal(folder: &Folder, columns: usize, arguments: &str) -> Option<String> {
     end_on_terminal(folder, columns, arguments, 0)
 }
 
-/// The same, of a run with this exit code.
+/// The same for a run with this exit code.
 fn end_on_terminal(
     folder: &Folder,
     columns: usize,
@@ -42,7 +42,7 @@ fn end_on_terminal(
     }
 }
 
-/// The visible text from the start of a line, without colors and the like.
+/// The visible text from the start of a line, without control sequences.
 fn visible_lines(shown: &str) -> Vec<String> {
     let lines = shown.split(['\r', '\n']).map(|line| {
         let parts = line.split("\x1b[").enumerate();
@@ -129,8 +129,8 @@ fn a_terminal_gets_no_bar_where_another_form_is_asked_for() {
     assert!(shown.contains('\x1b'), "{shown:?}");
 }
 
-/// Terminals show `^C` where the cursor is; at the end of a line that would begin another one, and the
-/// bar would stay.
+/// Terminals print `^C` at the cursor. At the end of a line this would begin another line, and the bar would not be
+/// erased.
 #[test]
 fn a_bar_has_room_for_the_key_that_ends_it() {
     let folder = Folder::new();
@@ -161,9 +161,9 @@ fn help_is_laid_out_for_the_terminal() {
   sbatch --cpus-per-task=8 ball.sh
 ",
                 "
-The scene is read and all options are checked
-before anything is written. Paths become
-absolute ones;",
+marbles reads the scene and checks all options
+before it writes the job. Paths become
+absolute.",
                 "
   2  the command line or the scene file is
      wrong
@@ -179,8 +179,8 @@ absolute ones;",
   sbatch --cpus-per-task=8 ball.sh
 ",
                 "
-The scene is read and all options are checked before anything is written. Paths
-become absolute ones;",
+marbles reads the scene and checks all options before it writes the job. Paths
+become absolute.",
                 "
   2  the command line or the scene file is wrong
 ",
@@ -207,10 +207,10 @@ become absolute ones;",
     }
 }
 
-/// And a bar tells what is rendered before them.
+/// A bar shows the progress before the tables appear.
 #[test]
 fn tables_of_a_report_fit_the_terminal() {
-    /// Columns of the widest cell of the tables after the first.
+    /// The width of the widest cell of the tables after the first.
     const WIDEST: usize = " largest/claimed |".len();
     let folder = Folder::new();
     let arguments = "report ball.ron --size 9x9 --seconds 0 --runs 1";

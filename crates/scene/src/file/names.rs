@@ -34,7 +34,7 @@ structures! {
     Axes: "axes", "axes: `OpenCV`";
     Light: "light", "a light: `Directional(toward: …)` or `Point(position: …)`";
     Falloff: "falloff", "a falloff: `InverseSquare` or `None`";
-    Attached: "thing that a light is attached to", "what a light is attached to: `Camera`";
+    Attached: "place of a light", "the place that a light is attached to: `Camera`";
     Material: "material", "a material `(albedo: …)`";
     Highlight: "highlight", "a highlight `(strength: …, shininess: …)`";
     Rough: "rough surface", "a rough surface `(amplitude: …, grain: …, seed: …)`";
@@ -46,18 +46,18 @@ structures! {
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element`, `Value` or `Category`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     RadiusLaw: "law of radii", "a law of radii: `Linear`, `Power(…)` or `Exponential(…)`";
-    ColorScale: "scale of colors", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
+    ColorScale: "color scale", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
     Palette: "palette", "a palette `{\"…\": …}` of colors by name";
-    Others: "choice for others", "what others have `(radius: …, color: …)`";
+    Others: "choice for others", "the radius and the color of other elements `(radius: …, color: …)`";
     Columns: "choice of columns", "columns `(x: …, y: …, z: …)`";
     Keep: "condition", "a condition `(column, Is(…))`, with `Is`, `Between` or `Every`";
     Test: "condition", "a condition: `Is(…)`, `Between(…, …)` or `Every(…)`";
     TakenFrames: "choice of frames", "a choice of frames: `First` or `All`";
     Up: "axis", "an axis that points up: `Y` or `Z`";
     End: "end", "an end: `Hold`, `Loop` or `Hide`";
-    FrameOver: "choice of what is framed", "what is framed: `Series` or `Step`";
+    FrameOver: "framed part", "the framed part: `Series` or `Step`";
     Animation: "animation", "an animation: `Keyframes(…)` or `Turntable(…)`";
-    Turned: "thing that turns", "what turns: `Camera` or `Lights`";
+    Turned: "moving part of a turntable", "the moving part of a turntable: `Camera` or `Lights`";
     Key: "key", "a key `(frame: …)`";
     Ease: "ease", "an ease: `Smooth`, `Linear` or `Hold`";
 }

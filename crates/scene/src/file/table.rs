@@ -96,7 +96,7 @@ forms! {
     ElementRadii: "radii", "radii: `VanDerWaals`, `Covalent`, or `{\"…\": …}` of elements by name", radii;
     Wanted: "wanted value", "a number, or a text in quotation marks", wanted;
     ValueRange: "range", "a range: two numbers `(low, high)`, or `Percentile(low, high)`", range;
-    Missing: "treatment of missing values", "what becomes of missing values: `Refuse`, `Hide` or a color", missing;
+    Missing: "treatment of missing values", "a treatment of missing values: `Refuse`, `Hide` or a color", missing;
 }
 
 fn column(slice: Slice<'_>) -> Option<ColumnRef> {
@@ -189,7 +189,7 @@ fn missing(slice: Slice<'_>) -> Option<Missing> {
         "Refuse" => Some(Missing::Refuse),
         "Hide" => Some(Missing::Hide),
         text if text.starts_with(|c: char| c.is_ascii_alphabetic()) && !text.starts_with('r') => {
-            slice.refuse("what becomes of missing values (`Refuse`, `Hide` or a color)")
+            slice.refuse("a treatment of missing values (`Refuse`, `Hide` or a color)")
         }
         _ => Color::read(slice).map(|color| Missing::Color(color.0)),
     }

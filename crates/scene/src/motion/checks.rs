@@ -66,7 +66,7 @@ fn check_keys(keys: &[Placed<Key>], camera: Option<&Camera>, lights: &[Placed<Li
             if let Some(before) = before.get(&name)
                 && frame.0 <= *before
             {
-                let expected = format!("a frame after {before}, the frame of the key before");
+                let expected = format!("a frame after {before}, the frame of the previous key");
                 let message = format!("expected {expected}, found {}", frame.0);
                 refuse::<()>(key.frame.place.clone(), message);
             }
@@ -165,7 +165,7 @@ pub(super) fn check_lights(file: &File) {
     let is_attached = lights.any(Light::is_attached);
     let reason = reason.or(is_attached.then_some("a light that is attached to the camera"));
     if let (Some(shutter), Some(reason)) = (shutter, reason) {
-        let expected = "expected lights that are at rest where the shutter is open for a time";
+        let expected = "expected lights that do not move while the shutter is open";
         refuse::<()>(shutter.place.clone(), format!("{expected}, found {reason}"));
     }
 }

@@ -49,7 +49,7 @@ pub struct FrameError {
 #[non_exhaustive]
 pub enum FrameFault {
     /// Its target is its position.
-    #[error("the camera stands at its target and looks nowhere")]
+    #[error("the camera is at its target, and has no direction of view")]
     LooksNowhere,
     /// Its position is beyond the range of numbers.
     #[error("the camera is infinitely far away")]

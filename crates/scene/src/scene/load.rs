@@ -52,8 +52,7 @@ impl Scene {
             return Err(SceneError::unreadable(path, reason));
         }
         if other_file::is_named_pipe(path) {
-            let reason =
-                "expected a scene file, found a pipe with a name, to which nobody may ever write";
+            let reason = "expected a scene file, found a named pipe";
             return Err(SceneError::unreadable(path, reason));
         }
         let bytes = read_at_most(path, LARGEST_FILE).map_err(|error| {
@@ -63,7 +62,7 @@ impl Scene {
                 ErrorKind::FileTooLarge => {
                     "expected a scene file of at most 1 GiB, found a larger one"
                 }
-                ErrorKind::OutOfMemory => "there is no memory to read this file",
+                ErrorKind::OutOfMemory => "there is not enough memory to read this file",
                 _ => &reason(&error),
             };
             SceneError::unreadable(path, why)
@@ -272,7 +271,8 @@ impl Draft {
                 let slow = clouds.iter().find(|cloud| cloud.frames() == longest);
                 let place = slow.map(|cloud| cloud.cloud.place.clone());
                 let message = format!(
-                    "expected steps for at most {MOST_FRAMES} frames, found ones for {frames}: a larger `speed` needs fewer"
+                    "expected steps for at most {MOST_FRAMES} frames, found steps for {frames}: choose a larger \
+                     `speed`"
                 );
                 let fault = Fault::new(place.unwrap_or_default(), message);
                 return Err(SceneError::refused(path, text, vec![fault]));

@@ -22,10 +22,9 @@ pub(super) fn explain(path: &Path, bytes: &[u8]) -> Option<String> {
         Ok(format) => {
             let (kind, file) = (format.name(), quoted(&name));
             Some(format!(
-                "expected a scene, found a table ({kind}): a scene names it, as does \
+                "expected a scene, found a table ({kind}). A scene names the table, for example \
                  `(image: (width: 800, height: 600), lens: Fov(30), camera: Frame(), ambient: 0.3, \
-                 lights: [Directional(toward: (-1, 1, -1))], clouds: [(file: {file})])`; save this beside it, as \
-                 `scene.ron`, and render that"
+                 lights: [Directional(toward: (-1, 1, -1))], clouds: [(file: {file})])`; save this next to it as `scene.ron`, and render that"
             ))
         }
         // What has this ending says that it is a scene.

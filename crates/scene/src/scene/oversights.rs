@@ -30,7 +30,7 @@ pub(super) fn warnings(file: &File) -> Vec<String> {
     let background = file.background.get().map(|color| color.0);
     if let Some(code) = background.and_then(bytes) {
         warnings.push(format!(
-            "background: numbers above 1 look like bytes: {code} is that color, and 1 is white"
+            "background: numbers above 1 look like bytes: {code} is this color, and 1 is white"
         ));
     }
     warnings
@@ -49,7 +49,7 @@ fn lens(file: &File) -> Option<String> {
     LIKE_RADIANS.contains(&degrees).then(|| {
         let meant = (10.0 * degrees.to_degrees()).round() / 10.0;
         format!(
-            "lens: Fov({degrees}) is {degrees} degrees; if it was meant in radians, it would be Fov({meant})"
+            "lens: Fov({degrees}) means {degrees} degrees; if you meant radians, write Fov({meant})"
         )
     })
 }
@@ -57,11 +57,11 @@ fn lens(file: &File) -> Option<String> {
 fn albedo(name: &str, albedo: DVec3) -> Option<String> {
     if let Some(code) = bytes(albedo) {
         return Some(format!(
-            "material {name}: numbers above 1 look like bytes: {code} is that color, and 1 is white"
+            "material {name}: numbers above 1 look like bytes: {code} is this color, and 1 is white"
         ));
     }
     (albedo.max_element() > 1.0)
-        .then(|| format!("material {name}: an albedo above 1 reflects more light than there is"))
+        .then(|| format!("material {name}: with an albedo above 1, the surface reflects more light than it receives"))
 }
 
 /// The color whose bytes a color looks like.
@@ -98,15 +98,15 @@ fn unused_materials(file: &File) -> Option<String> {
     match unused.len() {
         0 => None,
         1 => Some(format!(
-            "material {} is of no sphere and of no cloud",
+            "the material {} is not used by any sphere or cloud",
             unused[0]
         )),
         2..=6 => Some(format!(
-            "no sphere and no cloud has the material {}",
+            "no sphere and no cloud uses the material {}",
             list(&unused)
         )),
         count => Some(format!(
-            "no sphere and no cloud has {count} of the materials, {} among them",
+            "no sphere and no cloud uses {count} of the materials, for example {}",
             unused[0]
         )),
     }
@@ -128,7 +128,7 @@ mod tests {
         };
         assert_eq!(
             of("Fov(0.9)"),
-            "lens: Fov(0.9) is 0.9 degrees; if it was meant in radians, it would be Fov(51.6)"
+            "lens: Fov(0.9) means 0.9 degrees; if you meant radians, write Fov(51.6)"
         );
         assert_eq!(of("Fov(50)"), "");
         assert_eq!(of("Fov(1e-9)"), "");
@@ -150,22 +150,22 @@ mod tests {
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: (200, 30, 0))}",
-                "material \"m\": numbers above 1 look like bytes: \"#c81e00\" is that color, and 1 is white",
+                "material \"m\": numbers above 1 look like bytes: \"#c81e00\" is this color, and 1 is white",
             ),
             (
                 "Fov(50)",
                 "materials: {\"m\": (albedo: 1.5)}",
-                "material \"m\": an albedo above 1 reflects more light than there is",
+                "material \"m\": with an albedo above 1, the surface reflects more light than it receives",
             ),
             (
                 "Fov(50)",
                 "materials: {\"m\": (), \"n\": ()}",
-                "material \"n\" is of no sphere and of no cloud",
+                "the material \"n\" is not used by any sphere or cloud",
             ),
             (
                 "Fov(50)",
                 "background: (255, 255, 255)",
-                "background: numbers above 1 look like bytes: \"#ffffff\" is that color, and 1 is white",
+                "background: numbers above 1 look like bytes: \"#ffffff\" is this color, and 1 is white",
             ),
         ] {
             let materials = if fields.contains("\"m\"") {

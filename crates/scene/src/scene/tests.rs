@@ -321,7 +321,7 @@ fn keys_move_the_other_cameras_too() {
     assert_eq!(look_at.view(5), Err(fault));
     assert_eq!(
         fault.to_string(),
-        "frame 5: the camera stands at its target and looks nowhere"
+        "frame 5: the camera is at its target, and has no direction of view"
     );
 }
 

@@ -45,7 +45,7 @@ pub(super) fn check_count(stored: u64, count: u64, noun: &str) -> Result<(), Loc
 }
 
 /// The way to read a file that holds more.
-pub(super) const REMEDY: &str = "decompress it to read it all the same";
+pub(super) const REMEDY: &str = "decompress it if you want to read it anyway";
 
 impl fmt::Display for Compression {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -101,7 +101,7 @@ impl Elements {
         let names = names.filter(|name| element::of_plain_symbol(name.as_bytes()).is_none());
         match names.count() {
             count if count > MOST_NAMES => Err(format!(
-                "expected at most {MOST_NAMES} names in `palette` that are no elements, found {count}"
+                "expected at most {MOST_NAMES} names in `palette` that are not elements, found {count}"
             )),
             _ => Ok(()),
         }

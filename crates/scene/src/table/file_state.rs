@@ -27,8 +27,7 @@ impl FileState {
             return Err(io::ErrorKind::IsADirectory.into());
         }
         if !metadata.is_file() {
-            let message =
-                "it is a pipe or a device, and tables are read more than once: save it as a file";
+            let message = "it is a pipe or a device, but marbles reads tables more than once: save it as a file";
             return Err(io::Error::other(message));
         }
         Ok(Self {

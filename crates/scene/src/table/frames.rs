@@ -68,7 +68,7 @@ impl<'watch> Frames<'watch> {
         let format = Format::of(path, input.head()).map_err(TableError::UnknownFormat)?;
         if let (Format::Npz, Some(outer)) = (format, input.source().compression) {
             let message = format!(
-                "expected an NPZ archive as it is, found one in a {outer} file: decompress it once"
+                "expected an uncompressed NPZ archive, found one in a {outer} file: decompress it once"
             );
             return Err(LocatedFault::of_file(message).into());
         }
@@ -188,7 +188,7 @@ impl<'watch> Frames<'watch> {
         if input.is_open_at_end()
             && matches!(self.format, Format::Xyz | Format::Lammps | Format::Gro)
         {
-            let doubt = "the file ends within this line: its last number may have been cut";
+            let doubt = "the file ends within this line: its last number may have been cut off";
             input.doubt_line(doubt);
         }
     }

@@ -77,7 +77,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
         .map(|name| ["residue", "name", "element"].contains(name))
         .collect();
     Ok(Some(Header {
-        count: Some((count, "atoms, as the line above says")),
+        count: Some((count, "atoms, according to the line above")),
         close,
         angstrom: 0.1,
         texts: Some(texts),
@@ -87,7 +87,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
 
 /// Reads the box, which ends a frame.
 fn close(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
-    let expected = "the three or nine numbers of the box behind the atoms";
+    let expected = "the three or nine numbers of the box after the atoms";
     let number = input.number + 1;
     let Some(line) = input.next()? else {
         return Err(LocatedFault::at_end(number, expected).into());

@@ -10,14 +10,13 @@ use crate::text::LocatedFault;
 /// A guess about the numbers in the column of elements.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
-    /// The way in which they are read by it.
+    /// How the numbers are read.
     pub(crate) element: ElementOf,
-    /// Its words and its place.
+    /// The message and its place.
     pub(crate) told: LocatedFault,
 }
 
-/// The different numbers that stand in a column of the rows that come next, as far as they are looked at; `None` where one
-/// of them is no number.
+/// The different numbers in a column of the next rows; `None` if one of the values is not a number.
 pub(super) fn numbers(
     input: &Input<'_>,
     column: usize,
@@ -42,15 +41,15 @@ pub(super) fn numbers(
     Some(numbers)
 }
 
-/// Says whether these are the numbers of types: nothing has hydrogen and helium and all that follow, and nothing else.
+/// Whether these look like the numbers of types: nothing consists of exactly the elements from hydrogen on.
 pub(super) fn are_of_types(numbers: &BTreeSet<u32>) -> bool {
     !numbers.is_empty() && numbers.iter().copied().eq(1..=numbers.len() as u32)
 }
 
-/// The words for numbers in this column that are taken for atomic numbers.
+/// The message for numbers in this column that are read as atomic numbers.
 pub(super) fn as_atomic_numbers(column: &str) -> String {
     format!(
-        "the numbers in the column `{column}` are taken for atomic numbers; `columns: (element: {column:?})` says that \
-         they are"
+        "the numbers in the column `{column}` are read as atomic numbers; confirm this with `columns: (element: \
+         {column:?})`"
     )
 }

@@ -30,8 +30,7 @@ pub(super) fn decode(packed: &mut Packed, blocks: &mut Blocks) -> io::Result<()>
             Some(_) => {}
         }
         if empty > MOST_EMPTY {
-            let message =
-                format!("more than {MOST_EMPTY} of its gzip members hold nothing; {REMEDY}");
+            let message = format!("more than {MOST_EMPTY} of its gzip members are empty; {REMEDY}");
             return Err(io::Error::other(message));
         }
         if is_at_end(packed)? {
@@ -77,7 +76,7 @@ fn explain(start: u64, has_begun: bool, error: io::Error) -> io::Error {
         ErrorKind::InvalidInput | ErrorKind::InvalidData => match (has_begun, is_of_data) {
             (false, _) => "has a damaged header",
             (true, true) => "has damaged data",
-            (true, false) => "does not have the checksum or the size that it says: it is damaged",
+            (true, false) => "has the wrong checksum or size: it is damaged",
         },
         _ => return error,
     };

@@ -45,7 +45,7 @@ pub(crate) fn header(input: &mut Input<'_>) -> Result<Option<Header>, TableError
                 let form = Form::new(Division::Words);
                 let header = Header::new(names, form, (number, &line));
                 return Ok(Some(Header {
-                    count: Some((count, "atoms, as `ITEM: NUMBER OF ATOMS` says")),
+                    count: Some((count, "atoms, according to `ITEM: NUMBER OF ATOMS`")),
                     scaled,
                     ..header
                 }));

@@ -147,7 +147,7 @@ impl<R: Read> Read for Counted<R> {
         let count = self.data.read(buffer)?;
         self.left = self.left.checked_sub(count as u64).ok_or_else(|| {
             io::Error::other(format!(
-                "its arrays are decompressed to too many bytes; {REMEDY}"
+                "its arrays are too large when decompressed; {REMEDY}"
             ))
         })?;
         Ok(count)
@@ -171,7 +171,8 @@ fn check_copies(
         return Ok(());
     }
     let message = format!(
-        "expected one checksum of {}, found 0x{stored:08x} in the directory and 0x{copy:08x} beside the data: the archive is damaged",
+        "expected one checksum of {}, found 0x{stored:08x} in the directory and 0x{copy:08x} next to the data: \
+         the archive is damaged",
         show(name)
     );
     Err(LocatedFault::of_file(message).into())
@@ -300,7 +301,7 @@ fn refused(error: rawzip::Error) -> TableError {
         ErrorKind::IO(error) => error.into(),
         other => {
             let other = rawzip::Error::from(other);
-            let message = format!("expected an archive of arrays, found a broken one: {other}");
+            let message = format!("expected an archive of arrays, found a damaged one: {other}");
             LocatedFault::of_file(message).into()
         }
     }

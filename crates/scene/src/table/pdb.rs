@@ -108,14 +108,14 @@ pub(super) fn model(
 
 /// Refuses a model that nothing ends.
 fn close_model(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
-    expect_end(input, "`ENDMDL` behind the atoms of this model")
+    expect_end(input, "`ENDMDL` after the atoms of this model")
 }
 
 /// Refuses a frame that nothing ends, as others in the file end.
 fn close_frame(input: &mut Input<'_>, _: bool) -> Result<(), TableError> {
     expect_end(
         input,
-        "`END` behind the atoms of this frame, as behind those before",
+        "`END` after the atoms of this frame, as in the frames before",
     )
 }
 

@@ -67,7 +67,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
         return Ok(rows);
     }
     let form = Form::new(Division::Words);
-    let noun = "vertices, as the header says";
+    let noun = "vertices, according to the header";
     let rows = text::read_count(input, &plan, &form, header.rows, noun)?;
     while header.elements == 1
         && let Some(line) = input.next()?.map(<[u8]>::to_vec)
@@ -102,7 +102,7 @@ fn header(lines: &mut Input<'_>) -> Result<Header, TableError> {
         let words: Vec<&str> = text.split_ascii_whitespace().collect();
         let taken = match number {
             1 if words == ["ply"] => Ok(()),
-            1 => Err((0, "`ply`, with which PLY files start".to_owned())),
+            1 => Err((0, "`ply`, the first line of a PLY file".to_owned())),
             _ => header.take(&words),
         };
         taken.map_err(|(part, expected)| {

@@ -145,8 +145,8 @@ impl Remarks {
             told.push(LocatedFault {
                 place: place.clone(),
                 message: format!(
-                    "expected elements with known radii and colors, found {}{meant} (marbles uses \
-                     `others: (radius: 1, color: \"#ff80c0\")` for them)",
+                    "expected elements with known radii and colors, found {}{meant} (for these, marbles uses \
+                     `others: (radius: 1, color: \"#ff80c0\")`)",
                     names.join(", "),
                 ),
             });

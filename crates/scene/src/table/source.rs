@@ -104,7 +104,7 @@ impl Read for Source<'_> {
                 let most = most_bytes(stored);
                 if self.decompressed > most {
                     return Err(io::Error::other(format!(
-                        "its {stored} bytes are decompressed to more than {most}; {REMEDY}"
+                        "its {stored} bytes decompress to more than {most}; {REMEDY}"
                     )));
                 }
                 count

@@ -200,7 +200,7 @@ fn what_is_no_table_is_refused_where_it_is_named() {
         ),
         (
             "file: \"argon.xyz\", color: Element, colormap: Viridis",
-            "2:56: expected `color: Value` with this, found `color: Element`",
+            "2:56: expected `color: Value` together with this, found `color: Element`",
         ),
         (
             "file: \"argon.xyz\", scale: 1e300, position: (1e308, 0, 0), radius: 1e200",

@@ -124,7 +124,7 @@ pub(crate) fn skip(input: &mut Input<'_>, form: &Form) -> Result<bool, TableErro
 
 /// The file has ended before so many rows.
 pub(crate) fn too_few(lines: u64, found: u64, count: u64, noun: &str) -> LocatedFault {
-    let expected = format!("{count} {noun}, and after {found} of them another");
+    let expected = format!("{count} {noun} ({found} read)");
     LocatedFault::at_end(lines + 1, &expected)
 }
 

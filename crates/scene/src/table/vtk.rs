@@ -168,7 +168,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
         }
     }
     if let Some((number, line)) = announced {
-        let doubt = "the file ends where numbers of points or cells are announced: they may have been cut off";
+        let doubt = "the file ends after a header for numbers of points or cells: the numbers may have been cut off";
         input.doubt(LocatedFault::in_line(
             number,
             &line,
@@ -297,7 +297,7 @@ impl Dataset {
         let mut found = 0;
         while found < count {
             let number = input.number + 1;
-            let expected = format!("{count} numbers, and after {found} of them another");
+            let expected = format!("{count} numbers ({found} read)");
             let line = input.next()?;
             let line = line.ok_or_else(|| LocatedFault::at_end(number, &expected))?;
             let mut words = fields::Fields::new(line, &Division::Words);

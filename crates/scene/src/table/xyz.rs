@@ -42,8 +42,8 @@ pub(crate) fn header(
         ..Form::new(Division::Words)
     };
     let noun = match is_first {
-        true => "atoms, as the first line says",
-        false => "atoms, as the first line of the frame says",
+        true => "atoms, according to the first line",
+        false => "atoms, according to the first line of the frame",
     };
     let guess = match previous {
         Some(previous) => previous.guess.clone(),
@@ -89,9 +89,9 @@ fn guess(
         true => (
             |line, field| element::of_lettered_label(&line[field]),
             format!(
-                "the numbers in the column `{column}` are taken for types of atoms, not for atomic numbers; \
-                 `columns: (element: {column:?})` takes them for these, `radii: {{\"1\": …}}` and \
-                 `palette: {{\"1\": …}}` say what types are"
+                "the numbers in the column `{column}` are read as types of atoms, not as atomic numbers; if they \
+                 are atomic numbers, use `columns: (element: {column:?})`; if not, set radii and colors of the \
+                 types with `radii: {{\"1\": …}}` and `palette: {{\"1\": …}}`"
             ),
         ),
         false => (

@@ -94,7 +94,7 @@ fn explain(packed: &mut Packed, start: u64, error: &dyn Display) -> io::Error {
         true => damaged(start, "is cut or damaged: the file ends within it"),
         false => damaged(
             start,
-            &format!("is damaged, or of a kind that is not read ({error})"),
+            &format!("is damaged, or of an unsupported kind ({error})"),
         ),
     }
 }

@@ -154,7 +154,7 @@ impl Found<'_> {
             }
             Error::ExpectedChar => {
                 let quote = text[..stop].rfind('\'').unwrap_or(stop);
-                return self.expected_at(quote, "a value (a string stands between `\"`)");
+                return self.expected_at(quote, "a value (put strings between `\"`)");
             }
             _ if names.noun == "color" && text[stop..].starts_with('#') => {
                 r##"a color "#rrggbb" in quotation marks"##

@@ -60,7 +60,7 @@ quantities! {
     /// The factor on the radii of a table.
     RadiusScale(f64): "a factor greater than 0", |x| x > 0.0;
     /// Steps of a time series that a frame is on from the one before.
-    Speed(f64): "a speed greater than 0, in steps a frame", |x| x > 0.0, default 1.0;
+    Speed(f64): "a speed greater than 0, in steps per frame", |x| x > 0.0, default 1.0;
     /// A number of which others are multiples.
     Step(f64): "a number greater than 0", |x| x > 0.0;
     /// A part in a hundred.

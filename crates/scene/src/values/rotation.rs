@@ -29,7 +29,7 @@ impl<'t> Read<'t> for Rotation {
                 "a matrix R whose RᵀR differs from 1 by {deviation:.1e}, more than 1e-6"
             )),
             Err(RotationError::Mirrors(determinant)) => refused(&format!(
-                "one that mirrors, of determinant {determinant:.3}"
+                "a reflection, with the determinant {determinant:.3}"
             )),
             Err(other) => refused(&format!("a matrix that is no rotation: {other}")),
         }

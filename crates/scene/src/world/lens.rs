@@ -50,7 +50,7 @@ fn focal_length(fx: &Placed<FocalLength>, fy: &Placed<FocalLength>) -> Option<f6
     const DIFFERENCE: f64 = 1e-9;
     let (x, y) = (fx.get()?.0, fy.get()?.0);
     if (y - x).abs() > DIFFERENCE * x.max(y) {
-        let message = format!("expected square pixels, with an fy of {x} as fx, found {y}");
+        let message = format!("expected square pixels, with fy equal to fx ({x}), found {y}");
         return refuse(fy.place.clone(), message);
     }
     Some(x + 0.5 * (y - x))

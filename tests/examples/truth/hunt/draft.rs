@@ -1,4 +1,4 @@
-//! Scenes that are easy to make smaller.
+//! Scenes that are easy to reduce.
 
 use std::path::Path;
 
@@ -7,7 +7,7 @@ use marbles_scene::Scene;
 use super::units::scaled;
 use marbles_tests::numbers::Numbers;
 
-/// A scene file in parts, and the way to render it.
+/// A scene file in parts, and the settings for rendering it.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
     /// Fields of the scene.
@@ -15,26 +15,26 @@ pub(super) struct Draft {
     pub(super) material: String,
     pub(super) lights: Vec<String>,
     pub(super) spheres: Vec<String>,
-    /// Spheres that change nothing that could be told, so that judges do without them.
+    /// Spheres whose effect is too small to detect, so that reference pictures leave them out.
     pub(super) doubles: Vec<String>,
-    /// The camera that judges take: it sees the same, from where doubles suffice to tell.
+    /// The camera for reference pictures. It shows the same, from a distance at which doubles are precise enough.
     pub(super) near_camera: Option<String>,
-    /// The units of light and of length. Judges take 1.
+    /// The units of light and of length. Reference pictures use 1.
     pub(super) light: f64,
     pub(super) length: f64,
-    /// The size of a pixel at what is seen.
+    /// The size of a pixel at the distance of the spheres.
     pub(super) pixel: f64,
-    /// True for pictures with alpha in place of their background.
+    /// Whether pictures have alpha instead of a background.
     pub(super) alpha: bool,
-    /// True for the picture of the first light alone.
+    /// Whether the picture shows only the first light.
     pub(super) per_light: bool,
     /// The kind of the scene, within its family.
     pub(super) kind: String,
 }
 
 impl Draft {
-    /// A scene without spheres: a camera at the origin that looks along z with a random lens of about this
-    /// distance, in pixels, and some lights.
+    /// A scene without spheres: a camera at the origin that looks along z, with a random lens of about this distance in
+    /// pixels, and some lights.
     pub(super) fn new(numbers: &mut Numbers, distance: f64, lights: usize) -> Self {
         let distance = distance * numbers.between(0.5, 2.0);
         let mut draft = Self {
@@ -64,7 +64,7 @@ impl Draft {
         draft
     }
 
-    /// Nothing.
+    /// An empty scene.
     pub(super) fn empty() -> Self {
         Self {
             head: Vec::new(),
@@ -87,8 +87,8 @@ impl Draft {
         self.lights.push(light);
     }
 
-    /// Moves the camera away from a place 100 units ahead, and the retina as many times as far from it: things
-    /// there keep their size.
+    /// Moves the camera away from a point 100 units in front of it, and moves the retina away from the camera by the
+    /// same factor: things at this point keep their size.
     pub(super) fn step_back(&mut self, times: f64) {
         let distance = self.head[1].trim_end_matches(')').rsplit(' ').next();
         let distance: f64 = distance.and_then(|it| it.parse().ok()).unwrap_or(f64::NAN);
@@ -99,7 +99,7 @@ impl Draft {
         self.head[2] = format!("camera: Free(position: (0, 0, {}))", 100.0 * (1.0 - times));
     }
 
-    /// A point light, which at this distance is as bright as a directional light of this intensity.
+    /// A point light that is as bright, at this distance, as a directional light of this intensity.
     pub(super) fn point_light(
         &mut self,
         [x, y, z]: [f64; 3],
@@ -124,7 +124,7 @@ impl Draft {
         scaled(&self.unscaled(&spheres), self.light, self.length)
     }
 
-    /// The file of a scene that shows the same, and that judges can tell.
+    /// The file of an equivalent scene for reference pictures.
     fn plain_text(&self) -> String {
         let mut plain = self.clone();
         if let (Some(near), Some(camera)) = (&self.near_camera, plain.head.get_mut(2)) {
@@ -156,12 +156,12 @@ impl Draft {
         parsed(&self.text())
     }
 
-    /// The scene that judges take.
+    /// The scene for reference pictures.
     pub(super) fn plain(&self) -> Result<Scene, String> {
         parsed(&self.plain_text())
     }
 
-    /// The scene that judges take with many frames for one, if its shutter is open from frame 1.5 to 2.5.
+    /// The scene for reference pictures with many frames instead of one, if the shutter is open from frame 1.5 to 2.5.
     pub(super) fn moments(&self) -> Option<Scene> {
         let text = self.plain_text();
         if !text.contains(OPEN) {
@@ -187,7 +187,7 @@ impl Draft {
         Some(less)
     }
 
-    /// The scene without what judges do without.
+    /// The scene without the parts that reference pictures leave out.
     pub(super) fn without_doubles(&self) -> Option<Self> {
         (!self.doubles.is_empty()).then(|| Self {
             doubles: Vec::new(),
@@ -204,7 +204,7 @@ impl Draft {
     }
 }
 
-/// A sphere of the file.
+/// A sphere in the syntax of the file.
 pub(super) fn sphere([x, y, z]: [f64; 3], radius: f64) -> String {
     format!("(center: ({x}, {y}, {z}), radius: {radius}, material: \"m\")")
 }
@@ -224,6 +224,6 @@ fn parsed(text: &str) -> Result<Scene, String> {
 /// Columns and rows of the pictures.
 pub(super) const SIDE: u32 = 32;
 
-/// The frames of scenes whose shutter is open, and how many frames tell the moments of one.
+/// The frames of scenes with an open shutter, and the number of frames that replace one of them.
 pub(super) const OPEN: &str = "frames: (1, 3), shutter: 1";
 pub(super) const MOMENTS: i32 = 4096;

@@ -1,4 +1,4 @@
-//! Scenes whose lengths or light are far from 1: huge floors, eyes near surfaces, cameras far away, spheres that
+//! Scenes whose lengths or light are far from 1: huge floors, viewpoints near surfaces, distant cameras, spheres that
 //! nearly coincide, and any brightness.
 
 use glam::DVec3;
@@ -13,12 +13,12 @@ use super::scenes::{
 };
 use marbles_tests::numbers::Numbers;
 
-/// A number whose decimal logarithm is between two.
+/// A number whose decimal logarithm is between two numbers.
 pub(super) fn power_of_ten(numbers: &mut Numbers, low: f64, high: f64) -> f64 {
     libm::pow(10.0, numbers.between(low, high))
 }
 
-/// The direction through a place in the picture, with a lens of this distance in pixels.
+/// The direction through a point of the picture, with a lens of this distance in pixels.
 fn through(numbers: &mut Numbers, distance: f64) -> DVec3 {
     let half = 0.45 * f64::from(SIDE);
     let [u, v] = [(); 2].map(|()| numbers.between(-half, half));
@@ -31,7 +31,8 @@ fn surface(numbers: &mut Numbers) -> String {
     format!("albedo: (0.9, 0.6, 0.3), exponent: {exponent}{highlight}")
 }
 
-/// Balls on, above and cut by a floor of radius 1e3 … 1e12, under suns that may be low, lamps, and parallel lenses.
+/// Balls on, above and cut by a floor with a radius from 1e3 to 1e12, under suns that may be low, lamps, and parallel
+/// lenses.
 pub(super) fn huge_floors(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.material = surface(numbers);
@@ -100,7 +101,7 @@ pub(super) fn huge_floors(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// The eye 1e-1 … 1e-9 of a radius before a surface, and balls that are as near.
+/// A viewpoint at a distance of 1e-1 to 1e-9 radii from a surface, and equally near balls.
 pub(super) fn near_eyes(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.material = surface(numbers);
@@ -141,7 +142,7 @@ pub(super) fn near_eyes(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Parallel lenses 1 … 1e12 from what they see, straight and turned.
+/// Parallel lenses at a distance of 1 to 1e12 from the scene, straight and turned.
 pub(super) fn far_parallel_lenses(numbers: &mut Numbers) -> Draft {
     // As far as this all is before the plane in which rays begin; judges stand there.
     const NEAR: f64 = 1000.0;
@@ -202,7 +203,7 @@ pub(super) fn far_parallel_lenses(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Spheres that coincide but for 1e-3 … 1e-16 of their radius.
+/// Spheres that coincide up to 1e-3 to 1e-16 of their radius.
 pub(super) fn nearly_coincident(numbers: &mut Numbers) -> Draft {
     // Spheres that are no farther apart change nothing that could be told.
     const ALIKE: f64 = 1e-12;
@@ -237,7 +238,7 @@ pub(super) fn nearly_coincident(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Scenes of other families in light of 1e-6 … 1e6, with their backgrounds or with alpha.
+/// Scenes of other families with light from 1e-6 to 1e6, with their backgrounds or with alpha.
 pub(super) fn brightness(numbers: &mut Numbers) -> Draft {
     let family = numbers.either(&[
         ordinary,

@@ -1,4 +1,4 @@
-//! Families of small random scenes, each hard in its own way.
+//! Families of small random scenes, each difficult in its own way.
 
 use super::draft::Draft;
 use super::extremes::{brightness, far_parallel_lenses, huge_floors, near_eyes, nearly_coincident};
@@ -13,18 +13,18 @@ use super::scenes::{
 use super::together::together;
 use marbles_tests::numbers::Numbers;
 
-/// The way to make a scene: by random numbers alone, or by them and the number of the scene.
+/// The function that makes a scene: from random numbers alone, or also from the number of the scene.
 #[derive(Clone, Copy)]
 pub(super) enum Maker {
     Random(fn(&mut Numbers) -> Draft),
     Row(fn(&mut Numbers, u64) -> Draft),
 }
 
-/// A family, and the way to make one of its scenes.
+/// A family, and the function that makes its scenes.
 pub(super) struct Family {
     pub(super) name: &'static str,
     pub(super) draft: Maker,
-    /// A scene for so many of the others: those that cost much.
+    /// The family has one scene for this many scenes of ordinary families, because its scenes are expensive.
     pub(super) rarity: u64,
 }
 

@@ -1,4 +1,4 @@
-//! Every scene again in other units of length and of light: the same picture, to the last bit.
+//! Renders every scene in other units of length and of light. The pictures must be the same to the last bit.
 
 use std::io::{self, Write as _};
 
@@ -10,7 +10,7 @@ use super::families::Family;
 use super::options::Options;
 use super::subject::Subject;
 
-/// Powers of two by which lengths, and light, are multiplied.
+/// The powers of two by which lengths and light are multiplied.
 const UNITS: [(i32, i32); 5] = [(-12, 0), (-33, 0), (17, 0), (0, -40), (0, 34)];
 
 /// Prints each scene with a picture that differs in another unit.
@@ -40,7 +40,7 @@ pub(super) fn search(
     Ok(all?.into_iter().flatten().collect())
 }
 
-/// The first picture that is another one, and where.
+/// The first picture that differs, and the place of the difference.
 fn difference(draft: &Draft, tolerances: &[f64]) -> Result<Option<String>, String> {
     let subject = Subject::of(draft)?;
     for (length, light) in UNITS {

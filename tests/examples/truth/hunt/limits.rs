@@ -1,13 +1,13 @@
-//! Limits of the pixels that a hunt may give up, which may not grow.
+//! Limits for the number of pixels over the tolerance, which must not grow.
 
 use std::fmt::Write;
 use std::path::Path;
 
-/// The lines about families of which more pixels are given up than a file allows, which has lines such as
-/// `ordinary,0,0,1,12,40`: as many numbers as the hunt has tolerances. With `MARBLES_BLESS=1` the file is written anew.
+/// Lines about the families with more pixels over the tolerance than a file allows. The file contains lines such as
+/// `ordinary,0,0,1,12,40`, with a number for each tolerance of the hunt. With `MARBLES_BLESS=1` it is written again.
 ///
-/// Pictures are the same on all machines, so that the same hunt gives up the same pixels. A family that the file lacks
-/// may give up nothing.
+/// Pictures are the same on all machines, so the same hunt finds the same numbers. A family that is missing in the file
+/// has the limit 0.
 pub(super) fn exceeded(path: &Path, counts: &[(String, Vec<u64>)]) -> Result<String, String> {
     let at = |error| format!("{}: {error}", path.display());
     if std::env::var_os("MARBLES_BLESS").is_some() {

@@ -1,8 +1,8 @@
-//! A hunt for pixels that break their promise, or claim too little.
+//! A hunt for pixels that break the promise, or claim too little.
 //!
-//! Each scene is rendered to every tolerance, and held against the same picture of 3 × 3 as many pixels at
-//! 1e-6, and against samples: cheap filters. The tests' own integrator decides about what disagrees. Each is rendered
-//! once more with a radius an ulp larger, and pixels that say that they are over their tolerance are counted.
+//! Each scene is rendered at every tolerance, and compared with a picture of 3 × 3 as many pixels at 1e-6, and with
+//! samples. These are cheap filters: if they disagree, the tests' own integrator decides. Each scene is rendered again
+//! with a radius an ulp larger. Pixels over their tolerance are counted.
 
 mod draft;
 mod extremes;
@@ -47,7 +47,7 @@ use self::subject::Subject;
 use marbles_tests::features;
 use marbles_tests::numbers::Numbers;
 
-/// A pixel that fell short.
+/// A pixel whose error is larger than allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Broken {
     pub(super) col: u32,
@@ -55,7 +55,7 @@ pub(super) struct Broken {
     pub(super) tolerance: f64,
     pub(super) error: f64,
     pub(super) claimed: f64,
-    /// True if it says that it is over, and is by more than it says.
+    /// Whether it is reported as over its tolerance, and its error is larger than its claim.
     pub(super) is_confessed: bool,
 }
 
@@ -84,21 +84,21 @@ impl fmt::Display for Broken {
 /// The results of scenes.
 #[derive(Clone, Debug)]
 struct Found {
-    /// Pixels that were judged.
+    /// The number of judged pixels.
     pixels: u64,
-    /// Pixels that were rendered, and of each tolerance those that say that they are over it.
+    /// The number of rendered pixels, and for each tolerance the number of those reported as over it.
     rendered: u64,
     given_up: Vec<u64>,
-    /// Pixels whose truth is not known well enough to judge a tolerance.
+    /// The number of pixels whose true value is not known well enough to judge a tolerance.
     unjudged: u64,
     broken: Vec<Broken>,
-    /// Pixels within their tolerance that claim next to nothing of what they are off by.
+    /// Pixels within their tolerance whose claim is a tiny part of their error.
     false_claims: Vec<Broken>,
-    /// Pixels that an ulp of a radius moves by more than they claim.
+    /// Pixels that change by more than they claim if a radius grows by an ulp.
     moved: Vec<Broken>,
-    /// The first pixel that says that it is over a tolerance, of the first that has one.
+    /// The first pixel reported as over a tolerance.
     unmet: Option<Broken>,
-    /// For each tolerance, how far pixels are off whose claims are not negligible.
+    /// For each tolerance, the ratios of true and claimed errors, for claims that are not negligible.
     honesty: Vec<Honesty>,
 }
 
@@ -133,17 +133,17 @@ impl Found {
     }
 }
 
-/// Seconds from which on a scene is told to be slow.
+/// The time from which a scene is reported as slow, in seconds.
 const SLOW: f64 = 20.0;
 
-/// A scene of a family, and what was found in it.
+/// A scene of a family, and the results for it.
 struct Scene {
     index: u64,
     draft: Draft,
     found: Found,
 }
 
-/// Hunts, and reports by families; an error, with the report, if a pixel is broken.
+/// Hunts, and reports by families. Returns an error that contains the report if a pixel is broken.
 pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let mut report = Report::new(&options.tolerances);
@@ -205,7 +205,7 @@ pub(crate) fn hunt(arguments: &[&str]) -> Result<String, String> {
     }
 }
 
-/// Renders scenes in other units of light and of length; an error if a picture is another one.
+/// Renders scenes in other units of light and of length. Returns an error if a picture differs.
 pub(crate) fn laws(arguments: &[&str]) -> Result<String, String> {
     let options = Options::parse(arguments)?;
     let mut broken = String::new();
@@ -222,19 +222,25 @@ pub(crate) fn laws(arguments: &[&str]) -> Result<String, String> {
         broken += &found.concat();
     }
     match broken.is_empty() {
-        true => Ok(format!("{count} scenes are the same in all units\n")),
+        true => Ok(format!(
+            "{count} scenes have the same pixels in all units\n"
+        )),
         false => Err(broken),
     }
 }
 
-/// The families that are asked for, and how many scenes of each.
+/// The requested families, and the number of scenes of each.
 fn families(options: &Options) -> Result<Vec<(&'static Family, u64)>, String> {
     let families = FAMILIES.iter();
     let families: Vec<&Family> = families
         .filter(|family| family.name.contains(&options.family))
         .collect();
     if families.is_empty() {
-        return Err(format!("no family is called {}", options.family));
+        let names = FAMILIES.each_ref().map(|family| family.name).join(", ");
+        return Err(format!(
+            "expected a part of one of these names: {names}; found {}",
+            options.family
+        ));
     }
     let shares = families.iter().map(|family| 1.0 / family.rarity as f64);
     let most = (options.scenes as f64 / shares.sum::<f64>()).ceil() as u64;
@@ -258,7 +264,7 @@ fn draft(family: &Family, scenes: u64, options: &Options, index: u64) -> Draft {
     }
 }
 
-/// The numbers of the scenes that are asked for.
+/// The numbers of the requested scenes.
 fn indices(scenes: u64, options: &Options) -> Vec<u64> {
     match options.only {
         Some(index) => vec![index],

@@ -9,7 +9,7 @@ use super::scenes::{
 };
 use marbles_tests::numbers::Numbers;
 
-/// Spheres with a line along their outlines: in units of the scene, as pictures of more pixels are to show the same.
+/// Spheres with a line along their outlines. Its width is in units of the scene, so that finer pictures show the same.
 pub(super) fn outlined(numbers: &mut Numbers) -> Draft {
     let mut draft = match numbers.below(15) {
         0 => ordinary(numbers),

@@ -9,7 +9,7 @@ use super::scenes::{
 };
 use marbles_tests::numbers::Numbers;
 
-/// Scenes of other families through a parallel lens, each sphere where it is seen at a depth of 100.
+/// Scenes of other families through a parallel lens, with each sphere at its place in the picture at a depth of 100.
 pub(super) fn parallel_lenses(numbers: &mut Numbers) -> Draft {
     let family = numbers.either(&[
         ordinary,
@@ -49,7 +49,7 @@ pub(super) fn parallel_lenses(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// A parallel lens in whose picture a unit is about half a pixel, or a pixel.
+/// A parallel lens whose pictures show a unit as about half a pixel, or a pixel.
 fn parallel_lens(numbers: &mut Numbers) -> String {
     let width = f64::from(SIDE) * numbers.between(1.0, 3.0);
     let shift = numbers.between(-5.0, 5.0);
@@ -57,7 +57,7 @@ fn parallel_lens(numbers: &mut Numbers) -> String {
     format!("lens: Parallel(width: {width}, shift: ({shift}, 0))")
 }
 
-/// A sphere that parallel rays see where those of a pinhole saw it, and as large.
+/// A sphere that appears in a parallel lens at the same place and in the same size as in a pinhole camera.
 fn flattened(sphere: &str) -> String {
     const DEPTH: f64 = 100.0;
     let is_number = |part: &&str| part.parse::<f64>().is_ok();
@@ -76,8 +76,8 @@ fn flattened(sphere: &str) -> String {
     )
 }
 
-/// Balls that the plane cuts in which parallel rays begin, others behind and before it; a point light in every third
-/// scene, inside of one or not.
+/// Balls cut by the plane in which parallel rays begin, and others behind and in front of it. Every third scene has a
+/// point light, inside a ball or not.
 pub(super) fn planes_that_cut(numbers: &mut Numbers) -> Draft {
     let lights = numbers.below(2) + 1;
     let mut draft = Draft::new(numbers, DISTANCE, lights);

@@ -1,4 +1,4 @@
-//! Pictures of a scene's light, in the unit in which judges have it.
+//! Pictures of the light of a scene, in the unit of the reference pictures.
 
 use std::ops::ControlFlow;
 
@@ -9,24 +9,24 @@ use marbles_scene::Scene;
 /// The part of a scene that a picture shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Mode {
-    /// True for alpha in place of the background.
+    /// Whether there is alpha instead of a background.
     pub(super) alpha: bool,
-    /// True for the first light alone.
+    /// Whether it shows only the first light.
     pub(super) per_light: bool,
-    /// The brightness of the light, in multiples of that of the judges' scene.
+    /// The brightness of the light, as a multiple of that in the reference scene.
     pub(super) light: f64,
-    /// An error of alpha counts as so many times as much light, in the unit of judges.
+    /// The factor by which an error of alpha counts as an error of light, in the unit of reference pictures.
     pub(super) of_alpha: f64,
 }
 
-/// A picture; light and claims are told in the unit that judges have.
+/// A picture whose light and claims are in the unit of reference pictures.
 pub(super) struct Picture {
     image: Image,
     mode: Mode,
 }
 
 impl Picture {
-    /// The picture by a method whose tolerance is in the unit of judges.
+    /// The picture by a method whose tolerance is in the unit of reference pictures.
     pub(super) fn of(scene: &Scene, view: &View, mode: Mode, method: Method) -> Option<Self> {
         let settings = Settings {
             method: match method {
@@ -65,7 +65,7 @@ impl Picture {
         (0..columns * rows).map(move |place| (place % columns, place / columns))
     }
 
-    /// The light of a pixel with its background; or its spheres' light, and its alpha as light.
+    /// The light of a pixel with its background; or the light of its spheres, and its alpha as light.
     pub(super) fn value(&self, col: u32, row: u32) -> DVec4 {
         let value = DVec4::from_array(self.image.rgba(col, row));
         let alpha = if self.mode.alpha {
@@ -81,14 +81,14 @@ impl Picture {
         self.image.error(col, row) / self.mode.light
     }
 
-    /// True if a pixel says that it is over its tolerance.
+    /// Returns whether a pixel is reported as over its tolerance.
     pub(super) fn is_over(&self, col: u32, row: u32) -> bool {
         self.image.status(col, row).is_over_tolerance()
     }
 }
 
 impl Mode {
-    /// The part of the light that is shown, if it is not all of it.
+    /// The part of the light that the picture shows, if it is not all of it.
     pub(super) fn part(self, world: &World) -> Option<LightPart> {
         match world.lights.is_empty() {
             _ if !self.per_light => None,
@@ -97,7 +97,7 @@ impl Mode {
         }
     }
 
-    /// The mode of a scene whose light is so many times as bright as that of judges.
+    /// The mode of a scene whose light is brighter than that of the reference scene by this factor.
     pub(super) fn of(scene: &Scene, alpha: bool, per_light: bool, light: f64) -> Self {
         let mut mode = Self {
             alpha,
@@ -112,7 +112,7 @@ impl Mode {
     }
 }
 
-/// The least power of two that is not below the contrast of a world: an error of alpha counts as so much light.
+/// The smallest power of two that is not below the contrast of a world: the factor on errors of alpha.
 fn unit(world: &World) -> f64 {
     let lights = world.lights.iter().map(marbles_core::Light::intensity);
     let outlines = world

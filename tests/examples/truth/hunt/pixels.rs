@@ -1,4 +1,4 @@
-//! The pixels of a scene, held against the same picture with more pixels, and by samples.
+//! Compares the pixels of a scene with a picture of more pixels, and with samples.
 
 use glam::DVec4;
 
@@ -8,34 +8,35 @@ use super::subject::Subject;
 use super::{Broken, Found, random};
 use marbles_tests::numbers::Numbers;
 
-/// The division of pixels that finds suspects, and its tolerance.
+/// The factor of the finer picture that finds suspects, and its tolerance.
 const FINER: u32 = 3;
 const FINEST: f64 = 1e-6;
 
-/// The error that a pixel may seem to have against the finer picture, in tolerances, before the truth is asked: what
-/// both pictures claim is below that.
+/// The difference from the finer picture, in tolerances, from which a pixel is suspect. The remaining tenth is more
+/// than the claims of both pictures.
 const SUSPECT: f64 = 0.9;
 
-/// A pixel of the finer picture that claims more, a hundred times its tolerance, gave up: it may be off as the
-/// pixel is, so it clears the pixel only with what it claims.
+/// A pixel of the finer picture that claims more than this, a hundred times its tolerance, is over its tolerance. It
+/// may have the same fault as the suspect pixel, so its claim is added to the difference.
 const GIVEN_UP: f64 = 1e-4;
 
-/// A claim below this part of the tolerance is negligible.
+/// The fraction of the tolerance below which a claim is negligible.
 pub(super) const NEGLIGIBLE: f64 = 0.01;
 
-/// A difference tells the true error if it is so many times what the finer picture claims.
+/// A difference is used as the true error if it is at least this many times the claim of the finer picture.
 const TELLING: f64 = 10.0;
-/// It tells the ratio to a claim, too, if the claim is so many times that: the ratio is off by less than a tenth.
+/// It is also used for the ratio to a claim if the claim is this many times that of the finer picture: the error of the
+/// ratio is then below a tenth.
 const TELLING_OF_CLAIMS: f64 = 10.0;
 
-/// A claim is false if a pixel is off by more than so many times as much, and by more than a part of the tolerance.
+/// A claim is false if the error is this many times as large, and larger than this fraction of the tolerance.
 const FALSE: f64 = 20.0;
 const FALSE_OF_TOLERANCE: f64 = 0.02;
 
-/// If the difference does not tell, the truth is asked of one of so many pixels.
+/// If the difference is not precise enough, the integrator judges one of this many pixels.
 const SHARE: u32 = 256;
 
-/// The pixels of a scene that fall short, and how far its pixels are off.
+/// The broken pixels of a scene, and the ratios of true and claimed errors.
 pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     if random::is_fine(subject) {
         return random::judge(subject, tolerances);
@@ -70,17 +71,17 @@ pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     found
 }
 
-/// A pixel at a tolerance, and what the finer picture knows of it.
+/// A pixel at a tolerance, and its comparison with the finer picture.
 struct Pixel {
     place: (u32, u32),
     tolerance: f64,
     value: DVec4,
     claimed: f64,
-    /// True if it says that it is over.
+    /// Whether it is reported as over the tolerance.
     is_confessed: bool,
-    /// The distance from the mean of its parts.
+    /// The difference from the mean of its parts in the finer picture.
     apart: f64,
-    /// The error that this mean claims.
+    /// The claimed error of this mean.
     uncertain: f64,
 }
 
@@ -110,7 +111,7 @@ impl Pixel {
         self.place
     }
 
-    /// The largest error that the pixel may have.
+    /// The largest allowed error of the pixel.
     fn allowed(&self) -> f64 {
         if self.is_confessed {
             self.claimed
@@ -119,26 +120,26 @@ impl Pixel {
         }
     }
 
-    /// True unless the finer picture clears the pixel.
+    /// Returns whether the finer picture contradicts the pixel.
     fn is_suspect(&self) -> bool {
         let gave_up = self.uncertain > GIVEN_UP;
         self.apart > SUSPECT * self.allowed()
             || gave_up && self.apart + self.uncertain > self.allowed()
     }
 
-    /// True if samples find nothing like it.
+    /// Returns whether samples contradict the pixel.
     fn is_unlike(&self, sampled: &Sampled) -> bool {
         sampled.contradicts(self.place(), self.value, self.allowed())
     }
 
-    /// The pixel as a broken one, if the truth says that it is.
+    /// The pixel as a broken one, if the integrator agrees.
     fn shortfall(&self, subject: &Subject) -> Option<Broken> {
         let allowed = self.allowed();
         let (error, uncertain) = subject.error_of(self.place(), self.value, allowed)?;
         (error > allowed + uncertain).then(|| self.broken(error))
     }
 
-    /// True if it claims next to nothing of what it is off by.
+    /// Returns whether its claim is a tiny part of its error.
     fn has_false_claim(&self) -> bool {
         let off = self.apart - self.uncertain;
         off > FALSE * self.claimed && off > FALSE_OF_TOLERANCE * self.tolerance
@@ -157,8 +158,8 @@ impl Pixel {
         }
     }
 
-    /// The true error over the claimed one, and for how many pixels it stands; none of negligible claims. The
-    /// truth is asked where the finer picture is too close to tell.
+    /// The true error divided by the claimed one, and the number of pixels that this ratio represents; `None` for
+    /// negligible claims. The integrator decides if the finer picture is not precise enough.
     fn honesty(&self, subject: &Subject) -> Option<(f64, u32)> {
         let Self { claimed, apart, .. } = *self;
         if !claims_something(claimed, self.tolerance) {
@@ -179,7 +180,7 @@ impl Pixel {
     }
 }
 
-/// True for claims that are finite and not negligible.
+/// Returns whether a claim is finite and not negligible.
 pub(super) fn claims_something(claimed: f64, tolerance: f64) -> bool {
     claimed.is_finite() && claimed >= NEGLIGIBLE * tolerance
 }

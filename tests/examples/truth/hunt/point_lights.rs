@@ -11,12 +11,12 @@ fn surface(numbers: &mut Numbers) -> String {
     format!("albedo: (0.9, 0.6, 0.3), exponent: {exponent}{highlight}")
 }
 
-/// The light falls off from a distance, or not at all.
+/// The distance at which the light has its intensity; `None` without falloff.
 fn falloff(numbers: &mut Numbers, reference: f64) -> Option<f64> {
     (numbers.below(4) > 0).then_some(reference)
 }
 
-/// Lights beside spheres, at a part of the radius from the surface.
+/// Lights next to spheres, at a distance from the surface that is a fraction of the radius.
 pub(super) fn near_lights(numbers: &mut Numbers) -> Draft {
     let directional = numbers.below(2);
     let mut draft = Draft::new(numbers, DISTANCE, directional);
@@ -37,7 +37,7 @@ pub(super) fn near_lights(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Lights amid a group of spheres.
+/// Lights in the middle of a group of spheres.
 pub(super) fn lights_between_spheres(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.material = surface(numbers);
@@ -53,7 +53,7 @@ pub(super) fn lights_between_spheres(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Lights inside spheres, some of which the viewpoint is inside of as well.
+/// Lights inside spheres, some of which also contain the viewpoint.
 pub(super) fn lights_inside(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.material = surface(numbers);
@@ -75,7 +75,7 @@ pub(super) fn lights_inside(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Cones of shadow that touch a contour, or the edge of another.
+/// Cones of shadow that touch an contour, or the edge of another shadow.
 pub(super) fn grazing_cones(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.head.retain(|field| !field.starts_with("shadows"));

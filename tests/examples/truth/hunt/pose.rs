@@ -1,4 +1,4 @@
-//! Cameras that stand and look anywhere, with what they see.
+//! Cameras at any position and with any direction, and scenes placed in front of them.
 
 use glam::{DMat3, DVec3};
 use marbles_core::{Angle, Camera};
@@ -23,7 +23,7 @@ impl Pose {
         }
     }
 
-    /// At the origin, along z, in every second scene; anywhere within a distance otherwise.
+    /// A camera at the origin that looks along z in every second scene, and anywhere within a distance otherwise.
     pub(super) fn random(numbers: &mut Numbers, within: f64) -> Self {
         if numbers.below(2) == 0 {
             return Self::new(DVec3::ZERO, [0.0; 3]);
@@ -33,19 +33,19 @@ impl Pose {
         Self::new(position.into(), angles)
     }
 
-    /// The camera in the file.
+    /// The camera in the syntax of the file.
     pub(super) fn camera(&self) -> String {
         let DVec3 { x, y, z } = self.position;
         let [pan, tilt, roll] = self.angles;
         format!("camera: Free(position: ({x}, {y}, {z}), pan: {pan}, tilt: {tilt}, roll: {roll})")
     }
 
-    /// The place in the world of one in the axes of the camera.
+    /// Converts a point from the axes of the camera to the world.
     pub(super) fn place(&self, of_camera: DVec3) -> [f64; 3] {
         (self.position + self.direction(of_camera)).to_array()
     }
 
-    /// The direction in the world of one in the axes of the camera.
+    /// Converts a direction from the axes of the camera to the world.
     pub(super) fn direction(&self, of_camera: DVec3) -> DVec3 {
         self.rotation * of_camera
     }

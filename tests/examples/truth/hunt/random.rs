@@ -1,4 +1,4 @@
-//! Judges scenes whose bumps are too fine for lines, and those whose pixels have bumps of their own.
+//! Judges scenes whose bumps are too fine for lines, and scenes with random normals for each pixel.
 
 use glam::DVec4;
 use marbles_core::Grain;
@@ -11,28 +11,28 @@ use super::subject::Subject;
 use super::{Broken, Found};
 use marbles_tests::numbers::Numbers;
 
-/// Bumps, in pixels, that are fine.
+/// The size of bumps, in pixels, below which they are fine.
 const FINE: f64 = 0.5;
 
-/// One of so many pixels is judged.
+/// One of this many pixels is judged.
 const STRIDE: usize = 21;
 
-/// The truth tells how far a pixel is off, as a part of what it claims, if the claim is so many times what the
-/// truth may be off by: to a tenth.
+/// The integrator determines the ratio of true and claimed error, to a tenth, if the claim is this many times its own
+/// error.
 const TELLING: f64 = 10.0;
 
-/// Strata on a side of a pixel: at first, and for those that seem off.
+/// Strata on a side of a pixel: at first, and for suspect pixels.
 const STRATA: [u32; 2] = [64, 400];
 
-/// Parts of the time with two random moments each, where the shutter is open, and standard deviations that the mean
-/// is taken to be off by at most.
+/// The number of parts of the time, with two random moments each, if the shutter is open; and the assumed largest error
+/// of the mean, in standard deviations.
 const PARTS: i32 = 32;
 const DEVIATIONS: f64 = 6.0;
 
-/// The largest error of the mean over time of bumps of pixels.
+/// The largest error of the mean over time with random normals for each pixel.
 const FINE_OVER_TIME: f64 = 1e-5;
 
-/// Returns whether a scene has surfaces whose pixels finer pictures tell nothing of.
+/// Returns whether a scene has surfaces for which finer pictures are of no use.
 pub(super) fn is_fine(subject: &Subject) -> bool {
     grains(subject.plain()).any(|grain| match grain {
         Grain::Surface(size) => size < FINE * subject.pixel,
@@ -46,7 +46,7 @@ pub(super) fn grains(scene: &Scene) -> impl Iterator<Item = Grain> {
     materials.filter_map(|material| Some(material.roughness.as_ref()?.grain))
 }
 
-/// The truth of a pixel by so many strata on a side, and what it may be off by.
+/// The true value of a pixel from this many strata on a side, and its error.
 fn truth(subject: &Subject, (col, row): (u32, u32), strata: u32) -> Option<(DVec4, f64)> {
     let is_by_pixel = grains(subject.plain()).any(|grain| grain == Grain::Pixel);
     if is_by_pixel {
@@ -79,7 +79,7 @@ fn truth(subject: &Subject, (col, row): (u32, u32), strata: u32) -> Option<(DVec
     Some((sum / count, off))
 }
 
-/// The pixels, of a part of a scene's, that fall short, and how far they are off.
+/// The broken pixels among a part of a scene's pixels, and the ratios of true and claimed errors.
 pub(super) fn judge(subject: &Subject, tolerances: &[f64]) -> Found {
     let mut found = Found::new(tolerances);
     let is_by_pixel = grains(subject.plain()).any(|grain| grain == Grain::Pixel);

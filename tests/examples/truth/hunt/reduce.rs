@@ -1,4 +1,4 @@
-//! Scenes of broken pixels, with as few spheres and lights as still break them.
+//! Reduces scenes of broken pixels to as few spheres and lights as still break them.
 
 use std::path::Path;
 
@@ -10,16 +10,16 @@ use super::ulp;
 /// The fault of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Fault {
-    /// It is over its tolerance without saying so, or claims too little.
+    /// It is over its tolerance without a report, or claims too little.
     Short,
-    /// It moves too far when the sphere grows that a seed tells.
+    /// It changes too much if a sphere, chosen by the seed, grows.
     Moved(u64),
-    /// It says that it is over its tolerance.
+    /// It is reported as over its tolerance.
     GivenUp,
 }
 
 impl Fault {
-    /// The end of the names of files.
+    /// The suffix of file names.
     fn ending(self) -> &'static str {
         match self {
             Self::Short => "",
@@ -29,7 +29,7 @@ impl Fault {
     }
 }
 
-/// Leaves out what is not needed for a pixel to have its fault; with the sphere that grows.
+/// Removes everything that the pixel does not need for its fault. Returns the scene, and the sphere that grows.
 fn reduced(draft: &Draft, broken: &Broken, fault: Fault) -> (Draft, Option<usize>) {
     let mut draft = draft.clone();
     let mut grown = match fault {
@@ -62,7 +62,7 @@ fn reduced(draft: &Draft, broken: &Broken, fault: Fault) -> (Draft, Option<usize
     (draft, grown)
 }
 
-/// Writes the reduced scene of a pixel with a fault into a folder.
+/// Writes the reduced scene of a pixel with a fault to a folder.
 pub(super) fn write(
     folder: &Path,
     name: &str,

@@ -1,4 +1,4 @@
-//! The tables that tell what a hunt found.
+//! The tables with the results of a hunt.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -10,16 +10,16 @@ use super::{Found, limits};
 /// The tables, family by family.
 pub(super) struct Report<'a> {
     tolerances: &'a [f64],
-    /// Pixels that fell short.
+    /// The counts of pixels with errors larger than allowed.
     counts: String,
     /// The medians of true over claimed errors.
     medians: String,
-    /// Pixels that say that they are over their tolerance, of a million.
+    /// The number of pixels reported as over their tolerance, per million.
     given_up: String,
-    /// The honesty of all families together, for each tolerance.
+    /// The ratios of all families, for each tolerance.
     honesty: Vec<Honesty>,
     unjudged: u64,
-    /// The same pixels of each family, counted.
+    /// The number of pixels reported as over their tolerance, for each family.
     counts_given_up: Vec<(String, Vec<u64>)>,
 }
 
@@ -41,7 +41,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// Adds what was found in the scenes of a family.
+    /// Adds the results of the scenes of a family.
     pub(super) fn add(&mut self, family: &str, scenes: u64, sum: &Found) {
         self.unjudged += sum.unjudged;
         // Writing to a string does not fail.
@@ -63,7 +63,7 @@ impl<'a> Report<'a> {
         }
     }
 
-    /// The families of which more is given up than a file allows; see [`limits::exceeded`].
+    /// The families with more pixels over the tolerance than a file allows; see [`limits::exceeded`].
     pub(super) fn exceeded(&self, path: &Path) -> Result<String, String> {
         limits::exceeded(path, &self.counts_given_up)
     }
@@ -83,7 +83,7 @@ impl<'a> Report<'a> {
     }
 }
 
-/// The cells of a family that count pixels which fell short.
+/// The cells of a family with the counts of pixels with errors larger than allowed.
 fn counts(tolerances: &[f64], sum: &Found) -> String {
     let mut text = String::new();
     for &tolerance in tolerances {
@@ -102,7 +102,7 @@ fn counts(tolerances: &[f64], sum: &Found) -> String {
     text
 }
 
-/// The line of a hunt about a family when it is done with it.
+/// The line that a hunt prints after each family.
 pub(super) fn line(family: &str, scenes: u64, tolerances: &[f64], sum: &Found) -> String {
     format!(
         "{family}: {scenes} scenes, {} pixels, fell short |{} given up {:?}, unjudged {}",

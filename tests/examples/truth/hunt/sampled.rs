@@ -1,5 +1,5 @@
-//! The same picture by samples, which share nothing with integrals but the scene: it tells what the finer picture
-//! misses as the picture does.
+//! The same picture by samples, which share no code with integrals except for the scene. It finds errors that the finer
+//! picture shares.
 
 use std::num::NonZeroU32;
 
@@ -11,8 +11,9 @@ use super::subject::Subject;
 /// Samples along each side of a pixel.
 const SAMPLES: NonZeroU32 = NonZeroU32::new(4).unwrap();
 
-/// The distance, in addition to its tolerance, that a pixel may have from all that samples find in it and beside it: they
-/// miss thin spheres and small highlights. In units of light, and of what they find; more where the truth takes long.
+/// The allowed distance, in addition to the tolerance, of a pixel from all samples in and near it, in units of light
+/// and relative to the samples. Samples miss thin spheres and small highlights. It is larger if the integrator takes
+/// long.
 const MISSED: f64 = 0.01;
 const MISSED_OF_SLOW: f64 = 0.1;
 const OF_RANGE: f64 = 0.1;
@@ -34,7 +35,7 @@ impl Sampled {
         Some(Self { picture, missed })
     }
 
-    /// True if a pixel is farther than its tolerance from all that samples find near it.
+    /// Returns whether the distance of a pixel from all samples near it is larger than its tolerance.
     pub(super) fn contradicts(&self, (col, row): (u32, u32), value: DVec4, allowed: f64) -> bool {
         let (mut least, mut most) = (DVec4::INFINITY, DVec4::NEG_INFINITY);
         for row in row.saturating_sub(1)..=(row + 1).min(self.picture.rows() - 1) {

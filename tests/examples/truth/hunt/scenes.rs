@@ -1,12 +1,12 @@
-//! A scene of each family, by random numbers.
+//! A random scene of each family.
 
 use super::draft::{Draft, OPEN, SIDE};
 use marbles_tests::numbers::Numbers;
 
-/// The distance of the lens, in pixels, that a family takes if the lens is not what is hard.
+/// The distance of the lens, in pixels, for families in which the lens is not the difficulty.
 pub(super) const DISTANCE: f64 = 50.0;
 
-/// A place in the picture, at a depth.
+/// A point of the picture, at a depth.
 pub(super) fn place(numbers: &mut Numbers, depth: f64) -> [f64; 3] {
     let half = 0.4 * f64::from(SIDE) / DISTANCE * depth;
     [
@@ -54,7 +54,7 @@ pub(super) fn touching(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Balls exactly behind another, with its contour.
+/// Balls exactly behind another ball, with the same contour.
 pub(super) fn coincident(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 1);
     let depth = numbers.between(60.0, 100.0);
@@ -68,7 +68,7 @@ pub(super) fn coincident(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Three balls whose contours, or those and seams, meet in a point.
+/// Three balls whose contours, or contours and seams, meet in a point.
 pub(super) fn triple_points(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 1);
     let [x, y, z] = place(numbers, 100.0);
@@ -125,7 +125,7 @@ pub(super) fn grazing_shadows(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Light from behind, and nearly across the view.
+/// Light from behind, and nearly perpendicular to the view.
 pub(super) fn terminator_at_rim(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     for _ in 0..numbers.below(2) + 1 {
@@ -174,7 +174,7 @@ pub(super) fn long_lenses(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Scenes of other families as seen from 10 to 1e6 times farther away: nearly parallel rays.
+/// Scenes of other families from a distance that is 10 to 1e6 times larger: nearly parallel rays.
 pub(super) fn far_away(numbers: &mut Numbers) -> Draft {
     let mut draft = match numbers.below(8) {
         0 => ordinary(numbers),
@@ -190,7 +190,7 @@ pub(super) fn far_away(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Rough balls as seen from far away.
+/// Rough balls from a large distance.
 pub(super) fn far_bumps(numbers: &mut Numbers) -> Draft {
     let mut draft = surface_bumps(numbers, [-0.3, 2.0]);
     draft.step_back(libm::pow(10.0, numbers.between(1.0, 6.0)));
@@ -233,7 +233,7 @@ pub(super) fn crowds(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Balls that overlap each other by the dozen in each pixel: most of them hidden, or all in sight.
+/// Dozens of overlapping balls in each pixel: most of them hidden, or all visible.
 pub(super) fn overlapping_crowds(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 1);
     let depth = numbers.between(80.0, 120.0);
@@ -248,7 +248,7 @@ pub(super) fn overlapping_crowds(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Thin rests of balls beside others.
+/// Balls next to others, which leave only thin slivers of them visible.
 pub(super) fn slivers(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 2);
     for _ in 0..3 {
@@ -267,7 +267,7 @@ pub(super) fn slivers(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Balls whose contours run along rows and columns, and meet corners of pixels.
+/// Balls whose contours run along rows and columns, and through corners of pixels.
 pub(super) fn aligned_grids(numbers: &mut Numbers) -> Draft {
     let mut draft = Draft::new(numbers, DISTANCE, 0);
     draft.head[1] = format!("lens: Retina(width: {SIDE}, distance: 64)");
@@ -334,13 +334,13 @@ pub(super) fn shutters(numbers: &mut Numbers) -> Draft {
     draft
 }
 
-/// Bumps that belong to the surface, whose size in pixels has its decimal logarithm between two numbers.
+/// Bumps on the surface; the decimal logarithm of their size in pixels is between two numbers.
 pub(super) fn surface_bumps(numbers: &mut Numbers, logarithms: [f64; 2]) -> Draft {
     let size = libm::pow(10.0, numbers.between(logarithms[0], logarithms[1]));
     rough(numbers, &format!("Surface({size})"))
 }
 
-/// Rough balls about as many units away as the lens is pixels: a unit is about a pixel.
+/// Rough balls at a distance, in units, of about the distance of the lens in pixels: a unit is about a pixel.
 pub(super) fn rough(numbers: &mut Numbers, grain: &str) -> Draft {
     let lights = numbers.below(2) + 1;
     let mut draft = Draft::new(numbers, DISTANCE, lights);

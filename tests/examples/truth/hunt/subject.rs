@@ -1,4 +1,4 @@
-//! A scene of a hunt, and the truth about its pixels.
+//! A scene of a hunt, and the true values of its pixels.
 
 use std::num::NonZeroU32;
 
@@ -11,17 +11,17 @@ use super::draft::{Draft, MOMENTS};
 use super::picture::{Mode, Picture};
 use super::{Broken, random};
 
-/// The error of the truth from the last digits of sums.
+/// The rounding error of sums in the true value.
 const ROUNDING: f64 = 1e-13;
 
-/// A scene, one that judges can tell and that shows the same in another unit, and that with many frames for one,
-/// where its shutter is open.
+/// A scene, an equivalent scene in units that suit the reference pictures, and one with many frames instead of one, if
+/// the shutter is open.
 pub(super) struct Subject {
     scene: Scene,
     plain: Scene,
     moments: Option<Scene>,
     mode: Mode,
-    /// The size of a pixel at what is seen.
+    /// The size of a pixel at the distance of the spheres.
     pub(super) pixel: f64,
 }
 
@@ -38,7 +38,7 @@ impl Subject {
         })
     }
 
-    /// The scene that judges have.
+    /// The scene for reference pictures.
     pub(super) fn plain(&self) -> &Scene {
         &self.plain
     }
@@ -47,7 +47,7 @@ impl Subject {
         if self.moments.is_some() { 2 } else { 1 }
     }
 
-    /// The picture to a tolerance.
+    /// The picture at a tolerance.
     pub(super) fn picture(&self, tolerance: f64) -> Option<Picture> {
         self.shown(Method::Tolerance(tolerance))
     }
@@ -58,12 +58,12 @@ impl Subject {
         Picture::of(&self.scene, &view, self.mode, method)
     }
 
-    /// The picture that judges have of so many times as many columns and rows, to a tolerance.
+    /// The reference picture with this many times as many columns and rows, at a tolerance.
     pub(super) fn finer_picture(&self, times: u32, tolerance: f64) -> Option<Picture> {
         self.plain_picture(times, Method::Tolerance(tolerance))
     }
 
-    /// The picture that judges have by samples.
+    /// The reference picture by samples.
     pub(super) fn sampled_picture(&self, samples: NonZeroU32) -> Option<Picture> {
         self.plain_picture(1, Method::Samples(samples))
     }
@@ -82,12 +82,12 @@ impl Subject {
         Picture::of(&self.plain, &view, mode, method)
     }
 
-    /// True if the truth about a pixel takes a large part of a second: of bumps, and over time.
+    /// Returns whether the true value of a pixel takes a large part of a second: with bumps, and over time.
     pub(super) fn is_slow(&self) -> bool {
         self.moments.is_some() || random::grains(&self.plain).next().is_some()
     }
 
-    /// A value that [`Picture::value`] is to have, and what it may be off by, by some integrator for single moments.
+    /// The true value for [`Picture::value`], and its error, from an integrator for single moments.
     pub(super) fn truth(
         &self,
         fine: f64,
@@ -99,7 +99,7 @@ impl Subject {
         }
     }
 
-    /// The same of a frame of a scene that judges have.
+    /// The same for a frame of a reference scene.
     pub(super) fn at(
         &self,
         scene: &Scene,
@@ -123,22 +123,22 @@ impl Subject {
         Some(((light + background).extend(0.0), truth.error + ROUNDING))
     }
 
-    /// The scene with many frames for one, where its shutter is open.
+    /// The scene with many frames instead of one, if the shutter is open.
     pub(super) fn moments(&self) -> Option<&Scene> {
         self.moments.as_ref()
     }
 
-    /// The distance of a pixel's light from the truth, and the error of this distance.
+    /// The distance of a pixel's light from the true value, and the error of this distance.
     ///
-    /// A pixel that seems to be off by more than is allowed is held against the sum of its quarters, too: what hides
-    /// from lines through it hardly hides in them as well.
+    /// If a pixel seems to have a larger error than allowed, it is also compared with the sum of its quarters: details
+    /// that lines through the pixel miss are hardly missed in the quarters as well.
     pub(super) fn error_of(
         &self,
         (col, row): (u32, u32),
         value: DVec4,
         allowed: f64,
     ) -> Option<(f64, f64)> {
-        /// The error of the reference, relative to the allowed one.
+        /// The uncertainty that is small enough, as a fraction of the allowed error.
         const FINE: f64 = 0.02;
         let fine = FINE * allowed;
         let whole = self.truth(fine, |judge, _| judge.pixel(col, row))?;
@@ -156,13 +156,13 @@ impl Subject {
         Some((error(parts), uncertain))
     }
 
-    /// True if a pixel says that it is over its tolerance.
+    /// Returns whether a pixel is reported as over its tolerance.
     pub(super) fn gives_up(&self, broken: &Broken) -> bool {
         let picture = self.picture(broken.tolerance);
         picture.is_some_and(|picture| picture.is_over(broken.col, broken.row))
     }
 
-    /// The error of one pixel at a tolerance, where it is over it without saying so, or over its claim.
+    /// The error of one pixel at a tolerance, if it is over it without a report, or over its claim.
     pub(super) fn shortfall(&self, broken: &Broken) -> Option<f64> {
         let (col, row) = (broken.col, broken.row);
         let picture = self.picture(broken.tolerance)?;
@@ -177,9 +177,9 @@ impl Subject {
     }
 }
 
-/// The mean over the midpoints of equal parts of the time, twice as many as long as that changes it by more than
-/// a little. Light goes with time without jumps, so that the mean converges with the square of their number:
-/// it is said to be off by twice the last change.
+/// The mean over the midpoints of equal parts of the time. The number of parts is doubled as long as this changes the
+/// mean noticeably. Light is continuous in time, so the mean converges with the square of their number; its error is
+/// taken as twice the last change.
 fn over_time(fine: f64, of_frame: impl Fn(i32) -> Option<(DVec4, f64)>) -> Option<(DVec4, f64)> {
     const FIRST: i32 = 32;
     const LAST: i32 = 1024;

@@ -1,4 +1,4 @@
-//! Scenes with several features at once: those of a row in which every three occur together.
+//! Scenes that combine several features, according to the rows of a covering array of strength three.
 
 use glam::DVec3;
 
@@ -8,15 +8,15 @@ use super::pose::Pose;
 use marbles_tests::features::{Feature, Row, row};
 use marbles_tests::numbers::Numbers;
 
-/// The distance of things that are far, in units of the scene; near ones are as many times nearer as the eye is near
-/// the surface.
+/// The distance of far things, in units of the scene. Near things are closer by the factor by which the viewpoint is
+/// near the surface.
 const FAR: f64 = 100.0;
 
-/// Columns and rows of pictures with bumps, and of those with an open shutter.
+/// Columns and rows of pictures with bumps, and of pictures with an open shutter.
 const SIDE_OF_BUMPS: u32 = 10;
 const SIDE_OVER_TIME: u32 = 5;
 
-/// A scene of a row, by random numbers.
+/// A random scene for a row.
 pub(super) fn together(numbers: &mut Numbers, index: u64) -> Draft {
     let row = row(index);
     let lens = Sight::of(&row, numbers);
@@ -61,15 +61,15 @@ struct Sight {
     pose: Pose,
     /// Columns and rows.
     side: u32,
-    /// The distance of the retina, in pixels; none of a parallel lens.
+    /// The distance of the retina, in pixels; `None` for a parallel lens.
     distance: Option<f64>,
     /// The shift, in pixels.
     shift: [f64; 2],
     /// The size of a pixel of a parallel lens.
     size: f64,
-    /// The distance of everything, in multiples of that in other scenes.
+    /// The factor on all distances, compared with other scenes.
     near: f64,
-    /// The distance and the radius of the surface that the eye is near.
+    /// The distance and the radius of the surface near the viewpoint.
     wall: Option<[f64; 2]>,
 }
 
@@ -132,7 +132,7 @@ impl Sight {
         }
     }
 
-    /// A place in the picture at a depth, in the axes of the camera.
+    /// A point of the picture at a depth, in the axes of the camera.
     fn place(&self, depth: f64, numbers: &mut Numbers) -> DVec3 {
         let half = 0.45 * f64::from(self.side);
         let pixel = self.pixel(depth);

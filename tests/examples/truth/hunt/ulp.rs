@@ -1,7 +1,7 @@
-//! Every scene again with the radius of one sphere an ulp larger.
+//! Renders every scene again with the radius of one sphere an ulp larger.
 //!
-//! A pixel that moves by more than both pictures claim, and by more than the sphere can move it, is wrong in one of
-//! them. It needs no judge, and finds what finer pictures get wrong in the same way.
+//! If a pixel changes by more than both pictures claim together, and by more than the sphere can change it, it is wrong
+//! in one of them. This check needs no reference, and finds errors that finer pictures share.
 
 use glam::DVec4;
 use marbles_core::Light;
@@ -12,28 +12,29 @@ use super::picture::Picture;
 use super::subject::Subject;
 use super::{Broken, Found};
 
-/// The change by an edge that moves by a pixel, in units of the light in sight: an edge in a pixel is at most as long
-/// as two of its sides, some edges may cross it, and edges of shadows move farther than what casts them.
+/// The change of a pixel if an edge moves by a pixel, in units of the visible light. An edge in a pixel is at most as
+/// long as two of its sides, several edges may cross it, and edges of shadows move farther than the sphere that casts
+/// them.
 ///
-/// An estimate: shadows move as many times as far as the sphere as the light is steep, and where it grazes what they
-/// fall on, that is more. Of large spheres, whose ulps are long, [`reach`] counts it.
+/// This is an estimate: the factor by which shadows move farther depends on the slope of the light, and is larger if
+/// the light grazes the surface. For large spheres, whose ulps are long, [`grazing`] computes it.
 const EDGES: f64 = 100.0;
 
-/// The rounding of visible light, in units of the light in sight, beside edges: powers multiply it by their
+/// The rounding of visible light, in units of the visible light, in addition to edges. Powers multiply it by their
 /// exponents.
 const ROUNDING: f64 = 1e-11;
 
-/// A sphere is large where it is so many times as large as the way to it.
+/// A sphere is large if its radius is this many times its distance.
 const LARGE: f64 = 100.0;
 
-/// A sphere of the scene by a number, and the scene with that one grown.
+/// The number of a sphere of the scene, chosen by a seed, and the scene in which this sphere is an ulp larger.
 pub(super) fn grown(draft: &Draft, seed: u64) -> Option<(usize, Draft)> {
     let count = draft.spheres.len();
     let index = Numbers(seed).below(count);
     Some((index, draft.grown(index)?))
 }
 
-/// Adds the pixels that move too far when a sphere grows by an ulp.
+/// Adds the pixels that change too much if a sphere grows by an ulp.
 pub(super) fn judge(
     found: &mut Found,
     draft: &Draft,
@@ -58,7 +59,7 @@ pub(super) fn judge(
     }
 }
 
-/// The pixels of two pictures that are farther apart than both claim, and than a shift of edges explains.
+/// The pixels whose difference in two pictures is larger than both claims and the shift of edges explain.
 fn moved(one: &Picture, other: &Picture, shift: f64, tolerance: f64) -> Vec<Broken> {
     let places = || one.places();
     let brightest = places()
@@ -81,7 +82,7 @@ fn moved(one: &Picture, other: &Picture, shift: f64, tolerance: f64) -> Vec<Brok
     broken.collect()
 }
 
-/// True where a pixel still moves too far.
+/// Returns whether a pixel still changes too much.
 pub(super) fn still_moves(draft: &Draft, grown: usize, broken: &Broken) -> bool {
     let pictures = || {
         let (subject, other) = (
@@ -100,8 +101,8 @@ pub(super) fn still_moves(draft: &Draft, grown: usize, broken: &Broken) -> bool 
     pictures() == Some(true)
 }
 
-/// The pixels that edges move by if a sphere grows to that of another scene; none where the picture may be another
-/// one.
+/// The distance in pixels by which edges move if a sphere grows to that of another scene; `None` if the picture may
+/// change completely.
 fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let world = subject.plain().world();
     let sphere = world.spheres().get(index)?;
@@ -111,7 +112,7 @@ fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     let lens = &view.lens;
     let pixels = f64::from(view.width) * view.zoom / lens.width;
     if lens.is_parallel() {
-        /// More than rounding, in ulps.
+        /// More than the rounding error, in ulps.
         const TOUCHES: f64 = 8.0;
         let ahead = (sphere.center() - view.camera.position).dot(view.camera.forward());
         if (ahead - sphere.radius()).abs() <= TOUCHES * ulp {
@@ -127,7 +128,8 @@ fn shift(subject: &Subject, other: &Subject, index: usize) -> Option<f64> {
     Some(ulp / near * pixels * grazing(subject, index, near))
 }
 
-/// The way from the eye, or from a lamp, to the nearest surface: edges turn by an ulp over that.
+/// The distance from the viewpoint, or from a lamp, to the nearest surface: edges turn by an ulp divided by this
+/// distance.
 fn reach(subject: &Subject, eye: glam::DVec3) -> f64 {
     let world = subject.plain().world();
     let lamps = world.lights.iter().filter_map(Light::point);
@@ -139,7 +141,7 @@ fn reach(subject: &Subject, eye: glam::DVec3) -> f64 {
     ways.fold(f64::INFINITY, f64::min)
 }
 
-/// The distance by which shadows move, in multiples of that of the large sphere that they fall on.
+/// The factor by which shadows move farther than the large sphere that they fall on.
 fn grazing(subject: &Subject, index: usize, near: f64) -> f64 {
     let world = subject.plain().world();
     let sphere = &world.spheres()[index];

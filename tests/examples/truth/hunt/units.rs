@@ -1,6 +1,6 @@
 //! Scene files in other units of light and of length.
 
-/// The words before what is light, and before what is a length.
+/// The words before light values, and before lengths.
 const LIGHT: [&str; 4] = ["intensity: ", "ambient: ", "background: ", "color: "];
 const LENGTHS: [&str; 11] = [
     "center: ",
@@ -16,7 +16,7 @@ const LENGTHS: [&str; 11] = [
     "Surface(",
 ];
 
-/// A scene file whose light is so many times as bright, and whose lengths are so many times as long.
+/// A scene file with its light and its lengths multiplied by these factors.
 ///
 /// A power of two keeps all digits.
 pub(super) fn scaled(text: &str, light: f64, length: f64) -> String {
@@ -24,7 +24,7 @@ pub(super) fn scaled(text: &str, light: f64, length: f64) -> String {
     times(&text, &LENGTHS, length)
 }
 
-/// A text with all numbers multiplied that directly follow one of some words, alone or in parentheses.
+/// The text with all numbers multiplied that directly follow one of the words, alone or in parentheses.
 fn times(text: &str, words: &[&str], factor: f64) -> String {
     if factor == 1.0 {
         return text.to_owned();
@@ -48,7 +48,7 @@ fn times(text: &str, words: &[&str], factor: f64) -> String {
     result + rest
 }
 
-/// A number, or a list of numbers without its last parenthesis, multiplied.
+/// A number, or a list of numbers without its last parenthesis, multiplied by a factor.
 fn multiplied(value: &str, factor: f64) -> String {
     let (open, list) = match value.strip_prefix('(') {
         Some(list) => ("(", list),

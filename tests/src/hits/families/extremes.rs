@@ -1,10 +1,10 @@
-//! Numbers near the ends of what doubles hold, or of sizes that no scene mixes.
+//! Numbers near the limits of doubles, and sizes that no ordinary scene combines.
 
 use glam::DVec3;
 
 use super::{Draft, Random, ordinary};
 
-/// A case whose sizes are those of ordinary scenes.
+/// A case with the sizes of ordinary scenes.
 fn plain(random: &mut Random) -> Draft {
     match random.integer(0, 4) {
         0 => ordinary::inside(random),
@@ -61,7 +61,7 @@ pub(super) fn wild_position(random: &mut Random) -> Draft {
     draft
 }
 
-/// Differences that overflow, squares that do, and radii near the largest double.
+/// Differences that overflow, squares that overflow, and radii near the largest double.
 pub(super) fn huge_coordinates(random: &mut Random) -> Draft {
     let scale = random.power_of_two(1000, 1023);
     let draft = plain(random).scaled(scale);
@@ -73,7 +73,7 @@ pub(super) fn huge_coordinates(random: &mut Random) -> Draft {
     Draft { direction, ..draft }
 }
 
-/// A radius that dwarfs all distances, or is dwarfed by them.
+/// A radius that is far larger, or far smaller, than all distances.
 pub(super) fn extreme_radius(random: &mut Random) -> Draft {
     let draft = plain(random);
     let power = random.between(-300.0, 300.0);
@@ -111,7 +111,7 @@ pub(super) fn underflowing_distance(random: &mut Random) -> Draft {
         .stretched(libm::scalbn(1.0, exponent.min(1020)))
 }
 
-/// Squares around 2^±256, where the first floor gives up.
+/// Squares around 2^±256, where the first kind of arithmetic gives up.
 pub(super) fn limits_of_moderation(random: &mut Random) -> Draft {
     let side = |random: &mut Random| match random.integer(0, 2) {
         0 => random.power_of_two(-140, -110),
@@ -128,7 +128,7 @@ pub(super) fn limits_of_moderation(random: &mut Random) -> Draft {
     draft.scaled(scene).stretched(direction)
 }
 
-/// Every number with an exponent of its own.
+/// Numbers with independent exponents.
 pub(super) fn any_exponents(random: &mut Random) -> Draft {
     let reach = random.integer(1, 1000);
     let mut number =
@@ -144,7 +144,7 @@ pub(super) fn any_exponents(random: &mut Random) -> Draft {
     }
 }
 
-/// Ten random bit patterns, now and then a zero.
+/// Ten random bit patterns, with an occasional zero.
 pub(super) fn any_bits(random: &mut Random) -> Draft {
     let mut number = || {
         if random.one_in(5) {

@@ -1,23 +1,23 @@
-//! Rays that pass a sphere's rim so closely that rounding could decide: 1 − (distance from the
-//! center / r)² from ±2⁻¹ to ±2⁻¹¹⁰.
+//! Rays that pass the rim of a sphere so closely that rounding could decide: 1 − (distance from the center / r)² is
+//! between ±2⁻¹ and ±2⁻¹¹⁰.
 
 use glam::DVec3;
 
 use super::tangent::{self, Rotation};
 use super::{Draft, Random};
 
-/// By how much of itself the discriminant differs from 0, on either side.
+/// The relative distance of the discriminant from 0, on either side.
 fn gap(random: &mut Random) -> f64 {
     random.sign() * random.power_of_two(-110, -1) * random.between(1.0, 2.0)
 }
 
-/// The point of contact of a tangent ray from the coordinates' origin, as seen from the center.
+/// The point of contact of a tangent ray from the origin of the coordinates, relative to the center.
 fn contact(draft: &Draft) -> DVec3 {
     let along = draft.direction.dot(draft.center) / draft.direction.length_squared();
     draft.direction * along - draft.center
 }
 
-/// A tangent ray from the coordinates' origin, moved aside by a component of the origin.
+/// A tangent ray from the origin of the coordinates, moved sideways by a component of its origin.
 fn opened(random: &mut Random, mut draft: Draft) -> Draft {
     let contact = contact(&draft);
     let axis = contact.abs().max_position();
@@ -35,7 +35,7 @@ pub(super) fn oblique(random: &mut Random) -> Draft {
     opened(random, draft)
 }
 
-/// A tangent along an axis, turned a little by one of the direction's other components.
+/// A tangent along an axis, turned slightly by one of the other components of the direction.
 pub(super) fn turned(random: &mut Random) -> Draft {
     let mut draft = tangent::along_axis(random);
     let contact = contact(&draft);
@@ -49,7 +49,7 @@ pub(super) fn turned(random: &mut Random) -> Draft {
     draft
 }
 
-/// Everything at once: a moved origin, whole multiples of the direction, another scale.
+/// All of these together: a moved origin, whole multiples of the direction, another scale.
 pub(super) fn mixed(random: &mut Random) -> Draft {
     let draft = match random.integer(0, 2) {
         0 => along_axis(random),
@@ -73,7 +73,7 @@ pub(super) fn mixed(random: &mut Random) -> Draft {
     draft.scaled(scale).stretched(stretch).shuffled(random)
 }
 
-/// Numbers without any pattern: the radius, or the aim, from a rounded computation.
+/// Numbers without a pattern: the radius, or the aim, comes from a rounded computation.
 pub(super) fn rounded(random: &mut Random) -> Draft {
     let (origin, center) = (random.in_cube(10.0), random.in_cube(10.0));
     let to_center = center - origin;
@@ -91,10 +91,10 @@ pub(super) fn rounded(random: &mut Random) -> Draft {
     }
 }
 
-/// Whole numbers up to 2⁵³ whose discriminant is 1 or −1 times the direction's square.
+/// Whole numbers up to 2⁵³ whose discriminant is 1 or −1 times the square of the direction.
 ///
-/// If the product of two Gaussian integers has an imaginary part of 1, their squares multiply to
-/// a square plus 1: (a² + b²) (c² + d²) = e² + 1 with e = a c + b d, where a d − b c = 1.
+/// If the product of two Gaussian integers has the imaginary part 1, the product of their norms is a square plus 1:
+/// (a² + b²) (c² + d²) = e² + 1 with e = a c + b d, if a d − b c = 1.
 pub(super) fn by_whole_numbers(random: &mut Random) -> Draft {
     let (mut a, mut b) = (1_i64, 0_i64);
     let (mut c, mut d) = (0_i64, 1_i64);
@@ -129,7 +129,7 @@ pub(super) fn by_whole_numbers(random: &mut Random) -> Draft {
     draft.shuffled(random)
 }
 
-/// Grazing rays whose distance, radius and direction are of unlike sizes.
+/// Grazing rays whose distance, radius and direction have very different sizes.
 pub(super) fn at_any_scale(random: &mut Random) -> Draft {
     let radius = random.magnitude(1e-30, 1e30);
     let rotation = Rotation::draw(random, 9);

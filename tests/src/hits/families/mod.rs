@@ -1,4 +1,4 @@
-//! Rays and spheres that are hard, or ordinary, in many ways.
+//! Rays and spheres of many kinds, difficult and ordinary.
 
 mod extremes;
 mod grazing;
@@ -20,7 +20,7 @@ pub struct Family {
     draw: fn(&mut Random) -> Draft,
 }
 
-/// A ray and a sphere that may yet be impossible, as its radius under- or overflowed.
+/// A ray and a sphere, which may be invalid because the radius under- or overflowed.
 #[derive(Clone, Copy)]
 struct Draft {
     origin: DVec3,
@@ -105,7 +105,7 @@ impl Family {
 }
 
 impl Draft {
-    /// The scene (without the direction) by a factor.
+    /// Multiplies the scene, without the direction, by a factor.
     fn scaled(self, factor: f64) -> Self {
         Self {
             origin: self.origin * factor,
@@ -123,7 +123,7 @@ impl Draft {
         }
     }
 
-    /// The direction by a factor.
+    /// Multiplies the direction by a factor.
     fn stretched(self, factor: f64) -> Self {
         Self {
             direction: self.direction * factor,
@@ -131,7 +131,7 @@ impl Draft {
         }
     }
 
-    /// One of the ten numbers replaced by a neighbor, up to `reach` doubles away.
+    /// Replaces one of the ten numbers by a neighbor that is up to `reach` doubles away.
     fn nudged(mut self, random: &mut Random, reach: i64) -> Self {
         let index = random.integer(0, 9) as usize;
         let number = match index {
@@ -151,7 +151,7 @@ impl Draft {
         self
     }
 
-    /// The axes renamed and turned around, which rounds nothing.
+    /// Permutes and reverses the axes, which rounds nothing.
     fn shuffled(mut self, random: &mut Random) -> Self {
         let turns = random.integer(0, 2);
         let signs = DVec3::new(random.sign(), random.sign(), random.sign());

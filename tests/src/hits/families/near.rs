@@ -1,11 +1,11 @@
-//! Origins at, on or nearly on a surface.
+//! Origins on a surface, exactly or nearly.
 
 use glam::DVec3;
 
 use super::tangent::Rotation;
 use super::{Draft, Random};
 
-/// A floor of enormous radius under, or a dome around, a low eye.
+/// A floor of enormous radius below a low viewpoint, or a dome around it.
 pub(super) fn huge(random: &mut Random) -> Draft {
     let radius = random.magnitude(1e6, 1e12);
     let altitude = random.magnitude(1e-6, 1.0) * if random.one_in(4) { -1.0 } else { 1.0 };
@@ -36,7 +36,7 @@ pub(super) fn huge(random: &mut Random) -> Draft {
     }
 }
 
-/// An origin exactly on the surface: the first column of a rotation by whole numbers.
+/// An origin exactly on the surface: the first column of a rotation matrix of whole numbers.
 pub(super) fn on_surface(random: &mut Random) -> Draft {
     let size = 1 << random.integer(1, 23);
     let rotation = Rotation::draw(random, size);
@@ -70,7 +70,7 @@ pub(super) fn on_surface(random: &mut Random) -> Draft {
     draft.scaled(random.power_of_two(-60, 20))
 }
 
-/// One input of such a case replaced by a neighbor.
+/// A case of this kind with one input replaced by a neighbor.
 pub(super) fn on_surface_neighbors(random: &mut Random) -> Draft {
     let draft = on_surface(random);
     let draft = if random.one_in(2) {
@@ -83,7 +83,7 @@ pub(super) fn on_surface_neighbors(random: &mut Random) -> Draft {
     draft.nudged(random, 3)
 }
 
-/// An origin on the surface as good as doubles allow, in either direction across.
+/// An origin as close to the surface as doubles allow, and a direction in or out.
 pub(super) fn rounded_surface(random: &mut Random) -> Draft {
     let (center, radius) = (random.in_cube(10.0), random.magnitude(1e-3, 1e3));
     let normal = random.unit_vector();
@@ -95,7 +95,7 @@ pub(super) fn rounded_surface(random: &mut Random) -> Draft {
     }
 }
 
-/// An origin on the surface or nearly, and a direction nearly along it.
+/// An origin on the surface or nearly so, and a direction nearly parallel to it.
 pub(super) fn along_surface(random: &mut Random) -> Draft {
     let draft = rounded_surface(random);
     let normal = (draft.origin - draft.center) / draft.radius;
@@ -129,7 +129,7 @@ pub(super) fn cancellation(random: &mut Random) -> Draft {
     }
 }
 
-/// One of two shells that nearly coincide, where a ray meets the other's surface.
+/// One of two shells that nearly coincide; the ray begins on the other one.
 pub(super) fn concentric(random: &mut Random) -> Draft {
     let (center, radius) = (random.in_cube(10.0), random.magnitude(0.1, 10.0));
     let other = radius * (1.0 + random.sign() * random.magnitude(1e-16, 1e-3));
@@ -165,7 +165,7 @@ pub(super) fn touching(random: &mut Random) -> Draft {
     }
 }
 
-/// A direction exactly or nearly orthogonal to the center, from every side of the surface.
+/// A direction exactly or nearly orthogonal to the direction toward the center, from both sides of the surface.
 pub(super) fn orthogonal(random: &mut Random) -> Draft {
     let rotation = Rotation::draw(random, 1 << 10);
     let to_center = rotation.turn(DVec3::X);

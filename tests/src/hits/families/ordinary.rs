@@ -1,10 +1,10 @@
-//! Rays toward spheres of all kinds of size and place.
+//! Rays toward spheres of all sizes and positions.
 
 use glam::DVec3;
 
 use super::{Draft, Random};
 
-/// A ray from `origin` toward the sphere or a little past it.
+/// A ray from `origin` toward the sphere, or slightly past it.
 fn aimed(random: &mut Random, origin: DVec3, center: DVec3, radius: f64) -> Draft {
     let target = center + random.in_unit_ball() * (1.3 * radius);
     let direction = target - origin;
@@ -44,7 +44,7 @@ pub(super) fn behind(random: &mut Random) -> Draft {
     draft.stretched(-1.0)
 }
 
-/// The direction points exactly at the center, or away from it; also axis by axis.
+/// Directions exactly toward the center, or away from it, including along axes.
 pub(super) fn through_center(random: &mut Random) -> Draft {
     let origin = match random.integer(0, 1) {
         0 => DVec3::ZERO,
@@ -97,8 +97,8 @@ pub(super) fn scaled_scene(random: &mut Random) -> Draft {
     draft.scaled(factor)
 }
 
-/// Whole numbers so small that many cases are ties: tangents, origins on the surface, origins
-/// in the center, directions along the surface.
+/// Whole numbers so small that many cases are degenerate: tangents, origins on the surface or in the center, directions
+/// parallel to the surface.
 pub(super) fn lattice(random: &mut Random) -> Draft {
     let size = random.integer(2, 12);
     let mut point = || {
@@ -114,7 +114,7 @@ pub(super) fn lattice(random: &mut Random) -> Draft {
     }
 }
 
-/// Distances around a power of two, where the unit in the last place changes.
+/// Distances close to a power of two, where the unit in the last place changes.
 pub(super) fn binade(random: &mut Random) -> Draft {
     let draft = if random.one_in(2) {
         generic(random)

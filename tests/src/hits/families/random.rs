@@ -1,4 +1,4 @@
-//! Random numbers that are the same everywhere.
+//! Random numbers that are the same on all machines.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use glam::DVec3;
 pub struct Random(u64);
 
 impl Random {
-    /// A sequence of its own for every seed.
+    /// A separate sequence for every seed.
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
@@ -38,17 +38,17 @@ impl Random {
         libm::exp(self.between(libm::log(low), libm::log(high)))
     }
 
-    /// A whole number between the two, which both occur.
+    /// A whole number between two numbers, both included.
     pub fn integer(&mut self, low: i64, high: i64) -> i64 {
         low + (self.bits() % (high - low + 1) as u64) as i64
     }
 
-    /// A power of two whose exponent lies between the two, which both occur.
+    /// A power of two whose exponent is between two numbers, both included.
     pub fn power_of_two(&mut self, low: i64, high: i64) -> f64 {
         libm::scalbn(1.0, self.integer(low, high) as i32)
     }
 
-    /// True once in so many chances.
+    /// True with a probability of one in `chances`.
     pub fn one_in(&mut self, chances: u64) -> bool {
         self.bits().is_multiple_of(chances)
     }
@@ -58,7 +58,7 @@ impl Random {
         if self.one_in(2) { -1.0 } else { 1.0 }
     }
 
-    /// One of the axes, either way.
+    /// The direction of an axis, positive or negative.
     pub fn axis(&mut self) -> DVec3 {
         DVec3::AXES[self.integer(0, 2) as usize] * self.sign()
     }
@@ -89,7 +89,7 @@ impl Random {
         }
     }
 
-    /// Any finite double, subnormal ones too.
+    /// Any finite double, including subnormal ones.
     pub fn any_finite(&mut self) -> f64 {
         loop {
             let value = f64::from_bits(self.bits());

@@ -1,11 +1,10 @@
-//! Rays that touch exactly, by Pythagoras, and their nearest neighbors.
+//! Rays that are exactly tangent, from Pythagorean triples, and their nearest neighbors.
 
 use glam::DVec3;
 
 use super::{Draft, Random};
 
-/// A tangent ray along z in whole numbers below 2²⁷, touching at (x, y) = (m² − n², 2 m n),
-/// so that r = m² + n².
+/// A tangent ray along z in whole numbers below 2²⁷. It touches at (x, y) = (m² − n², 2 m n), so r = m² + n².
 pub(super) fn along_axis(random: &mut Random) -> Draft {
     let size = 1 << random.integer(1, 13);
     let (m, n) = (random.integer(1, size), random.integer(0, size));
@@ -20,7 +19,7 @@ pub(super) fn along_axis(random: &mut Random) -> Draft {
     draft.shuffled(random)
 }
 
-/// A rotation by whole numbers times N, the square of the quaternion it comes from.
+/// A rotation matrix in whole numbers times N, the squared norm of the quaternion it comes from.
 pub(super) struct Rotation {
     columns: [DVec3; 3],
     pub(super) square: f64,
@@ -55,7 +54,7 @@ impl Rotation {
         }
     }
 
-    /// Exact as long as everything stays below 2⁵³.
+    /// Exact as long as all numbers stay below 2⁵³.
     pub(super) fn turn(&self, vector: DVec3) -> DVec3 {
         self.columns[0] * vector.x + self.columns[1] * vector.y + self.columns[2] * vector.z
     }
@@ -73,7 +72,7 @@ pub(super) fn oblique(random: &mut Random) -> Draft {
     }
 }
 
-/// A tangent ray at any place and of any size, still exact.
+/// A tangent ray at any position and of any size, still exact.
 pub(super) fn scaled(random: &mut Random) -> Draft {
     let by = DVec3::from([(); 3].map(|()| random.integer(-1 << 50, 1 << 50) as f64));
     let by = if random.one_in(2) { by } else { DVec3::ZERO };
@@ -99,7 +98,7 @@ pub(super) fn neighbors(random: &mut Random) -> Draft {
     nudged
 }
 
-/// A ray that touches at its own origin, or next to it.
+/// A ray that touches the sphere at its own origin, or next to it.
 pub(super) fn at_origin(random: &mut Random) -> Draft {
     let rotation = Rotation::draw(random, 100);
     let (x, y) = (

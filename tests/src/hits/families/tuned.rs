@@ -1,7 +1,7 @@
-//! Numbers without any pattern, yet as near to a tangent or to the surface as one likes.
+//! Numbers without a pattern, yet arbitrarily close to a tangent or to the surface.
 //!
-//! One coordinate of the origin is 0 in the beginning, so that a tiny one in its place tunes
-//! the case far more finely than the other numbers could.
+//! One coordinate of the origin is 0 at first. A tiny number in its place tunes the case far more finely than the other
+//! numbers could.
 
 use glam::DVec3;
 use marbles_core::{Ray, Sphere};
@@ -9,7 +9,8 @@ use marbles_core::{Ray, Sphere};
 use super::super::judge;
 use super::{Draft, Random};
 
-/// The distance: from well within the first floor's reach to beyond the second's.
+/// The distance from a tangent or from the surface: from within the reach of the first kind of arithmetic to beyond
+/// that of the second.
 fn gap(random: &mut Random) -> f64 {
     random.sign() * random.power_of_two(-110, -20) * random.between(1.0, 2.0)
 }
@@ -51,7 +52,7 @@ pub(super) fn near_surface(random: &mut Random) -> Draft {
     draft
 }
 
-/// Grazing rays that start near the point of contact, so near the surface as well.
+/// Grazing rays that begin near the point of contact, and thus also near the surface.
 pub(super) fn both(random: &mut Random) -> Draft {
     let mut draft = seen_from_zero(random);
     let along = draft.direction.cross(draft.center);

@@ -2,7 +2,7 @@
 
 use num_bigint::{BigInt, Sign};
 
-/// Finite doubles as integers in one common unit, and the unit's binary exponent.
+/// Finite doubles as integers in a common unit, and the binary exponent of this unit.
 pub(super) fn integers<const COUNT: usize>(values: [f64; COUNT]) -> ([BigInt; COUNT], i64) {
     let parts = values.map(mantissa_and_exponent);
     let unit = parts
@@ -31,7 +31,7 @@ pub(super) fn mantissa_and_exponent(value: f64) -> (i64, i64) {
     (mantissa >> zeros, i64::from(exponent) - digits + zeros)
 }
 
-/// The integer times 2^exponent, to about 2⁻⁵³ of itself.
+/// The integer times 2^exponent, with a relative error of about 2⁻⁵³.
 pub(super) fn to_float(integer: &BigInt, exponent: i64) -> f64 {
     let surplus = i64::try_from(integer.bits()).unwrap().saturating_sub(64);
     let magnitude = integer.magnitude() >> surplus.max(0);
@@ -46,7 +46,7 @@ pub(super) fn to_float(integer: &BigInt, exponent: i64) -> f64 {
     }
 }
 
-/// `value` · 2^`places`, cut to an integer where `places` is negative.
+/// `value` · 2^`places`, truncated to an integer if `places` is negative.
 pub(super) fn shifted(value: &BigInt, places: i64) -> BigInt {
     if places >= 0 {
         value << places

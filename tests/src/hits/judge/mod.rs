@@ -1,12 +1,12 @@
-//! The judge: from the given doubles alone, what is exactly true of a ray and a sphere.
+//! The judge: computes exactly whether and where a ray hits a sphere, from the given doubles alone.
 //!
-//! Every double is an integer times a power of two, so that the quadratic A t² − 2 B t + K = 0
-//! has integer coefficients: with d the direction and f = center − origin, A = d·d, B = d·f,
-//! K = f·f − r², and its discriminant Q = A r² − |d × f|². Decisions are signs of integers; the
-//! distance is the rational enclosure that the integer square root of Q gives.
+//! Every double is an integer times a power of two. So the quadratic A t² − 2 B t + K = 0 has integer coefficients:
+//! with d the direction and f = center − origin, A = d·d, B = d·f, K = f·f − r², and its discriminant is Q = A r² − |d
+//! × f|². Decisions are signs of integers. The distance is enclosed in rational numbers from the integer square root of
+//! Q.
 //!
-//! Nothing is shared with the code under test: neither the library of large integers, nor the
-//! formulas of discriminant, distance and normal, nor the rounding.
+//! It shares nothing with the code under test: neither the library for large integers, nor the formulas of
+//! discriminant, distance and normal, nor the rounding.
 
 mod integers;
 mod point;
@@ -19,29 +19,27 @@ pub use point::{Exact, ExactPoint};
 
 use integers::{cross, dot, integers, shifted, to_float};
 
-/// Binary digits of distance and normal that are right: a unit in the last place of a double is
-/// 2⁷⁰ times as large at least.
+/// Correct binary digits of distance and normal. A unit in the last place of a double is at least 2⁷⁰ times as large.
 const DIGITS: i64 = 125;
 
-/// The nearest point of the sphere in front of the ray's origin, exactly.
+/// The exact nearest intersection of the sphere in front of the ray's origin.
 pub struct ExactHit {
     /// Whether the origin lies inside or on the surface.
     pub inner_side: bool,
-    /// The distance lies between this and this plus 2, times two to the `exponent`.
+    /// The distance is between this number and this number plus 2, times two to the `exponent`.
     distance: BigInt,
     exponent: i64,
-    /// The outward normal in units of 2^−`DIGITS`, each component cut.
+    /// The outward normal in units of 2^−`DIGITS`, with truncated components.
     normal: [BigInt; 3],
 }
 
-/// The exact hit, `None` on a miss. A tangent counts, t = 0 does not; a ray without direction
-/// misses.
+/// The exact hit; `None` for a miss. A tangent is a hit, t = 0 is not; a ray without a direction misses.
 pub fn judge(sphere: &Sphere, ray: &Ray) -> Option<ExactHit> {
     let quadratic = Quadratic::new(sphere, ray);
     quadratic.is_hit().then(|| quadratic.hit())
 }
 
-/// K and Q / A, each to some 2⁻⁵² of itself.
+/// K and Q / A, each with a relative error of about 2⁻⁵².
 pub fn powers(sphere: &Sphere, ray: &Ray) -> (f64, f64) {
     let quadratic = Quadratic::new(sphere, ray);
     let unit = 2 * quadratic.scene_unit;
@@ -64,7 +62,7 @@ struct Quadratic {
     outside: BigInt,
     /// Q.
     discriminant: BigInt,
-    /// The binary exponents of the coordinates' unit, and of the solutions'.
+    /// The binary exponents of the unit of coordinates, and of the unit of solutions.
     scene_unit: i64,
     unit: i64,
 }
@@ -99,7 +97,7 @@ impl Quadratic {
         }
     }
 
-    /// Whether a solution greater than 0 exists: the product of both is K / A, their sum 2 B / A.
+    /// Returns whether there is a solution greater than 0: the product of both solutions is K / A, their sum 2 B / A.
     fn is_hit(&self) -> bool {
         let zero = BigInt::ZERO;
         if self.direction_sq == zero || self.discriminant < zero {
@@ -108,7 +106,7 @@ impl Quadratic {
         self.outside < zero || self.along > zero
     }
 
-    /// The least solution greater than 0: (B − √Q) / A from outside, else (B + √Q) / A.
+    /// The smallest solution greater than 0: (B − √Q) / A from outside, else (B + √Q) / A.
     fn hit(&self) -> ExactHit {
         let inner_side = self.outside <= BigInt::ZERO;
         let places = self.places_of_the_root();
@@ -144,7 +142,7 @@ impl Quadratic {
         }
     }
 
-    /// So many binary places the root needs, that distance and normal have their digits.
+    /// The number of binary places of the root that give the distance and the normal their digits.
     fn places_of_the_root(&self) -> i64 {
         let bits = |value: &BigInt| value.bits() as i64;
         // The numerator B ± √Q is at least A |K| / (|B| + √Q), or 2 B where K = 0; the normal's

@@ -1,4 +1,4 @@
-//! Points and normals coordinate by coordinate, to so many digits that none is lost in what cancels.
+//! Points and normals by coordinates, with so many digits that cancellation does no harm.
 
 use std::cmp::Ordering;
 
@@ -9,10 +9,10 @@ use num_bigint::{BigInt, BigUint};
 use super::Quadratic;
 use super::integers::{dot, integers, mantissa_and_exponent, to_float};
 
-/// Binary places of roots behind those of whole numbers: hundreds more than any coordinate loses.
+/// Binary places of roots after the binary point: hundreds more than any coordinate loses.
 const PLACES: u64 = 640;
 
-/// The nearest point of a sphere in front of a ray's origin, from which coordinates can be asked.
+/// The nearest intersection of a sphere in front of a ray's origin, with its coordinates.
 pub struct ExactPoint {
     quadratic: Quadratic,
     origin: [BigInt; 3],
@@ -29,7 +29,7 @@ pub struct Exact {
 }
 
 impl ExactPoint {
-    /// The point, `None` on a miss.
+    /// The point; `None` for a miss.
     pub fn new(sphere: &Sphere, ray: &Ray) -> Option<Self> {
         let quadratic = Quadratic::new(sphere, ray);
         if !quadratic.is_hit() {
@@ -131,8 +131,8 @@ impl Exact {
         self
     }
 
-    /// The distance of a number from this one, in units in the last place of floats of so many binary digits
-    /// whose least exponent is this one.
+    /// The distance of a number from this one, in units in the last place of floats with this number of binary digits
+    /// and this smallest exponent.
     pub fn error(&self, found: f64, (digits, least): (i32, i32)) -> f64 {
         let (mantissa, own) = mantissa_and_exponent(found);
         let unit = own.min(self.exponent);
@@ -151,7 +151,7 @@ impl Exact {
         ratio(&(found - exact), unit).abs() / libm::scalbn(1.0, place(value) + 1 - digits)
     }
 
-    /// The order of two, which are equal where they agree to so many digits that they must be.
+    /// The order of two numbers. They are equal if they agree to so many digits that they must be.
     pub fn order(&self, other: &Self) -> Ordering {
         let unit = self.exponent.min(other.exponent);
         let one = (&self.numerator * &other.denominator) << (self.exponent - unit);

@@ -1,4 +1,4 @@
-//! Errors of found distances and normals.
+//! Errors of computed distances and normals.
 
 use glam::DVec3;
 use num_bigint::BigInt;
@@ -6,15 +6,14 @@ use num_bigint::BigInt;
 use super::integers::{cross, dot, mantissa_and_exponent, shifted, to_float};
 use super::{DIGITS, ExactHit};
 
-/// The exponent of the unit in the last place of the smallest numbers and of the largest.
+/// The exponents of the unit in the last place of the smallest and of the largest numbers.
 const UNITS: (i64, i64) = (-1074, 971);
 
 impl ExactHit {
-    /// The error of a found distance in units in the last place.
+    /// The error of a computed distance in units in the last place.
     ///
-    /// The unit is the distance from the correctly rounded exact t to the next double away from
-    /// zero. Where that t exceeds the largest double, infinity is right; else infinity stands for
-    /// 2¹⁰²⁴, the next number after the largest.
+    /// The unit is the distance from the correctly rounded t to the next double away from zero. If this t exceeds the
+    /// largest double, infinity is correct; otherwise infinity counts as 2¹⁰²⁴, the next number after the largest.
     pub fn ulps(&self, found: f64) -> f64 {
         if found.is_nan() || found < 0.0 {
             return f64::INFINITY;
@@ -42,7 +41,7 @@ impl ExactHit {
         to_float(&error, common - unit).abs()
     }
 
-    /// The angle between a found normal and the exact one, in 2⁻⁵³ radians.
+    /// The angle between a computed normal and the exact one, in 2⁻⁵³ radians.
     pub fn angle(&self, found: DVec3) -> f64 {
         if !found.is_finite() || found == DVec3::ZERO {
             return f64::INFINITY;
@@ -54,7 +53,7 @@ impl ExactHit {
         libm::atan2(DVec3::new(x, y, z).length(), cosine) * TO_UNITS
     }
 
-    /// The difference of the length of a found normal from 1, in units of 2⁻⁵³.
+    /// The difference between the length of a computed normal and 1, in units of 2⁻⁵³.
     pub fn excess_length(found: DVec3) -> f64 {
         if !found.is_finite() {
             return f64::INFINITY;
@@ -65,10 +64,10 @@ impl ExactHit {
     }
 }
 
-/// The units of 2⁻⁵³ radians in a radian.
+/// Converts radians to 2⁻⁵³ radians.
 const TO_UNITS: f64 = 2.0 / f64::EPSILON;
 
-/// A double in units of 2^−`DIGITS`, cut to an integer.
+/// A double in units of 2^−`DIGITS`, truncated to an integer.
 fn fixed_point(value: f64) -> BigInt {
     let (mantissa, exponent) = mantissa_and_exponent(value);
     shifted(&BigInt::from(mantissa), exponent + DIGITS)

@@ -1,4 +1,4 @@
-//! The judge before its own judge: signs of the quadratic, and numbers known otherwise.
+//! Tests of the judge: signs of the quadratic, and numbers known from elsewhere.
 
 use glam::DVec3;
 
@@ -13,7 +13,7 @@ fn exact(center: DVec3, radius: f64, direction: DVec3) -> Option<ExactHit> {
     judge(&Sphere::new(center, radius).unwrap(), &ray)
 }
 
-/// The quadratic changes its sign within the enclosure, at the root that counts.
+/// The quadratic changes its sign within the enclosure, at the right root.
 #[test]
 fn the_quadratic_changes_its_sign_within_the_enclosure() {
     for family in FAMILIES {

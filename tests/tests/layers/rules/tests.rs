@@ -1,4 +1,4 @@
-//! Small crates, and what is wrong with their imports.
+//! Small crates, and the faults in their imports.
 
 use super::super::order::layers;
 use super::super::tree::Tree;

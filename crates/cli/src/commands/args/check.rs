@@ -8,15 +8,15 @@ use super::scene::SceneOptions;
 
 const EXAMPLES: &str = "\
 Examples:
-  marbles check ball.ron                              what the scene contains
-  marbles check ball.ron --json | jq .camera.K        the matrix of its camera
+  marbles check ball.ron                              print the contents of the scene
+  marbles check ball.ron --json | jq .camera.K        print the matrix of its camera
 
 Exit codes:
   0  the scene is valid
   1  something failed
   2  the command line or the scene file is wrong";
 
-/// Validate a scene file and tell what it contains
+/// Validate a scene file and print its contents
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CheckArguments {
@@ -26,12 +26,12 @@ pub(crate) struct CheckArguments {
     #[command(flatten)]
     pub(crate) options: SceneOptions,
 
-    /// Print camera and lights of a frame as JSON: what `marbles render --sidecar` writes, without what only
-    /// rendering knows
+    /// Print the camera and the lights of a frame as JSON, like `marbles render --sidecar` but without the results of
+    /// rendering
     #[arg(long)]
     pub(crate) json: bool,
 
-    /// Frame that --json tells of [default: the scene's first]
+    /// Frame for --json [default: the first]
     #[arg(
         long,
         value_name = "FRAME",

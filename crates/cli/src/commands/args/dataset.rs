@@ -12,48 +12,52 @@ use crate::terminal::progress::ProgressForm;
 const EXAMPLES: &str = "\
 Examples:
   marbles dataset studio.ron -o studio --layout diligent
-  marbles dataset studio.ron -o studio --layout diligent --skip-existing   go on where it ended
+  marbles dataset studio.ron -o studio --layout diligent --skip-existing   resume an interrupted run
   marbles dataset lamps.ron -o lamps --layout luces
 
-Files of the layout `diligent`, in the camera's axes: x right, y up, z toward the viewer:
-  001.png, 002.png, …   a picture under each light alone, without ambient light and background: 16 bit,
-                        in proportion to light, scaled so that none is clipped
-  filenames.txt         their names
+Files of the layout `diligent`, in the axes of the camera (x right, y up, z toward the viewer):
+  001.png, 002.png, …   a picture of each light alone, without ambient light and background: 16 bits,
+                        proportional to light, scaled such that no pixel is clipped
+  filenames.txt         the names of the pictures
   light_directions.txt  unit vectors toward the lights
-  light_intensities.txt  red, green and blue of the lights in the pictures' numbers, in which the
-                        largest code is 1: a white surface that faces a light has its intensity
-  mask.png              255 where the center of a pixel sees a sphere
-  Normal_gt.mat         the normals there, an array `Normal_gt` of doubles, height × width × 3
-  normal.txt            the same, three numbers a line, row by row
-  Normal_gt.png         the same to look at
+  light_intensities.txt  red, green and blue of the lights, in the unit of the pictures, whose largest
+                        code is 1: a white surface that faces a light has its intensity
+  mask.png              255 if the ray through the center of the pixel hits a sphere
+  Normal_gt.mat         the normals of these pixels, as an array `Normal_gt` of doubles,
+                        height × width × 3
+  normal.txt            the same normals as text, row by row, three numbers per line
+  Normal_gt.png         the same normals as a picture
 
-Files of the layout `luces`, for point lights that fall off with the square of the distance:
+Files of the layout `luces`, for point lights whose light falls off with the square of the distance:
   01.png, 02.png, …     the pictures, as above
-  led_params.txt        size, focal length, principal point and mean distance; then of each light its
-                        position (x right, y down, z forward), direction, brightness and exponent
-  normals.png           the normals, 16 bit: x right, y up, z toward the viewer
-  zgt.npz               the depths along the axis of view, arrays `zgt` and `zgt_int` of doubles
-  mask.png, K.txt       where a sphere is seen; the matrix of the camera
-  light_positions.txt   x right, y up, z toward the viewer; light_directions.txt and
-                        light_intensities.txt are those at the mean distance; filenames.txt
+  led_params.txt        size, focal length, principal point and mean distance; then the position
+                        (x right, y down, z forward), direction, brightness and exponent of each light
+  normals.png           the normals, with 16 bits: x right, y up, z toward the viewer
+  zgt.npz               the depths along the axis of view, as arrays `zgt` and `zgt_int` of doubles
+  mask.png              the mask, as above
+  K.txt                 the matrix of the camera
+  light_positions.txt   the positions of the lights: x right, y up, z toward the viewer
+  light_directions.txt  directions toward the lights at the mean distance
+  light_intensities.txt  intensities of the lights at the mean distance
+  filenames.txt         the names of the pictures
 
 Exit codes:
-  0  everything is written, and every pixel met the tolerance
+  0  everything is written, and every pixel is within the tolerance
   1  something failed
   2  the command line or the scene file is wrong
-  3  everything is written, and some pixel did not meet the tolerance
+  3  everything is written, and some pixel is over the tolerance
   130  interrupted";
 
-/// A kind of data set.
+/// The layout of a data set.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum LayoutForm {
-    /// That of DiLiGenT: distant lights
+    /// Like DiLiGenT, for distant lights
     Diligent,
-    /// That of LUCES: near lights
+    /// Like LUCES, for near lights
     Luces,
 }
 
-/// Write a data set for photometric stereo: a picture under each light, and the true normals
+/// Write a data set for photometric stereo: a picture of each light, and the true normals
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct DatasetArguments {
@@ -63,7 +67,7 @@ pub(crate) struct DatasetArguments {
     #[command(flatten)]
     pub(crate) options: SceneOptions,
 
-    /// Folder of the files
+    /// Folder for the files
     #[arg(short, long, value_name = "FOLDER")]
     pub(crate) output: PathBuf,
 
@@ -75,16 +79,16 @@ pub(crate) struct DatasetArguments {
     #[arg(long, value_name = "N", allow_hyphen_values = true)]
     pub(crate) frame: Option<i32>,
 
-    /// Bring every channel of every pixel within E of its exact value, before it is rounded; E is a share of the
-    /// largest code, and so are the errors that results tell
+    /// Compute every channel of every pixel to within E of its exact value, before rounding; E and the errors in the
+    /// results are relative to the largest code
     #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
-    /// Size of the pictures in pixels, in place of the scene's
+    /// Size of the pictures in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
-    /// Leave out pictures that are complete and made from the same scene and settings
+    /// Skip pictures that are complete and were made from the same scene and settings
     #[arg(long)]
     pub(crate) skip_existing: bool,
 
@@ -92,11 +96,11 @@ pub(crate) struct DatasetArguments {
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
-    /// The form in which progress is reported [default: a bar on a terminal, plain elsewhere]
+    /// Form of the progress reports [default: a bar on a terminal, else plain]
     #[arg(long, value_name = "FORM")]
     pub(crate) progress: Option<ProgressForm>,
 
-    /// Print nothing but errors and warnings, and progress only where --progress asks for it
+    /// Print only errors and warnings, and progress only if you also give --progress
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

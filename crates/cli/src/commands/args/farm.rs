@@ -17,16 +17,16 @@ Examples:
   marbles farm openjd ball.ron -o out/####.exr --tolerance 1e-4 --job ball.template.json
   openjd run ball.template.json
 
-The scene is read and all options are checked before anything is written. Paths become absolute
-ones; `marbles`, the scene and the folder of the output have to be the same for all machines of the
-farm. A task skips frames whose files are complete, so it can be killed and run again.
+marbles reads the scene and checks all options before it writes the job. Paths become absolute. All
+machines of the farm need the same `marbles`, the same scene and the same output folder. A task skips
+frames whose files are complete, so it can be killed and run again.
 
 Exit codes:
   0  the job is written
   1  something failed
   2  the command line or the scene file is wrong";
 
-/// Write the job by which a farm renders the frames of a scene
+/// Write a job that renders the frames of a scene on a render farm
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct FarmArguments {
@@ -36,17 +36,17 @@ pub(crate) struct FarmArguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Engine {
-    /// Write a script with an array of tasks, for `sbatch`
+    /// Write an array script for Slurm's `sbatch`
     #[command(after_help = EXAMPLES)]
     Slurm(JobArguments),
-    /// Write a template of Open Job Description with chunks of tasks, in JSON
+    /// Write an Open Job Description template with chunks of frames, in JSON
     #[command(name = "openjd", after_help = EXAMPLES)]
     OpenJd(JobArguments),
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct JobArguments {
-    /// Frames that a task renders, one after the other
+    /// Frames per task
     #[arg(long, value_name = "N", default_value = "20", value_parser = chunk, allow_negative_numbers = true)]
     pub(crate) chunk: NonZeroU32,
 
@@ -58,7 +58,7 @@ pub(crate) struct JobArguments {
     pub(crate) render: GivenArguments,
 }
 
-/// The arguments of `marbles render`, of which the output is required, and how to give them again.
+/// The arguments of `marbles render`, with a required output, and their text on the command line.
 #[derive(Debug)]
 pub(crate) struct GivenArguments {
     pub(crate) parsed: RenderArguments,
@@ -69,7 +69,7 @@ pub(crate) struct GivenArguments {
 #[derive(Debug)]
 struct Given {
     name: String,
-    /// The values as they are written, one for each time that the option is given; none of a flag.
+    /// The values as written on the command line, one for each time that the option is given. Empty for a flag.
     values: Vec<OsString>,
 }
 
@@ -79,7 +79,7 @@ impl GivenArguments {
         self.given.iter().any(|given| given.name == name)
     }
 
-    /// All options on the command line but those named, in their long form with `=`.
+    /// All options on the command line except `names`, in their long form with `=`.
     pub(crate) fn options_without(&self, names: &[&str]) -> impl Iterator<Item = OsString> {
         let given = self.given.iter();
         let given = given.filter(|given| !names.contains(&given.name.as_str()));
@@ -134,11 +134,11 @@ impl FromArgMatches for GivenArguments {
 
 impl Args for GivenArguments {
     fn augment_args(command: Command) -> Command {
-        // Nobody wants what a farm renders in the folder that is the current one by chance.
+        // The current folder of a task is arbitrary, so a default in it would be of no use.
         RenderArguments::augment_args(command).mut_arg("output", |output| {
             output.required(true).help(
-                "File names, with ####, %04d or {frame:04} in place of the frame number; the \
-                 ending .png, .exr or .npy chooses the format",
+                "Names of the files; ####, %04d or {frame:04} stands for the frame number. The \
+                 extension .png, .exr or .npy chooses the format",
             )
         })
     }

@@ -10,19 +10,19 @@ Examples:
   marbles render huge.ron -o right.exr --region 4096,0,4096,8192
   marbles merge huge.exr left.exr right.exr
 
-The picture is the one that would have been rendered as a whole, to the byte.
+The picture is the same, to the byte, as one that was rendered as a whole.
 
 Exit codes:
   0  the picture is written
   1  something failed
-  2  the command line is wrong, or the parts do not make a picture: there is a gap, two overlap, or
-     they are of different scenes, frames or settings";
+  2  the command line is wrong, or the parts do not make a picture: there is a gap, two parts overlap,
+     or they come from different scenes, frames or settings";
 
-/// Put parts together that were rendered with --region
+/// Join parts of a picture that were rendered with --region
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct MergeArguments {
-    /// Picture to write, of the same format as the parts
+    /// Picture to write, in the format of the parts
     #[arg(value_name = "OUT")]
     pub(crate) output: PathBuf,
 
@@ -30,7 +30,7 @@ pub(crate) struct MergeArguments {
     #[arg(value_name = "PARTS", required = true)]
     pub(crate) parts: Vec<PathBuf>,
 
-    /// Print nothing but errors and warnings
+    /// Print only errors and warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

@@ -34,7 +34,7 @@ pub(crate) use self::report::ReportArguments;
 pub(crate) use self::scene::SceneOptions;
 pub(crate) use self::spheres::SpheresArguments;
 
-/// Render scenes of spheres to pictures whose pixels are known
+/// Render scenes of spheres to pictures with a known error
 #[derive(Debug, Parser)]
 #[command(name = "marbles", version, arg_required_else_help = true)]
 pub(crate) struct Arguments {
@@ -59,7 +59,7 @@ pub(crate) enum Command {
 }
 
 impl Arguments {
-    /// The arguments in `words`, the program's name first; messages and help are laid out for so many columns.
+    /// Parses `words`, which begin with the name of the program. Messages and help fit into `columns`.
     pub(crate) fn of(
         words: impl IntoIterator<Item = OsString>,
         columns: usize,
@@ -71,7 +71,7 @@ impl Arguments {
     }
 }
 
-/// The same error, in which no word of the command line does something to a terminal.
+/// The same error, with control characters from the command line escaped, so that they cannot control a terminal.
 fn harmless(mut error: clap::Error) -> clap::Error {
     let context = error.context().map(|(kind, value)| (kind, value.clone()));
     let context: Vec<_> = context.collect();
@@ -91,7 +91,7 @@ fn harmless(mut error: clap::Error) -> clap::Error {
             ContextValue::Strings(texts) => {
                 ContextValue::Strings(texts.iter().map(|text| escaped(text)).collect())
             }
-            // Tips, which repeat the word between styles: without these, nothing else moves a cursor.
+            // Tips repeat the word between styles. Plain text removes the styles, which are escape sequences too.
             ContextValue::StyledStrs(texts) => {
                 let plain = texts.iter().map(|text| escaped(&text.to_string()).into());
                 ContextValue::StyledStrs(plain.collect())
@@ -107,7 +107,7 @@ fn escaped(text: &str) -> String {
     marbles_scene::harmless(text)
 }
 
-/// The command, and its commands, with the end of their help laid out for so many columns.
+/// The command and its subcommands, with the end of their help wrapped at `columns`.
 fn fitted(command: clap::Command, columns: usize) -> clap::Command {
     let command = match command.get_after_help() {
         Some(help) => {

@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-/// Write a scene to start from
+/// Write a first scene, which you can change
 #[derive(Debug, Args)]
 pub(crate) struct NewArguments {
-    /// Scene file to write, which must not be there yet
+    /// Scene file to write; it must not exist yet
     #[arg(value_name = "NAME.ron")]
     pub(crate) scene: PathBuf,
 
-    /// Have the camera turn around the scene, in 120 frames
+    /// Make it a turntable: the camera goes around the scene in 120 frames
     #[arg(long)]
     pub(crate) turntable: bool,
 }

@@ -9,17 +9,17 @@ use super::values::tolerance_above_zero;
 
 const EXAMPLES: &str = "\
 Examples:
-  marbles preview ball.ron                            the first frame
-  marbles preview ball.ron --frame 30 --watch         frame 30, again whenever ball.ron is saved
+  marbles preview ball.ron                            show the first frame
+  marbles preview ball.ron --frame 30 --watch         show frame 30 whenever ball.ron is saved
 
-The picture fills the terminal, two pixels one above the other for each letter, and needs
-a terminal with 24-bit color. Terminals that speak the graphics protocol of kitty (kitty, Ghostty,
-WezTerm) show pixels of their own, as many as the scene asks for; with TERM=xterm they don't. Where
-the output is no terminal, it is a text of 80 columns.
+The picture fills the terminal, with two pixels, one above the other, for each character. The
+terminal must support 24-bit color. Terminals with kitty's graphics protocol (kitty, Ghostty, WezTerm)
+show the picture in the size of the scene instead; TERM=xterm disables this. If the output is not a
+terminal, the picture is text with 80 columns.
 
-With --watch the picture appears again when the scene file is saved, or a table that it names, and
-when the terminal has a new size. What is wrong with a file that was saved stands in its place.
-`q`, Esc and Ctrl-C end it, and the terminal shows what it showed before.
+With --watch, marbles shows the picture again when you save the scene file or one of its tables, and
+when the size of the terminal changes. If there is an error in the file, marbles shows the error
+instead. To end it, press `q`, Esc or Ctrl-C; the terminal then shows its former contents.
 
 Exit codes:
   0  the picture was shown, or `q` or Esc ended --watch
@@ -41,11 +41,11 @@ pub(crate) struct PreviewArguments {
     #[arg(long, value_name = "FRAME", allow_hyphen_values = true)]
     pub(crate) frame: Option<i32>,
 
-    /// Bring every channel of every pixel within E of its exact value
+    /// Compute every channel of every pixel to within E of its exact value
     #[arg(long, value_name = "E", default_value = "1e-2", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
-    /// Show it again whenever the scene file or one of its tables is saved
+    /// Show the frame again whenever the scene file or one of its tables is saved
     #[arg(short, long)]
     pub(crate) watch: bool,
 }

@@ -17,81 +17,80 @@ use crate::terminal::progress::ProgressForm;
 const EXAMPLES: &str = "\
 Examples:
   marbles render ball.ron                             ball.png, or ball.0001.png, ball.0002.png, …
-  marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file for each frame
+  marbles render ball.ron -o out/ball.####.exr        half-float EXR, one file per frame
   marbles render a.ron b.ron -o out/{scene}.png       several scenes
-  marbles render ball.ron --set camera.azimuth=30     with another value in the scene
+  marbles render ball.ron --set camera.azimuth=30     another value in the scene
   marbles render ball.ron -o a.npy --error-channel    doubles for NumPy, their errors in a_error.npy
   marbles render ball.ron -o b%03d.png --frames 1-9x2,20
   marbles render turn.ron -o turn.apng                a loop that browsers play
   marbles render ball.ron --tolerance 1e-4            every pixel within 0.0001 of its exact value
-  marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 points a pixel
+  marbles render ball.ron --samples 4                 plain supersampling, 4 × 4 samples per pixel
   marbles render ball.ron -o ball.exr --channels depth,normal,id
   marbles render ball.ron -o small.png --frames 7 --size 150x150
-  marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr: each light alone
-  marbles render ball.ron -o a.exr --per-light=layers  the same in layers light-1, …, ambient of a.exr
-  marbles render ball.ron -o ball.exr --sidecar       and ball.json: camera, lights, error
+  marbles render ball.ron -o a.exr --per-light        a.light-1.exr, …, a.ambient.exr, one per light
+  marbles render ball.ron -o a.exr --per-light=layers  the same as layers light-1, …, ambient of a.exr
+  marbles render ball.ron -o ball.exr --sidecar       also ball.json with camera, lights and error
 
 Exit codes:
-  0  everything is written, and every pixel met the tolerance
+  0  everything is written, and every pixel is within the tolerance
   1  something failed
   2  the command line or the scene file is wrong
-  3  everything is written, and some pixel did not meet the tolerance
+  3  everything is written, and some pixel is over the tolerance
   130  interrupted";
 
-/// The tolerance where none is given.
+/// The default tolerance.
 pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-3;
 
-/// The place of the pictures under one light each.
+/// The place of the pictures of single lights.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum PerLight {
-    /// A file for each
+    /// One file per light
     Files,
-    /// Layers of one EXR, whose picture is that under all lights
+    /// Layers of one EXR, next to the picture under all lights
     Layers,
 }
 
-/// Render the frames of a scene, one file each
+/// Render the frames of a scene to picture files
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArguments {
-    /// Scene file; you can give several, which are rendered one after another
+    /// Scene file; if you give several, they are rendered one after another
     #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
 
     #[command(flatten)]
     pub(crate) options: SceneOptions,
 
-    /// File names, with ####, %04d or {frame:04} in place of the frame number, and {scene} in place of
-    /// the scene's name; the ending .png, .exr or .npy chooses the format, and .apng has all frames in
-    /// one file, an animated PNG that plays in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the
-    /// current folder]
+    /// Names of the files; ####, %04d or {frame:04} stands for the frame number, {scene} for the name of the scene.
+    /// The extension .png, .exr or .npy chooses the format; .apng puts all frames into one animated PNG, which plays
+    /// in a loop [default: SCENE.png, or SCENE.####.png for several frames, in the current folder]
     #[arg(short, long, value_name = "PATTERN")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Frames in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every other), 9-1:-1
-    /// (backward), and several of these with commas [default: all of the scene's]
+    /// Frames, in the order of rendering: 7, 1-100, 1-100x2 or 1-100:2 (every second frame), 9-1:-1
+    /// (backward), or several of these separated by commas [default: all frames]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
-    /// Frames per second, in place of the scene's
+    /// Frames per second, instead of the scene's
     #[arg(long, value_name = "FPS", value_parser = above_zero, allow_negative_numbers = true)]
     pub(crate) fps: Option<f64>,
 
-    /// Skip frames whose files are complete and made from the same scene and settings
+    /// Skip frames whose files are complete and were made from the same scene and settings
     #[arg(long)]
     pub(crate) skip_existing: bool,
 
-    /// End at the first frame, or scene, that cannot be rendered or written, instead of going on to the next
+    /// Stop at the first frame or scene that cannot be rendered or written, instead of continuing with the next
     #[arg(long)]
     pub(crate) fail_fast: bool,
 
-    /// Bring every channel of every pixel within E of its exact value, the average over the
-    /// pixel's square in linear light; E is absolute, and a white surface facing a light of
-    /// intensity 1 has the value 1
+    /// Compute every channel of every pixel to within E of its exact value, which is the average of linear light
+    /// over the square of the pixel; E is absolute, and a white surface that faces a light of intensity 1 has the
+    /// value 1
     #[arg(long, value_name = "E", default_value = "1e-3", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
-    /// Average N × N samples in every pixel instead, whatever the error
+    /// Average N × N samples per pixel instead, whatever the error
     #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true, conflicts_with = "tolerance")]
     pub(crate) samples: Option<NonZeroU32>,
 
@@ -99,23 +98,22 @@ pub(crate) struct RenderArguments {
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
-    /// Size of the picture in pixels, in place of the scene's
+    /// Size of the picture in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
-    /// Render only a part of the picture, from column X and row Y on; `marbles merge` puts parts
-    /// together
+    /// Render only the part of the picture that begins at column X and row Y; `marbles merge` joins the parts
     #[arg(long, value_name = "X,Y,W,H", value_parser = window_of, allow_hyphen_values = true)]
     pub(crate) region: Option<Window>,
 
-    /// Leave out the background, and store the share of each pixel that spheres cover
+    /// Leave out the background, and store as alpha the share of each pixel that spheres cover
     #[arg(long)]
     pub(crate) alpha: bool,
 
-    /// Render each light alone, with its shadows, into NAME.light-KEY.png and so on, KEY its name, or its number from
-    /// 1 (from 01 where there are ten or more), and ambient light and background into NAME.ambient.png: the sum is the
-    /// picture. With --per-light=layers into layers light-1 (light-1.R, light-1.G, light-1.B) and so on, or the lights'
-    /// names, and `ambient` of one EXR, beside the picture under all lights
+    /// Render each light alone, with its shadows, to NAME.light-KEY.png and so on; KEY is the name of the light, or its
+    /// number from 1 (from 01 if there are ten or more). Ambient light and background go to NAME.ambient.png. The sum of
+    /// these pictures is the full picture. --per-light=layers stores them in one EXR, next to the full picture, as
+    /// layers light-1 (light-1.R, light-1.G, light-1.B) and so on, or with the names of the lights, and `ambient`
     #[arg(
         long,
         value_name = "PLACE",
@@ -126,35 +124,36 @@ pub(crate) struct RenderArguments {
     )]
     pub(crate) per_light: Option<PerLight>,
 
-    /// Bits of a number in a PNG, 8 or 16 [default: 8, and 16 with --linear]
+    /// Bits per channel of a PNG, 8 or 16 [default: 8, or 16 with --linear]
     #[arg(long, value_name = "BITS", value_parser = bits, allow_negative_numbers = true)]
     pub(crate) bits: Option<u8>,
 
-    /// Write a PNG whose numbers are in proportion to light, instead of those of sRGB, in 16 bit
+    /// Write a PNG with linear codes, proportional to light, instead of sRGB codes, with 16 bits
     #[arg(long)]
     pub(crate) linear: bool,
 
-    /// Multiply light by 2^EV before it is rounded to the numbers of a PNG; tolerance and errors are
-    /// those of the light before
+    /// Multiply light by 2^EV before it is converted to the codes of a PNG; tolerance and errors refer to the light
+    /// before the multiplication
     #[arg(long, value_name = "EV", value_parser = exposure, allow_hyphen_values = true)]
     pub(crate) exposure: Option<f64>,
 
-    /// Write a PNG in color even if nothing in the scene has color
+    /// Write a PNG in color even if the scene is gray
     #[arg(long)]
     pub(crate) rgb: bool,
 
-    /// Write an EXR in single precision instead of half, as --channels does as well
+    /// Write an EXR in single precision instead of half precision; --channels implies this
     #[arg(long)]
     pub(crate) float: bool,
 
-    /// Store each pixel's error as well: in an EXR in a channel `error` in single precision, with
-    /// NAME.npy in a file NAME_error.npy in double precision
+    /// Also store the error of each pixel: in a channel `error` of an EXR, in single precision; for
+    /// NAME.npy in a file NAME_error.npy, in double precision
     #[arg(long)]
     pub(crate) error_channel: bool,
 
-    /// Store what the rays through the centers of pixels see in an EXR, or in files NAME_channels.npy
-    /// and NAME_id.npy, as well, several with commas: depth, normal, position, id, albedo, mask; and averages over
-    /// what pixels see: mean_normal, coverage_id
+    /// Also store properties of the first hit of the ray through the center of each pixel: depth, normal,
+    /// position, id, albedo, mask; or averages over the visible spheres of each pixel: mean_normal, coverage_id.
+    /// Separate several by commas. They become channels of an EXR; for NAME.npy files NAME_channels.npy and
+    /// NAME_id.npy
     #[arg(
         long,
         value_name = "LIST",
@@ -163,32 +162,33 @@ pub(crate) struct RenderArguments {
     )]
     pub(crate) channels: Vec<CenterChannel>,
 
-    /// Depth that --channels stores [default: axis]
+    /// Kind of depth for --channels [default: axis]
     #[arg(long, value_name = "KIND", requires = "channels")]
     pub(crate) depth: Option<DepthForm>,
 
-    /// Axes of the normals and positions that --channels stores [default: world]
+    /// Axes of normals and positions for --channels [default: world]
     #[arg(long, value_name = "AXES", requires = "channels")]
     pub(crate) axes: Option<AxesForm>,
-    /// Write NAME.json next to each picture NAME.png or NAME.exr: the camera as OpenCV's K, R and t, the
+
+    /// Write NAME.json next to each picture NAME.png or NAME.exr, with the camera as OpenCV's K, R and t, the
     /// lights, and the error
     #[arg(long)]
     pub(crate) sidecar: bool,
 
-    /// Draw a legend for the colors of clouds: a colormap with its numbers, or categories
+    /// Draw a legend for the colors of clouds: a colormap with numbers, or categories
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) legend: Option<PathBuf>,
 
-    /// Draw a scale bar: a round length and its pixels, anywhere with a parallel lens, else at the distance of
+    /// Draw a scale bar with a round length. With a parallel lens it is valid everywhere, else at the distance of
     /// the camera's target
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) scale_bar: Option<PathBuf>,
 
-    /// The form in which progress is reported [default: a bar on a terminal, plain elsewhere]
+    /// Form of the progress reports [default: a bar on a terminal, else plain]
     #[arg(long, value_name = "FORM")]
     pub(crate) progress: Option<ProgressForm>,
 
-    /// Print nothing but errors and warnings, and progress only where --progress asks for it
+    /// Print only errors and warnings, and progress only if you also give --progress
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

@@ -6,12 +6,12 @@ use marbles_scene::Setting;
 /// Options that change a scene, and the checks on it.
 #[derive(Clone, Debug, Default, Args)]
 pub(crate) struct SceneOptions {
-    /// Replace a value of the scene, or add one: --set 'lights[0].toward=(1, 1, -1)',
-    /// --set materials.candy.exponent=2; repeat it for several values
+    /// Replace or add a value of the scene: --set 'lights[0].toward=(1, 1, -1)',
+    /// --set materials.candy.exponent=2; repeat the option for several values
     #[arg(long, value_name = "PATH=VALUE")]
     pub(crate) set: Vec<Setting>,
 
-    /// Refuse scenes that have warnings
+    /// Refuse scenes with warnings
     #[arg(long)]
     pub(crate) strict: bool,
 }

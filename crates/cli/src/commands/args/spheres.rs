@@ -11,23 +11,24 @@ use crate::sequence::frames::FrameList;
 
 const EXAMPLES: &str = "\
 Examples:
-  marbles spheres ball.ron                        ball.spheres.csv, one row for each sphere and frame
+  marbles spheres ball.ron                        ball.spheres.csv, one row per sphere and frame
   marbles spheres turn.ron -o turn.csv --frames 1-120x10
   marbles spheres ball.ron --tolerance 1e-6       smaller errors of the visible areas
 
-Columns of the table, in pixels and pixel areas; the middle of the first pixel is (0, 0), x grows to
-the right and y downward:
+Columns of the table, in pixels and pixel areas. The center of the first pixel is (0, 0), x increases
+to the right and y downward:
   frame, id           the frame, and the number of the sphere in the scene, from 0
-  center_x, center_y  where the center of the sphere is seen, which is not that of its outline
+  center_x, center_y  the projection of the center of the sphere, which is not the center of the
+                      outline
   depth               distance of the center along the axis of view, in scene units
   ellipse_x … angle_degrees
-                      center, half axes and angle of the outline; the angle from x toward y
-  left … bottom       the box around the outline
-  area                of the outline within the picture, whatever hides it
-  visible_area        of what is seen of it
-  visible_area_error  an estimate of the error of that
-  visible_fraction    of the outline within the picture
-A number that does not exist is left out: a sphere that reaches the plane of the viewpoint has no
+                      center, semi-axes and angle of the outline; the angle from x toward y
+  left … bottom       the bounding box of the outline
+  area                the area of the outline within the picture, including hidden parts
+  visible_area        the visible part of this area
+  visible_area_error  an estimate of the error of visible_area
+  visible_fraction    visible_area divided by area
+A cell is empty if its number does not exist: a sphere that reaches the plane of the viewpoint has no
 ellipse.
 
 Exit codes:
@@ -36,7 +37,7 @@ Exit codes:
   2  the command line or the scene file is wrong
   130  interrupted";
 
-/// Write where each sphere is in the picture, and how much of it is seen
+/// Write a table with the outline and the visible area of each sphere
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SpheresArguments {
@@ -46,21 +47,21 @@ pub(crate) struct SpheresArguments {
     #[command(flatten)]
     pub(crate) options: SceneOptions,
 
-    /// The table, with commas [default: SCENE.spheres.csv, in the current folder]
+    /// The CSV file to write [default: SCENE.spheres.csv, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
-    /// Frames in the order of the table: 7, 1-100, 1-100x2 and several of these with commas
-    /// [default: all of the scene's]
+    /// Frames, in the order of the table: 7, 1-100, 1-100x2, or several of these separated by commas
+    /// [default: all frames]
     #[arg(long, value_name = "LIST", allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
-    /// Size of the picture in pixels, in place of the scene's
+    /// Size of the picture in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", allow_hyphen_values = true)]
     pub(crate) size: Option<Size>,
 
-    /// Bring the visible areas of the spheres in every pixel together within E of their exact values,
-    /// as a share of the pixel
+    /// Compute the visible areas in every pixel such that their errors, added over all spheres, are within E, as a
+    /// fraction of the pixel
     #[arg(long, value_name = "E", default_value = "1e-4", value_parser = tolerance_above_zero, allow_negative_numbers = true)]
     pub(crate) tolerance: f64,
 
@@ -68,7 +69,7 @@ pub(crate) struct SpheresArguments {
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     pub(crate) threads: Option<usize>,
 
-    /// Print nothing but errors and warnings
+    /// Print only errors and warnings
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

@@ -2,15 +2,15 @@
 
 use std::num::NonZeroU32;
 
-/// More samples than this on a side of a pixel would take longer than anybody waits.
+/// The most samples on a side of a pixel. More would take too long.
 const MOST_SAMPLES: i64 = 1000;
-/// More threads than this would only be in each other's way.
+/// The most threads. More would only slow each other down.
 const MOST_THREADS: i64 = 1024;
-/// A longer list of pixels would say less than a picture of the differences.
+/// The most pixels in a list. A picture of the differences shows more than a longer list.
 const MOST_WORST: i64 = 100_000;
-/// More runs than this do not make a median better.
+/// The most runs. More would not improve the median.
 const MOST_RUNS: i64 = 1000;
-/// More frames than this in one task would not make the rest of its work any smaller.
+/// The most frames per task. More would not save any work.
 const LARGEST_CHUNK: i64 = 1_000_000;
 
 /// A tolerance that a picture can meet.
@@ -34,9 +34,9 @@ pub(super) fn bits(text: &str) -> Result<u8, String> {
     }
 }
 
-/// A number of stops, of which each doubles the light.
+/// A number of stops. Each stop doubles the light.
 pub(super) fn exposure(text: &str) -> Result<f64, String> {
-    /// Farther from 0 there is only black or white.
+    /// Beyond this, a picture is black or white.
     const MOST: f64 = 100.0;
     let expected = format!("a number from -{MOST} to {MOST}");
     number(text, &expected, |stops| stops.abs() <= MOST)

@@ -1,4 +1,4 @@
-//! The columns of a table in words.
+//! Descriptions of the columns of a table.
 
 use marbles_scene::{
     CloudDescription, ColorMeaning, ColumnContents, ColumnSummary, harmless, written_time,
@@ -6,7 +6,7 @@ use marbles_scene::{
 
 use crate::base::numbers::{range, short};
 
-/// A column: its kind, its range, and what it is for.
+/// A column: its kind, its range, and its use.
 pub(super) fn told(column: &ColumnSummary, cloud: &CloudDescription) -> String {
     let contents = match &column.contents {
         ColumnContents::Numbers {

@@ -1,4 +1,5 @@
-//! The surfaces of a scene as JSON: with camera and lights all that another renderer needs.
+//! Shadows, materials and spheres of a scene as JSON. With the camera and the lights, this is everything that another
+//! renderer needs.
 
 use marbles_core::{Grain, Material, OutlineWidth, World, right_handed};
 use marbles_scene::Scene;
@@ -6,7 +7,8 @@ use serde_json::{Value, json};
 
 use crate::base::failure::Failure;
 
-/// The members `shadows`, `materials` and `spheres`: those of the scene file, since tables are files of their own.
+/// The members `shadows`, `materials` and `spheres`. Only spheres of the scene file itself are listed; tables are
+/// separate files.
 pub(super) fn json(scene: &Scene, world: &World) -> Result<String, Failure> {
     let names = &scene.description().materials;
     let materials = names.iter().zip(world.materials());

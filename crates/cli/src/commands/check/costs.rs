@@ -1,19 +1,20 @@
-//! Warnings of whatever in a scene costs much, or cannot be known to small tolerances.
+//! Warnings about settings that are expensive, or with which small tolerances cannot be met.
 
 use marbles_core::{Grain, Sphere, View, World};
 
 use crate::base::numbers::short;
 
-/// Views that are looked at, spread evenly over those of an animation.
+/// The most views that are checked; of longer animations, evenly spread ones.
 const VIEWS: usize = 5;
 
-/// The part of a pixel from which on it matters that rounding moves edges by that.
+/// The smallest effect of rounding on edges that causes a warning, as a fraction of a pixel.
 const COARSE: f64 = 1e-6;
 
-/// A bound of what rounding moves edges by, in parts of what they are computed from: as in the core.
+/// A bound of the effect of rounding on edges, relative to the numbers that they are computed from; the same as in the
+/// core.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Plain sentences: what costs much and where, what follows, and what to do.
+/// Warnings as plain sentences: the expensive setting and its place, the consequence, and the remedy.
 pub(super) fn warnings(world: &World, views: &[View]) -> Vec<String> {
     let step = views.len().div_ceil(VIEWS).max(1);
     let views: Vec<&View> = views.iter().step_by(step).collect();
@@ -22,7 +23,7 @@ pub(super) fn warnings(world: &World, views: &[View]) -> Vec<String> {
     all.into_iter().flatten().collect()
 }
 
-/// Bumps that are smaller than pixels even where their sphere is nearest to the eye.
+/// Finds bumps that are smaller than a pixel even at the point of their sphere that is nearest to the viewpoint.
 fn fine_grains(world: &World, views: &[&View]) -> Option<String> {
     let (place, grain, pixel) = smaller_than_pixels(world, views, |index, _| {
         let roughness = world.material(index).roughness.as_ref()?;
@@ -33,12 +34,12 @@ fn fine_grains(world: &World, views: &[&View]) -> Option<String> {
     })?;
     Some(format!(
         "{place}: bumps with a grain of {grain} are smaller than a pixel, which is {pixel} wide there: such \
-         pixels cost hundreds of times as much as smooth ones, and those with many bumps end over small \
+         pixels cost hundreds of times as much as smooth ones, and pixels with many bumps stay over small \
          tolerances; choose a larger grain, or render more pixels"
     ))
 }
 
-/// Highlights whose width at half of their height is less than a pixel's.
+/// Finds highlights whose width at half maximum is less than a pixel.
 fn narrow_highlights(world: &World, views: &[&View]) -> Option<String> {
     let (place, width, pixel) = smaller_than_pixels(world, views, |index, sphere| {
         let highlight = world.material(index).highlight?;
@@ -52,21 +53,21 @@ fn narrow_highlights(world: &World, views: &[&View]) -> Option<String> {
     ))
 }
 
-/// A lens so long that rounding moves edges by a noticeable part of a pixel.
+/// Finds a lens so long that rounding moves edges by a noticeable fraction of a pixel.
 fn coarse_lens(views: &[&View]) -> Option<String> {
     let pixels = views.iter().map(|view| pixel_at_one(view));
     let moved = ROUNDINGS / pixels.fold(f64::INFINITY, f64::min);
     (moved > COARSE).then(|| {
         format!(
-            "lens: a pixel is so small an angle that rounding moves edges by up to {} of it: smaller tolerances \
-             than about that cannot be met at edges; bring the camera nearer and shorten the lens",
+            "lens: the angle of a pixel is so small that rounding moves edges by up to {} of a pixel: at edges, \
+             tolerances below about this cannot be met; move the camera closer and use a shorter lens",
             short(moved)
         )
     })
 }
 
-/// The first sphere on which something is smaller than a pixel in all views that look at it, the count of
-/// others, how large that is, and the pixel there.
+/// The first sphere with details smaller than a pixel in all views, the number of other such spheres, the size of the
+/// details, and the width of the pixel there.
 fn smaller_than_pixels(
     world: &World,
     views: &[&View],
@@ -96,8 +97,8 @@ fn smaller_than_pixels(
     Some((place, short(size), short(pixel)))
 }
 
-/// The width of a pixel where a sphere is nearest to the eye; none behind the eye and inside of it. Through a
-/// parallel lens it is the same anywhere.
+/// The width of a pixel at the nearest point of a sphere. `None` if the sphere is behind the viewpoint or contains it.
+/// Through a parallel lens the width is the same everywhere.
 fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
     let from_eye = sphere.center() - view.camera.position;
     let ahead = from_eye.dot(view.camera.forward());
@@ -109,7 +110,7 @@ fn pixel_on(view: &View, sphere: &Sphere) -> Option<f64> {
     (ahead > -sphere.radius() && distance > 0.0).then(|| distance * pixel_at_one(view))
 }
 
-/// The width of a pixel at a distance of 1, or through a parallel lens at any.
+/// The width of a pixel at a distance of 1, or through a parallel lens at any distance.
 fn pixel_at_one(view: &View) -> f64 {
     view.pixel_size() / view.magnification()
 }
@@ -122,7 +123,7 @@ mod tests {
 
     use super::*;
 
-    /// The warnings of a scene with a ball of this material, and of this lens from this far away.
+    /// The warnings for a scene with a ball of this material, seen through this lens from this distance.
     fn of(material: &str, distance: f64) -> Vec<String> {
         let text = format!(
             "(image: (width: 100, height: 100), lens: Retina(width: 2, distance: {distance:e}),
@@ -167,7 +168,7 @@ mod tests {
         let found = of("exponent: 1", 1e12);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
-            found[0].starts_with("lens: a pixel is so small an angle"),
+            found[0].starts_with("lens: the angle of a pixel is so small"),
             "{found:?}"
         );
         assert_eq!(of("exponent: 1", 1e6), Vec::<String>::new());

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::base::failure::Failure;
 
-/// The tables, their columns, and what colors stand for.
+/// The tables, their columns, and the meaning of the colors.
 pub(super) fn json(scene: &Scene) -> Result<String, Failure> {
     let mut clouds = Vec::new();
     for (index, cloud) in scene.clouds().iter().enumerate() {

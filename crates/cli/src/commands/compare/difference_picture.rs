@@ -1,4 +1,4 @@
-//! A picture of where two pictures differ.
+//! A picture of the differences between two pictures.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use crate::formats::encoding::Format;
 use crate::formats::exr::write::write_floats;
 use crate::formats::png::write::write_grey;
 
-/// The difference in the middle of the scale of a PNG where no tolerance is given.
+/// The difference in the middle of the scale of a PNG if there is no tolerance.
 const USUAL_MIDDLE: f64 = 1e-3;
 /// Powers of ten from the middle of the scale to black and to white.
 const DECADES: f64 = 3.0;
@@ -20,8 +20,8 @@ const MIDDLE_CODE: u8 = 127;
 
 /// The file of `--diff`.
 ///
-/// An EXR holds the differences themselves, channel by channel. A PNG is for the eye: grey on a
-/// logarithmic scale around the tolerance, and whatever is lighter than its middle is over it.
+/// An EXR contains the differences themselves, channel by channel. A PNG shows them in gray, on a logarithmic scale
+/// with the tolerance in the middle: everything lighter than the middle is over the tolerance.
 #[derive(Debug)]
 pub(super) struct DifferencePicture {
     path: PathBuf,
@@ -30,7 +30,7 @@ pub(super) struct DifferencePicture {
 }
 
 impl DifferencePicture {
-    /// The picture at `path`, whose ending chooses the format.
+    /// The picture at `path`, whose extension chooses the format.
     pub(super) fn at(path: &Path) -> Result<Self, Failure> {
         let holds_floats = match Format::of_file(path) {
             Some(Format::Png) => false,
@@ -52,7 +52,7 @@ impl DifferencePicture {
         &self.path
     }
 
-    /// The meaning of its values.
+    /// The description of its values.
     pub(super) fn scale(&self, tolerance: Option<f64>) -> String {
         if self.holds_floats {
             return "the differences of each channel".to_owned();
@@ -66,8 +66,8 @@ impl DifferencePicture {
         )
     }
 
-    /// Writes the picture of channels with these names; `row` adds the differences of the next row, pixel by pixel, in
-    /// the columns that it returns, outside of which there are none.
+    /// Writes the picture with these channels. `row` appends the differences of the next row, pixel by pixel, and
+    /// returns the columns that they cover; in all other columns there are no differences.
     pub(super) fn write(
         &self,
         size: Size,
@@ -107,7 +107,7 @@ fn middle(tolerance: Option<f64>) -> f64 {
         .unwrap_or(USUAL_MIDDLE)
 }
 
-/// The grey of a difference: up to [`MIDDLE_CODE`] exactly where it does not exceed `middle`.
+/// The gray code of a difference: at most [`MIDDLE_CODE`] exactly if the difference does not exceed `middle`.
 fn code(size: f64, middle: f64) -> u8 {
     if size == 0.0 {
         return 0;

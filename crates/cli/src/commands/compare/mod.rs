@@ -1,9 +1,8 @@
-//! `marbles compare`: how far two pictures differ, and where.
+//! `marbles compare`: shows by how much and where two pictures differ.
 //!
-//! The exit code answers the question of a test: is any pixel over the tolerance? Pictures of
-//! different sizes fail like pictures that differ (1), since both are good files and the command
-//! line asks for nothing odd; what cannot be read as a picture is refused (2), as an invalid scene
-//! is.
+//! The exit code answers the question of a test: is any pixel over the tolerance? If pictures have different sizes, the
+//! exit code is 1, as for pictures that differ, because both files and the command line are correct. A file that cannot
+//! be read as a picture is refused with 2, like an invalid scene.
 
 mod difference_picture;
 mod pair;
@@ -39,7 +38,7 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
         && diff.exists()
         && (is_same(diff, a) || is_same(diff, b))
     {
-        let why = "--diff would overwrite a picture that is compared";
+        let why = "--diff would overwrite one of the compared pictures";
         return Err(Failure::unusable(diff, why));
     }
     let difference_picture = diff.as_deref().map(DifferencePicture::at).transpose()?;
@@ -106,7 +105,7 @@ pub(crate) fn run(arguments: &CompareArguments, console: &Console) -> Result<u8,
     })
 }
 
-/// A picture, with a warning where it was not understood in full.
+/// A picture, and a warning if some of its contents were ignored.
 fn load(path: &Path, console: &Console) -> Result<Picture, Failure> {
     let picture = load::picture(path)?;
     if let Some(warning) = picture.warning {

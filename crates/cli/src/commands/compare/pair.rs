@@ -8,7 +8,7 @@ use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::formats::picture::Picture;
 
-/// Two pictures of the same size, of which the same row is at hand.
+/// Two pictures of the same size, with the same current row.
 pub(super) struct Pair {
     pub(super) a: Picture,
     pub(super) b: Picture,
@@ -20,8 +20,8 @@ pub(super) struct Pair {
 const CHANNELS: [&str; 4] = ["R", "G", "B", "A"];
 
 impl Pair {
-    /// The channels of red, green, blue and alpha that are compared: one of the colors where both
-    /// pictures are grey, alpha where one has it.
+    /// The channels that are compared, among red, green, blue and alpha: a single color if both pictures are gray, and
+    /// alpha if either has it.
     pub(super) fn channels(&self) -> &'static [usize] {
         let grey = self.a.grey && self.b.grey;
         match (grey, self.a.alpha || self.b.alpha) {
@@ -41,7 +41,7 @@ impl Pair {
         }
     }
 
-    /// Goes on to the next row of both, of which there must be one.
+    /// Advances both pictures to the next row, which must exist.
     pub(super) fn advance(&mut self) -> Result<(), Failure> {
         let [a, b] = &self.paths;
         for (picture, path) in [(&mut self.a, a), (&mut self.b, b)] {
@@ -51,8 +51,8 @@ impl Pair {
         Ok(())
     }
 
-    /// Columns of the row outside of which nothing differs: all but those that have the same codes, or that neither
-    /// file holds, where they are found out without looking at pixels.
+    /// The columns of the row that can differ. This leaves out columns with the same codes in both files, or without
+    /// data in both, if that is known without decoding pixels.
     pub(super) fn columns(&self) -> Range<u32> {
         let width = self.a.size.width;
         if let Some(differing) = self.a.row.differing(&*self.b.row) {
@@ -71,7 +71,7 @@ impl Pair {
         both
     }
 
-    /// Runs of these columns, in each of which all pixels are alike.
+    /// Divides these columns into runs of equal pixels.
     pub(super) fn runs(&self, columns: Range<u32>) -> impl Iterator<Item = Range<u32>> {
         let mut next = columns.start;
         let rows = [&self.a.row, &self.b.row];
@@ -88,7 +88,7 @@ impl Pair {
         })
     }
 
-    /// The absolute differences of all four values, infinite where one is no finite number.
+    /// The absolute differences of all four values; infinite if one of the values is not finite.
     pub(super) fn differences(&self, col: u32) -> [f64; 4] {
         let (a, b) = (self.a.row.rgba(col), self.b.row.rgba(col));
         [0, 1, 2, 3].map(|channel| {
@@ -101,21 +101,21 @@ impl Pair {
         })
     }
 
-    /// The difference of a pixel that has these: the largest one of the channels that are compared.
+    /// The difference of a pixel with these differences: the largest among the compared channels.
     pub(super) fn largest(&self, differences: &[f64; 4]) -> f64 {
         let compared = self.channels().iter();
         let compared = compared.map(|&channel| differences[channel]);
         compared.fold(0.0, f64::max)
     }
 
-    /// The largest differences that the rounding of both files accounts for.
+    /// The largest differences that the rounding of both files can explain.
     pub(super) fn rounding(&self, col: u32) -> [f64; 4] {
         let (a, b) = (self.a.row.rounding(col), self.b.row.rounding(col));
         [0, 1, 2, 3].map(|channel| a[channel] + b[channel])
     }
 
-    /// Returns for each value whether one of the files holds the largest number it can, and the other
-    /// a larger one.
+    /// Returns for each value whether one file contains the largest number of its format, and the other file a larger
+    /// number.
     pub(super) fn is_clipped(&self, col: u32) -> [bool; 4] {
         let (a, b) = (self.a.row.rgba(col), self.b.row.rgba(col));
         let (full_a, full_b) = (self.a.row.is_full(col), self.b.row.is_full(col));

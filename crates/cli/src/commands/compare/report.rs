@@ -1,7 +1,6 @@
 //! The results that `marbles compare` prints.
 //!
-//! Every row begins with its name, which stays what it is; numbers about differences have four
-//! digits and are rounded up.
+//! Every row begins with a fixed name. Differences have four digits and are rounded up.
 
 use super::difference_picture::DifferencePicture;
 use super::pair::Pair;
@@ -14,7 +13,7 @@ use crate::formats::picture::Picture;
 
 /// Width of the column with the names of rows.
 const NAMES: usize = 12;
-/// Digits after the point of a difference.
+/// Digits after the decimal point of a difference.
 const DIGITS: usize = 3;
 
 /// All that is known about two pictures.
@@ -85,7 +84,7 @@ impl Report<'_> {
         }
     }
 
-    /// The difference that rounding accounts for where the difference is largest.
+    /// The rounding of both files at the pixel with the largest difference.
     fn rounding(worst: &Difference) -> String {
         let [a, b] = worst.rounding;
         format!(
@@ -146,7 +145,7 @@ fn difference(size: f64) -> String {
     bound_with(size, DIGITS)
 }
 
-/// The cells of a table's line, one below the other.
+/// The cells of a table row, aligned with those of the other rows.
 fn line(cells: [&str; 7]) -> String {
     let [col, row, channel, a, b, difference, rounding] = cells;
     format!("{col:>6}  {row:>6}  {channel:>2}  {a:>10}  {b:>10}  {difference:>10}  {rounding:>10}")

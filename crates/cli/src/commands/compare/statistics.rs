@@ -14,19 +14,19 @@ pub(super) struct Statistics {
     pub(super) pixels: u64,
     /// The root of the mean square over all channels of all pixels.
     pub(super) rms: f64,
-    /// The 99.9th percentile by nearest rank: the least of the differences that at least 99.9 % of the pixels do not
-    /// exceed.
+    /// The 99.9th percentile by nearest rank: the smallest difference that is not exceeded by at least 99.9 % of the
+    /// pixels.
     pub(super) percentile: f64,
     /// Pixels over the tolerance; none where there is no tolerance.
     pub(super) over_tolerance: u64,
     /// Pixels with a channel that differs by more than the rounding of both files.
     pub(super) beyond_rounding: u64,
-    /// Those of them that do so in a channel that one of the files could not hold.
+    /// Those among them whose differing channel was too large for one of the files.
     pub(super) clipped: u64,
-    /// Pixels with a value that is no finite number, and the first of them.
+    /// The number of pixels with a value that is not finite, and the first of them.
     pub(super) not_finite: u64,
     pub(super) first_not_finite: Option<(u32, u32)>,
-    /// The pixels that differ most, the worst first; no pixels without a difference.
+    /// The pixels with the largest differences, the worst first; no pixels without a difference.
     pub(super) worst: Vec<Difference>,
 }
 
@@ -39,11 +39,11 @@ pub(super) struct Difference {
     pub(super) size: f64,
     /// The numbers of both pictures.
     pub(super) values: [f64; 2],
-    /// The differences that the rounding of each accounts for.
+    /// The differences that the rounding of each file can explain.
     pub(super) rounding: [f64; 2],
 }
 
-/// The statistics of two pictures, of which the rows above were looked at.
+/// The statistics of two pictures, up to the current row.
 #[derive(Debug)]
 pub(super) struct Counter {
     statistics: Statistics,
@@ -58,7 +58,7 @@ pub(super) struct Counter {
 }
 
 impl Counter {
-    /// Keeps at least one and at most `worst` of the worst pixels.
+    /// Keeps at most `worst` of the worst pixels, but at least one.
     pub(super) fn new(pair: &Pair, tolerance: Option<f64>, worst: usize) -> Self {
         let pixels = pair.size().pixels();
         Self {
@@ -83,7 +83,7 @@ impl Counter {
         }
     }
 
-    /// Looks at the row that is at hand.
+    /// Adds the current row.
     pub(super) fn add_row(&mut self, pair: &Pair) {
         let first = u64::from(self.row) * u64::from(self.width);
         for run in pair.runs(pair.columns()) {
@@ -106,7 +106,7 @@ impl Counter {
         self.row += 1;
     }
 
-    /// Counts pixels that differ and are alike.
+    /// Adds a number of equal pixels with a difference.
     fn add(&mut self, pair: &Pair, run: Range<u32>, differences: &[f64; 4], largest: f64) {
         let (col, count) = (run.start, u64::from(run.end - run.start));
         let (statistics, channels) = (&mut self.statistics, self.channels);
@@ -140,33 +140,34 @@ impl Counter {
     }
 }
 
-/// Returns whether a difference needs more than the rounding of the files, whose numbers, themselves
-/// rounded to doubles, leave the last few bits open.
+/// Returns whether a difference is larger than the rounding of the files. The last few bits are tolerated, because the
+/// numbers of the files are themselves rounded to doubles.
 fn exceeds(difference: f64, rounding: f64) -> bool {
-    /// More than operations on doubles lose, and less than anybody would call a difference.
+    /// More than the rounding error of the operations on doubles, and less than any difference that matters.
     const SLACK: f64 = 1e-9;
     difference > rounding * (1.0 + SLACK)
 }
 
-/// The number of the differences of so many pixels that are not below the 99.9th percentile.
+/// The number of differences, among those of `pixels`, that are not below the 99.9th percentile.
 fn above_percentile(pixels: u64) -> usize {
-    /// One pixel of so many may lie above.
+    /// One in this many pixels may be above the percentile.
     const ABOVE: u64 = 1000;
     (pixels / ABOVE + 1) as usize
 }
 
-/// The largest of some differences, and something about each of them; all others are forgotten.
+/// Keeps the largest of some differences, with a value for each.
 #[derive(Debug)]
 struct Largest<T> {
     most: usize,
-    /// By the bits of the differences, which have their order, and the indices, the first of equal ones the largest.
+    /// Ordered by the bits of the differences, whose order is that of the numbers, then by index; among equal
+    /// differences, the one with the smallest index counts as largest.
     kept: BTreeMap<(u64, Reverse<u64>), T>,
-    /// The first of them where there are as many as may be kept.
+    /// The smallest kept difference, if the list is full.
     least: Option<(u64, Reverse<u64>)>,
 }
 
 impl<T> Largest<T> {
-    /// Keeps at most so many, at least one.
+    /// Keeps at most `most` differences, but at least one.
     fn new(most: usize) -> Self {
         Self {
             most,
@@ -175,8 +176,8 @@ impl<T> Largest<T> {
         }
     }
 
-    /// Takes the difference with this index, at least 0; returns whether it is kept for now. Where it is not, neither
-    /// is one of the same size with a larger index.
+    /// Adds the difference with this index, which is at least 0. Returns whether it is kept for now. If not, no equal
+    /// difference with a larger index is kept either.
     fn add(&mut self, difference: f64, index: u64, about: impl FnOnce() -> T) -> bool {
         let new = (difference.to_bits(), Reverse(index));
         if self.least.is_some_and(|least| new < least) {
@@ -192,18 +193,18 @@ impl<T> Largest<T> {
         true
     }
 
-    /// The least of as many as may be kept; 0 where fewer were taken: those that are 0 need not be.
+    /// The smallest kept difference if the list is full, else 0: differences of 0 need not be added.
     fn least_of_most(&self) -> f64 {
         self.least.map_or(0.0, |(bits, _)| f64::from_bits(bits))
     }
 
-    /// The values that are kept, the largest first, equal ones in their order.
+    /// The kept values, the largest first, and equal ones in the order in which they were added.
     fn into_values(self) -> Vec<T> {
         self.kept.into_values().rev().collect()
     }
 }
 
-/// The first of the channels in which a pixel differs most.
+/// The first channel with the largest difference of a pixel.
 fn worst_channel(pair: &Pair, differences: &[f64; 4], col: u32, row: u32) -> Difference {
     let mut worst = pair.channels()[0];
     for &channel in pair.channels() {

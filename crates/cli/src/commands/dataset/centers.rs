@@ -1,4 +1,4 @@
-//! The geometry at the centers of pixels, in files of several kinds.
+//! Normals and depths at the centers of pixels, in several file formats.
 
 use std::io::{BufWriter, Write};
 use std::path::Path;
@@ -17,16 +17,16 @@ use crate::formats::png::write::{Text, rgb_bytes, write_grey, write_rgb_16};
 /// The normals and depths of a picture.
 pub(super) struct Centers {
     size: Size,
-    /// In the camera's axes, x right, y up, z toward the viewer; row by row, 0 where nothing is seen.
+    /// In the axes of the camera: x right, y up, z toward the viewer; row by row, 0 if no sphere is visible.
     normals: Vec<[f64; 3]>,
-    /// Along the axis of view; 0 where nothing is seen.
+    /// Along the axis of view; 0 if no sphere is visible.
     depths: Vec<f64>,
-    /// The pixels that see something.
+    /// The number of pixels in which a sphere is visible.
     mask: Vec<bool>,
 }
 
 impl Centers {
-    /// The normals that the surfaces of a view are shaded with, and the depths.
+    /// The shading normals and the depths of a view.
     pub(super) fn of(renderer: &Renderer<'_>, view: &View) -> Self {
         let settings = GeometrySettings {
             quantities: [Quantity::Normal, Quantity::Depth].into_iter().collect(),
@@ -62,14 +62,14 @@ impl Centers {
         }
     }
 
-    /// The mean depth of all that is seen, if there is anything.
+    /// The mean depth of the visible surfaces, if there are any.
     pub(super) fn mean_depth(&self) -> Option<f64> {
         let count = self.mask.iter().filter(|&&seen| seen).count();
         let mean = |depth: &f64| depth / count as f64;
         (count > 0).then(|| self.depths.iter().map(mean).sum())
     }
 
-    /// Writes 255 where a sphere is seen, with a text by which the file is known.
+    /// Writes 255 for pixels in which a sphere is visible, with a text that identifies the file.
     pub(super) fn write_mask(&self, path: &Path, text: Text) -> Result<(), Failure> {
         let mut rows = self.mask.chunks(self.size.width as usize);
         write_grey(self.size, path, &[text], |codes| {
@@ -79,15 +79,15 @@ impl Centers {
         })
     }
 
-    /// Writes a picture of the normals for people, and for programs that look at its size: components from −1 to 1 become
-    /// codes from 0 to 255.
+    /// Writes a picture of the normals to look at: components from −1 to 1 become codes from 0 to 255. Some programs
+    /// also read its size.
     pub(super) fn write_picture(&self, path: &Path) -> Result<(), Failure> {
         let codes = (0..self.normals.len()).flat_map(|pixel| self.codes(pixel, u8::MAX.into()));
         let codes: Vec<u8> = codes.map(|code| code as u8).collect();
         write_bytes(&rgb_bytes(self.size, &codes)?, path)
     }
 
-    /// Writes a picture from which programs read the normals: components from −1 to 1 become codes from 0 to 65535.
+    /// Writes a picture of the normals for programs: components from −1 to 1 become codes from 0 to 65535.
     pub(super) fn write_deep_picture(&self, path: &Path) -> Result<(), Failure> {
         let width = self.size.width as usize;
         let codes = |row: u32| {
@@ -98,7 +98,7 @@ impl Centers {
         write_rgb_16(self.size, codes, path)
     }
 
-    /// The codes of a pixel's normal, up to the largest one; 0 where nothing is seen.
+    /// The codes of the normal of a pixel, up to the largest code; 0 if no sphere is visible.
     fn codes(&self, pixel: usize, most: f64) -> [f64; 3] {
         match self.mask[pixel] {
             true => self.normals[pixel].map(|number| (0.5 * most * (number + 1.0)).round()),
@@ -106,7 +106,8 @@ impl Centers {
         }
     }
 
-    /// Writes three numbers a line, pixel by pixel and row by row. The last line has no end: some programs count ends.
+    /// Writes three numbers per line, pixel by pixel and row by row. The last line has no line feed, because some
+    /// programs count line feeds.
     pub(super) fn write_text(&self, path: &Path) -> Result<(), Failure> {
         self.save(path, |to| {
             for (index, [x, y, z]) in self.normals.iter().enumerate() {
@@ -135,13 +136,13 @@ impl Centers {
         })
     }
 
-    /// Writes the depths as arrays of height × width, once under each of the names.
+    /// Writes the depths as arrays of height × width, once under each name.
     pub(super) fn write_depths(&self, names: &[&str], path: &Path) -> Result<(), Failure> {
         let arrays: Vec<(&str, &[f64])> = names.iter().map(|&name| (name, &*self.depths)).collect();
         self.save(path, |to| Ok(npz::write(to, self.size, &arrays)?))
     }
 
-    /// Writes a file, whole or not at all.
+    /// Writes a file, completely or not at all.
     fn save(
         &self,
         path: &Path,

@@ -1,4 +1,4 @@
-//! The files of the layout `diligent`, beside the pictures.
+//! The files of the layout `diligent`, except for the pictures.
 
 use std::path::Path;
 
@@ -9,19 +9,19 @@ use super::centers::Centers;
 use super::lines::{line, write_lines};
 use crate::base::failure::Failure;
 
-/// The lights, where all of them have directions alone.
+/// The lights, if all of them are directional.
 pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<DirectionalLight>, Failure> {
     let distant = lights.iter().map(|light| match light {
         Light::Directional(light) => Ok(*light),
         Light::Point(_) => Err(Failure::unusable(
             scene,
-            "the layout diligent has directions of lights, and the scene a point light",
+            "the layout diligent needs directional lights, but the scene has a point light",
         )),
     });
     distant.collect()
 }
 
-/// The files beside the pictures and the mask.
+/// The files except for the pictures and the mask.
 pub(super) const NAMES: [&str; 5] = [
     "light_directions.txt",
     "light_intensities.txt",
@@ -30,8 +30,7 @@ pub(super) const NAMES: [&str; 5] = [
     "Normal_gt.mat",
 ];
 
-/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, and the
-/// normals.
+/// Writes the true values for the pictures: the lights, multiplied by `gain`, and the normals.
 pub(super) fn write(
     folder: &Path,
     view: &View,

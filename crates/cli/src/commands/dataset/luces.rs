@@ -1,16 +1,16 @@
-//! The files of the layout `luces`, beside the pictures.
+//! The files of the layout `luces`, except for the pictures.
 //!
 //! Its readers model a light by its position P, a direction s, a brightness φ in each color and an exponent μ: a matte
 //! surface of albedo ρ at the point X shows
 //!
 //! > ρ φ (−l · s)^μ max(0, n · l) / |P − X|², l = (P − X) / |P − X|,
 //!
-//! up to a factor that all lights share. A point light shines alike in all directions: μ = 0. The factor is here the
-//! square of the mean distance, as it is for readers that divide all lengths by that.
+//! up to a factor that all lights share. A point light shines equally in all directions: μ = 0. The factor is the
+//! square of the mean distance here, as for readers that divide all lengths by this distance.
 //!
 //! # Source
 //! `datasets/io_nf.py`, `datasets/luces_dataset.py` and `normal_integration/near_functions.py` of
-//! github.com/dlichy/FastNFPSCode, of which the first and the last are those of the data set's authors.
+//! github.com/dlichy/FastNFPSCode. The first and the last come from the authors of the data set.
 
 use std::path::Path;
 
@@ -21,22 +21,22 @@ use super::centers::Centers;
 use super::lines::{line, write_lines};
 use crate::base::failure::Failure;
 
-/// The first line of the file that readers ask first.
+/// The first line of `led_params.txt`, the file that programs read first.
 const HEADER: &str = "N_img nrows ncols f x0 y0 mean_distance sfull:[Lpos Ldir Phi mu 0]";
 
-/// The lights, where all of them are points whose light falls off with the square of the distance.
+/// The lights, if all of them are point lights whose light falls off with the square of the distance.
 pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<PointLight>, Failure> {
     let near = lights.iter().enumerate().map(|(index, light)| {
         let refuse = |found: &str| {
             let number = index + 1;
             let why = format!(
-                "the layout luces has point lights that fall off with the square of the distance, and light {number} \
-                 of the scene {found}"
+                "the layout luces needs point lights whose light falls off with the square of the distance, but \
+                 light {number} of the scene {found}"
             );
             Err(Failure::unusable(scene, &why))
         };
         match light {
-            Light::Directional(_) => refuse("is a directional one"),
+            Light::Directional(_) => refuse("is directional"),
             Light::Point(light) => match light.falloff() {
                 LightFalloff::None => refuse("does not fall off"),
                 LightFalloff::InverseSquare => Ok(*light),
@@ -46,28 +46,28 @@ pub(super) fn lights(scene: &Path, lights: &[Light]) -> Result<Vec<PointLight>, 
     near.collect()
 }
 
-/// Refuses lenses that have no focal length in pixels.
+/// Refuses lenses without a focal length in pixels.
 pub(super) fn check_lens(scene: &Path, view: &View) -> Result<(), Failure> {
     match Intrinsics::of(view).focal_length.is_finite() {
         true => Ok(()),
         false => Err(Failure::unusable(
             scene,
-            "the layout luces has a focal length, and the lens of the scene has none",
+            "the layout luces needs a focal length, but the lens of the scene has none",
         )),
     }
 }
 
-/// The mean depth of all that is seen; refuses pictures of nothing.
+/// The mean depth of the visible surfaces. Refuses pictures without spheres.
 pub(super) fn mean_distance(scene: &Path, centers: &Centers) -> Result<f64, Failure> {
     centers.mean_depth().ok_or_else(|| {
         Failure::unusable(
             scene,
-            "the layout luces has the mean distance of what is seen, and no pixel sees a sphere",
+            "the layout luces needs the mean distance of the visible surfaces, but no pixel sees a sphere",
         )
     })
 }
 
-/// The files beside the pictures and the mask.
+/// The files except for the pictures and the mask.
 pub(super) const NAMES: [&str; 7] = [
     "led_params.txt",
     "K.txt",
@@ -78,8 +78,7 @@ pub(super) const NAMES: [&str; 7] = [
     "zgt.npz",
 ];
 
-/// Writes what the pictures are to be held against: the lights, whose light was multiplied by `gain`, the camera, the
-/// normals and the depths.
+/// Writes the true values for the pictures: the lights, multiplied by `gain`, the camera, the normals and the depths.
 pub(super) fn write(
     folder: &Path,
     view: &View,

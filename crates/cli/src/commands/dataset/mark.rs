@@ -1,7 +1,7 @@
-//! The mark by which a folder's data set is known as one that marbles wrote.
+//! The mark that identifies a data set written by marbles.
 //!
-//! Most files of a data set have no room for one. The mask has, and is written before all others: where it is not
-//! marked, all that is there belongs to somebody else.
+//! Most files of a data set have no room for a mark. The mask has, and is written before all others. If it is not
+//! marked, all files of the folder belong to somebody else.
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +12,7 @@ use crate::formats::png::write::Text;
 /// The file that is marked.
 pub(super) const MASK: &str = "mask.png";
 
-/// The keyword of the mark, whose text is the name of the layout.
+/// The keyword of the mark. Its text is the name of the layout.
 const KEYWORD: &str = "Data set of marbles";
 
 /// The mark of a layout.
@@ -20,7 +20,7 @@ pub(super) fn of(layout: &str) -> Text {
     (KEYWORD, layout.to_owned())
 }
 
-/// Refuses to replace any of `files`, unless marbles wrote a data set of this layout into the folder.
+/// Refuses to replace any of `files`, unless the folder contains a data set of this layout written by marbles.
 pub(super) fn refuse_files_of_others(
     folder: &Path,
     layout: &str,
@@ -35,12 +35,12 @@ pub(super) fn refuse_files_of_others(
         return Ok(());
     };
     let owner = match found {
-        Some(other) => format!("of a data set of the layout {other}"),
-        None => "of somebody else".to_owned(),
+        Some(other) => format!("which belongs to a data set of the layout {other}"),
+        None => "which `marbles dataset` did not write".to_owned(),
     };
     let why = format!(
-        "the data set would replace this file {owner}: expected a folder without one, or with a data set of the \
-         layout {layout} that `marbles dataset` has written"
+        "the data set would replace this file, {owner}: expected a folder without such a file, or with a data set \
+         of the layout {layout} written by `marbles dataset`"
     );
     Err(Failure::unusable(&file, &why))
 }

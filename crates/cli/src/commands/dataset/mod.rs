@@ -1,4 +1,4 @@
-//! `marbles dataset`: the files that programs for photometric stereo read, from a scene with many lights.
+//! `marbles dataset`: writes a data set for photometric stereo from a scene with many lights.
 
 mod centers;
 mod diligent;
@@ -73,17 +73,17 @@ pub(crate) fn run(arguments: &DatasetArguments, console: &Console) -> Result<u8,
     Ok(conclusion(&outcome, "picture", console))
 }
 
-/// The file that names the pictures.
+/// The file that lists the pictures.
 const PICTURES: &str = "filenames.txt";
 
-/// A layout, and the lights of the kind that it has.
+/// A layout, and the lights of the kind that it needs.
 enum Layout {
     Diligent(Vec<DirectionalLight>),
     Luces(Vec<PointLight>),
 }
 
 impl Layout {
-    /// The layout that is asked for; refuses lights and lenses that it does not have.
+    /// The requested layout. Refuses lights and lenses that it does not support.
     fn new(arguments: &DatasetArguments, view: &View, lights: &[Light]) -> Result<Self, Failure> {
         let scene = &arguments.scene;
         Ok(match arguments.layout {
@@ -95,7 +95,7 @@ impl Layout {
         })
     }
 
-    /// The name on the command line.
+    /// Its name on the command line.
     fn name(&self) -> &'static str {
         match self {
             Self::Diligent(_) => "diligent",
@@ -103,7 +103,7 @@ impl Layout {
         }
     }
 
-    /// The fewest digits of a picture's number.
+    /// The smallest number of digits in the name of a picture.
     fn digits(&self) -> usize {
         match self {
             Self::Diligent(_) => 3,
@@ -111,7 +111,7 @@ impl Layout {
         }
     }
 
-    /// Refuses a folder in which a file would replace the scene or a table, or a file of somebody else.
+    /// Refuses a folder in which a file would replace the scene, a table, or a file of somebody else.
     fn refuse_files(&self, folder: &Path, request: &Request) -> Result<(), Failure> {
         let names: &[&str] = match self {
             Self::Diligent(_) => &diligent::NAMES,
@@ -126,7 +126,7 @@ impl Layout {
         mark::refuse_files_of_others(folder, self.name(), files)
     }
 
-    /// Writes all but the pictures.
+    /// Writes all files except for the pictures.
     fn write(
         &self,
         arguments: &DatasetArguments,
@@ -158,7 +158,7 @@ impl Layout {
     }
 }
 
-/// A picture for each light, in codes of 16 bit that are in proportion to light.
+/// A picture for each light, in linear codes of 16 bits.
 fn request(
     arguments: &DatasetArguments,
     scene: Scene,
@@ -202,14 +202,14 @@ fn request(
     })
 }
 
-/// The names of the pictures: 001.png and so on, with as many digits as the last one has, and `least` at least.
+/// The names of the pictures: 001.png and so on, with as many digits as the last number has, but at least `least`.
 fn file_names(count: usize, least: usize) -> impl Iterator<Item = String> {
     let digits = count.to_string().len().max(least);
     (1..=count).map(move |number| format!("{number:0digits$}.png"))
 }
 
-/// The power of two by which light is multiplied so that the brightest that a light can make is above ½ and not
-/// above 1: no picture is clipped.
+/// The power of two by which light is multiplied. It brings the largest possible light of a pixel above ½ and not above
+/// 1, so that no picture is clipped.
 fn gain(world: &World, lights: &[Light]) -> f64 {
     let mut brightest = 0.0_f64;
     for light in lights {

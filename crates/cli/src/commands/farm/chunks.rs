@@ -1,11 +1,11 @@
-//! Lists of frames in parts, as short texts that `--frames` and range expressions of Open Job
-//! Description read alike.
+//! Lists of frames, divided into chunks and written as short texts. `--frames` and range expressions of Open Job
+//! Description read them alike.
 
-/// The frames as a list that is read back in the same order: `1-20`, `1-9:2`, `17,19,30`.
+/// The frames as a list that is read in the same order: `1-20`, `1-9:2`, `17,19,30`.
 ///
-/// Frames that are in increasing order make a list that no two of its ranges overlap in.
+/// If frames are in increasing order, the ranges of the list do not overlap.
 pub(super) fn expression(frames: &[i32]) -> String {
-    /// Fewer frames are shorter one by one.
+    /// Shorter ranges are written frame by frame.
     const SHORTEST: usize = 3;
     let mut items = Vec::new();
     let mut rest = frames;
@@ -26,7 +26,7 @@ pub(super) fn expression(frames: &[i32]) -> String {
     items.join(",")
 }
 
-/// The number of frames from the first on that are as far apart as the first two.
+/// The number of frames at the start that have the same spacing as the first two.
 fn evenly_spaced(frames: &[i32]) -> usize {
     let step = |pair: &[i32]| i64::from(pair[1]) - i64::from(pair[0]);
     let mut steps = frames.windows(2).map(step);

@@ -1,4 +1,4 @@
-//! The job that is written, whatever the engine.
+//! The job that is written, whatever the scheduler.
 
 use std::ffi::OsString;
 use std::num::NonZeroU32;
@@ -11,12 +11,12 @@ use crate::commands::inputs::Inputs;
 use crate::commands::render::request;
 use crate::terminal::console::Console;
 
-/// Frames that are looked at before the job is written; more would take long.
+/// The most frames that are checked before the job is written.
 const FRAMES_LOOKED_AT: usize = 100_000;
 
 /// The common parts of a job's tasks; paths are absolute.
 pub(super) struct Job {
-    /// A name without spaces, quotes and what else scripts and templates read.
+    /// A name without spaces, quotes and other characters with a meaning in scripts and templates.
     pub(super) name: String,
     pub(super) scene: String,
     /// The frames in the order of rendering.
@@ -26,14 +26,14 @@ pub(super) struct Job {
     pub(super) output: String,
     /// Other options.
     pub(super) options: Vec<String>,
-    /// True where the options say how many threads.
+    /// Whether the options set the number of threads.
     pub(super) threads: bool,
-    /// True where the options say how to tell progress.
+    /// Whether the options set the form of progress.
     pub(super) progress: bool,
 }
 
 impl Job {
-    /// Reads the scene and makes sure that its frames can be rendered with these options.
+    /// Reads the scene, and makes sure that its frames can be rendered with these options.
     pub(super) fn checked(
         arguments: &JobArguments,
         is_slurm: bool,
@@ -48,7 +48,7 @@ impl Job {
         let request = request(render, scene, &threads::start(None)?, console)?;
         if request.is_animation() {
             return Err(Failure::Usage(
-                "tasks write a file for each frame, and the output has all of them".to_owned(),
+                "a task writes one file per frame, but this output contains all frames".to_owned(),
             ));
         }
         let inputs = Inputs::of(&request.scene_path, &request.scene);
@@ -58,8 +58,8 @@ impl Job {
         }
         if !is_slurm && arguments.render.has("progress") {
             return Err(Failure::Usage(
-                "--progress: runners of Open Job Description read --progress=openjd, which their \
-                 templates always have"
+                "--progress: templates of Open Job Description always use --progress=openjd, because their \
+                 runners read no other form"
                     .to_owned(),
             ));
         }
@@ -87,9 +87,9 @@ impl Job {
     }
 }
 
-/// A name of a job that any program takes.
+/// A name for the job that all programs accept.
 fn name(scene: &Path) -> String {
-    /// The longest name that Open Job Description has room for.
+    /// The longest name in Open Job Description.
     const LONGEST: usize = 128;
     let stem = scene.file_stem().unwrap_or_default().to_string_lossy();
     let plain = |letter: char| match letter {
@@ -107,7 +107,7 @@ fn absolute(path: &Path) -> Result<OsString, Failure> {
         .map_err(|error| Failure::io(path, "cannot find the folder", &error))
 }
 
-/// A word as a part of a job, whose engines read UTF-8.
+/// A word of a job, as UTF-8, which schedulers need.
 fn text(word: OsString) -> Result<String, Failure> {
     word.into_string()
         .map_err(|word| Failure::Usage(format!("expected UTF-8, found `{}`", word.display())))

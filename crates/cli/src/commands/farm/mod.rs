@@ -1,6 +1,6 @@
-//! `marbles farm`: the job by which a farm renders the frames of a scene.
+//! `marbles farm`: writes a job that renders the frames of a scene on a render farm.
 //!
-//! It is checked here as far as it can be, so that what is wrong does not show on a thousand machines.
+//! As much as possible is checked here, so that errors do not first appear on a thousand machines.
 
 mod chunks;
 mod job;
@@ -15,7 +15,7 @@ use crate::base::status;
 use crate::files::save::write_bytes;
 use crate::terminal::console::Console;
 
-/// The tasks that an array may have where nobody has set Slurm's `MaxArraySize`.
+/// The largest number of tasks of an array, unless Slurm's `MaxArraySize` is set.
 const USUAL_TASKS: usize = 1001;
 
 pub(crate) fn run(arguments: &FarmArguments, console: &Console) -> Result<u8, Failure> {
@@ -46,8 +46,8 @@ pub(crate) fn run(arguments: &FarmArguments, console: &Console) -> Result<u8, Fa
     }
     if is_slurm && tasks > USUAL_TASKS {
         console.warn(&format!(
-            "an array of {tasks} tasks: unless MaxArraySize is set, Slurm takes {USUAL_TASKS}; a \
-             larger --chunk makes fewer"
+            "the array has {tasks} tasks, and Slurm accepts {USUAL_TASKS} unless MaxArraySize is set; a larger \
+             --chunk makes fewer tasks"
         ));
     }
     Ok(status::SUCCESS)

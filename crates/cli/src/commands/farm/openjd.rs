@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::base::failure::Failure;
 
-/// The time that a renderer which is asked to end may take: it promises a second.
+/// The time that the renderer may take to stop after a signal. It promises one second.
 const NOTICE_SECONDS: u32 = 5;
 
 /// The template, in JSON.
@@ -85,13 +85,12 @@ fn arguments(job: &Job) -> Result<Vec<String>, Failure> {
         .collect())
 }
 
-/// A word that runners hand over as it is: they know no way to escape `{{`, and refuse control
-/// characters.
+/// A word that runners pass on unchanged: they have no way to escape `{{`, and refuse control characters.
 fn literal(word: &str) -> Result<&str, Failure> {
     if word.contains("{{") || word.contains(char::is_control) {
         return Err(Failure::Usage(format!(
-            "expected no `{{{{` and no control character in what a template of Open Job \
-             Description passes on, found {word:?}"
+            "expected no `{{{{` and no control character in the arguments of a template of Open Job Description, \
+             found {word:?}"
         )));
     }
     Ok(word)

@@ -4,15 +4,14 @@ use super::chunks::expression;
 use super::job::Job;
 use crate::base::failure::Failure;
 
-/// The most tasks that Slurm's largest `MaxArraySize` has room for.
+/// The largest number of tasks with Slurm's largest `MaxArraySize`.
 const MOST_TASKS: usize = 4_000_000;
 
-/// The part of a task that handles signals, before the renderer starts beside the shell, which gets
-/// them.
+/// The part of a task that handles signals, which only the shell receives. It comes before the renderer starts in the
+/// background.
 ///
-/// At the time limit Slurm sends SIGUSR1, and the task is put back into the queue; but only as often
-/// as it has frames, as then one of them takes longer than the limit. All else that ends tasks from
-/// outside kills them, or sends SIGTERM.
+/// At the time limit, Slurm sends SIGUSR1, and the task is queued again, but only as often as it has frames: after
+/// that, a single frame takes longer than the limit. All other interruptions kill the task or send SIGTERM.
 const SIGNALS: &str = r#"renderer=
 ended=
 again=
@@ -21,15 +20,14 @@ end() {
     signaled=1
     [ -z "$renderer" ] || kill -TERM "$renderer" 2>/dev/null
 }
-# Slurm tells the renderer as well, which ends within a second; a second signal would hurry it.
+# Slurm also signals the renderer, which then ends within a second. A second signal would be of no use.
 trap 'sleep 1; end' TERM INT
 trap 'again=1; end' USR1
 "#;
 
-/// The part of a task that waits for the renderer: `wait` returns whenever a signal comes.
+/// The part of a task that waits for the renderer: `wait` returns at every signal.
 ///
-/// A task whose pixels did not all meet the tolerance ends with 3, as the renderer does: rendering it again would change
-/// nothing.
+/// If some pixel is over the tolerance, a task ends with 3, like the renderer: rendering it again would change nothing.
 const WAIT: &str = r#"renderer=$!
 [ -z "$ended" ] || kill -TERM "$renderer"
 signaled=1
@@ -39,7 +37,7 @@ while [ -n "$signaled" ]; do
     code=$?
 done
 
-# Interrupted, or ended by the signal before it listened.
+# The renderer was interrupted, or the signal ended it before it could react.
 if [ -n "$again" ] && { [ "$code" -eq 130 ] || [ "$code" -eq 143 ]; } &&
     [ "${SLURM_RESTART_COUNT:-0}" -lt "$chunk" ]; then
     scontrol requeue "${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID"
@@ -82,8 +80,8 @@ pub(super) fn script(job: &Job) -> Result<String, Failure> {
 #SBATCH --open-mode=append
 #SBATCH --signal=B:USR1@60
 
-# Written by `marbles farm slurm`. CPUs, memory and time are the cluster's to give: options of
-# sbatch, such as --cpus-per-task=8 --time=60.
+# Written by `marbles farm slurm`. Set CPUs, memory and time with options of sbatch, such as
+# --cpus-per-task=8 --time=60.
 
 # The frames of each task.
 chunk={chunk}
@@ -104,7 +102,7 @@ marbles render --skip-existing{progress}{threads} \
     ))
 }
 
-/// The word as a shell reads it.
+/// A word, quoted for the shell.
 fn quoted(word: &str) -> Result<String, Failure> {
     match shlex::try_quote(word) {
         Ok(quoted) => Ok(quoted.into_owned()),

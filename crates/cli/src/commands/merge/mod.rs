@@ -1,7 +1,7 @@
-//! `marbles merge`: the picture whose parts were rendered on their own.
+//! `marbles merge`: joins parts of a picture that were rendered separately.
 //!
-//! It is written row by row, while the parts that a row crosses are read row by row, so that
-//! pictures may be larger than the memory.
+//! The picture is written row by row, and the parts are read row by row, so that pictures may be larger than the
+//! memory.
 
 mod parts;
 
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &MergeArguments, console: &Console) -> Result<u8, F
     let (kind, whole, digest) = (parts.kind.clone(), parts.whole, parts.digest);
     prepare(path)?;
     if kind.format() != format {
-        let expected = "expected the ending of the parts";
+        let expected = "expected the file extension of the parts";
         return Err(Failure::unusable(path, expected));
     }
     kind.write(path, whole, &digest, |rows| parts.rows(rows))?;

@@ -18,7 +18,7 @@ pub(super) struct Parts {
     parts: Vec<Part>,
     pub(super) whole: Size,
     pub(super) digest: Hash,
-    /// The kind of every part, since their digests are alike.
+    /// The kind of every part; it is the same for all, because their digests are.
     pub(super) kind: Kind,
 }
 
@@ -26,12 +26,12 @@ pub(super) struct Parts {
 struct Part {
     path: PathBuf,
     window: Window,
-    /// Open while its rows are read.
+    /// The open file, while its rows are read.
     reader: Option<RowReader>,
 }
 
 impl Parts {
-    /// Finds out the picture of which these files are parts; refuses those that make none.
+    /// Finds the picture that these files are parts of. Refuses files that are not parts of one picture.
     pub(super) fn examine(paths: &[PathBuf]) -> Result<Self, Failure> {
         let mut found: Option<(Hash, Size)> = None;
         let mut parts = Vec::new();
@@ -40,13 +40,14 @@ impl Parts {
                 return Err(Failure::unusable(path, "no such file"));
             }
             let (digest, region) = contents(path).map_err(|why| {
-                let expected = "expected a complete picture that `marbles render` has written";
+                let expected = "expected a complete picture written by `marbles render`";
                 Failure::unusable(path, &format!("{expected}: {why}"))
             })?;
             let other = *found.get_or_insert((digest, region.whole));
             if other != (digest, region.whole) {
                 let first = paths[0].shown();
-                let message = format!("not of the same scene, frame and settings as {first}");
+                let message =
+                    format!("not made from the same scene, frame and settings as {first}");
                 return Err(Failure::unusable(path, &message));
             }
             parts.push(Part {
@@ -74,7 +75,7 @@ impl Parts {
         })
     }
 
-    /// The samples of some rows, which have to follow those before.
+    /// The samples of the next rows.
     pub(super) fn rows(&mut self, rows: Range<u32>) -> Result<Vec<u8>, Failure> {
         let sample_bytes = self.kind.sample_bytes();
         let row_bytes = sample_bytes.iter().sum::<usize>() * self.whole.width as usize;
@@ -93,7 +94,7 @@ impl Parts {
 }
 
 impl Part {
-    /// Puts a row of the part where it belongs in a row of the picture.
+    /// Copies a row of the part to its position in a row of the picture.
     fn copy_row(
         &mut self,
         row: u32,
@@ -108,7 +109,7 @@ impl Part {
         let mut rest = reader.next_row()?;
         let of_pixel: usize = sample_bytes.iter().sum();
         if rest.len() != of_pixel * width as usize {
-            return Err("a row has another length than it should".to_owned());
+            return Err("a row has the wrong length".to_owned());
         }
         let columns = whole.len() / of_pixel;
         let mut start = 0;
@@ -126,7 +127,7 @@ impl Part {
     }
 }
 
-/// Refuses parts that overlap or leave something out.
+/// Refuses parts that overlap or leave a gap.
 fn check_cover(parts: &[Part], whole: Size) -> Result<(), Failure> {
     for (index, part) in parts.iter().enumerate() {
         if let Some(other) = parts[..index].iter().find(|other| overlap(part, other)) {
@@ -139,7 +140,7 @@ fn check_cover(parts: &[Part], whole: Size) -> Result<(), Failure> {
     match gap(parts, whole) {
         None => Ok(()),
         Some((col, row)) => Err(Failure::Usage(format!(
-            "the parts leave a gap: none has the pixel in column {col}, row {row} of the \
+            "the parts leave a gap: none contains the pixel in column {col}, row {row} of the \
              {} x {} pixels",
             whole.width, whole.height
         ))),
@@ -159,7 +160,7 @@ fn rows(part: &Part) -> Range<u32> {
     part.window.row..part.window.row + part.window.height
 }
 
-/// The first pixel that no part has, of parts that do not overlap.
+/// The first pixel that no part contains, if parts do not overlap.
 fn gap(parts: &[Part], whole: Size) -> Option<(u32, u32)> {
     // A gap begins at the top, or where a part ends.
     let mut tops: Vec<u32> = parts.iter().map(|part| rows(part).end).collect();

@@ -28,7 +28,7 @@ fn new_scenes_are_valid_and_rendered() {
     fs::remove_dir_all(folder).unwrap();
 }
 
-/// As they are, without smaller pictures or looser tolerances.
+/// Renders the scenes in full size and at the default tolerance.
 #[test]
 fn new_scenes_meet_all_tolerances_of_reports() {
     let folder = temporary("new-report");
@@ -53,7 +53,7 @@ fn files_that_are_there_stay() {
     let (code, out, err) = run_here(&["new", scene.to_str().unwrap()]);
     assert_eq!((code, &*out), (1, ""));
     assert!(
-        err.ends_with("mine.ron: the file is already there\n"),
+        err.ends_with("mine.ron: the file already exists\n"),
         "{err}"
     );
     assert_eq!(fs::read(&scene).unwrap(), b"mine");

@@ -1,14 +1,14 @@
-//! Pictures as text: a half block for two pixels, one above the other.
+//! Pictures as text: each half block shows two pixels, one above the other.
 
 use std::fmt::Write;
 
 use super::picture::Picture;
 
-/// Its letters are the upper pixel, what is behind them the lower one.
+/// The foreground color is the upper pixel, the background color the lower one.
 const UPPER_HALF: char = '▀';
 const RESET: &str = "\x1b[0m";
 
-/// A line for each two rows of pixels, the colors in 24 bit, each line ended by `end`.
+/// A line for each two rows of pixels, in 24-bit color; each line ends with `end`.
 pub(super) fn text(picture: &Picture, end: &str) -> String {
     let mut text = String::new();
     for row in (0..picture.size.height).step_by(2) {
@@ -27,7 +27,7 @@ pub(super) fn text(picture: &Picture, end: &str) -> String {
     text
 }
 
-/// Chooses a color, 38 that of letters and 48 that behind them, where it is not chosen already.
+/// Selects a color, 38 for the foreground and 48 for the background, unless it is selected already.
 fn set(text: &mut String, which: u8, chosen: &mut Option<[u8; 3]>, color: Option<[u8; 3]>) {
     if let Some([red, green, blue]) = color
         && *chosen != color

@@ -1,4 +1,4 @@
-//! Pictures in the graphics protocol of kitty: a PNG in base64, cut into pieces.
+//! Pictures in kitty's graphics protocol: a PNG in base64, divided into pieces.
 //!
 //! Source: "Terminal graphics protocol", sw.kovidgoyal.net/kitty/graphics-protocol.
 
@@ -9,18 +9,18 @@ use super::picture::Picture;
 use crate::base::failure::Failure;
 use crate::formats::png::write::rgb_bytes;
 
-/// The longest piece that the protocol allows, in bytes of base64.
+/// The largest size of a piece in the protocol, in bytes of base64.
 const PIECE: usize = 4096;
 
-/// The text that takes this process's picture from the screen, and from the terminal's memory.
+/// The text that removes the picture of this process from the screen and from the memory of the terminal.
 pub(super) fn delete() -> String {
     let process = std::process::id();
     format!("\x1b_Ga=d,d=I,i={process},q=2\x1b\\")
 }
 
-/// The text that has the terminal show the picture where the cursor is, which moves below it.
+/// The text that shows the picture at the cursor, and moves the cursor below it.
 ///
-/// It takes the place of the one that this process has shown before.
+/// The picture replaces the one that this process showed before.
 pub(super) fn text(picture: &Picture) -> Result<String, Failure> {
     let data = STANDARD.encode(rgb_bytes(picture.size, picture.codes.as_flattened())?);
     let mut text = String::new();

@@ -1,4 +1,4 @@
-//! `marbles preview`: a frame in the terminal.
+//! `marbles preview`: shows a frame in the terminal.
 
 mod blocks;
 mod kitty;
@@ -17,7 +17,7 @@ use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 use crate::terminal::progress::Progress;
 
-/// Lines that stay free for the shell's prompt.
+/// The number of lines left free for the shell's prompt.
 const PROMPT_LINES: u32 = 2;
 
 pub(crate) fn run(arguments: &PreviewArguments, console: &Console) -> Result<u8, Failure> {

@@ -1,4 +1,4 @@
-//! The terminal that shows pictures: what it can show, and how large.
+//! The terminal that shows pictures: its abilities and its size.
 
 use std::env;
 use std::io;
@@ -12,9 +12,9 @@ use crate::base::failure::Failure;
 use crate::base::size::Size;
 use crate::terminal::console::Console;
 
-/// Columns and rows of text that is for no terminal.
+/// Columns and rows of text if the output is not a terminal.
 const PLAIN: (u32, u32) = (80, 24);
-/// Nobody has more columns or rows, and pictures of more take long.
+/// The largest number of columns or rows. Larger pictures would take too long.
 const MOST_CELLS: u32 = 1000;
 /// The same limit in pixels.
 const MOST_PIXELS: u32 = 8192;
@@ -34,7 +34,7 @@ pub(super) struct Screen {
 pub(super) struct Area {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// True where smaller pictures are enlarged until they fill it.
+    /// Whether smaller pictures are enlarged to fill the area.
     pub(super) enlarges: bool,
 }
 
@@ -42,7 +42,7 @@ impl Screen {
     /// The screen of stdout.
     ///
     /// # Errors
-    /// Refuses terminals that can do nothing but print letters.
+    /// Refuses terminals that can only print characters.
     pub(super) fn of(console: &Console) -> Result<Self, Failure> {
         let is_terminal = console.shows_results();
         let terminal = |name| env::var(name).unwrap_or_default();
@@ -65,7 +65,7 @@ impl Screen {
         (columns.clamp(1, MOST_CELLS), rows.clamp(1, MOST_CELLS))
     }
 
-    /// Room for a picture when so many lines of a terminal stay free.
+    /// The area for a picture if this many lines of a terminal stay free.
     pub(super) fn area(&self, free_lines: u32) -> Area {
         let (columns, rows) = self.cells();
         let free_lines = if self.is_terminal { free_lines } else { 0 };
@@ -86,7 +86,7 @@ impl Screen {
         }
     }
 
-    /// The text that shows the picture where the cursor is, which moves below it.
+    /// The text that shows the picture at the cursor, and moves the cursor below it.
     pub(super) fn show(&self, picture: &Picture) -> Result<String, Failure> {
         if self.has_graphics {
             kitty::text(picture)
@@ -95,7 +95,7 @@ impl Screen {
         }
     }
 
-    /// The text that shows the picture alone, in place of all that is there.
+    /// The text that clears the screen and shows the picture.
     pub(super) fn replace(&self, picture: &Picture) -> Result<String, Failure> {
         if self.has_graphics {
             let picture = kitty::text(picture)?;
@@ -107,7 +107,7 @@ impl Screen {
         }
     }
 
-    /// The text that takes everything away.
+    /// The text that clears the screen.
     pub(super) fn clear(&self) -> String {
         let delete = self.has_graphics.then(kitty::delete);
         format!("{}{CLEAR}", delete.unwrap_or_default())
@@ -115,7 +115,7 @@ impl Screen {
 }
 
 impl Area {
-    /// The view with as many pixels as fill the area one way, and keep the picture's form.
+    /// The view in the largest size that fits into the area with the proportions of the picture.
     pub(super) fn fit(&self, view: View) -> View {
         let (width, height) = (f64::from(view.width), f64::from(view.height));
         let scale = (f64::from(self.width) / width).min(f64::from(self.height) / height);
@@ -129,8 +129,8 @@ impl Area {
     }
 }
 
-/// Returns whether a terminal speaks kitty's graphics protocol, by what it says in `TERM` and
-/// `TERM_PROGRAM`. Programs that stand between, like tmux, have names of their own there.
+/// Returns whether a terminal supports kitty's graphics protocol, according to `TERM` and `TERM_PROGRAM`. Multiplexers
+/// like tmux set names of their own.
 fn speaks_kitty(term: &str, program: &str) -> bool {
     let between = ["screen", "tmux"].iter().any(|name| term.starts_with(name));
     let terms = ["xterm-kitty", "xterm-ghostty"];
@@ -138,7 +138,7 @@ fn speaks_kitty(term: &str, program: &str) -> bool {
     !between && term != "xterm" && (terms.contains(&term) || programs.contains(&program))
 }
 
-/// Pixels of a cell, across and down, where the terminal tells.
+/// The size of a character cell in pixels, if the terminal reports it.
 #[cfg(unix)]
 fn cell_pixels() -> Option<(u32, u32)> {
     let size = rustix::termios::tcgetwinsize(io::stdout()).ok()?;
@@ -152,7 +152,7 @@ fn cell_pixels() -> Option<(u32, u32)> {
     ))
 }
 
-/// Elsewhere terminals do not tell.
+/// On other systems terminals do not report it.
 #[cfg(not(unix))]
 fn cell_pixels() -> Option<(u32, u32)> {
     None

@@ -1,7 +1,7 @@
-//! `--watch`: the picture again whenever its files are saved.
+//! `--watch`: shows the picture again whenever its files are saved.
 //!
-//! Files are looked at several times a second. That sees every way to save, by writing or by
-//! renaming, on disks of other machines too, where systems do not tell of changes.
+//! Files are checked several times per second. This detects every way to save a file, by writing or by renaming, and
+//! also on disks of other machines, for which the system reports no changes.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,12 +24,12 @@ use crate::terminal::console::Console;
 use crate::terminal::interrupt;
 use crate::terminal::keyboard::Keyboard;
 
-/// The time between two looks at the files. What changes from one look to the next is still being saved.
+/// The time between two checks. A file that changes between two checks is still being saved.
 const INTERVAL: Duration = Duration::from_millis(100);
 /// The line below the picture.
 const STATUS_LINES: u32 = 1;
 
-/// Shows the picture until the user ends it, on the threads of the current pool.
+/// Shows the picture until the user quits, on the threads of the current pool.
 pub(super) fn run(
     arguments: &PreviewArguments,
     screen: &Screen,
@@ -37,7 +37,7 @@ pub(super) fn run(
 ) -> Result<u8, Failure> {
     if !screen.is_terminal {
         return Err(Failure::Usage(
-            "--watch needs a terminal, and the output is none".to_owned(),
+            "--watch needs a terminal, but the output is not a terminal".to_owned(),
         ));
     }
     interrupt::listen(console);
@@ -52,7 +52,7 @@ pub(super) fn run(
             Err(failure) => screen.clear() + &message(&console.message(&failure), screen.cells()),
         };
         let scene = arguments.scene.shown();
-        let status = format!("{scene}: shown again when it is saved; q ends");
+        let status = format!("{scene}: updated when you save it; q quits");
         console.print(&(shown + &status_line(&status, screen.cells())));
         wait(&mut files, || screen.area(STATUS_LINES) != area);
     }
@@ -62,7 +62,7 @@ pub(super) fn run(
     })
 }
 
-/// The picture as the files have it now.
+/// The picture of the current contents of the files.
 fn look(
     arguments: &PreviewArguments,
     area: &Area,
@@ -82,8 +82,7 @@ fn look(
     Ok(render((&scene, &world), &view, arguments.tolerance, None))
 }
 
-/// Waits until the files have changed and the change is complete, the screen is another, or the user
-/// ends it.
+/// Waits until the files have been saved completely, the size of the screen has changed, or the user quits.
 fn wait(files: &mut Files, is_other: impl Fn() -> bool) {
     let mut before = files.stamps.clone();
     while !interrupt::requested() {
@@ -103,7 +102,7 @@ struct Files {
     stamps: Stamps,
 }
 
-/// The states of files; `None` stands for a file that is not there.
+/// The states of files; `None` for a missing file.
 type Stamps = BTreeMap<PathBuf, Option<Stamp>>;
 
 /// The state of a file.
@@ -114,7 +113,7 @@ struct Stamp {
 }
 
 impl Files {
-    /// A scene whose tables are not known.
+    /// A scene whose tables are not known yet.
     fn of(scene: &Path) -> Self {
         Self {
             scene: scene.to_owned(),
@@ -128,7 +127,7 @@ impl Files {
         paths.map(|path| (path.clone(), stamp(path))).collect()
     }
 
-    /// Has these tables in place of the others, read since `started`.
+    /// Replaces the tables by these, which have been read since `started`.
     fn name(&mut self, tables: Vec<PathBuf>, started: SystemTime) {
         let scene = &self.scene;
         self.stamps
@@ -138,7 +137,7 @@ impl Files {
         }
     }
 
-    /// Has another file, read since `started`, if it is another.
+    /// Replaces the scene file, which has been read since `started`, if it is a different one.
     fn add(&mut self, path: PathBuf, started: SystemTime) {
         // What was written since then may have been read before.
         let stamp = stamp(&path).filter(|stamp| stamp.modified < started);
@@ -154,7 +153,7 @@ fn stamp(path: &Path) -> Option<Stamp> {
     })
 }
 
-/// The lines of a message that there is room for, the longer ones wrapped by the terminal.
+/// As many lines of a message as fit, if the terminal wraps the longer ones.
 fn message(text: &str, (columns, rows): (u32, u32)) -> String {
     let mut room = rows.saturating_sub(STATUS_LINES) as usize;
     let mut shown = String::new();
@@ -171,7 +170,7 @@ fn message(text: &str, (columns, rows): (u32, u32)) -> String {
     shown
 }
 
-/// A text in the last line, cut where that ends.
+/// A text on the last line, cut at the end of the line.
 fn status_line(text: &str, (columns, rows): (u32, u32)) -> String {
     let text = console::truncate_str(text, columns as usize, "…");
     format!("\x1b[{rows};1H{text}\x1b[K")

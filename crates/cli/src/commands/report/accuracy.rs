@@ -1,14 +1,13 @@
-//! The errors of a picture against a reference, and those that it claims.
+//! The errors of a picture against a reference, and the errors that it claims.
 
 use marbles_core::Image;
 
 use crate::base::size::Size;
 use crate::formats::form::color_count;
 
-/// A reference that claims more than this leaves a pixel unknown: a tenth of the smallest
-/// tolerance that is measured.
+/// The largest claim of a usable reference pixel: a tenth of the smallest measured tolerance.
 pub(super) const LARGEST_UNKNOWN: f64 = 1e-7;
-/// A claim means something only where the reference's own is so many times smaller.
+/// A ratio of true and claimed error is meaningful only if the claim is at least this many times that of the reference.
 const MARGIN: f64 = 10.0;
 
 /// The errors of a picture.
@@ -16,25 +15,25 @@ const MARGIN: f64 = 10.0;
 pub(super) struct Accuracy {
     /// The root of the mean square, over all channels of all known pixels.
     pub(super) rmse: f64,
-    /// The largest one of any channel of any known pixel.
+    /// The largest error of any channel of any known pixel.
     pub(super) largest: f64,
-    /// The largest one that any known pixel claims.
+    /// The largest claim of any known pixel.
     pub(super) largest_claimed: f64,
-    /// The median of true over claimed error, of the pixels where that means something.
+    /// The median of true over claimed errors, over the pixels for which it is meaningful.
     pub(super) median_of_claimed: Option<f64>,
-    /// Known pixels whose error is over the tolerance whatever the reference is off by.
+    /// The number of known pixels whose error is over the tolerance, even with the error of the reference subtracted.
     pub(super) over: u64,
-    /// Pixels that are over, or say so themselves.
+    /// The number of pixels over the tolerance, by measurement or by their own report.
     pub(super) missed: u64,
 }
 
-/// Returns whether a pixel of the reference is as good as exact.
+/// Returns whether a pixel of the reference is accurate enough.
 pub(super) fn is_known(reference: &Image, (col, row): (u32, u32)) -> bool {
     reference.error(col, row) <= LARGEST_UNKNOWN
 }
 
 impl Accuracy {
-    /// Holds a picture against a reference of the same size; without a tolerance no pixel is over.
+    /// Compares a picture with a reference of the same size; without a tolerance no pixel is over.
     pub(super) fn of(image: &Image, reference: &Image, tolerance: Option<f64>) -> Self {
         let channels = color_count(image.channels());
         let mut accuracy = Self {
@@ -73,7 +72,7 @@ impl Accuracy {
         accuracy
     }
 
-    /// The largest true error over the largest claimed one.
+    /// The largest true error divided by the largest claimed error.
     pub(super) fn largest_of_claimed(&self) -> Option<f64> {
         let says_something = self.largest_claimed > 0.0 && self.largest_claimed.is_finite();
         says_something.then(|| self.largest / self.largest_claimed)
@@ -86,7 +85,7 @@ pub(super) fn places(image: &Image) -> impl Iterator<Item = (u32, u32)> {
     Size { width, height }.places()
 }
 
-/// The number in the middle, or the mean of both there.
+/// The median: the number in the middle, or the mean of the two in the middle.
 pub(super) fn median(numbers: &mut [f64]) -> Option<f64> {
     numbers.sort_unstable_by(f64::total_cmp);
     let middle = numbers.len() / 2;

@@ -1,4 +1,4 @@
-//! The numbers of a report as a table with commas (RFC 4180, lines ending in a line feed).
+//! The numbers of a report as CSV (RFC 4180, with line feeds at the ends of lines).
 
 use marbles_core::{Evidence, Method, Summary, Work};
 
@@ -38,7 +38,7 @@ type Cells = Vec<(&'static str, String)>;
 
 /// The file: a line of titles, one for the reference, and one for every setting.
 ///
-/// Cells that are unknown or have no meaning are empty. Numbers have all their digits.
+/// Cells without a value are empty. Numbers have all their digits.
 pub(super) fn bytes(report: &Report) -> Vec<u8> {
     let mut text = COLUMNS.join(",") + "\n";
     let settings = report.rows.iter().map(|row| setting(row, report));
@@ -75,7 +75,7 @@ fn picture(report: &Report, summary: &Summary, work: &Work) -> Cells {
     ]
 }
 
-/// The reference has no error that could be measured.
+/// The error of the reference cannot be measured.
 fn reference(report: &Report) -> Cells {
     let reference = report.reference();
     let (summary, work) = (reference.image.summary(), reference.image.work());
@@ -127,7 +127,7 @@ fn setting(row: &Row, report: &Report) -> Cells {
     cells
 }
 
-/// A number as every program reads it.
+/// A number in a form that every program reads.
 fn number(value: f64) -> String {
     if value == 0.0 || (1e-3..1e9).contains(&value.abs()) {
         value.to_string()
@@ -136,7 +136,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// A cell, between quotes where it needs them.
+/// A cell, quoted if necessary.
 fn quoted(cell: &str) -> String {
     if cell.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", cell.replace('"', "\"\""))

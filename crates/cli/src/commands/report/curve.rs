@@ -1,4 +1,4 @@
-//! The time that supersampling takes to an error, between and beyond the runs that measured it.
+//! The time of supersampling at a given error, between and beyond the measured runs.
 
 /// A measured setting.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -7,25 +7,25 @@ pub(super) struct Point {
     pub(super) seconds: f64,
 }
 
-/// A time to an error.
+/// The time at an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Time {
     pub(super) seconds: f64,
-    /// True where the error is smaller than any that was measured.
+    /// Whether the error is smaller than all measured errors.
     pub(super) extrapolated: bool,
 }
 
-/// Time against RMSE, straight between the points where both axes are logarithmic.
+/// Time against RMSE, linear between the points in a log-log plot.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Curve {
     /// The points from the cheapest on, each more accurate than the one before.
     points: Vec<Point>,
-    /// The exponent of time as a power of RMSE where the curve ends, below 0.
+    /// The exponent of RMSE in the time at the end of the curve, below 0.
     slope: Option<f64>,
 }
 
 impl Curve {
-    /// The curve through the points that no cheaper one outdoes.
+    /// The curve through all points that are more accurate than every cheaper one.
     pub(super) fn through(points: impl IntoIterator<Item = Point>) -> Self {
         let measured = |point: &Point| point.rmse > 0.0 && point.seconds > 0.0;
         let mut sorted: Vec<Point> = points.into_iter().filter(measured).collect();
@@ -40,8 +40,8 @@ impl Curve {
         Self { points, slope }
     }
 
-    /// The time to an error; to one that the cheapest point undercuts, the time of that point,
-    /// since less than one sample cannot be had.
+    /// The time at an error. At errors larger than that of the cheapest point it is the time of that point, because
+    /// there is no setting with less than one sample.
     pub(super) fn time(&self, rmse: f64) -> Option<Time> {
         let (first, last) = (self.points.first()?, self.points.last()?);
         if rmse.is_nan() || rmse <= 0.0 {
@@ -66,7 +66,7 @@ impl Curve {
         })
     }
 
-    /// The exponent of time as a power of RMSE where the curve ends, if it falls there.
+    /// The exponent of RMSE in the time at the end of the curve, if the curve falls there.
     pub(super) fn slope(&self) -> Option<f64> {
         self.slope
     }
@@ -82,15 +82,15 @@ fn along(point: &Point, slope: f64, rmse: f64) -> f64 {
     point.seconds * libm::pow(rmse / point.rmse, slope)
 }
 
-/// The exponent of time as a power of RMSE from one point to another.
+/// The exponent of RMSE in the time between two points.
 fn exponent(one: &Point, other: &Point) -> f64 {
     libm::log(other.seconds / one.seconds) / libm::log(other.rmse / one.rmse)
 }
 
-/// The exponent by least squares over the last points, where time does rise as the error falls.
+/// The exponent by least squares over the last points, if time rises as the error falls.
 fn slope(points: &[Point]) -> Option<f64> {
-    /// Enough to even out the luck of single sample counts; the cheapest settings, most of whose
-    /// time is not spent on samples, are left out where there are more.
+    /// Enough points to average out fluctuations. If there are more, the cheapest settings are left out, because most
+    /// of their time is not spent on samples.
     const POINTS: usize = 6;
     let points = &points[points.len().saturating_sub(POINTS)..];
     let count = points.len() as f64;

@@ -1,4 +1,4 @@
-//! The runs: a reference, then every setting in turn, again and again.
+//! The runs: a reference, then every setting in turn, repeatedly.
 
 use std::num::NonZeroU32;
 use std::ops::ControlFlow;
@@ -15,13 +15,13 @@ use crate::terminal::interrupt;
 const TOLERANCES: [f64; 6] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 /// The tolerance of a reference.
 const REFERENCE_TOLERANCE: f64 = LARGEST_UNKNOWN;
-/// Those of better ones, which may take too long or forever.
+/// The tolerances of better references, which may take too long.
 const BETTER_TOLERANCES: [f64; 2] = [1e-8, 1e-9];
-/// So many samples a side are measured in any case: less would tell no slope.
+/// The largest number of samples per side that is measured in any case: fewer settings would not give a slope.
 const FEWEST_SIDES: u32 = 4;
-/// And so many at most, whatever the time: the largest power of two that `render` takes.
+/// The largest number of samples per side at all: the largest power of two that `render` accepts.
 const MOST_SIDES: u32 = 512;
-/// The part of the time that is planned; the rest is for runs that take longer than the first.
+/// The fraction of the time that is planned; the rest is for runs that take longer than the first.
 const PLANNED: f64 = 0.75;
 const TWO: NonZeroU32 = NonZeroU32::new(2).unwrap();
 
@@ -30,7 +30,7 @@ pub(super) struct Plan<'a> {
     pub(super) renderer: &'a Renderer<'a>,
     pub(super) exposure: &'a Exposure<'a>,
     pub(super) runs: usize,
-    /// The time for all runs but the reference, and for every better reference.
+    /// The time for all runs without the reference, and for each better reference.
     pub(super) seconds: f64,
     pub(super) progress: &'a Progress<'a>,
 }
@@ -40,7 +40,7 @@ pub(super) struct Measurement {
     pub(super) reference: Reference,
     /// Tolerances, then samples.
     pub(super) settings: Vec<Setting>,
-    /// Runs that were asked for.
+    /// The number of requested runs.
     pub(super) runs_planned: usize,
 }
 
@@ -51,12 +51,12 @@ impl Measurement {
     }
 }
 
-/// The picture that the others are held against.
+/// The picture with which the others are compared.
 pub(super) struct Reference {
     pub(super) tolerance: f64,
     pub(super) image: Image,
     pub(super) time: Duration,
-    /// Pixels that are as good as exact.
+    /// The number of pixels that are accurate enough.
     pub(super) known: u64,
 }
 
@@ -95,8 +95,8 @@ impl Plan<'_> {
         })
     }
 
-    /// The picture at the smallest tolerance that can be had in the time, as long as smaller ones
-    /// do not leave more pixels unknown.
+    /// The picture at the smallest tolerance that fits into the time, as long as smaller tolerances do not make more
+    /// pixels unusable.
     fn reference(&self) -> Result<Reference, Cancelled> {
         let mut reference = self.reference_at(REFERENCE_TOLERANCE, None)?;
         for tolerance in BETTER_TOLERANCES {
@@ -109,7 +109,7 @@ impl Plan<'_> {
         Ok(reference)
     }
 
-    /// The picture at a tolerance, given up after so many seconds.
+    /// The picture at a tolerance; cancelled after this many seconds.
     fn reference_at(&self, tolerance: f64, seconds: Option<f64>) -> Result<Reference, Cancelled> {
         let name = format!("reference, tolerance {tolerance:e}");
         let (image, time) = self.render(Method::Tolerance(tolerance), &name, seconds, None)?;
@@ -123,7 +123,7 @@ impl Plan<'_> {
         })
     }
 
-    /// All settings, as often as was asked for and the time allows, but at least once.
+    /// All settings, as often as requested if the time allows it, but at least once.
     fn settings(&self, reference: &Reference) -> Result<Vec<Setting>, Cancelled> {
         let started = Instant::now();
         let mut settings = Vec::new();
@@ -154,7 +154,7 @@ impl Plan<'_> {
         Ok(settings)
     }
 
-    /// The sample counts of which all runs together fit into so many seconds, run once.
+    /// The sample counts whose runs all fit into this many seconds, each run once.
     fn samples(&self, reference: &Reference, seconds: f64) -> Result<Vec<Setting>, Cancelled> {
         // Of twice the samples a side: as many moments are averaged where a shutter is open.
         let factor = if self.exposure.poses().is_empty() {
@@ -178,7 +178,7 @@ impl Plan<'_> {
         }
     }
 
-    /// A setting, run once. All runs make the same picture, so that one is looked at.
+    /// A setting, run once. All runs make the same picture, so only the first picture is evaluated.
     fn first_run(&self, method: Method, reference: &Reference) -> Result<Setting, Cancelled> {
         let name = format!("run 1 of {}, {}", self.runs, name(method));
         let (image, time) = self.render(method, &name, None, None)?;
@@ -193,8 +193,7 @@ impl Plan<'_> {
         })
     }
 
-    /// A picture, in the memory of another one, and its time; given up where that exceeds
-    /// `seconds`, or on the user's word.
+    /// A picture, in the memory of another picture, and its rendering time; cancelled after `seconds`, or by the user.
     fn render(
         &self,
         method: Method,
@@ -229,12 +228,12 @@ fn seconds_of_a_round(settings: &[Setting]) -> f64 {
 }
 
 impl Reference {
-    /// Returns whether all pixels are as good as exact.
+    /// Returns whether all pixels are accurate enough.
     pub(super) fn is_complete(&self) -> bool {
         self.known == self.image.summary().pixels
     }
 
-    /// The root of the mean square of what the known pixels claim.
+    /// The root mean square of the claims of known pixels.
     pub(super) fn claimed_rms(&self) -> f64 {
         let known = places(&self.image).filter(|&pixel| is_known(&self.image, pixel));
         let squares = known.map(|(col, row)| {

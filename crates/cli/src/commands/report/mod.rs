@@ -1,8 +1,8 @@
-//! `marbles report`: speed against error, of tolerances and of supersampling.
+//! `marbles report`: measures speed and error, for tolerances and for supersampling.
 //!
-//! All settings are held against a reference, and supersampling is the yardstick: how much longer
-//! would it take to the same error? The exit code is that of `render`: 3 where some pixel does not
-//! meet its tolerance, by its own word or by measurement.
+//! All settings are compared with a reference. The baseline is supersampling: how much longer would it take for the
+//! same error? The exit code is that of `render`: 3 if some pixel is over its tolerance, by its own report or by
+//! measurement.
 
 mod accuracy;
 mod csv;
@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &ReportArguments, console: &Console) -> Result<u8, 
     pool.install(|| report(arguments, pool.current_num_threads(), console))
 }
 
-/// Measures on so many threads, those of the pool that it runs on.
+/// Measures on the threads of the current pool.
 fn report(arguments: &ReportArguments, threads: usize, console: &Console) -> Result<u8, Failure> {
     let scene = scene::load(
         &arguments.scene,
@@ -100,7 +100,7 @@ fn report(arguments: &ReportArguments, threads: usize, console: &Console) -> Res
     Ok(conclusion(&report))
 }
 
-/// Refuses files that would take the place of each other.
+/// Refuses files that would replace each other.
 fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
     if let (Some(csv), Some(plot)) = (&arguments.csv, &arguments.plot)
         && is_same(csv, plot)
@@ -113,7 +113,7 @@ fn check_files(arguments: &ReportArguments) -> Result<(), Failure> {
 
 /// Refuses pictures that do not fit into the memory together.
 fn check_memory(size: Size, channels: Channels) -> Result<(), Failure> {
-    /// The reference, another one in its place, and what is measured.
+    /// The reference, a possibly better one, and the measured picture.
     const PICTURES: u64 = 3;
     // The channels and the error in double precision, what stands behind it, and the status.
     let pixel_bytes = 8 * (color_count(channels) as u64 + 1) + 2;

@@ -46,13 +46,13 @@ impl<'a> Progress<'a> {
         }
     }
 
-    /// A picture is done that was not rendered before.
+    /// A picture that had not been rendered before is done.
     pub(super) fn picture_done(&self, name: &str, time: Duration) {
         let time = numbers::duration(time.as_secs_f64());
         self.note(&format!("{name}: {time}"));
     }
 
-    /// All settings were run once more.
+    /// All settings have been run once more.
     pub(super) fn run_done(&self, run: usize, runs: usize) {
         self.note(&format!("run {run} of {runs} done"));
     }

@@ -9,7 +9,7 @@ use super::measure::{Measurement, Reference};
 use super::row::Row;
 use crate::base::numbers::counted;
 
-/// All that is known about a scene.
+/// All results for a scene.
 pub(super) struct Report {
     /// Scene, frame, size and threads, for people.
     pub(super) title: String,

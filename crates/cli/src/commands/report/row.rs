@@ -1,16 +1,16 @@
-//! The rows of a report: what was measured, beside the yardstick.
+//! The rows of a report: measurements, and the comparison with supersampling.
 
 use marbles_core::Method;
 
 use super::curve::{Curve, Point, Time};
 use super::measure::Setting;
 
-/// A setting, beside supersampling at the same error.
+/// A setting, and supersampling at the same error.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
     pub(super) setting: Setting,
     pub(super) seconds: f64,
-    /// The time that supersampling takes to the same RMSE.
+    /// The time of supersampling at the same RMSE.
     pub(super) supersampling: Option<Time>,
 }
 
@@ -29,8 +29,8 @@ impl Row {
         settings.iter().map(row).collect()
     }
 
-    /// The speed in multiples of supersampling's, and whether that is extrapolated. Supersampling
-    /// itself is as fast as itself.
+    /// The speed as a multiple of the speed of supersampling, and whether this is extrapolated. For supersampling it is
+    /// 1.
     pub(super) fn speed_up(&self) -> Option<(f64, bool)> {
         match self.setting.method {
             Method::Samples(_) => Some((1.0, false)),
@@ -50,7 +50,7 @@ impl Row {
     }
 }
 
-/// Time against RMSE of those settings that are supersampling.
+/// Time against RMSE for the supersampling settings.
 pub(super) fn supersampling(settings: &[Setting]) -> Curve {
     let samples = settings
         .iter()

@@ -1,4 +1,4 @@
-//! The results that `marbles report` prints: facts, a table in Markdown that reads well as it is, notes.
+//! The output of `marbles report`: facts, a table in Markdown that is readable as plain text, and notes.
 
 use super::measure::name;
 use super::results::Report;
@@ -22,12 +22,12 @@ const TITLES: [&str; 11] = [
     "lines",
 ];
 
-/// The mark behind a number that is extrapolated.
+/// The mark after an extrapolated number.
 const EXTRAPOLATED: &str = " *";
-/// The mark behind an RMSE that the reference cannot tell.
+/// The mark after an RMSE that is no larger than the error of the reference may be.
 const BELOW_REFERENCE: &str = " ?";
 
-/// The lines of all results, in tables of at most so many columns of text where there is a limit.
+/// The lines of the output. With a limit, no table is wider than `columns` characters.
 pub(super) fn lines(report: &Report, columns: Option<usize>) -> Vec<String> {
     let mut lines = facts(report);
     lines.push(String::new());
@@ -61,7 +61,7 @@ fn facts(report: &Report) -> Vec<String> {
     if !reference.is_complete() {
         let unknown = summary.pixels - reference.known;
         let text = format!(
-            "{unknown} of {} pixels left out, the reference is not good enough there",
+            "{unknown} of {} pixels excluded: the reference is not accurate enough there",
             summary.pixels
         );
         facts.push(("", text));
@@ -71,7 +71,7 @@ fn facts(report: &Report) -> Vec<String> {
     let plural = if runs == 1 { "" } else { "s" };
     let mut text = format!("median of {runs} run{plural}");
     if runs < planned {
-        text.push_str(&format!("; the time did not suffice for {planned}"));
+        text.push_str(&format!("; there was no time for {planned}"));
     }
     facts.push(("times", text));
     let lines = facts.into_iter();
@@ -120,7 +120,7 @@ fn cells(row: &Row, report: &Report) -> [String; 11] {
     ]
 }
 
-/// Returns whether an RMSE is no larger than what the reference may be off by.
+/// Returns whether an RMSE is no larger than the error of the reference may be.
 fn is_below_reference(row: &Row, report: &Report) -> bool {
     row.setting.accuracy.rmse <= report.reference().claimed_rms()
 }
@@ -133,11 +133,11 @@ fn notes(report: &Report) -> Vec<String> {
         && let Some(slope) = supersampling(&report.measurement.settings).slope()
     {
         notes.push(format!(
-            "* extrapolated: the time of supersampling as RMSE^{slope:.2}, its slope at the end"
+            "* extrapolated: the time of supersampling grows as RMSE^{slope:.2} at the end of its curve"
         ));
     }
     if rows.iter().any(|row| is_below_reference(row, report)) {
-        notes.push("? no larger than what the reference may be off by".to_owned());
+        notes.push("? no larger than the error of the reference may be".to_owned());
     }
     for row in rows {
         let not_met = row.setting.summary.over_tolerance;
@@ -145,17 +145,17 @@ fn notes(report: &Report) -> Vec<String> {
             let name = name(row.setting.method);
             let pixels = if not_met == 1 { "pixel" } else { "pixels" };
             notes.push(format!(
-                "{name}: {not_met} {pixels} did not meet it, and say so"
+                "{name}: {not_met} {pixels} reported as over the tolerance"
             ));
         }
     }
     notes
 }
 
-/// The lines of a table in Markdown, of which the first row has the titles, the first column to the left and
-/// the others to the right, in columns that are as wide as their widest cell.
+/// The lines of a table in Markdown, whose first row contains the titles.
 ///
-/// A table in Markdown. If it is wider than the limit, it becomes several tables, each with the first column.
+/// The first column is aligned to the left, the others to the right; a column is as wide as its widest cell. A table wider than the
+/// limit becomes several tables, each with the first column.
 fn markdown<const N: usize>(rows: &[[String; N]], limit: Option<usize>) -> Vec<String> {
     let mut widths = [0; N];
     for row in rows {

@@ -1,4 +1,4 @@
-//! A report as if it had been measured, and what is said about it.
+//! A report with invented measurements, and its output.
 
 use std::num::NonZeroU32;
 use std::time::Duration;
@@ -10,7 +10,7 @@ use super::measure::{Measurement, Reference, Setting};
 use super::*;
 use crate::formats::tests::{Scene, render, view};
 
-/// A setting as if it had been measured.
+/// A setting with invented measurements.
 fn setting(method: Method, rmse: f64, seconds: f64) -> Setting {
     Setting {
         method,
@@ -44,7 +44,7 @@ fn settings() -> Vec<Setting> {
     ]
 }
 
-/// A report as if it had been measured.
+/// A report with invented measurements.
 pub(super) fn report() -> Report {
     let settings = settings();
     let image = render(Scene::Grey, false);

@@ -1,4 +1,4 @@
-//! `marbles spheres`: a table of where each sphere is in the picture, and how much of it is seen.
+//! `marbles spheres`: writes a table with the position and the visible area of each sphere.
 
 mod row;
 #[cfg(test)]
@@ -83,7 +83,7 @@ pub(crate) fn run(arguments: &SpheresArguments, console: &Console) -> Result<u8,
     Ok(status::SUCCESS)
 }
 
-/// The table's name: that of the scene, with another ending.
+/// The name of the table: that of the scene with another extension.
 fn named_after(scene: &Path) -> PathBuf {
     let mut name = scene.file_stem().unwrap_or_default().to_owned();
     name.push(".spheres.csv");
@@ -93,7 +93,7 @@ fn named_after(scene: &Path) -> PathBuf {
 /// The data from which the table is made.
 struct Table<'a> {
     scene: &'a Scene,
-    /// A size in place of the scene's.
+    /// A size instead of the scene's.
     size: Option<Size>,
     tolerance: f64,
     pool: &'a ThreadPool,

@@ -8,10 +8,11 @@ pub(super) const HEADER: &str = "frame,id,center_x,center_y,depth,ellipse_x,elli
     semi_minor,angle_degrees,left,top,right,bottom,area,visible_area,visible_area_error,\
     visible_fraction\n";
 
-/// The pixel coordinates of the middle of the first pixel, where those of its corner are 0.
+/// The coordinates of the center of the first pixel, if those of its corner are 0.
 const MIDDLE: f64 = 0.5;
 
-/// Writes the row of a sphere, with the number `id`, in a view. Numbers have as many digits as tell them from all others.
+/// Writes the row of the sphere with the number `id` in a view. Numbers have as many digits as are needed to read the
+/// same doubles.
 pub(super) fn write_row(
     to: &mut impl Write,
     view: &View,
@@ -44,7 +45,7 @@ pub(super) fn write_row(
     writeln!(to)
 }
 
-/// Writes some numbers, or leaves their fields empty.
+/// Writes some numbers, or empty fields if there are none.
 fn write_numbers<const COUNT: usize>(
     to: &mut impl Write,
     numbers: Option<[f64; COUNT]>,

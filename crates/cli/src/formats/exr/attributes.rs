@@ -1,8 +1,7 @@
-//! The attributes in the header of an EXR file that is written: their order, and numbers that are known
-//! only when the file is.
+//! The attributes in the header of a written EXR file: their order, and numbers that are known only after the blocks.
 //!
-//! Layout: magic number, version, then attributes, each a name and a type that end in a zero
-//! byte, a size and as many bytes; an empty name ends them.
+//! Layout: magic number, version, then attributes. Each attribute has a name and a type, both ended by a zero byte, a
+//! size, and as many bytes. An empty name ends the list.
 //!
 //! Source: "OpenEXR File Layout", openexr.com.
 
@@ -11,10 +10,10 @@ use std::ops::Range;
 /// Bytes before the first attribute: the magic number and the version.
 const PREAMBLE: usize = 8;
 
-/// Puts the attributes of a file with one part into the order of their names.
+/// Sorts the attributes of a file with one part by name.
 ///
-/// The encoder keeps some in a hash map, so that their order would differ from run to run.
-/// `None`, and nothing changed, where the bytes do not have the form above.
+/// The encoder keeps some of them in a hash map, so their order would differ from run to run. Returns `None`, and
+/// changes nothing, if the bytes do not have this layout.
 pub(crate) fn sort_attributes(file: &mut [u8]) -> Option<()> {
     let mut records = records(file)?;
     let end = records.last().map_or(PREAMBLE, |last| last.end);
@@ -28,7 +27,7 @@ pub(crate) fn sort_attributes(file: &mut [u8]) -> Option<()> {
     Some(())
 }
 
-/// Puts another number into the attribute with this name, a double. `None` where there is none.
+/// Replaces the number in the attribute with this name, a double. Returns `None` if there is no such attribute.
 pub(crate) fn set_double(file: &mut [u8], name: &str, number: f64) -> Option<()> {
     const BYTES: [u8; 4] = 8_u32.to_le_bytes();
     let start = [name.as_bytes(), b"\0double\0", &BYTES].concat();
@@ -39,7 +38,7 @@ pub(crate) fn set_double(file: &mut [u8], name: &str, number: f64) -> Option<()>
     Some(())
 }
 
-/// The places of the attributes in a file with one part.
+/// The positions of the attributes in a file with one part.
 fn records(file: &[u8]) -> Option<Vec<Range<usize>>> {
     let mut records = Vec::new();
     let mut start = PREAMBLE;

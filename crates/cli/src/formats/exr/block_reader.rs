@@ -1,4 +1,4 @@
-//! The blocks of a part of a file, by their places.
+//! Reads the blocks of a part of a file, in any order.
 
 use std::io::{self, Read, Seek, SeekFrom};
 
@@ -21,14 +21,14 @@ pub(super) struct BlockReader {
     end: u64,
     meta: MetaData,
     part: usize,
-    /// The place of the table of the part's blocks.
+    /// The offset of the table of the part's blocks.
     table: u64,
 }
 
-/// The most bytes of the blocks beside each other that any file may have: a hundred times what is usual.
+/// The largest memory for a row of blocks, in bytes, that any file may need: a hundred times the usual amount.
 const MOST_BYTES: u64 = 1 << 28;
-/// The most bytes of them for a byte of the file, beyond that: deflate makes no more of one, so that no file
-/// which is compressed by it, as ours are, has more.
+/// Beyond this, the largest memory per byte of the file. Deflate expands a byte to no more, so no file compressed with
+/// it, like ours, needs more.
 ///
 /// Source: zlib, "Maximum Compression Factor" in its technical details.
 const MOST_FOR_A_BYTE: u64 = 1032;
@@ -39,7 +39,7 @@ pub(super) fn meta_of(file: &mut impl Input) -> Result<MetaData, String> {
 }
 
 impl BlockReader {
-    /// The blocks of this part of the file that was read as far as `meta`.
+    /// The blocks of a part of the file, which has been read up to the end of `meta`.
     pub(super) fn of_part(
         mut file: Box<dyn Input>,
         meta: MetaData,
@@ -47,7 +47,7 @@ impl BlockReader {
     ) -> Result<Self, String> {
         let header = &meta.headers[part];
         if header.deep {
-            return Err("its pixels are deep, expected flat ones".to_owned());
+            return Err("expected flat pixels, found deep ones".to_owned());
         }
         let before = meta.headers[..part].iter();
         let before: u64 = before.map(|header| 8 * header.chunk_count as u64).sum();
@@ -62,7 +62,7 @@ impl BlockReader {
         if bytes.is_none_or(|bytes| bytes as u64 > most) {
             let megabytes = most / 1_000_000;
             return Err(format!(
-                "its blocks have more than {megabytes} MB side by side"
+                "its blocks need more than {megabytes} MB at a time"
             ));
         }
         Ok(Self {
@@ -79,11 +79,11 @@ impl BlockReader {
         &self.meta.headers[self.part]
     }
 
-    /// The samples of the block in this column and row of blocks of the largest resolution, row by row, in each
-    /// channel by channel.
+    /// The samples of the block in this column and row of blocks, in the largest resolution. They are ordered by rows,
+    /// and within a row by channels.
     pub(super) fn read(&mut self, column: usize, row: usize) -> Result<Vec<u8>, String> {
         let chunk = self.chunk(column, row).map_err(|error| reason(&error))?;
-        let chunk = chunk.ok_or("a block is not where the file says it is")?;
+        let chunk = chunk.ok_or("a block is not at the position that the file states")?;
         let meta = &self.meta;
         let block = guarded(|| UncompressedBlock::decompress_chunk(chunk, meta, false))?;
         let bytes = block.index.pixel_size.area() * self.header().channels.bytes_per_pixel;
@@ -93,9 +93,9 @@ impl BlockReader {
         }
     }
 
-    /// That block, compressed; `None` where it cannot be or is another one.
+    /// The compressed block; `None` if it is missing, or at the wrong position.
     ///
-    /// No more is allocated than the file has.
+    /// Never allocates more than the size of the file.
     fn chunk(&mut self, column: usize, row: usize) -> io::Result<Option<Chunk>> {
         let header = self.header();
         let (size, block) = (header.layer_size, header.max_block_pixel_size());

@@ -16,21 +16,21 @@ use crate::formats::encoding::ExrOptions;
 use crate::formats::form::Form;
 use crate::formats::half;
 
-/// The channel with the error of each pixel: how far any of its other channels may be from the
-/// exact average, before they are rounded to the format. Infinite where nothing is known.
+/// The channel with the error of each pixel: the largest difference of any other channel from the exact average, before
+/// rounding to the format. Infinite if it is unknown.
 const ERROR_CHANNEL: &str = "error";
 
-/// Rows that are compressed together.
+/// The number of rows that are compressed together.
 pub(crate) const ROWS_OF_A_BLOCK: u32 = 16;
 
-/// The layout of blocks, which hold the light and the errors of a picture.
+/// The layout of blocks, which contain the light and the errors of a picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
     options: ExrOptions,
     channels: Vec<Channel>,
-    /// The number of layers, the picture the first of them.
+    /// The number of layers; the picture is the first one.
     layers: usize,
-    /// The header without the facts about the picture, which do not matter to the blocks.
+    /// The header without metadata about the picture, which does not affect the blocks.
     pub(super) header: Header,
 }
 
@@ -39,14 +39,13 @@ pub(crate) struct Blocks {
 struct Channel {
     name: String,
     content: Content,
-    /// The number of the layer, 0 that of the picture, with which its numbers come; those that the centers of pixels
-    /// see come by themselves.
+    /// The number of the layer whose image contains its numbers; 0 is the picture. Center values are added separately.
     layer: usize,
-    /// Bytes of a sample.
+    /// Bytes per sample.
     bytes: usize,
 }
 
-/// The numbers of a channel.
+/// The contents of a channel.
 #[derive(Clone, Copy, Debug)]
 enum Content {
     /// Red, green, blue or alpha.
@@ -67,7 +66,7 @@ impl Channel {
 }
 
 impl Blocks {
-    /// The blocks of a picture of this form, and of layers with these names beside it, which share its alpha.
+    /// The blocks of a picture of this form, with additional layers, which share its alpha.
     pub(crate) fn new(form: &Form, options: ExrOptions, layers: &[String]) -> Self {
         let mut channels = Vec::new();
         let names = layers.iter().map(|layer| format!("{layer}."));
@@ -119,7 +118,7 @@ impl Blocks {
         }
     }
 
-    /// The number of layers, the picture the first of them.
+    /// The number of layers; the picture is the first one.
     pub(crate) fn layers(&self) -> usize {
         self.layers
     }
@@ -130,8 +129,8 @@ impl Blocks {
         self.header.layer_size.x() * pixel
     }
 
-    /// Puts the numbers of some rows of a layer's image where they belong in `samples`, which are as many
-    /// rows, from the column `col` on; returns how many were too large.
+    /// Copies the numbers of rows of a layer's image to their positions in `samples`, which cover the same rows,
+    /// starting at the column `col`. Returns how many were too large.
     pub(crate) fn encode(
         &self,
         layer: usize,
@@ -184,7 +183,7 @@ impl Blocks {
         clipped
     }
 
-    /// Puts what some rows of pixels see where it belongs, as [`Self::encode`] does with their light.
+    /// Copies the center values of rows of pixels to their positions, like [`Self::encode`] for light.
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         let columns = self.header.layer_size.x();
         let rows = samples.chunks_exact_mut(self.row_bytes());
@@ -202,14 +201,13 @@ impl Blocks {
         }
     }
 
-    /// The block with this index, counted from the top, compressed.
+    /// The compressed block with this index, counted from the top.
     pub(crate) fn compress(&self, index: u32, samples: Vec<u8>) -> Result<Chunk, String> {
         compress(&self.header, index as usize, samples)
     }
 }
 
-/// Puts numbers into the samples of a channel of light, floats or halves; returns how many were too
-/// large.
+/// Copies numbers to the samples of a channel of light, as floats or halves. Returns how many were too large.
 fn encode_light(samples: &mut [u8], is_float: bool, light: impl Iterator<Item = f64>) -> u64 {
     let mut clipped = 0;
     if is_float {
@@ -228,7 +226,7 @@ fn encode_light(samples: &mut [u8], is_float: bool, light: impl Iterator<Item = 
     clipped
 }
 
-/// Puts a number of what each pixel of a row sees into the samples of a channel.
+/// Copies a center value of each pixel of a row to the samples of a channel.
 fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &Geometry, row: u32) {
     match source {
         Source::Value(quantity, component) => {
@@ -254,7 +252,7 @@ fn encode_center(samples: &mut [[u8; 4]], source: Source, geometry: &Geometry, r
     }
 }
 
-/// Puts numbers into samples. The numbers are asked in one go: that is several times as quick as one by one.
+/// Copies numbers to samples. All numbers are requested at once, which is several times as fast as one by one.
 fn put_all<T>(samples: &mut [[u8; 4]], numbers: impl Iterator<Item = T>, bytes: fn(T) -> [u8; 4]) {
     let mut samples = samples.iter_mut();
     numbers.for_each(|number| {
@@ -264,7 +262,7 @@ fn put_all<T>(samples: &mut [[u8; 4]], numbers: impl Iterator<Item = T>, bytes: 
     });
 }
 
-/// The attributes that tell how the numbers of center rays are meant.
+/// The attributes that describe the meaning of center values.
 fn conventions(centers: &CenterChannels) -> Vec<(&'static str, String)> {
     let mut conventions = Vec::new();
     if centers.has(CenterChannel::Depth) {
@@ -281,7 +279,7 @@ fn conventions(centers: &CenterChannels) -> Vec<(&'static str, String)> {
     conventions
 }
 
-/// The block with this index, whose samples are row by row, in each channel by channel.
+/// The block with this index. Its samples are ordered by rows, and within a row by channels.
 pub(super) fn compress(header: &Header, index: usize, samples: Vec<u8>) -> Result<Chunk, String> {
     let size = header.layer_size;
     let row = index * ROWS_OF_A_BLOCK as usize;
@@ -305,7 +303,7 @@ fn float(value: f64) -> f32 {
     value as f32
 }
 
-/// The least float that is no smaller: a bound stays one.
+/// The smallest float that is not below the number, so that a bound remains a bound.
 fn float_above(value: f64) -> f32 {
     let nearest = float(value);
     if f64::from(nearest) < value {
@@ -315,7 +313,7 @@ fn float_above(value: f64) -> f32 {
     }
 }
 
-/// Keeps finite values below infinity, and counts where that was needed.
+/// Limits finite values to finite floats, and counts the limited ones.
 fn clip(value: f64, largest: f64, clipped: &mut u64) -> f64 {
     if value.is_finite() && value.abs() > largest {
         *clipped += 1;

@@ -1,20 +1,20 @@
-//! The choice of the channels of a file that are its picture.
+//! Selects the channels of a file that form its picture.
 
 use std::collections::BTreeSet;
 
 use exr::meta::header::Header;
 
-/// The place where the light of a picture is found.
+/// The channels with the light of a picture.
 pub(crate) struct Chosen {
     pub(crate) part: usize,
-    /// The start of the names of its channels: nothing, or `layer.`.
+    /// The prefix of their names: empty, or `layer.`.
     pub(crate) prefix: String,
     /// The names after the prefix.
     pub(crate) colors: &'static [&'static str],
 }
 
-/// The first part with channels `R`, `G`, `B` or `Y`; failing that, the first with a layer that
-/// has such, in the order of the layers' names.
+/// The first part with channels `R`, `G`, `B` or `Y`; otherwise the first part with a layer that has such channels, in
+/// the order of the layer names.
 pub(crate) fn choose(parts: &[Header]) -> Result<Chosen, String> {
     const COLORS: [&[&str]; 2] = [&["R", "G", "B"], &["Y"]];
     let names: Vec<BTreeSet<String>> = parts

@@ -1,4 +1,4 @@
-//! The samples of a part of a file, by their places: scan lines in any order, and tiles.
+//! The samples of a part of a file, by position: scan lines in any order, and tiles.
 
 use std::ops::Range;
 
@@ -10,20 +10,20 @@ use exr::prelude::f16;
 use super::block_reader::BlockReader;
 use crate::formats::source::Input;
 
-/// The samples of the largest resolution of a part, being read row by row.
+/// The samples of the largest resolution of a part, read row by row.
 pub(super) struct DataWindow {
     reader: BlockReader,
-    /// The top left corner, from that of the display window.
+    /// The top left corner, relative to that of the display window.
     origin: (i64, i64),
     size: (usize, usize),
-    /// Columns and rows of a block; the last ones may be smaller.
+    /// Columns and rows of a block; the last blocks may be smaller.
     block: (usize, usize),
-    /// Bytes of a pixel, in all channels.
+    /// Bytes per pixel, in all channels.
     pixel_bytes: usize,
-    /// The samples of the blocks beside each other that hold the present row, and the number of their row of blocks.
+    /// The samples of the row of blocks that contains the current row, and the number of this row of blocks.
     blocks: Vec<Vec<u8>>,
     row_of_blocks: Option<usize>,
-    /// The number of the present row in the display window; -1 before the first.
+    /// The number of the current row in the display window; -1 before the first.
     row: i64,
 }
 
@@ -31,11 +31,11 @@ pub(super) struct DataWindow {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Channel {
     pub(super) kind: SampleType,
-    /// Bytes of a pixel in the channels before it.
+    /// Bytes per pixel in the channels before it.
     before: usize,
 }
 
-/// The place of a pixel of the present row in its block.
+/// The position of a pixel of the current row in its block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     block: usize,
@@ -60,7 +60,7 @@ impl Channel {
 }
 
 impl DataWindow {
-    /// The samples of this part of the file that was read as far as `meta`.
+    /// The samples of a part of the file, which has been read up to the end of `meta`.
     pub(super) fn of_part(
         file: Box<dyn Input>,
         meta: MetaData,
@@ -89,7 +89,7 @@ impl DataWindow {
         })
     }
 
-    /// The top left corner, from that of the display window.
+    /// The top left corner, relative to that of the display window.
     pub(super) fn origin(&self) -> (i64, i64) {
         self.origin
     }
@@ -99,7 +99,7 @@ impl DataWindow {
         self.size
     }
 
-    /// Goes on to the next row of the display window.
+    /// Advances to the next row of the display window.
     pub(super) fn advance(&mut self) -> Result<(), String> {
         self.row += 1;
         let Some(row) = self.row_of_window() else {
@@ -117,13 +117,14 @@ impl DataWindow {
         Ok(())
     }
 
-    /// The number of the present row in the data window; `None` outside of it.
+    /// The number of the current row in the data window; `None` outside of it.
     fn row_of_window(&self) -> Option<usize> {
         let row = usize::try_from(self.row - self.origin.1).ok()?;
         (row < self.size.1).then_some(row)
     }
 
-    /// The columns of the display window that the present row has in the data window; none outside of it.
+    /// The columns of the display window that are inside the data window in the current row; none if the row is
+    /// outside.
     pub(super) fn columns(&self) -> Range<u32> {
         if self.row_of_window().is_none() {
             return 0..0;
@@ -134,7 +135,7 @@ impl DataWindow {
         column(self.origin.0)..column(end)
     }
 
-    /// The place of the pixel in this column of the display window; `None` outside the data window.
+    /// The position of the pixel in this column of the display window; `None` outside the data window.
     pub(super) fn place(&self, col: u32) -> Option<Place> {
         self.row_of_window()?;
         let col = usize::try_from(i64::from(col) - self.origin.0).ok()?;
@@ -147,8 +148,8 @@ impl DataWindow {
         })
     }
 
-    /// The end of the columns of the display window from this one on that are known to have the same samples of these
-    /// channels.
+    /// The end of the columns of the display window, starting with this one, that are known to have equal samples of
+    /// these channels.
     pub(super) fn end_of_run<'a>(
         &self,
         col: u32,
@@ -180,7 +181,7 @@ impl DataWindow {
         col + 1 + repeats as u32
     }
 
-    /// The number of a channel there.
+    /// The number of a channel at this position.
     pub(super) fn value(&self, place: Place, channel: &Channel) -> f64 {
         match (channel.kind, self.samples(place, channel)) {
             (SampleType::F16, &[a, b, ..]) => f16::from_ne_bytes([a, b]).to_f64(),
@@ -190,7 +191,7 @@ impl DataWindow {
         }
     }
 
-    /// The samples of a channel in the present row of a block, from this place on.
+    /// The samples of a channel in the current row of a block, starting at this position.
     fn samples(&self, place: Place, channel: &Channel) -> &[u8] {
         let Place {
             block,

@@ -1,18 +1,18 @@
-//! Files that were altered, and a library that panics on some of them.
+//! Protection against panics of a library on damaged files.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
 thread_local! {
-    /// True while what this thread does may panic without a word.
+    /// Whether a panic of this thread is expected, and must not be printed.
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does what may panic where a file is broken: then it is an error, and nothing is printed.
+/// Runs `read`, which may panic if a file is damaged. Turns a panic into an error, and prints nothing.
 ///
-/// The decoders of `exr` take some numbers of a block for granted; `cargo mutate` finds files with others.
-/// What `read` has changed by then is not to be used any more.
+/// The decoders of `exr` do not check some numbers of a block; `cargo mutate` finds files with invalid ones. After a
+/// panic, anything that `read` has changed must not be used.
 pub(super) fn guarded<T, E: ToString>(read: impl FnOnce() -> Result<T, E>) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -28,7 +28,7 @@ pub(super) fn guarded<T, E: ToString>(read: impl FnOnce() -> Result<T, E>) -> Re
     IS_GUARDED.set(false);
     match read {
         Ok(read) => read.map_err(|error| error.to_string()),
-        Err(_) => Err("its data is broken".to_owned()),
+        Err(_) => Err("its data is damaged".to_owned()),
     }
 }
 
@@ -41,7 +41,7 @@ mod tests {
         assert_eq!(guarded(|| Ok::<_, String>(7)), Ok(7));
         assert_eq!(guarded(|| Err::<(), _>("a word")), Err("a word".to_owned()));
         let broken = guarded(|| -> Result<(), String> { panic!("not printed") });
-        assert_eq!(broken, Err("its data is broken".to_owned()));
+        assert_eq!(broken, Err("its data is damaged".to_owned()));
         assert!(!IS_GUARDED.get());
     }
 }

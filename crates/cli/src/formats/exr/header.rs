@@ -1,4 +1,4 @@
-//! The header of an EXR file: its channels, its colors, and what is known of the camera that saw them.
+//! The header of an EXR file: its channels, its colors, and the camera.
 
 use exr::meta::BlockDescription;
 use exr::meta::attribute::{ChannelDescription, Chromaticities, LineOrder, SampleType};
@@ -11,11 +11,11 @@ use crate::base::size::Size;
 use crate::formats::facts::{Facts, SOFTWARE};
 use crate::formats::frame_rate;
 
-/// The attribute in which an EXR keeps the digest.
+/// The attribute with the digest.
 pub(super) const DIGEST_ATTRIBUTE: &str = "digest";
 
-/// The attributes in which it keeps what is achieved: the largest error of any pixel, the number of
-/// pixels whose error is a bound, and that of pixels over the tolerance.
+/// The attributes with the results: the largest error of any pixel, the number of pixels whose error is a bound, and
+/// the number of pixels over the tolerance.
 const ERROR_ATTRIBUTE: &str = "error";
 const BOUNDED_ATTRIBUTE: &str = "bounded_pixels";
 const OVER_ATTRIBUTE: &str = "over";
@@ -28,7 +28,7 @@ pub(in crate::formats) const REC_709: Chromaticities = Chromaticities {
     white: Vec2(0.3127, 0.329),
 };
 
-/// The header of a file with these channels, in the order of their names.
+/// The header of a file with these channels, sorted by name.
 pub(super) fn header_of(size: Size, channels: Vec<(&str, SampleType)>) -> Header {
     let channel = |(name, kind)| ChannelDescription::named(name, kind);
     let size = Vec2(size.width as usize, size.height as usize);
@@ -47,7 +47,7 @@ pub(super) fn header_of(size: Size, channels: Vec<(&str, SampleType)>) -> Header
         .with_attributes(LayerAttributes::default())
 }
 
-/// The attributes that tell the facts about a picture.
+/// The attributes with the metadata of a picture.
 pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     let mut attributes = LayerAttributes {
         frames_per_second: facts.frames_per_second.and_then(frame_rate::nearest),
@@ -78,7 +78,7 @@ pub(super) fn attributes(facts: &Facts) -> LayerAttributes {
     attributes
 }
 
-/// The names and the values of the attributes about what is achieved. Doubles hold any number of pixels.
+/// The names and the values of the attributes with the results. A double can hold any number of pixels.
 pub(super) fn achieved(summary: &Summary) -> [(&'static str, f64); 3] {
     [
         (ERROR_ATTRIBUTE, summary.largest_error),
@@ -87,7 +87,7 @@ pub(super) fn achieved(summary: &Summary) -> [(&'static str, f64); 3] {
     ]
 }
 
-/// Makes what one part of a picture achieved what it and another one did together.
+/// Combines the results of two parts of a picture.
 pub(crate) fn add_achieved(one: &mut LayerAttributes, other: &LayerAttributes) {
     for name in [ERROR_ATTRIBUTE, BOUNDED_ATTRIBUTE, OVER_ATTRIBUTE] {
         let value = one.other.get_mut(name.as_bytes());
@@ -104,17 +104,17 @@ pub(crate) fn add_achieved(one: &mut LayerAttributes, other: &LayerAttributes) {
 
 /// The center and the width of the screen window.
 ///
-/// OpenEXR's technical introduction lets x point to the left, and its standard attributes, which have
-/// RenderMan's coordinates, to the right. We hold with these, as `worldToCamera` does.
+/// In OpenEXR's technical introduction, x points to the left. In its standard attributes, which use RenderMan's
+/// coordinates, it points to the right. We follow the attributes, as in `worldToCamera`.
 fn screen_window(view: &View) -> (Vec2<f32>, f32) {
     let (center, width) = view.screen_window();
     let float = |number: f64| number.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
     (Vec2(float(center.x), float(center.y)), float(width))
 }
 
-/// The matrix M of p_camera = p_world · M, row by row: points are rows, as everywhere in OpenEXR.
+/// The matrix M of p_camera = p_world · M, row by row: points are row vectors, as everywhere in OpenEXR.
 ///
-/// Its camera looks along +z with x to the right and y up, as ours does.
+/// The camera looks along +z with x to the right and y up, like ours.
 fn world_to_camera(camera: &Camera) -> [f32; 16] {
     let world_from_camera = camera.world_from_camera;
     // The rows of M are the images of the world's axes: those of a rotation's transpose, which

@@ -1,4 +1,4 @@
-//! EXR, as it is: linear light, premultiplied.
+//! EXR files as pictures: linear, premultiplied light.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -19,7 +19,7 @@ use crate::formats::source::Source;
 struct Numbers {
     /// Outside of it there is no light.
     window: DataWindow,
-    /// Red, green and blue, or one that stands for all three.
+    /// Red, green and blue, or a single channel for all three.
     colors: Vec<Channel>,
     alpha: Option<Channel>,
 }
@@ -112,7 +112,7 @@ impl Samples for Numbers {
 }
 
 impl Numbers {
-    /// The types of numbers, each once: `half`, `float + half`.
+    /// The types of the numbers, without repetition: `half`, `float + half`.
     fn kinds(&self) -> String {
         let channels = self.colors.iter().chain(&self.alpha);
         let kinds = channels.map(|channel| match channel.kind {
@@ -124,7 +124,7 @@ impl Numbers {
         kinds.into_iter().collect::<Vec<_>>().join(" + ")
     }
 
-    /// The words about the data window where it is not the whole picture.
+    /// The description of the data window, if it is not the whole picture.
     fn data_window(&self, picture: Size) -> String {
         let ((col, row), (width, height)) = (self.window.origin(), self.window.size());
         if (col, row) == (0, 0)
@@ -153,9 +153,9 @@ impl Numbers {
     }
 }
 
-/// Half the way to the next number of the same type.
+/// Half the distance to the next number of the same type.
 fn half_step(kind: SampleType, value: f64) -> f64 {
-    /// Bits after the leading one, and the least exponent of numbers that have them all.
+    /// The number of bits after the leading one, and the smallest exponent of numbers with all these bits.
     const HALF: (i32, i32) = (10, -14);
     const FLOAT: (i32, i32) = (23, -126);
     let (bits, least) = match kind {

@@ -36,7 +36,7 @@ impl Rows {
         self.blocks.header()
     }
 
-    /// The samples of the next row; `None` behind the last one.
+    /// The samples of the next row; `None` after the last one.
     pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, String> {
         let header = self.header();
         let size = header.layer_size;

@@ -1,4 +1,4 @@
-//! The digest and the region that an EXR tells, if its blocks are not damaged.
+//! The digest and the region stored in an EXR, if its blocks are not damaged.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -18,10 +18,10 @@ use crate::formats::source::Input;
 
 /// The digest and the region of the picture in a file of one part.
 ///
-/// All blocks are read: each has to be where the table says, and the checksum of its samples right if it is
-/// compressed. Refuses files that tell no digest, whose blocks are damaged, or which do not end with their last block.
+/// Reads all blocks: each must be at the position in the table, and the checksum of compressed samples must be correct.
+/// Refuses files without a digest, files with damaged blocks, and files that do not end with their last block.
 pub(crate) fn contents(mut file: Box<dyn Input>) -> Result<(Hash, Region), String> {
-    let (told, blocks) = told(&mut file).ok_or("it tells no digest, or ends early")?;
+    let (told, blocks) = told(&mut file).ok_or("it contains no digest, or ends early")?;
     file.rewind().map_err(|error| reason(&error))?;
     let meta = meta_of(&mut file)?;
     let mut reader = BlockReader::of_part(file, meta, 0)?;
@@ -31,8 +31,8 @@ pub(crate) fn contents(mut file: Box<dyn Input>) -> Result<(Hash, Region), Strin
     Ok(told)
 }
 
-/// The digest and the region of a picture, and the number of its blocks; `None` where the file does not tell them,
-/// or does not end with its last block.
+/// The digest and the region of a picture, and the number of its blocks; `None` if the file does not contain them, or
+/// does not end with its last block.
 fn told(file: &mut Box<dyn Input>) -> Option<((Hash, Region), usize)> {
     let end = file.seek(SeekFrom::End(0)).ok()?;
     file.rewind().ok()?;
@@ -52,7 +52,7 @@ fn told(file: &mut Box<dyn Input>) -> Option<((Hash, Region), usize)> {
     Some(((digest, region(header)?), header.chunk_count))
 }
 
-/// The end of the last block, from its place in the table that comes next in the file.
+/// The end of the last block, from its offset in the table, which follows in the file.
 fn end_of_last_block(file: &mut (impl Read + Seek), blocks: usize) -> Option<u64> {
     let last = i64::try_from(blocks.checked_sub(1)?.checked_mul(8)?).ok()?;
     file.seek(SeekFrom::Current(last)).ok()?;
@@ -67,7 +67,7 @@ fn end_of_last_block(file: &mut (impl Read + Seek), blocks: usize) -> Option<u64
     place.checked_add(start.len() as u64 + u64::from(u32::from_le_bytes(bytes)))
 }
 
-/// The place of the data window in the display window.
+/// The position of the data window in the display window.
 fn region(header: &Header) -> Option<Region> {
     let display = header.shared_attributes.display_window;
     let position = header.own_attributes.layer_position;

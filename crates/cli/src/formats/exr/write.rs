@@ -1,4 +1,4 @@
-//! EXR files, from blocks.
+//! Writes EXR files from blocks.
 
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
@@ -19,15 +19,15 @@ use crate::base::size::Size;
 use crate::files::save::{Fault, save};
 use crate::formats::facts::{Facts, SOFTWARE};
 
-/// Bytes that a file has at most before its blocks and their places, generously, but for the names of its channels.
+/// A generous upper bound of the bytes before the blocks, without the table of blocks and the names of channels.
 const HEADER_BYTES: u64 = 1 << 16;
-/// Bytes that a channel takes there at most.
+/// The largest number of these bytes per channel.
 const CHANNEL_BYTES: u64 = 1 << 9;
-/// Bytes that are written at a time.
+/// The number of bytes that are written at a time.
 const BUFFER_BYTES: usize = 1 << 18;
 
-/// Writes an EXR of channels with these names in single precision, whole or not at all; `row` adds the
-/// numbers of the next row, pixel by pixel, in the columns that it returns, outside of which they are 0.
+/// Writes an EXR with these channels in single precision, completely or not at all. `row` appends the numbers of the
+/// next row, pixel by pixel, and returns the columns that they cover; in all other columns the numbers are 0.
 pub(crate) fn write_floats(
     size: Size,
     names: &[&str],
@@ -76,8 +76,8 @@ pub(crate) fn write_floats(
     })?)
 }
 
-/// The header of a picture of this size with the channels and attributes of another one, which may
-/// be a part of it.
+/// The header of a picture of this size, with the channels and attributes of another picture, which may be a part of
+/// it.
 pub(crate) fn header_like(like: &Header, size: Size) -> Header {
     Header {
         channels: like.channels.clone(),
@@ -90,8 +90,8 @@ pub(crate) fn header_like(like: &Header, size: Size) -> Header {
     }
 }
 
-/// Writes a file with this header; `samples` gives those of some rows, row by row, in each channel by
-/// channel, or nothing where all of them are 0.
+/// Writes a file with this header. `samples` returns those of some rows, ordered by rows and within a row by channels,
+/// or nothing if all of them are 0.
 pub(crate) fn write_rows(
     file: &mut (impl Read + Write + Seek),
     header: Header,
@@ -126,8 +126,8 @@ pub(crate) fn write_rows(
     write(file, header, next, || Ok(None))
 }
 
-/// Writes a file whose blocks `next` gives, and then `summary` what they achieved; the same for the
-/// same picture and facts.
+/// Writes a file. `next` returns its blocks, and then `summary` returns the results. The same picture and metadata give
+/// the same file.
 pub(crate) fn write_blocks(
     file: &mut (impl Read + Write + Seek),
     blocks: &Blocks,
@@ -146,8 +146,8 @@ pub(crate) fn write_blocks(
     })
 }
 
-/// Writes a file with this header, whose blocks `next` gives from the top downward. Then `summary` may
-/// give what is to stand in it about them.
+/// Writes a file with this header. `next` returns its blocks from the top downward; then `summary` may return
+/// attributes with the results.
 fn write(
     file: &mut (impl Read + Write + Seek),
     header: Header,

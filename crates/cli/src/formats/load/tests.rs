@@ -81,7 +81,7 @@ fn an_exr_without_the_place_of_its_last_block_is_not_whole() {
     }
 }
 
-/// Every byte of a PNG is under a checksum, those of texts that decoders can do without as well.
+/// Every byte of a PNG is protected by a checksum, including texts that decoders can ignore.
 #[test]
 fn no_byte_of_a_png_is_wrong_unnoticed() {
     for file in &files()[..2] {
@@ -93,7 +93,7 @@ fn no_byte_of_a_png_is_wrong_unnoticed() {
     }
 }
 
-/// The checksum of the pixels is that of what comes out of the decoder: a chunk may be right and hold wrong ones.
+/// The checksum of the pixels is checked on the decoded data: a chunk may be correct and contain wrong pixels.
 #[test]
 fn pixels_of_a_png_have_a_checksum_of_their_own() {
     const TYPE: &[u8] = b"IDAT";
@@ -109,8 +109,8 @@ fn pixels_of_a_png_have_a_checksum_of_their_own() {
     }
 }
 
-/// The samples of an EXR that are compressed have a checksum; its header, the table of its blocks, and blocks that
-/// compressing would make no shorter have none.
+/// Compressed samples of an EXR have a checksum. Its header, its table of blocks, and blocks that compression would not
+/// make shorter have none.
 #[test]
 fn samples_of_an_exr_are_as_good_as_their_checksum() {
     for file in &files()[2..] {
@@ -146,7 +146,7 @@ fn samples_of_an_exr_are_as_good_as_their_checksum() {
     }
 }
 
-/// The ranges of samples in blocks that are not compressed, in a file whose header ends at `start`.
+/// The ranges of samples in uncompressed blocks, in a file whose header ends at `start`.
 fn plain_blocks(file: &[u8], start: usize, header: &Header) -> Vec<Range<usize>> {
     const BEFORE_SAMPLES: usize = 8;
     let row_bytes = header.layer_size.width() * header.channels.bytes_per_pixel;

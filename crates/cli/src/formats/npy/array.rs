@@ -2,7 +2,7 @@
 
 use crate::base::size::Size;
 
-/// The type of an array's numbers, little end first.
+/// The number type of an array, little-endian.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Number {
     F64,
@@ -10,11 +10,11 @@ pub(crate) enum Number {
     U32,
 }
 
-/// An array with a number, or several, for each pixel of a picture; row 0 is the top row.
+/// An array with one or more numbers for each pixel of a picture; row 0 is the top row.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Array {
     pub(crate) size: Size,
-    /// The length of the last axis; `None` where there is one number a pixel, and no such axis.
+    /// The length of the last axis; `None` for one number per pixel, without such an axis.
     pub(crate) channels: Option<u32>,
     pub(crate) number: Number,
 }
@@ -51,7 +51,7 @@ impl Array {
         Self { size, ..self }
     }
 
-    /// The numbers of a pixel.
+    /// The number of numbers per pixel.
     pub(super) fn numbers(self) -> usize {
         self.channels.unwrap_or(1) as usize
     }
@@ -66,7 +66,7 @@ impl Array {
         self.size.width as usize * self.pixel_bytes()
     }
 
-    /// Bytes of all numbers; `None` where that is no number itself.
+    /// Bytes of all numbers; `None` if the result would overflow.
     pub(super) fn bytes(self) -> Option<u64> {
         (self.pixel_bytes() as u64).checked_mul(self.size.pixels())
     }

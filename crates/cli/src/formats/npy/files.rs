@@ -1,7 +1,8 @@
-//! The files of a picture: an array of its light, and others beside it.
+//! The files of a picture: an array of its light, and additional arrays.
 //!
-//! `a.npy` is the file of the light; `a_error.npy`, `a_channels.npy`, `a_id.npy` and `a_coverage_id.npy` may lie beside it. The
-//! rows of all arrays come together, strip by strip. The file of the light is the last that gets its final name.
+//! `a.npy` contains the light. `a_error.npy`, `a_channels.npy`, `a_id.npy` and `a_coverage_id.npy` are optional
+//! additional files. The rows of all arrays arrive together, strip by strip. The file of the light gets its final name
+//! last.
 
 use std::ffi::OsString;
 use std::io::Write;
@@ -22,14 +23,13 @@ use crate::formats::center_channels::{CenterChannels, Source};
 use crate::formats::encoding::NpyOptions;
 use crate::formats::form::Form;
 
-/// The meaning of the digest of a file beside that of the light.
+/// The context of the digest of an additional file.
 const PURPOSE: &str = "marbles 2026-11-23 (3) digest of an array beside a picture";
 
-/// The part of its name that a file of errors has more.
+/// The suffix of the name of a file of errors.
 const ERROR: &str = "_error";
 
-/// That of what the rays through the centers of pixels see, but for the spheres' indices, which have a file of
-/// their own.
+/// The suffix of the file of center values, except for the indices of spheres, which have a file of their own.
 const CHANNELS: &str = "_channels";
 const ID: &str = "_id";
 const COVERAGE_ID: &str = "_coverage_id";
@@ -38,13 +38,13 @@ const COVERAGE_ID: &str = "_coverage_id";
 #[derive(Clone, Debug)]
 pub(crate) struct Files {
     region: Region,
-    /// The light, then what lies beside it.
+    /// The light, then the additional arrays.
     arrays: Vec<Part>,
-    /// The numbers of a pixel among the channels.
+    /// The number of numbers per pixel in the channels.
     centers: Vec<Source>,
 }
 
-/// An array, and the end of the stem of its file's name.
+/// An array, and the suffix of its file name.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     suffix: &'static str,
@@ -52,9 +52,9 @@ struct Part {
 }
 
 impl Files {
-    /// The arrays of a picture of this form: red, green and blue, with alpha where there is one, and
-    /// on request the error of each pixel, and what its center sees. A picture without color has them as well, so that the
-    /// shape does not depend on what a scene contains.
+    /// The arrays of a picture of this form: red, green and blue, alpha if the picture has it, and on request the
+    /// errors and the center values. Gray pictures have three colors as well, so that the shape does not depend on the
+    /// scene.
     pub(crate) fn new(form: &Form, options: NpyOptions) -> Self {
         let part = |suffix, channels| Part {
             suffix,
@@ -94,8 +94,8 @@ impl Files {
         self.arrays.iter().map(|part| part.array.row_bytes()).sum()
     }
 
-    /// Puts the numbers of some rows of an image where they belong in `samples`, from the column `col`
-    /// on. Samples are as many rows, array by array.
+    /// Copies the numbers of rows of an image to their positions in `samples`, starting at the column `col`. The
+    /// samples cover the same rows, array by array.
     pub(crate) fn encode(&self, samples: &mut [u8], col: u32, image: &Image, rows: Range<u32>) {
         let mut rest = samples;
         for part in &self.arrays {
@@ -124,7 +124,7 @@ impl Files {
         }
     }
 
-    /// Puts what some rows of pixels see where it belongs, as [`Self::encode`] does with their light.
+    /// Copies the center values of rows of pixels to their positions, like [`Self::encode`] for light.
     pub(crate) fn encode_geometry(&self, samples: &mut [u8], col: u32, geometry: &Geometry) {
         let mut rest = samples;
         for part in &self.arrays {
@@ -149,7 +149,7 @@ impl Files {
         }
     }
 
-    /// Puts the numbers of a row of pixels' centers into theirs, pixel by pixel.
+    /// Copies the numbers of the centers of a row of pixels to their positions, pixel by pixel.
     fn encode_centers(&self, numbers: &mut [u8], geometry: &Geometry, row: u32) {
         let (numbers, _) = numbers.as_chunks_mut();
         for (place, source) in self.centers.iter().enumerate() {
@@ -177,15 +177,15 @@ impl Files {
         }
     }
 
-    /// The files of the picture whose light is at `path`, and the digests that they tell where the
-    /// light's is `digest`.
+    /// The files of the picture whose light is at `path`, and the digests that they contain if that of the light is
+    /// `digest`.
     pub(crate) fn digests(&self, path: &Path, digest: &Hash) -> Vec<(PathBuf, Hash)> {
         let of = |part: &Part| (beside(path, part.suffix), digest_of(digest, part.suffix));
         self.arrays.iter().map(of).collect()
     }
 
-    /// Writes the files of a picture, the light's to `file`; `next` gives the samples of the strips from
-    /// the top downward, of which there are `strips`.
+    /// Writes the files of a picture, with the light in `file`. `next` returns the samples of the strips from the top
+    /// downward; there are `strips` of them.
     pub(crate) fn write(
         &self,
         path: &Path,
@@ -226,7 +226,7 @@ impl Files {
     }
 }
 
-/// Puts the indices of spheres into their numbers.
+/// Copies the indices of spheres to their positions.
 fn put_indices(numbers: &mut [u8], ids: impl Iterator<Item = u32>) {
     let (numbers, _) = numbers.as_chunks_mut();
     for (number, id) in numbers.iter_mut().zip(ids) {
@@ -234,7 +234,7 @@ fn put_indices(numbers: &mut [u8], ids: impl Iterator<Item = u32>) {
     }
 }
 
-/// The files that may lie beside that of the light at `path`, with these options.
+/// The additional files that may exist for the light at `path`, with these options.
 pub(crate) fn names_beside(path: &Path, options: NpyOptions, has_centers: bool) -> Vec<PathBuf> {
     let errors = [ERROR].into_iter().filter(|_| options.error);
     let centers = [CHANNELS, ID, COVERAGE_ID].into_iter();
@@ -242,7 +242,7 @@ pub(crate) fn names_beside(path: &Path, options: NpyOptions, has_centers: bool) 
     names.map(|suffix| beside(path, suffix)).collect()
 }
 
-/// The path of a file beside that of the light.
+/// The path of an additional file.
 fn beside(path: &Path, suffix: &str) -> PathBuf {
     if suffix.is_empty() {
         return path.to_owned();
@@ -256,7 +256,8 @@ fn beside(path: &Path, suffix: &str) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// The digest of a file beside that of the light, so that no part of the one is merged with the other.
+/// The digest of an additional file. It differs from that of the light, so that parts of different files cannot be
+/// merged.
 fn digest_of(digest: &Hash, suffix: &str) -> Hash {
     if suffix.is_empty() {
         return *digest;
@@ -267,7 +268,7 @@ fn digest_of(digest: &Hash, suffix: &str) -> Hash {
     hasher.finalize()
 }
 
-/// Writes some bytes, and tells the name of the file where that fails.
+/// Writes some bytes. An error contains the name of the file.
 fn write_bytes(path: &Path, file: &mut TemporaryFile, bytes: &[u8]) -> Result<(), Fault> {
     let written = file.file().write_all(bytes);
     written.map_err(|error| Fault::Failed(Failure::io(path, "cannot write the file", &error)))

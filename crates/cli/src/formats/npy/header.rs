@@ -1,7 +1,7 @@
 //! The header of a file.
 //!
-//! Layout: `\x93NUMPY`, two bytes of the version, the length of the rest in two bytes or, from
-//! version 2 on, in four; then a dictionary as Python writes it, padding, and the end of the line.
+//! Layout: `\x93NUMPY`, two bytes of the version, the length of the rest in two bytes or, from version 2, in four; then
+//! a dictionary in Python syntax, padding, and a line feed.
 //!
 //! # Source
 //! The format is described at `numpy.lib.format`.
@@ -13,18 +13,18 @@ use super::array::{Array, Number};
 use super::stamp::Stamp;
 use crate::base::size::Size;
 
-/// The array of a file begins at a multiple of so many bytes.
+/// The alignment of the array in a file, in bytes.
 const ALIGNMENT: usize = 64;
-/// The longest header that is read, in bytes; NumPy's own limit for strangers is a sixth of it.
+/// The longest accepted header, in bytes; NumPy's own limit for untrusted files is a sixth of it.
 const LONGEST: usize = 1 << 16;
 
 /// The contents of a header.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Header {
     pub(super) array: Array,
-    /// `None` in files of others.
+    /// `None` in files of other programs.
     pub(super) stamp: Option<Stamp>,
-    /// The place of the array in the file, in bytes.
+    /// The offset of the array in the file, in bytes.
     pub(super) start: u64,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn bytes(array: &Array, stamp: Option<&Stamp>) -> Vec<u8> {
     [MAGIC, &VERSION, &length, &text].concat()
 }
 
-/// Reads the header at the start of a file, or says what is wrong with it.
+/// Reads the header at the start of a file, or returns an error.
 pub(super) fn read(file: &mut impl Read) -> Result<Header, String> {
     const CUT: &str = "its header is cut off";
     let mut start = [0; 8];

@@ -1,8 +1,8 @@
-//! NPZ files, as NumPy's `savez` writes them: a ZIP archive with an array in each of its files, none of them compressed.
+//! NPZ files, like those of NumPy's `savez`: a ZIP archive whose uncompressed members contain one array each.
 //!
 //! # Source
-//! *APPNOTE.TXT*, PKWARE: each file behind a header of its own, then the headers of all of them once more, and at the end
-//! the place of these. All sizes are those of ZIP64, of eight bytes, as NumPy has them too.
+//! *APPNOTE.TXT*, PKWARE: each member follows its own header; at the end come all headers once more, and the offset of
+//! this list. All sizes have eight bytes (ZIP64), as in NumPy's files.
 
 use std::io::{self, Write};
 
@@ -10,25 +10,25 @@ use super::array::{Array, Number};
 use super::header;
 use crate::base::size::Size;
 
-/// The version of ZIP that knows sizes of eight bytes, 4.5.
+/// The version of ZIP with sizes of eight bytes, 4.5.
 const VERSION: u16 = 45;
-/// In place of a size of four bytes: it has eight elsewhere.
+/// A placeholder for a size of four bytes; the real size has eight bytes, in another field.
 const ELSEWHERE: u32 = u32::MAX;
-/// In place of a count of two bytes.
+/// A placeholder for a count of two bytes.
 const COUNT_ELSEWHERE: u16 = u16::MAX;
-/// The kind of the field that has sizes of eight bytes.
+/// The type of the field with the sizes of eight bytes.
 const ZIP64: u16 = 1;
-/// The first day that ZIP knows, so that the same arrays make the same bytes: 1980-01-01, at midnight.
+/// The first day in ZIP, 1980-01-01 at midnight. With a fixed time, the same arrays make the same bytes.
 const DATE: [u16; 2] = [0, 0x21];
 
-/// The words with which parts begin.
+/// The signatures of the parts.
 const LOCAL: u32 = 0x0403_4b50;
 const CENTRAL: u32 = 0x0201_4b50;
 const END_64: u32 = 0x0606_4b50;
 const PLACE_OF_END_64: u32 = 0x0706_4b50;
 const END: u32 = 0x0605_4b50;
 
-/// Numbers that are given their bytes at once.
+/// The number of numbers that are converted to bytes at a time.
 const NUMBERS: usize = 1 << 13;
 
 /// A file of the archive.
@@ -36,11 +36,11 @@ struct Entry {
     name: String,
     checksum: u32,
     bytes: u64,
-    /// The place of its own header.
+    /// The offset of its header.
     place: u64,
 }
 
-/// Writes arrays of a number for each pixel, row by row, under their names.
+/// Writes arrays with one number per pixel, row by row, under their names.
 pub(crate) fn write(to: &mut dyn Write, size: Size, arrays: &[(&str, &[f64])]) -> io::Result<()> {
     let array = Array {
         size,
@@ -75,7 +75,7 @@ pub(crate) fn write(to: &mut dyn Write, size: Size, arrays: &[(&str, &[f64])]) -
     to.write_all(&end(entries.len() as u64, place, central.len() as u64))
 }
 
-/// The bytes of numbers, some at a time.
+/// The bytes of the numbers, in pieces.
 fn for_each_part(numbers: &[f64], mut take: impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
     for part in numbers.chunks(NUMBERS) {
         let bytes: Vec<u8> = part
@@ -112,7 +112,7 @@ impl Entry {
         header
     }
 
-    /// The part that both headers have in common; so many bytes of sizes follow.
+    /// The part that both headers share; the field of sizes that follows has this many bytes.
     fn describe(&self, header: &mut Vec<u8>, field: u16) {
         const STORED: u16 = 0;
         put_16(header, &[VERSION, 0, STORED]);
@@ -124,9 +124,9 @@ impl Entry {
     }
 }
 
-/// The end of an archive whose list of so many files has a place and a length.
+/// The end of an archive; its list of members has this position and length.
 fn end(files: u64, place: u64, length: u64) -> Vec<u8> {
-    /// Bytes of the first part behind its word and this number.
+    /// Bytes of the first part after its signature and this number.
     const REST: u64 = 44;
     let mut end = END_64.to_le_bytes().to_vec();
     put_64(&mut end, &[REST]);

@@ -1,4 +1,4 @@
-//! NPY of a picture, as it is: linear light, premultiplied.
+//! NPY files as pictures: the numbers are linear, premultiplied light.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -35,7 +35,7 @@ pub(crate) fn begin(source: &Source) -> Result<Picture, String> {
     file.seek(SeekFrom::Start(header.start))
         .map_err(|error| reason(&error))?;
     if array.bytes() != end.checked_sub(header.start) {
-        return Err("its numbers are more or fewer than its header says".to_owned());
+        return Err("it contains more or fewer numbers than its header states".to_owned());
     }
     let kind = match array.number {
         Number::F64 => "double",
@@ -105,7 +105,7 @@ impl Numbers {
     }
 }
 
-/// Half the way from a float to the next one.
+/// Half the distance from a float to the next one.
 fn half_step(value: f64) -> f64 {
     let float = value.abs() as f32;
     if float.is_finite() {

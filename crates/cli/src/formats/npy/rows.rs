@@ -31,7 +31,7 @@ impl Rows {
         self.array
     }
 
-    /// The numbers of the next row; `None` behind the last one.
+    /// The numbers of the next row; `None` after the last one.
     pub(crate) fn next(&mut self) -> io::Result<Option<&[u8]>> {
         if self.left == 0 {
             return Ok(None);

@@ -1,8 +1,8 @@
-//! The stamp of a file: the digest of its picture, and the part of it that the file holds.
+//! The stamp of a file: the digest of its picture, and the part of the picture that the file contains.
 //!
-//! NumPy refuses a header with keys of others, and readers in other languages refuse comments and what
-//! follows the array, but all of them strip white space. Therefore the padding of the header holds the
-//! stamp, bit by bit: a tab is 1, a space 0.
+//! NumPy refuses headers with additional keys, and readers in other languages refuse comments and data after the array.
+//! But all of them skip white space. Therefore the padding of the header contains the stamp, bit by bit: a tab is 1, a
+//! space 0.
 
 use blake3::Hash;
 use marbles_core::Window;
@@ -10,7 +10,7 @@ use marbles_core::Window;
 use crate::base::region::Region;
 use crate::base::size::Size;
 
-/// Numbers of a region, each of four bytes.
+/// The numbers of a region, with four bytes each.
 const NUMBERS: usize = 6;
 /// Bytes of a stamp.
 const BYTES: usize = 32 + 4 * NUMBERS;
@@ -26,7 +26,7 @@ pub(crate) struct Stamp {
 }
 
 impl Stamp {
-    /// The white space that holds it.
+    /// The white space that contains it.
     pub(super) fn padding(&self) -> Vec<u8> {
         let Region { window, whole } = self.region;
         let Window {

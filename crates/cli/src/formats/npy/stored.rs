@@ -1,4 +1,4 @@
-//! The digest and the region that a file tells, read without its numbers.
+//! The digest and the region stored in a file, read without its numbers.
 
 use std::io::{Read, Seek, SeekFrom};
 
@@ -8,8 +8,8 @@ use super::header::{self, Header};
 use super::stamp::Stamp;
 use crate::base::region::Region;
 
-/// The digest and the region of the picture in a file; `None` where it does not tell them, or has been
-/// cut off or continued.
+/// The digest and the region of the picture in a file; `None` if the file does not contain them, or was truncated or
+/// extended.
 pub(crate) fn contents(file: &mut (impl Read + Seek)) -> Option<(Hash, Region)> {
     let end = file.seek(SeekFrom::End(0)).ok()?;
     file.rewind().ok()?;

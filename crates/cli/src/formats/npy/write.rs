@@ -9,15 +9,14 @@ use super::header;
 use super::stamp::Stamp;
 use crate::files::save::{Fault, Unwritten, save};
 
-/// Writes an array, whole or not at all; `numbers` gives those of some rows, row by row, little end
-/// first.
+/// Writes an array, completely or not at all; `numbers` returns those of some rows, row by row, little-endian.
 pub(crate) fn write_array(
     path: &Path,
     array: &Array,
     stamp: Option<&Stamp>,
     mut numbers: impl FnMut(Range<u32>) -> Result<Vec<u8>, Fault>,
 ) -> Result<(), Unwritten> {
-    /// Rows that are asked for together.
+    /// The number of rows that are requested together.
     const ROWS: u32 = 16;
     let height = array.size.height;
     save(path, |mut file| {

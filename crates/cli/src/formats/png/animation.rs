@@ -1,7 +1,7 @@
-//! Animated PNG: pictures in one file, which follow each other in a loop.
+//! Animated PNG: pictures in one file, which are shown in a loop.
 //!
-//! The `png` crate cannot take the rows of an animation one by one, so that one picture is in memory
-//! as samples, and once more compressed.
+//! The `png` crate cannot write the rows of an animation one by one. So one picture is in memory, both as samples and
+//! compressed.
 //!
 //! Source: "Portable Network Graphics (PNG) Specification (Third Edition)", W3C.
 
@@ -15,7 +15,7 @@ use crate::base::memory;
 use crate::files::save::Fault;
 use crate::formats::frame_rate;
 
-/// Frames per second where nothing is known, as in scene files.
+/// Frames per second if the rate is unknown, as in scene files.
 const FRAMES_PER_SECOND: f64 = 24.0;
 
 /// A file that is being written.
@@ -26,7 +26,7 @@ pub(crate) struct Animation<W: Write> {
 }
 
 impl<W: Write + Seek> Animation<W> {
-    /// Begins a file of so many pictures, each of which is shown for `delay`.
+    /// Begins a file with this number of pictures, each of which is shown for `delay`.
     pub(crate) fn begin(
         file: W,
         shape: Shape,
@@ -51,7 +51,7 @@ impl<W: Write + Seek> Animation<W> {
         self.samples.extend_from_slice(samples);
     }
 
-    /// Writes the picture, all of whose rows were added.
+    /// Writes the picture when all of its rows have been added.
     pub(crate) fn end_frame(&mut self) -> Result<(), Fault> {
         self.writer.write_image_data(&self.samples)?;
         self.samples.clear();
@@ -64,9 +64,9 @@ impl<W: Write + Seek> Animation<W> {
     }
 }
 
-/// The time for which a picture is shown, in seconds as numerator and denominator.
+/// The time for which a picture is shown, as a fraction of seconds.
 pub(crate) fn delay(frames_per_second: Option<f64>) -> (u16, u16) {
-    /// Denominator where the fraction is too large for the format.
+    /// The denominator if the fraction is too large for the format.
     const FINE: u16 = 60_000;
     let rate = frames_per_second.unwrap_or(FRAMES_PER_SECOND);
     let exact = frame_rate::nearest(rate).and_then(|(frames, seconds)| {

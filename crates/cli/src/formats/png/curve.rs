@@ -1,32 +1,32 @@
-//! The curve by which the codes of a PNG stand for light.
+//! The transfer function of a PNG: the relation between codes and light.
 
 use png::Info;
 
 use marbles_core::srgb;
 
-/// A gAMA chunk counts in these units.
+/// The unit of a gAMA chunk.
 const GAMMA_UNIT: f64 = 100_000.0;
-/// The gAMA of sRGB pictures, whose curve it can only approximate.
+/// The gAMA of sRGB pictures, which is only an approximation.
 const GAMMA_OF_SRGB: u32 = 45_455;
-/// "Linear" and "sRGB" in a cICP chunk.
+/// The numbers of "linear" and "sRGB" in a cICP chunk.
 ///
 /// Source: ITU-T H.273, table 3.
 const LINEAR_TRANSFER: u8 = 8;
 const SRGB_TRANSFER: u8 = 13;
 
-/// The curve by which codes from 0 to 1 stand for light.
+/// The function from codes to light, both from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Curve {
     Srgb,
     Linear,
-    /// Light is this power of the code.
+    /// Light is a power of the code, with this exponent.
     Power(f64),
 }
 
 impl Curve {
-    /// The curve by a file's strongest word about it, and a warning where that cannot be followed.
+    /// The function according to the chunk with the highest priority, and a warning if it is not supported.
     ///
-    /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
+    /// Source: PNG, third edition, 4.3 "Color spaces". A file without such chunks is sRGB.
     pub(crate) fn of(info: &Info) -> Result<(Self, Option<&'static str>), String> {
         if let Some(points) = info.coding_independent_code_points {
             return match points.transfer_function {
@@ -39,7 +39,7 @@ impl Curve {
             };
         }
         if info.icc_profile.is_some() {
-            let warning = "its ICC profile is not applied, its colors are taken as sRGB";
+            let warning = "its ICC profile is ignored: its colors are read as sRGB";
             return Ok((Self::Srgb, Some(warning)));
         }
         let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);

@@ -4,16 +4,16 @@ use std::io::{BufRead, Seek};
 
 use png::{DecodeOptions, Decoder, Limits};
 
-/// The memory for a row, and for all that a file tells beside its picture: a profile of colors may be compressed a
-/// thousand times. The picture itself is none of this.
+/// The memory limit for a row and for all metadata, because a compressed color profile may expand a thousandfold. The
+/// picture itself does not count.
 const MOST_BESIDE: Limits = Limits { bytes: 1 << 26 };
 
-/// A decoder without a limit of the picture's size: a large file is no reason to refuse it.
+/// A decoder without a limit on the size of the picture: large files are allowed.
 pub(super) fn decoder<R: BufRead + Seek>(file: R) -> Decoder<R> {
     Decoder::new_with_limits(file, MOST_BESIDE)
 }
 
-/// The same, which refuses every wrong checksum: of the chunks that it could do without, and of the pixels, as well.
+/// A decoder that also refuses wrong checksums of optional chunks and of the pixels.
 pub(super) fn strict_decoder<R: BufRead + Seek>(file: R) -> Decoder<R> {
     let mut options = DecodeOptions::default();
     options.set_ignore_adler32(false);

@@ -1,8 +1,8 @@
-//! The samples of a PNG of any kind, row by row, interlaced ones as well.
+//! The samples of any PNG, row by row, including interlaced files.
 //!
-//! An interlaced file holds seven smaller pictures, one after the other, and each row of the picture
-//! has samples of up to four of them. Each of the seven has a reader of its own, so that no more than
-//! rows are in memory; together they decode about twice what the file holds.
+//! An interlaced file contains seven smaller pictures, one after the other, and each row of the picture has samples
+//! from up to four of them. Each of the seven has its own reader, so that only rows are in memory. Together they decode
+//! about twice the data of the file.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use super::decoder::decoder;
 use crate::base::failure::reason;
 use crate::formats::source::{Input, Source};
 
-/// The first column and row of each of the seven, and the steps to the next ones.
+/// The first column and row of each of the seven passes, and the steps to the next ones.
 ///
 /// Source: PNG, third edition, 8.2 "Interlace methods".
 const INTERLACED: [[u32; 4]; 7] = [
@@ -24,7 +24,7 @@ const INTERLACED: [[u32; 4]; 7] = [
     [1, 0, 2, 2],
     [0, 1, 1, 2],
 ];
-/// That of a picture that is not interlaced.
+/// The pass of a picture that is not interlaced.
 const WHOLE: [u32; 4] = [0, 0, 1, 1];
 
 /// A file that is being read.
@@ -34,22 +34,22 @@ pub(super) struct Lines {
     next: u32,
     /// Bytes of a pixel.
     pixel: usize,
-    /// The samples of the row that was read last.
+    /// The samples of the current row.
     row: Vec<u8>,
-    /// Those of a pass's row.
+    /// The samples of the current row of a pass.
     part: Vec<u8>,
 }
 
-/// One of the pictures that a file holds, being read.
+/// One of the pictures in a file.
 struct Pass {
     reader: Reader<Box<dyn Input>>,
     place: [u32; 4],
-    /// Rows that were not read.
+    /// The number of remaining rows.
     left: u32,
 }
 
 impl Lines {
-    /// Begins to read the file that `reader`, from `source`, has read the header of.
+    /// Begins to read the file. `reader` has already read its header from `source`.
     pub(super) fn begin(reader: Reader<Box<dyn Input>>, source: &Source) -> Result<Self, String> {
         let info = reader.info();
         let (width, height) = (info.width, info.height);
@@ -93,13 +93,13 @@ impl Lines {
         Ok(lines)
     }
 
-    /// The samples of the row that was read last.
+    /// The samples of the current row.
     pub(super) fn row(&self) -> &[u8] {
         &self.row
     }
 
-    /// The columns of the row outside of which it has the same samples as that of another picture of the same size and
-    /// kind.
+    /// The columns of the row that may differ from those of another picture of the same size and kind; outside of them
+    /// all samples are equal.
     pub(super) fn differing(&self, other: &Self) -> Range<u32> {
         // Many times as quick as byte by byte.
         if self.row == other.row {
@@ -118,7 +118,7 @@ impl Lines {
         }
     }
 
-    /// The end of the columns from this one on that have the same samples.
+    /// The end of the columns, starting with this one, that have the same samples.
     pub(super) fn end_of_run(&self, col: u32) -> u32 {
         let from = &self.row[col as usize * self.pixel..];
         let pairs = from.iter().zip(&from[self.pixel..]);
@@ -169,7 +169,7 @@ pub(super) fn open(source: &Source) -> Result<Reader<Box<dyn Input>>, String> {
     decoder.read_info().map_err(|error| error.to_string())
 }
 
-/// Returns whether samples of this kind have an alpha.
+/// Returns whether samples of this kind include alpha.
 pub(super) fn has_alpha(color_type: ColorType) -> bool {
     matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba)
 }

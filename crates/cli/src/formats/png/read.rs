@@ -13,17 +13,17 @@ use crate::formats::source::Source;
 
 /// The codes of a file, and their light.
 struct Codes {
-    /// Samples of 8 bit, or of 16 bit with the high byte first.
+    /// Samples of 8 bits, or of 16 bits in big-endian order.
     lines: Lines,
     color_type: ColorType,
     deep: bool,
-    /// Half the way between codes that the file can hold; more than ½ where it has less than 8 bit.
+    /// Half the distance between the codes of the file; more than ½ if it has less than 8 bits.
     half_step: f64,
-    /// The curve by which codes stand for light.
+    /// The function from codes to light.
     curve: Curve,
     /// The light of every code.
     light: Vec<f64>,
-    /// The light half a step above every code; that is farther than the one half a step below.
+    /// The light half a step above every code. It is farther away than the light half a step below.
     light_above: Vec<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Samples for Codes {
         [red, green, blue, alpha]
     }
 
-    /// Color and alpha are rounded on their own, and the farthest is where both were rounded down.
+    /// Color and alpha are rounded separately; the error is largest if both were rounded down.
     fn rounding(&self, col: u32) -> [f64; 4] {
         let most = most(self.deep);
         let [red, green, blue, alpha] = self.codes(col);
@@ -114,7 +114,7 @@ impl Samples for Codes {
 }
 
 impl Codes {
-    /// The codes of a pixel: grey in all three colors, alpha full where there is none.
+    /// The codes of a pixel. Gray pictures have equal colors, and alpha is full if there is none.
     fn codes(&self, col: u32) -> [usize; 4] {
         let full = most(self.deep) as usize;
         let count = self.color_type.samples();
@@ -150,8 +150,8 @@ fn most(deep: bool) -> f64 {
 /// The names of the channels.
 fn names(grey: bool, alpha: bool) -> &'static str {
     match (grey, alpha) {
-        (true, false) => "grey",
-        (true, true) => "grey + alpha",
+        (true, false) => "gray",
+        (true, true) => "gray + alpha",
         (false, false) => "RGB",
         (false, true) => "RGBA",
     }

@@ -21,7 +21,7 @@ impl Rows {
         Shape::of_file(self.0.info())
     }
 
-    /// The samples of the next row; `None` where the file ends early.
+    /// The samples of the next row; `None` if the file is truncated.
     pub(crate) fn next(&mut self) -> Result<Option<&[u8]>, DecodingError> {
         let row = self.0.next_row()?;
         Ok(row.map(|row| row.data()))

@@ -1,4 +1,4 @@
-//! The samples of a PNG: codes of 8 or 16 bit, of sRGB or linear, grey where the picture is.
+//! The samples of a PNG: codes with 8 or 16 bits, sRGB or linear, gray if the picture is gray.
 
 use std::ops::Range;
 
@@ -11,18 +11,18 @@ use crate::formats::encoding::PngOptions;
 use crate::formats::form::{Form, color_count};
 use marbles_core::srgb;
 
-/// The size of a file's picture, and the kind of its samples.
+/// The size of the picture in a file, and the kind of its samples.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) struct Shape {
     pub(super) size: Size,
     pub(super) color_type: ColorType,
     pub(super) depth: BitDepth,
-    /// True where codes are in proportion to light.
+    /// Whether codes are linear.
     pub(super) is_linear: bool,
 }
 
 impl Shape {
-    /// The shape of a file that holds a picture of this form.
+    /// The shape of a file for a picture of this form.
     pub(crate) fn of(form: &Form, options: PngOptions) -> Self {
         let grey = form.channels == Channels::Grey && !options.rgb;
         Self {
@@ -42,7 +42,7 @@ impl Shape {
         }
     }
 
-    /// The shape of a picture whose codes are numbers of their own.
+    /// The shape of a picture whose codes are not light.
     pub(super) fn of_codes(size: Size, color_type: ColorType, depth: BitDepth) -> Self {
         Self {
             size,
@@ -86,16 +86,16 @@ impl Shape {
         self.size.width as usize * self.pixel_bytes()
     }
 
-    /// Bytes that a file has at most.
+    /// The largest size of a file, in bytes.
     pub(super) fn file_bytes(self) -> u64 {
-        /// The parts before and behind the samples take less.
+        /// More than the parts before and after the samples.
         const OTHER_PARTS: u64 = 1 << 12;
         // A byte before each row, and five before each block, which has thousands.
         let rows = (self.row_bytes() as u64 + 1) * u64::from(self.size.height);
         rows + rows / 1000 + OTHER_PARTS
     }
 
-    /// The light above which white is no longer the nearest code, though it is the last one.
+    /// The light above which white is no longer the nearest code, although it is the last one.
     fn most_light(self) -> f64 {
         let (curve, most) = match (self.is_linear, self.sample_bytes()) {
             (true, _) => (Curve::Linear, f64::from(u16::MAX)),
@@ -105,9 +105,8 @@ impl Shape {
         curve.light((most + 0.5) / most)
     }
 
-    /// Puts the codes of some rows of an image, big end first, where they belong in `samples`, which
-    /// are as many rows, from the column `col` on; returns how many pixels were clipped. Light is
-    /// multiplied by `gain` before.
+    /// Copies the codes of rows of an image, in big-endian order, to their positions in `samples`, which cover the same
+    /// rows, starting at the column `col`. Light is multiplied by `gain` first. Returns how many pixels were clipped.
     pub(crate) fn encode(
         self,
         samples: &mut [u8],
@@ -167,7 +166,8 @@ impl Shape {
     }
 }
 
-/// The number of pixels, of so many values each, of which some are above a largest one: mostly none.
+/// The number of pixels, with a number of values each, in which some value is above a limit. In most pictures there are
+/// none.
 fn count_clipped(light: &[f64], stored: usize, most: f64) -> u64 {
     let highest = light
         .iter()
@@ -180,7 +180,7 @@ fn count_clipped(light: &[f64], stored: usize, most: f64) -> u64 {
     pixels.filter(is_clipped).count() as u64
 }
 
-/// Puts the code of a value where a sample of one byte or two is.
+/// Writes the code of a value to a sample of one byte or two.
 fn put(sample: &mut [u8], value: f64, is_linear: bool) {
     match (sample, is_linear) {
         ([byte], true) => *byte = linear_8(value),
@@ -196,7 +196,7 @@ pub(super) fn size_of(info: &Info<'_>) -> Size {
     Size { width, height }
 }
 
-/// The light of the covered part of a pixel alone.
+/// The light of the covered part of a pixel only: not premultiplied.
 fn straight(premultiplied: f64, alpha: f64) -> f64 {
     if alpha > 0.0 {
         premultiplied / alpha
@@ -210,7 +210,7 @@ fn linear_8(value: f64) -> u8 {
     (value * f64::from(u8::MAX) + 0.5) as u8
 }
 
-/// As [`linear_8`], in 16 bit; by way of a wider integer, which compilers make several of at a time.
+/// Like [`linear_8`], with 16 bits. The detour through a wider integer lets compilers compute several at a time.
 fn linear_16(value: f64) -> u16 {
     let most = f64::from(u16::MAX);
     (value * most + 0.5).clamp(0.0, most) as i32 as u16

@@ -1,4 +1,4 @@
-//! The texts that a PNG tells: the digest and the region, if nothing in the file is damaged, and others.
+//! The texts in a PNG: the digest and the region, if nothing in the file is damaged, and others.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek, SeekFrom};
@@ -15,16 +15,16 @@ use crate::base::region::Region;
 
 /// The digest and the region of the picture in a file.
 ///
-/// The whole file is read: the checksum of every chunk and that of the pixels have to be right. Refuses files
-/// that tell no digest, or have been damaged, cut off or continued.
+/// Reads the whole file: the checksum of every chunk and that of the pixels must be correct. Refuses files without a
+/// digest, and damaged, truncated or extended files.
 pub(crate) fn contents(file: &mut (impl BufRead + Seek)) -> Result<(Hash, Region), String> {
     let place = |place: std::io::Result<u64>| place.map_err(|error| error.to_string());
     let end = place(file.seek(SeekFrom::End(0)))?;
     place(file.seek(SeekFrom::Start(0)))?;
     let told = read(&mut *file).map_err(|error| lower(&error.to_string()))?;
     match place(file.stream_position())? == end {
-        true => told.ok_or_else(|| "it tells no digest".to_owned()),
-        false => Err("it goes on after its last chunk".to_owned()),
+        true => told.ok_or_else(|| "it contains no digest".to_owned()),
+        false => Err("there is data after its last chunk".to_owned()),
     }
 }
 
@@ -37,7 +37,7 @@ fn read(file: impl BufRead + Seek) -> Result<Option<(Hash, Region)>, DecodingErr
     Ok(told)
 }
 
-/// The digest and the region in the texts of a file.
+/// The digest and the region among the texts of a file.
 fn told(info: &Info<'_>) -> Option<(Hash, Region)> {
     let mut digest = None;
     let mut region = Region::all(size_of(info));
@@ -51,7 +51,7 @@ fn told(info: &Info<'_>) -> Option<(Hash, Region)> {
     Some((digest?, region))
 }
 
-/// The text under a keyword in the file at `path`, if it is a PNG that has one.
+/// The text with a keyword in the file at `path`, if it is a PNG with such a text.
 pub(crate) fn text(path: &Path, keyword: &str) -> Option<String> {
     // A pipe could be waited for without end.
     let file = path.is_file().then(|| File::open(path).ok())??;

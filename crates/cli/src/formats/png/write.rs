@@ -21,18 +21,18 @@ use crate::files::temporary::TemporaryFile;
 use crate::formats::exr::header::REC_709;
 use crate::formats::facts::SOFTWARE;
 
-/// The keyword under which a PNG keeps the digest of its picture.
+/// The keyword of the digest of the picture.
 pub(super) const DIGEST_KEYWORD: &str = "Digest";
-/// The keyword under which one that holds a part of a picture keeps which.
+/// The keyword of the region, in a file with a part of a picture.
 pub(super) const REGION_KEYWORD: &str = "Region";
 
-/// Bytes of the samples' parts in a file.
+/// The size of the parts into which the samples in a file are divided, in bytes.
 pub(super) const CHUNK_BYTES: usize = 1 << 18;
 
-/// A keyword, and the text under it that a file tells beside its samples.
+/// A keyword, and its text.
 pub(crate) type Text = (&'static str, String);
 
-/// The texts of a file that holds a part of a picture with this digest, or all of it.
+/// The texts of a file with a part of a picture with this digest, or with the whole picture.
 pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
     let mut texts = vec![(DIGEST_KEYWORD, digest.to_string())];
     if !region.is_all() {
@@ -41,7 +41,7 @@ pub(crate) fn texts(digest: &Hash, region: &Region) -> Vec<Text> {
     texts
 }
 
-/// Writes a grey PNG of 8 bit codes with some texts, whole or not at all; `row` adds those of the next row.
+/// Writes a gray PNG with 8-bit codes and some texts, completely or not at all; `row` appends those of the next row.
 pub(crate) fn write_grey(
     size: Size,
     path: &Path,
@@ -61,7 +61,8 @@ pub(crate) fn write_grey(
     Ok(save(path, |file| write(file, shape, texts, codes))?)
 }
 
-/// Writes a PNG of 16 bit codes of red, green and blue, row by row, whole or not at all; `codes` gives those of a row.
+/// Writes a PNG with 16-bit codes of red, green and blue, row by row, completely or not at all; `codes` returns those
+/// of a row.
 pub(crate) fn write_rgb_16(
     size: Size,
     codes: impl Fn(u32) -> Vec<u16>,
@@ -78,7 +79,7 @@ pub(crate) fn write_rgb_16(
     Ok(save(path, |file| write(file, shape, &[], codes))?)
 }
 
-/// The bytes of a PNG of 8 bit codes of red, green and blue, row by row.
+/// The bytes of a PNG with 8-bit codes of red, green and blue, row by row.
 pub(crate) fn rgb_bytes(size: Size, codes: &[u8]) -> Result<Vec<u8>, Failure> {
     let mut file = Cursor::new(Vec::new());
     let shape = Shape::of_codes(size, ColorType::Rgb, BitDepth::Eight);
@@ -88,7 +89,7 @@ pub(crate) fn rgb_bytes(size: Size, codes: &[u8]) -> Result<Vec<u8>, Failure> {
     }
 }
 
-/// Writes a file whose samples `samples` writes.
+/// Writes a file; `samples` writes its samples.
 pub(crate) fn write(
     mut file: TemporaryFile,
     shape: Shape,
@@ -104,10 +105,10 @@ pub(crate) fn write(
     Ok(stored)
 }
 
-/// Writes a file whose samples `samples` writes; returns whether it has become larger than they are,
-/// so that they are to be stored.
+/// Writes a file; `samples` writes its samples. Returns whether the file has become larger than the samples, so that it
+/// is better to store them.
 ///
-/// Noise grows when it is compressed in a hurry.
+/// Fast compression makes noise larger.
 pub(crate) fn compress(
     file: &mut (impl Write + Seek),
     shape: Shape,
@@ -118,7 +119,7 @@ pub(crate) fn compress(
     Ok(length > shape.file_bytes())
 }
 
-/// Writes a file with the samples of another one as they are.
+/// Writes a file with the stored samples of another file.
 fn store(
     from: &mut (impl Read + Seek),
     to: &mut (impl Write + Seek),

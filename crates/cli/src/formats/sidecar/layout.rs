@@ -1,4 +1,4 @@
-//! JSON that people read as well: a line for each member of an object, lists on one line.
+//! JSON in a readable layout: one line for each member of an object, and lists on one line.
 
 use std::io::{self, Write};
 
@@ -17,9 +17,9 @@ pub(super) fn text(value: &impl Serialize) -> Result<String, String> {
 
 #[derive(Debug, Default)]
 struct Layout {
-    /// The objects around the place.
+    /// The enclosing objects.
     depth: usize,
-    /// True where the object that has just ended had a member.
+    /// Whether the object that has just ended had a member.
     has_member: bool,
 }
 

@@ -1,8 +1,8 @@
-//! The sidecar of a picture: a JSON file that tells what measurements need to know of it.
+//! The sidecar of a picture: a JSON file with everything that measurements need.
 //!
-//! Its world is right-handed, that of the scene with z negated, and its camera axes are OpenCV's: x
-//! right, y down, z forward. Pixel (0, 0) is the center of the first pixel. Numbers have as many of 17
-//! digits as it takes to read the same double; one that is not finite is `null`.
+//! Its world is right-handed: the world of the scene with z negated. Its camera axes are those of OpenCV: x right, y
+//! down, z forward. Pixel (0, 0) is the center of the first pixel. Numbers have up to 17 digits, as many as are needed
+//! to read the same double; a number that is not finite is `null`.
 
 mod layout;
 mod stored;
@@ -22,21 +22,21 @@ use serde::Serialize;
 pub(crate) use self::stored::contents;
 use crate::base::region::Region;
 
-/// The facts about a picture, in the order of the file.
+/// The contents, in the order of the file.
 #[derive(Debug, Serialize)]
 pub(crate) struct Sidecar<'a> {
     /// The name of the scene file, without its folder.
     scene: String,
     frame: i32,
     image: Image,
-    /// The part that the picture shows of the whole; none where it shows all.
+    /// The part of the whole that the picture shows; `None` if it shows all of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     region: Option<Part>,
     camera: Camera,
     lights: Vec<Light<'a>>,
     ambient: [f64; 3],
     background: [f64; 3],
-    /// The seeds of rough materials, by the materials' names.
+    /// The seeds of rough materials, by the names of the materials.
     seeds: BTreeMap<&'a str, u64>,
     #[serde(flatten)]
     rendered: Option<Rendered>,
@@ -66,7 +66,8 @@ struct Camera {
     projection: Projection,
     /// The side of a pixel on the retina, in scene units.
     pixel_size: f64,
-    /// The factor on the retina's distance, or that a parallel lens's width is divided by, which the projection contains.
+    /// The factor by which the distance of the retina is multiplied, or by which the width of a parallel lens is
+    /// divided. The projection includes it.
     zoom: f64,
     #[serde(rename = "R")]
     rotation: [[f64; 3]; 3],
@@ -74,7 +75,7 @@ struct Camera {
     translation: [f64; 3],
     /// The viewpoint in the right-handed world.
     position: [f64; 3],
-    /// The angles of a `Free` camera that sees the same, in degrees.
+    /// The angles of an equivalent `Free` camera, in degrees.
     pan: f64,
     tilt: f64,
     roll: f64,
@@ -90,23 +91,23 @@ enum Projection {
         matrix: [[f64; 3]; 3],
     },
     Parallel {
-        /// The pixels that a length of 1 across the axis of view spans.
+        /// The number of pixels per scene unit across the axis of view.
         pixels_per_unit: f64,
-        /// The pixel that the axis of view passes.
+        /// The pixel that the axis of view passes through.
         principal_point: [f64; 2],
     },
 }
 
 #[derive(Debug, Serialize)]
 struct Light<'a> {
-    /// `null` where the scene gives it none.
+    /// `null` if the light has no name.
     name: Option<&'a str>,
     #[serde(flatten)]
     place: LightPlace,
     intensity: [f64; 3],
 }
 
-/// The place of a light, in the right-handed world and in the camera's axes.
+/// The position or direction of a light, in the right-handed world and in the axes of the camera.
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 enum LightPlace {
@@ -123,14 +124,14 @@ enum LightPlace {
     },
 }
 
-/// The facts that only rendering knows.
+/// The results of rendering.
 #[derive(Debug, Serialize)]
 struct Rendered {
     #[serde(flatten)]
     setting: Setting,
-    /// The largest error that a pixel claims; `null` where nothing is known of it.
+    /// The largest claimed error of a pixel; `null` if it is unknown.
     error: Option<f64>,
-    /// `bound` where all errors are proved.
+    /// `bound` if all errors are bounds.
     evidence: Option<&'static str>,
     bounded_pixels: u64,
     over: u64,
@@ -144,7 +145,7 @@ enum Setting {
     Samples(u32),
 }
 
-/// Pan, tilt and roll of a camera in degrees, without what rounding leaves of 0.
+/// Pan, tilt and roll of a camera in degrees; rounding errors near 0 become 0.
 pub(crate) fn turns(camera: &marbles_core::Camera) -> [f64; 3] {
     const ROUNDING: f64 = 1e-12;
     camera.pan_tilt_roll().map(|angle| {
@@ -157,13 +158,13 @@ pub(crate) fn turns(camera: &marbles_core::Camera) -> [f64; 3] {
     })
 }
 
-/// The name of the sidecar of the picture at `path`.
+/// The path of the sidecar of the picture at `path`.
 pub(crate) fn beside(path: &Path) -> PathBuf {
     path.with_extension("json")
 }
 
 impl<'a> Sidecar<'a> {
-    /// The facts about a view of a frame that are known before it is rendered; `path` is the scene's.
+    /// The properties of a view that are known before rendering; `path` is the path of the scene.
     pub(crate) fn of(scene: &'a Scene, path: &Path, frame: i32, view: &View) -> Self {
         let world = scene.world();
         let place = Extrinsics::of(&view.camera);
@@ -190,7 +191,7 @@ impl<'a> Sidecar<'a> {
         }
     }
 
-    /// The same of a picture under a part of the light.
+    /// The same for a picture of a part of the light.
     pub(crate) fn under(mut self, part: LightPart) -> Self {
         self.lights = match part {
             LightPart::Ambient => Vec::new(),
@@ -202,7 +203,7 @@ impl<'a> Sidecar<'a> {
         self
     }
 
-    /// The same with what is known of a part of the picture that was rendered.
+    /// The same with the results of a rendered part of the picture.
     pub(crate) fn with_results(
         mut self,
         region: &Region,
@@ -242,7 +243,7 @@ impl<'a> Sidecar<'a> {
         self
     }
 
-    /// The text of the file, which ends with its last line.
+    /// The text of the file, including the end of the last line.
     pub(crate) fn text(&self) -> Result<String, String> {
         layout::text(self)
     }
@@ -307,7 +308,7 @@ impl<'a> Light<'a> {
     }
 }
 
-/// The seeds of a world's rough materials, which have these names.
+/// The seeds of the rough materials of a world, with their names.
 fn seeds<'a>(world: &World, names: &'a [String]) -> BTreeMap<&'a str, u64> {
     let materials = names.iter().zip(world.materials());
     let seeds = materials.filter_map(|(name, material)| {

@@ -1,4 +1,4 @@
-//! The facts by which a sidecar that is there is known again.
+//! The parts of an existing sidecar that identify its picture.
 
 use std::fs;
 use std::path::Path;
@@ -10,8 +10,7 @@ use serde_json::Value;
 use crate::base::region::Region;
 use crate::base::size::Size;
 
-/// The digest of the picture that the sidecar at `path` belongs to, and the part that it shows; `None` where it is not
-/// complete.
+/// The digest of the picture of the sidecar at `path`, and the part that it shows; `None` if the file is not complete.
 pub(crate) fn contents(path: &Path) -> Option<(Hash, Region)> {
     let value: Value = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
     let number = |of: &Value, name: &str| u32::try_from(of.get(name)?.as_u64()?).ok();

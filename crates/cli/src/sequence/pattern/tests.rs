@@ -102,7 +102,7 @@ fn names_of_scenes_are_taken_as_they_are() {
     assert_eq!(name("a.#.png", "b"), "a.7.png");
 }
 
-/// Names that are not UTF-8 stay apart.
+/// Names that are not UTF-8 remain distinct.
 #[test]
 #[cfg(unix)]
 fn names_of_scenes_are_bytes() {

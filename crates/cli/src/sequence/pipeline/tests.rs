@@ -50,5 +50,5 @@ fn the_widest_pictures_do_not_fit() {
     let Failure::Work(message) = failure else {
         panic!("{failure:?}");
     };
-    assert!(message.ends_with("GB of memory, more than there is"));
+    assert!(message.ends_with("GB of memory, more than is available"));
 }

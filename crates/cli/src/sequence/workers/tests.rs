@@ -6,7 +6,7 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::*;
 
-/// Parts of work that are counted.
+/// Work whose parts are counted.
 struct Parts<'a> {
     next: AtomicU32,
     count: u32,
@@ -28,7 +28,7 @@ impl SharedWork for Parts<'_> {
     }
 }
 
-/// Works of so many parts each on some threads.
+/// Several works with a number of parts each, on some threads.
 fn run_works(
     threads: usize,
     counts: &[u32],
@@ -72,7 +72,7 @@ fn every_part_is_done_once() {
     }
 }
 
-/// The last part of each work waits until the next work has begun, which another thread does.
+/// The last part of each work waits until another thread has begun the next work.
 #[test]
 fn the_next_begins_while_others_end_the_last() {
     /// Far longer than it should take.
@@ -92,8 +92,8 @@ fn the_next_begins_while_others_end_the_last() {
     assert_eq!(begun.into_inner().unwrap(), last);
 }
 
-/// A thread that comes to work that is nearly done prepares the next, before there is nothing left to
-/// begin: no part ends here until that has happened.
+/// A thread that finds work nearly done prepares the next work before all parts are begun: no part ends here until that
+/// has happened.
 #[test]
 fn the_next_is_prepared_while_others_do_the_last() {
     /// Far longer than it should take.
@@ -114,7 +114,7 @@ fn the_next_is_prepared_while_others_do_the_last() {
     });
 }
 
-/// Nothing is prepared as long as there is much to do.
+/// Nothing is prepared as long as many parts are left.
 #[test]
 fn the_next_is_not_prepared_too_early() {
     const COUNT: u32 = 50;
@@ -135,7 +135,7 @@ fn the_next_is_not_prepared_too_early() {
     }
 }
 
-/// Work that is ahead takes memory.
+/// Prepared work takes memory.
 #[test]
 fn no_more_than_the_next_is_prepared() {
     let (prepared, ended) = (AtomicU32::new(0), AtomicU32::new(0));

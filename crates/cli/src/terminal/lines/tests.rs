@@ -19,7 +19,7 @@ fn frame(number: i32) -> Frame<'static> {
     }
 }
 
-/// The texts on stdout and on stderr while three frames are rendered and one is left out.
+/// The texts on stdout and on stderr while three frames are rendered and one is skipped.
 fn tell(reader: Reader) -> (String, String) {
     let (out, err) = (Text::default(), Text::default());
     let console = Console::to(out.clone(), err.clone());
@@ -41,7 +41,7 @@ fn tell(reader: Reader) -> (String, String) {
     (out.read(), err.read())
 }
 
-/// The lines without the time that is left, which depends on the machine.
+/// The lines without the remaining time, which depends on the machine.
 fn timeless(text: &str) -> Vec<&str> {
     let lines = text.lines();
     let cut = |line| str::split_once(line, " done, ").map_or(line, |(start, _)| start);
@@ -66,7 +66,7 @@ fn people_read_a_line_for_each_frame() {
     assert!(!err.contains(|letter: char| letter.is_control() && letter != '\n'));
 }
 
-/// Results have lines of their own, and most runs are over sooner.
+/// Results have lines of their own, and most runs end before the first line is due.
 #[test]
 fn people_read_nothing_in_the_first_seconds() {
     let err = Text::default();
@@ -78,7 +78,7 @@ fn people_read_nothing_in_the_first_seconds() {
     assert_eq!(err.read(), "");
 }
 
-/// However much happens, people read no more than a line in the time of silence.
+/// However much happens, people see at most one line per interval.
 #[test]
 fn people_read_one_line_after_each_silence() {
     type Step = fn(&Lines<'_>);
@@ -152,7 +152,7 @@ fn programs_read_an_object_a_line() {
     assert_eq!(events.collect::<Vec<Value>>(), expected);
 }
 
-/// Parts of pictures may be rendered from more pixels than they have.
+/// Parts of pictures may be computed from more pixels than they have.
 #[test]
 fn nothing_is_more_than_done() {
     let out = Text::default();

@@ -28,7 +28,9 @@ fn tables_say_how_a_scene_shows_them() {
         ("g.dump.gz", b"\x1f\x8b\x08\0", "a dump of LAMMPS"),
     ] {
         let message = refusal(name, bytes);
-        let start = format!("expected a scene, found a table ({kind}): a scene names it");
+        let start = format!(
+            "expected a scene, found a table ({kind}). A scene names the table, for example"
+        );
         assert!(message.starts_with(&start), "{message}");
         // The scene that it shows is one, up to the table.
         let scene = message.split('`').nth(1).unwrap();

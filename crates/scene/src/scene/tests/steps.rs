@@ -15,8 +15,8 @@ fn numbers_that_are_not_filled_up_are_steps() {
     let scene = folder.scene("(file: \"dump####.csv\")");
     let all: Vec<f64> = (1..=4).map(|frame| places(&scene, frame)[0]).collect();
     assert_eq!(all, [0.0, 500.0, 1000.0, 12500.0]);
-    let gap = "dump####.csv: files are missing between the numbers 1000 and 12500 (most are 500 apart): the steps on both \
-               sides follow each other";
+    let gap = "dump####.csv: files are missing between the numbers 1000 and 12500 (most numbers are 500 apart): the \
+               steps on both sides are shown one after the other";
     assert_eq!(scene.warnings(), [gap]);
     // Of steps that are not asked for nothing is said.
     let few = folder.scene("(file: \"dump####.csv\", steps: (0, 1000))");
@@ -44,15 +44,15 @@ fn files_that_are_nearly_steps_are_named() {
     assert_eq!(
         scene.warnings(),
         [
-            "run.####.csv: 5 files are nearly of this form and not shown: \"Run.0040.CSV\", \"run.0.5.csv\", \
+            "run.####.csv: 5 files with similar names, not shown: \"Run.0040.CSV\", \"run.0.5.csv\", \
              \"run.00030.csv\", \"run.0050.csv.gz\" and 1 more",
-            "run.####.csv: 1 file is not shown, with numbers of more than 64 bit: \"run.99999999999999999999.csv\"",
+            "run.####.csv: 1 file with numbers of more than 64 bits, not shown: \"run.99999999999999999999.csv\"",
         ]
     );
     let message = folder.load("(file: \"run.#####.csv.gz\")", "Free()", "");
     let message = message.unwrap_err();
     assert!(
-        message.contains("found none (9 files are nearly of this form: "),
+        message.contains("found none (9 files with similar names: "),
         "{message}"
     );
 }
@@ -77,7 +77,7 @@ fn a_last_file_that_is_cut_is_in_doubt() {
     assert_eq!(of("x,y,z,r,value\n0,0,10,1,5\n"), "");
     assert_eq!(
         of("x,y,z,r,value\n0,0,10,1,5\n4,0,10,1,4"),
-        "run.0020.csv: the file ends within a line, and the first one does not: its last number may have been cut"
+        "run.0020.csv: the file ends within a line, unlike the first file: its last number may have been cut off"
     );
     let atom = "ATOM      1  N   ALA A   1      11.104   6.134  -6.504  1.00 10.00           N\n";
     for index in 0..3 {
@@ -141,7 +141,7 @@ fn tables_without_frames_say_so() {
         let message = folder.load(&format!("(file: \"{name}\", frames: All)"), "Free()", "");
         let message = message.unwrap_err();
         let expected = format!(
-            "expected a table with frames for `frames: All`, found \"{name}\", whose format ({format}) has none and no time"
+            "expected a table with frames for `frames: All`, found \"{name}\", whose format ({format}) has no frames"
         );
         assert!(message.contains(&expected), "{message}");
     }
@@ -179,7 +179,7 @@ fn tables_that_change_are_refused() {
         assert!(error.is_of_changed_table(), "{error}");
         let message = error.to_string();
         assert!(
-            message.contains("as it was when it was read first, found that it has changed"),
+            message.contains("to stay the same while its frames are rendered, found a change"),
             "{message}"
         );
     };

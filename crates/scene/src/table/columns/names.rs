@@ -28,7 +28,7 @@ impl Names {
                 })
             }
             ColumnRef::Constant(number) => Err(format!(
-                "expected a column, found `Constant({number})`, which only `x`, `y` and `z` may be"
+                "expected a column, found `Constant({number})`, which is allowed only for `x`, `y` and `z`"
             )),
             ColumnRef::Name(name) => {
                 let found = self.find(name).or_else(|| self.find_synonym(name));
@@ -139,8 +139,10 @@ impl Names {
         let is_flat = name == "z" && ["x", "y"].iter().all(|name| self.find(name).is_some());
         let (name, list) = (marked(name), self.list());
         let hint = match self.0.is_empty() {
-            false if are_numbers => " (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
-            false if is_flat => " (a table of a plane has one with `columns: (z: Constant(0))`)",
+            false if are_numbers => {
+                " (you can use numbers for columns: `columns: (x: 1, y: 2, z: 3)`)"
+            }
+            false if is_flat => " (for a two-dimensional table, use `columns: (z: Constant(0))`)",
             _ => "",
         };
         format!("expected a column {name}, found {list}{meant}{hint}")

@@ -293,7 +293,7 @@ impl Plan {
             RadiusSource::Column(_, RadiusLaw::Linear)
                 if what.starts_with("a radius") && self.has_chosen_radius =>
             {
-                " (`radius_law: Exponential(0.5)` makes radii of magnitudes)"
+                " (`radius_law: Exponential(0.5)` converts magnitudes to radii)"
             }
             _ => "",
         };

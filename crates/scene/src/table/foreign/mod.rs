@@ -53,6 +53,6 @@ pub(super) fn is_cif(head: &[u8]) -> bool {
 /// Why a crystal's CIF is no table.
 pub(super) fn crystal() -> String {
     format!(
-        "expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: {CELL}"
+        "expected coordinates `_atom_site.Cartn_x`, found the CIF of a crystal, with fractional coordinates: {CELL}"
     )
 }

@@ -33,7 +33,8 @@ fn dumps_of_lammps_are_read() {
     for (text, expected) in [
         (
             LAMMPS.replace("\n2\n", "\n3\n"),
-            "a.dump:12:1: expected 3 atoms, as `ITEM: NUMBER OF ATOMS` says, and after 2 of them another, found the end of the file",
+            "a.dump:12:1: expected 3 atoms, according to `ITEM: NUMBER OF ATOMS` (2 read), \
+             found the end of the file",
         ),
         (
             LAMMPS.replace("0 4 1", "0 4"),

@@ -19,7 +19,7 @@ fn palettes_that_match_nothing_are_told() {
     };
     assert_eq!(
         told("palette: {\"fist\": 1, \"second\": 0}"),
-        "scene.ron:2:62: `palette` has colors for \"fist\", which no row of \"chain\" has: its categories \
+        "scene.ron:2:62: `palette` has colors for \"fist\", which match no row of \"chain\": its categories \
          are \"first\" and \"second\", did you mean \"first\"?"
     );
     assert_eq!(told("palette: {\"first\": 1, \"second\": 0}"), "");
@@ -30,7 +30,7 @@ fn palettes_that_match_nothing_are_told() {
         "palette: {\"o\": 1, \"Zn\": 0}",
     ));
     assert!(
-        of_elements.contains("\"Zn\", which no row of \"element\" has"),
+        of_elements.contains("\"Zn\", which match no row of \"element\""),
         "{of_elements}"
     );
 }
@@ -50,8 +50,8 @@ fn categories_that_share_colors_are_told() {
     assert_eq!(told(12, ""), "");
     assert_eq!(
         told(14, ""),
-        "scene.ron:2:17: \"chain\" has 14 categories and 12 colors: 4 of them share colors (`palette` gives each a color \
-         of its own)"
+        "scene.ron:2:17: \"chain\" has 14 categories and 12 colors: 4 of them share colors (use `palette` to give \
+         each its own color)"
     );
     // The palette may have two alike, as whoever wrote it wants.
     assert_eq!(told(2, ", palette: {\"chain A\": 1, \"chain B\": 1}"), "");

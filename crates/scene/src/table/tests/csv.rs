@@ -31,11 +31,13 @@ fn csv_is_refused_at_its_place() {
         ),
         (
             "1,2\n",
-            "a.csv:1:1: expected a column `x`, found `1`, `2` (numbers name columns: `columns: (x: 1, y: 2, z: 3)`)",
+            "a.csv:1:1: expected a column `x`, found `1`, `2` (you can use numbers for columns: `columns: (x: 1, \
+             y: 2, z: 3)`)",
         ),
         (
             "x,y,zz\n",
-            "a.csv:1:1: expected a column `z`, found `x`, `y`, `zz` (a table of a plane has one with `columns: (z: Constant(0))`)",
+            "a.csv:1:1: expected a column `z`, found `x`, `y`, `zz` (for a two-dimensional table, use `columns: \
+             (z: Constant(0))`)",
         ),
         (
             "x,y,z\n",

@@ -104,7 +104,8 @@ fn a_table_that_is_cut_at_a_line_is_no_table() {
     // What points have beside their places is announced, and missing.
     let announced = VTK.split_inclusive("POINT_DATA 2\n").next().unwrap();
     let scene = scene("a.vtk", announced, "radius: 1");
-    let expected = "a.vtk:8: the file ends where numbers of points or cells are announced: they may have been cut off";
+    let expected = "a.vtk:8: the file ends after a header for numbers of points or cells: the numbers may have \
+         been cut off";
     assert_eq!(scene.warnings(), [expected]);
 }
 
@@ -147,16 +148,16 @@ fn ends_that_formats_do_not_tell_are_said() {
     let two = "1\n\nC 1 2 3\n1\n\nC 1 2 34";
     assert_eq!(
         said("a.xyz", two, "frames: All"),
-        "a.xyz:6: the file ends within this line: its last number may have been cut"
+        "a.xyz:6: the file ends within this line: its last number may have been cut off"
     );
     for (text, expected) in [
         (
             format!("MODEL        1\n{ATOM}MODEL        2\n{ATOM}ENDMDL\n"),
-            "a.pdb:3:1: expected `ENDMDL` behind the atoms of this model, found `MODEL        2`",
+            "a.pdb:3:1: expected `ENDMDL` after the atoms of this model, found `MODEL        2`",
         ),
         (
             format!("MODEL        1\n{ATOM}"),
-            "a.pdb:3:1: expected `ENDMDL` behind the atoms of this model, found the end of the file",
+            "a.pdb:3:1: expected `ENDMDL` after the atoms of this model, found the end of the file",
         ),
     ] {
         assert_eq!(refusal("a.pdb", text, ""), expected);
@@ -164,7 +165,7 @@ fn ends_that_formats_do_not_tell_are_said() {
     let no_box = GRO.replace("   1.00000   1.00000   1.00000\n", "");
     assert_eq!(
         refusal("a.gro", no_box, ""),
-        "a.gro:5:1: expected the three or nine numbers of the box behind the atoms, found the end of the file"
+        "a.gro:5:1: expected the three or nine numbers of the box after the atoms, found the end of the file"
     );
 }
 

@@ -47,8 +47,8 @@ fn what_is_no_element_is_shown_as_others_and_said() {
     assert_eq!(albedos(&scene)[3], from_srgb(0xff80c0));
     assert_eq!(
         warnings(&scene),
-        "a.gro:6:14: expected elements with known radii and colors, found `MW` (2 rows) (marbles uses \
-         `others: (radius: 1, color: \"#ff80c0\")` for them)"
+        "a.gro:6:14: expected elements with known radii and colors, found `MW` (2 rows) (for these, marbles uses \
+         `others: (radius: 1, color: \"#ff80c0\")`)"
     );
     assert_eq!(names(&scene), ["others", "H", "O"]);
     // Whoever says what others have knows of them.
@@ -164,7 +164,7 @@ fn single_elements_have_radii_and_colors_of_the_scene() {
     );
     let unused = warnings(&self::scene("a.xyz", heavy, "radii: {\"O\": 2}"));
     assert!(
-        unused.contains("scene.ron:2:33: `radii` has radii for \"O\", which no row has"),
+        unused.contains("scene.ron:2:33: `radii` has radii for \"O\", which match no row: "),
         "{unused}"
     );
     let unused = warnings(&self::scene("a.xyz", heavy, "radius: 1, radii: {\"H\": 2}"));
@@ -191,7 +191,7 @@ fn types_of_lammps_are_no_atomic_numbers() {
         let scene = scene("a.xyz", &text, "");
         assert_eq!(radii(&scene), [1.0; 3]);
         let told = warnings(&scene);
-        let guess = "a.xyz:3:1: the numbers in the column `element` are taken for types of atoms";
+        let guess = "a.xyz:3:1: the numbers in the column `element` are read as types of atoms";
         assert!(told.starts_with(guess), "{told}");
         assert!(told.contains("found `1` (2 rows), `2` (1 row)"), "{told}");
     }
@@ -206,7 +206,7 @@ fn types_of_lammps_are_no_atomic_numbers() {
     let water = scene("a.xyz", "3\n\n8 0 0 0\n1 0 0 1\n1 0 0 2\n", "");
     assert_eq!(radii(&water), [1.52, 1.1, 1.1]);
     assert!(
-        warnings(&water).contains("taken for atomic numbers"),
+        warnings(&water).contains("read as atomic numbers"),
         "{}",
         warnings(&water)
     );

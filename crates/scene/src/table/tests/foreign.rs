@@ -158,7 +158,8 @@ fn crystals_say_what_their_coordinates_are() {
         assert_eq!(
             refusal(name, crystal, ""),
             format!(
-                "{name}:8:1: expected coordinates `_atom_site.Cartn_x`, found a crystal's CIF, whose coordinates are parts of its cell: save \
+                "{name}:8:1: expected coordinates `_atom_site.Cartn_x`, found the CIF of a crystal, with \
+                 fractional coordinates: save \
                  it as XYZ with ASE (`ase convert FILE atoms.extxyz`), or with OVITO"
             )
         );

@@ -296,8 +296,8 @@ fn atomic_numbers_that_count_are_said() {
     let types = "species,x,y,z\n1,1,2,3\n2,4,5,6\n1,7,8,9\n";
     assert_eq!(
         told(types, ""),
-        "a.csv:2:1: the numbers in the column `species` are taken for atomic numbers; `columns: (element: \"species\")` says \
-         that they are"
+        "a.csv:2:1: the numbers in the column `species` are read as atomic numbers; confirm this with `columns: (element: \
+         \"species\")`"
     );
     assert_eq!(told(types, "columns: (element: \"species\")"), "");
     assert_eq!(told(types, "radius: 1, color: Material"), "");

@@ -106,7 +106,7 @@ fn npy_is_refused() {
         ),
         (
             b"PK\x03\x04".to_vec(),
-            "expected an archive of arrays, found a broken one: Missing end of central directory",
+            "expected an archive of arrays, found a damaged one: Missing end of central directory",
         ),
         (
             b"\x93NUMPY\x09\x00\x00\x00".to_vec(),

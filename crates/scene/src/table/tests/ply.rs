@@ -63,7 +63,7 @@ fn ply_is_refused_at_its_place() {
         ("", "a.ply:1:1: expected `ply`, found the end of the file"),
         (
             "plyx\n",
-            "a.ply:1:1: expected `ply`, with which PLY files start, found `plyx`",
+            "a.ply:1:1: expected `ply`, the first line of a PLY file, found `plyx`",
         ),
         (
             "ply\n",
@@ -113,7 +113,8 @@ fn ply_is_refused_at_its_place() {
     for (body, expected) in [
         (
             String::from(rows),
-            "a.ply:17:1: expected 2 vertices, as the header says, and after 1 of them another, found the end of the file",
+            "a.ply:17:1: expected 2 vertices, according to the header (1 read), found the end \
+             of the file",
         ),
         (
             format!("{rows}1 2 3 4 5 6 256 8\n"),

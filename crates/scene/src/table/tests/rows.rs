@@ -103,8 +103,8 @@ fn rows_that_are_not_kept_are_counted() {
 #[test]
 fn tables_of_a_plane_have_a_constant() {
     let flat = "x,y,r\n0,0,1\n3,0,2\n1,3,0.7\n";
-    let expected = "a.csv:1:1: expected a column `z`, found `x`, `y`, `r` (a table of a plane has one with \
-                    `columns: (z: Constant(0))`)";
+    let expected = "a.csv:1:1: expected a column `z`, found `x`, `y`, `r` (for a two-dimensional table, use \
+         `columns: (z: Constant(0))`)";
     assert_eq!(refusal("a.csv", flat, ""), expected);
     let found = spheres(&scene("a.csv", flat, "columns: (z: Constant(-2.5))"));
     let expected = [
@@ -123,8 +123,7 @@ fn tables_of_a_plane_have_a_constant() {
         flat,
         "columns: (z: Constant(0), radius: Constant(1))",
     );
-    let expected =
-        "a.csv:1:1: expected a column, found `Constant(1)`, which only `x`, `y` and `z` may be";
+    let expected = "a.csv:1:1: expected a column, found `Constant(1)`, which is allowed only for `x`, `y` and `z`";
     assert_eq!(message, expected);
 }
 
@@ -172,8 +171,8 @@ fn magnitudes_become_radii_and_times_colors() {
         (albedos(&scene)[1], albedos(&scene)[3]),
         (viridis[0], viridis[255])
     );
-    let expected = "a.csv:4:26: expected a radius greater than 0 for `mag` (`radius_law: Exponential(0.5)` makes radii of \
-                    magnitudes), found 0.0";
+    let expected = "a.csv:4:26: expected a radius greater than 0 for `mag` (`radius_law: Exponential(0.5)` \
+         converts magnitudes to radii), found 0.0";
     assert_eq!(
         refusal(
             "a.csv",

@@ -78,11 +78,13 @@ fn xyz_is_refused_at_its_place() {
         ),
         (
             "3\n\nO 1 2 3\nO 1 2 3\n",
-            "a.xyz:5:1: expected 3 atoms, as the first line says, and after 2 of them another, found the end of the file",
+            "a.xyz:5:1: expected 3 atoms, according to the first line (2 read), found the end \
+             of the file",
         ),
         (
             "18446744073709551615\n\nO 1 2 3\n",
-            "a.xyz:4:1: expected 18446744073709551615 atoms, as the first line says, and after 1 of them another, found the end of the file",
+            "a.xyz:4:1: expected 18446744073709551615 atoms, according to the first line (1 read), \
+             found the end of the file",
         ),
         (
             "2\n\nO 1 2 3\n\nO 1 2 3\n",

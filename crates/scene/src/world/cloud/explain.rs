@@ -21,7 +21,9 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
                     let (kind, remedy) = (foreign.kind, foreign.remedy);
                     format!("expected a table ({endings}), found {shown}, {kind}: {remedy}")
                 }
-                None => format!("expected a table ({endings}), found {shown}, which is none"),
+                None => {
+                    format!("expected a table ({endings}), found {shown}, which is not a table")
+                }
             };
         }
         TableError::OutOfMemory(count) => {
@@ -29,8 +31,8 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
         }
         TableError::Changed => {
             return format!(
-                "expected the table {shown} as it was when it was read first, found that it has changed since: \
-                 start again when nothing writes to it any more"
+                "expected the table {shown} to stay the same while its frames are rendered, found a change: start \
+                 again when no program writes to it"
             );
         }
         TableError::Unreadable(error) => error,
@@ -45,7 +47,7 @@ pub(super) fn explain(name: &str, path: &Path, error: &TableError) -> String {
         }
         io::ErrorKind::IsADirectory => format!("expected a table, found the folder {shown}"),
         io::ErrorKind::PermissionDenied => {
-            format!("expected a table, found {shown}, which nobody here may read")
+            format!("expected a table, found {shown}, which you have no permission to read")
         }
         _ => {
             let why = reason(error);
@@ -73,8 +75,8 @@ pub(super) fn no_steps(
 /// Why a table of this name and format has no frames to be shown one after another.
 pub(super) fn without_frames(name: &str, format: &str) -> String {
     format!(
-        "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has none and no time: \
-         a series is a file for each time, named as `run.####.csv`"
+        "expected a table with frames for `frames: All`, found {name}, whose format ({format}) has no frames: for \
+         a series, use one file per step, with names such as `run.####.csv`"
     )
 }
 

@@ -98,7 +98,7 @@ impl Scale {
                 "categories"
             };
             told.push(format!(
-                "`palette` has colors for {}, which no row of {column} has: its {what} are {}{}",
+                "`palette` has colors for {}, which match no row of {column}: its {what} are {}{}",
                 listed(&unmatched),
                 listed(&known.clone().map(str::to_owned).collect::<Vec<_>>()),
                 did_you_mean(first, known, quoted),
@@ -131,9 +131,9 @@ impl Scale {
             .iter()
             .all(|(name, _)| name.parse::<f64>().is_ok() || table::time(name.as_bytes()).is_some());
         let hint = match (are_numbers, names.len() > MANY) {
-            (true, _) => "numbers and times have a scale of colors by `color: Value`",
-            (false, true) => "`keep` or another column leaves fewer",
-            (false, false) => "`palette` gives each a color of its own",
+            (true, _) => "`color: Value` gives numbers and times a color scale",
+            (false, true) => "use `keep` or another column to get fewer",
+            (false, false) => "use `palette` to give each its own color",
         };
         Some(format!(
             "{column} has {} categories and {} colors: {shared} of them share colors ({hint})",
@@ -166,8 +166,8 @@ fn look_like_bytes(step: &Step) -> Option<String> {
 fn unused_radii(names: &[String]) -> Option<String> {
     (!names.is_empty()).then(|| {
         format!(
-            "`radii` has radii for {}, which no row has: it is called otherwise, or its radius is that of `radius` or of a \
-             column",
+            "`radii` has radii for {}, which match no row: the rows have other elements, or `radius` or a column \
+             sets their radii",
             listed(names)
         )
     })

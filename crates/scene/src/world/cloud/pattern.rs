@@ -85,10 +85,9 @@ impl Numbered {
         match error {
             CloudError::Scene(mut fault) if !self.left_out.is_empty() => {
                 let names = listed(&self.left_out);
-                fault.message.push_str(&format!(
-                    " ({} nearly of this form: {names})",
-                    are(self.left_out.len())
-                ));
+                fault
+                    .message
+                    .push_str(&format!(" ({}: {names})", similar(self.left_out.len())));
                 CloudError::Scene(fault)
             }
             error => error,
@@ -100,15 +99,15 @@ impl Numbered {
         let mut warnings = Vec::new();
         if !self.left_out.is_empty() {
             warnings.push(format!(
-                "{name}: {} nearly of this form and not shown: {}",
-                are(self.left_out.len()),
+                "{name}: {}, not shown: {}",
+                similar(self.left_out.len()),
                 listed(&self.left_out)
             ));
         }
         if !self.too_large.is_empty() {
             warnings.push(format!(
-                "{name}: {} not shown, with numbers of more than 64 bit: {}",
-                are(self.too_large.len()),
+                "{name}: {} with numbers of more than 64 bits, not shown: {}",
+                counted(self.too_large.len()),
                 listed(&self.too_large)
             ));
         }
@@ -117,10 +116,17 @@ impl Numbered {
     }
 }
 
-fn are(count: usize) -> String {
+fn counted(count: usize) -> String {
     match count {
-        1 => String::from("1 file is"),
-        count => format!("{count} files are"),
+        1 => String::from("1 file"),
+        count => format!("{count} files"),
+    }
+}
+
+fn similar(count: usize) -> String {
+    match count {
+        1 => String::from("1 file with a similar name"),
+        count => format!("{count} files with similar names"),
     }
 }
 
@@ -162,8 +168,8 @@ fn gaps(numbers: &[i64]) -> Option<String> {
         count => format!(", and in {count} other places"),
     };
     Some(format!(
-        "files are missing between the numbers {low} and {high}{others} (most are {step} apart): the steps on both sides \
-         follow each other"
+        "files are missing between the numbers {low} and {high}{others} (most numbers are {step} apart): the \
+         steps on both sides are shown one after the other"
     ))
 }
 

@@ -60,8 +60,9 @@ impl Cloud {
                 (None, None) => (&[Coloring::Value, Coloring::Category], Coloring::Value),
             };
             if !known.contains(&coloring) {
-                let message =
-                    format!("expected `color: {wanted:?}` with this, found `color: {coloring:?}`");
+                let message = format!(
+                    "expected `color: {wanted:?}` together with this, found `color: {coloring:?}`"
+                );
                 return refuse(place.clone(), message);
             }
         }

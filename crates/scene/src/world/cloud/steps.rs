@@ -33,7 +33,7 @@ impl Steps {
         let mut doubts = frames.take_doubts();
         let is_open = |path: &Path| last_byte(path).ok().map(|byte| byte != b'\n');
         if frames.is_plain_text() && is_open(last)? && !is_open(first)? {
-            let doubt = "the file ends within a line, and the first one does not: its last number may have been cut";
+            let doubt = "the file ends within a line, unlike the first file: its last number may have been cut off";
             doubts.push(LocatedFault::of_file(doubt));
         }
         Some((last.clone(), doubts))

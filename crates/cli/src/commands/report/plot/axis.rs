@@ -1,27 +1,26 @@
 //! Logarithmic axes.
 
-/// An axis over whole powers of ten, from `start` to `end`, which is the smaller one where the axis
-/// goes down.
+/// An axis over whole powers of ten, from `start` to `end`; `end` is smaller if values decrease along the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
-    /// Powers of ten, and where they lie on the drawing.
+    /// Powers of ten, and their positions on the drawing.
     start: (i32, f64),
     end: (i32, f64),
 }
 
-/// A mark beside an axis.
+/// A tick mark of an axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Tick {
     pub(super) at: f64,
-    /// The power of ten, at every one or, on long axes, at every other, and so on.
+    /// The label: a power of ten, at every power or, on long axes, at every second one, and so on.
     pub(super) label: Option<i32>,
-    /// True at a power of ten.
+    /// Whether it is at a power of ten.
     pub(super) is_decade: bool,
 }
 
 impl Axis {
-    /// The shortest axis that contains all values above 0, going up from `start` to `end` on the
-    /// drawing; with `falls`, from the largest to the smallest.
+    /// The shortest axis that contains all values above 0, from `start` to `end` on the drawing; with `falls`, values
+    /// decrease along it.
     pub(super) fn around(
         values: impl IntoIterator<Item = f64>,
         (start, end): (f64, f64),
@@ -53,13 +52,13 @@ impl Axis {
         start + along * (end - start)
     }
 
-    /// The least and the largest value on the axis.
+    /// The smallest and the largest value on the axis.
     pub(super) fn range(&self) -> (f64, f64) {
         let (low, high) = self.decades();
         (power_of_ten(low), power_of_ten(high))
     }
 
-    /// The marks, with labels at no more than `most` of them.
+    /// The tick marks, at most `most` of them with labels.
     pub(super) fn ticks(&self, most: u32) -> Vec<Tick> {
         let (low, high) = self.decades();
         let step = (high.abs_diff(low) + 1).div_ceil(most) as i32;

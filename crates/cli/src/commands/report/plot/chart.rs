@@ -1,7 +1,6 @@
-//! The chart: both methods, the labels of their settings, and how far they are apart.
+//! The chart: both methods, the labels of their settings, and the distance between the curves.
 //!
-//! RMSE falls to the right and time rises upward, so that a curve that stays low to the right is
-//! fast and accurate.
+//! RMSE decreases to the right and time increases upward, so a curve that stays low to the right is fast and accurate.
 
 use marbles_core::Method;
 
@@ -24,7 +23,7 @@ const BOTTOM: f64 = 444.0;
 const INK: &str = "#222830";
 const SOFT_INK: &str = "#5a6470";
 const GRID: &str = "#e3e7ec";
-/// Blue and vermilion, which people with any color vision tell apart.
+/// Blue and vermilion, which people with any kind of color vision can distinguish.
 const TOLERANCES: &str = "#005fae";
 const SAMPLES: &str = "#c84e00";
 
@@ -64,14 +63,13 @@ pub(in crate::commands::report) fn draw(report: &Report) -> String {
 
 struct Chart<'a> {
     svg: Svg,
-    /// The places of labels and of what they avoid.
+    /// The positions of labels, and of what they must not hide.
     room: Labels,
     x: Axis,
     y: Axis,
     samples: Series<'a>,
     tolerances: Series<'a>,
-    /// The end of supersampling, and the place where it would be at the smallest error of the
-    /// tolerances.
+    /// The end of the supersampling curve, and its extrapolation to the smallest error of the tolerances.
     extrapolation: Option<[Point; 2]>,
 }
 
@@ -79,10 +77,9 @@ struct Chart<'a> {
 struct Series<'a> {
     rows: Vec<&'a Row>,
     color: &'static str,
-    /// True where its marks are disks, and not squares.
+    /// Whether its marks are disks instead of squares.
     is_round: bool,
-    /// The sides of points on which labels may be, the best first: where the curves leave room as
-    /// a rule.
+    /// The sides of points for labels, the best first: sides on which curves usually leave room.
     sides: [Side; 5],
 }
 
@@ -187,15 +184,15 @@ impl<'a> Chart<'a> {
         svg.text(place, middle, title);
     }
 
-    /// The title, and what the marks mean.
+    /// The title, and the legend.
     fn legend(&mut self, report: &Report) {
         let y = 58.0;
-        let title = format!("Time to an error: {}", report.title);
+        let title = format!("Time against error: {}", report.title);
         self.svg.text((12.0, 28.0), TITLE, &title);
         self.svg.text((12.0, y), NORMAL, "time");
         for (x, series, name) in [
-            (10.0, &self.tolerances, "marbles, by tolerance"),
-            (232.0, &self.samples, "supersampling, points a pixel"),
+            (10.0, &self.tolerances, "marbles, with a tolerance"),
+            (232.0, &self.samples, "supersampling, samples per pixel"),
         ] {
             let color = series.color;
             series.mark(&mut self.svg, (LEFT + x, y - 4.5));
@@ -246,7 +243,7 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// The settings beside their points; none where there is no room at all.
+    /// The labels of the settings next to their points; a label is left out if there is no room.
     fn labels(&mut self) {
         for series in [&self.samples, &self.tolerances] {
             for (row, point) in series.rows.iter().zip(self.places(series)) {
@@ -263,10 +260,10 @@ impl<'a> Chart<'a> {
         }
     }
 
-    /// The distance of the curves where that was measured and is most, or else where it is
-    /// extrapolated and can be shown.
+    /// The distance of the curves at the place where it is largest among the measured ones, or else where it is
+    /// extrapolated and visible.
     fn distance(&mut self) {
-        /// A smaller one needs no words.
+        /// A smaller distance gets no label.
         const LEAST: f64 = 1.5;
         let top = self.y.range().1;
         let candidates = self.tolerances.rows.iter().filter_map(|row| {
@@ -322,7 +319,7 @@ impl Series<'_> {
     }
 }
 
-/// The end of supersampling, and the place where it would reach the smallest error.
+/// The end of supersampling, and its extrapolation to the smallest error.
 fn extrapolation(report: &Report, smallest: f64) -> Option<[Point; 2]> {
     let curve = supersampling(&report.measurement.settings);
     let time = curve.time(smallest)?;
@@ -333,7 +330,7 @@ fn extrapolation(report: &Report, smallest: f64) -> Option<[Point; 2]> {
     time.extrapolated.then_some([curve.end()?, end])
 }
 
-/// A power of ten in seconds, where it has a name.
+/// A power of ten in seconds, if it has a name.
 fn time(exponent: i32) -> Option<&'static str> {
     const NAMES: [&str; 10] = [
         "1 µs", "10 µs", "100 µs", "1 ms", "10 ms", "100 ms", "1 s", "10 s", "100 s", "1000 s",

@@ -1,15 +1,15 @@
-//! Places for labels beside points, so that they hide neither each other nor the curves.
+//! Positions for labels next to points, so that they hide neither each other nor the curves.
 
 use crate::commands::svg::{Anchor, Place};
 
-/// The width of a small letter, about, in the fonts that readers have.
+/// The approximate width of a lowercase letter in common fonts.
 const LETTER_WIDTH: f64 = 7.0;
 /// Above the base line.
 const HEIGHT: f64 = 9.0;
-/// Between a point's center and its label.
+/// The distance between the center of a point and its label.
 const GAP: f64 = 9.0;
 
-/// Between the places of a line that labels avoid.
+/// The distance between the points of a line that labels must not hide.
 const STEP: f64 = 4.0;
 
 /// The places of labels, points and lines.
@@ -38,7 +38,7 @@ pub(super) enum Side {
 }
 
 impl Labels {
-    /// No labels yet, and room for them between two corners, the top left one first.
+    /// No labels yet, and an area for them between the top left and the bottom right corner.
     pub(super) fn within(low: Place, high: Place) -> Self {
         Self {
             area: Box { low, high },
@@ -46,17 +46,17 @@ impl Labels {
         }
     }
 
-    /// Keeps labels off a point.
+    /// Keeps labels away from a point.
     pub(super) fn avoid(&mut self, (x, y): Place, radius: f64) {
         self.avoid_box((x - radius, y - radius), (x + radius, y + radius));
     }
 
-    /// Keeps labels off what is between two corners, the top left one first.
+    /// Keeps labels away from a rectangle, given by its top left and bottom right corner.
     pub(super) fn avoid_box(&mut self, low: Place, high: Place) {
         self.taken.push(Box { low, high });
     }
 
-    /// Keeps labels off a straight line.
+    /// Keeps labels away from a straight line.
     pub(super) fn avoid_line(&mut self, from: Place, to: Place) {
         let (x, y) = (to.0 - from.0, to.1 - from.1);
         let steps = (x.hypot(y) / STEP).ceil().max(1.0);
@@ -66,7 +66,7 @@ impl Labels {
         }
     }
 
-    /// The base line of a label on the first of the sides that is free; `None` where none is.
+    /// The base line of a label on the first of the sides that is free; `None` if no side is free.
     pub(super) fn place(
         &mut self,
         point: Place,

@@ -39,8 +39,8 @@ fn tables_are_aligned() {
 fn marks_are_explained_and_nothing_else() {
     let text = lines(&report(), None).join("\n");
     assert!(text.contains(" 5000 * |"), "{text}");
-    assert!(text.contains("\n* extrapolated: the time of supersampling as RMSE^-1.00,"));
-    assert!(text.contains("times       median of 1 run; the time did not suffice for 5\n"));
+    assert!(text.contains("\n* extrapolated: the time of supersampling grows as RMSE^-1.00 at"));
+    assert!(text.contains("times       median of 1 run; there was no time for 5\n"));
     assert!(!text.contains('?'), "{text}");
     let table = text.lines().filter(|line| line.starts_with('|'));
     let columns: Vec<usize> = table.map(|line| line.matches('|').count()).collect();

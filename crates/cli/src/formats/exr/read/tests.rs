@@ -49,7 +49,7 @@ fn decode(bytes: &[u8]) -> Result<Picture, String> {
     begin(&Source::Memory(bytes.into()))
 }
 
-/// The description of a picture of one line, and all of it.
+/// The description and the pixels of a picture with one line.
 fn line(width: usize, channels: &[(&str, FlatSamples)]) -> (String, Whole) {
     let part = part((width, 1), LayerAttributes::default(), channels);
     described(&file([part]))
@@ -145,7 +145,7 @@ fn outside_the_data_window_there_is_nothing() {
     assert_eq!((row(0), row(1)), ([0.0, 3.0, 4.0, 0.0], [0.0; 4]));
 }
 
-/// Every way to store a picture gives the same one.
+/// Every way to store a picture is read as the same picture.
 #[test]
 fn the_order_of_blocks_does_not_matter() {
     let size = Vec2(37, 41);
@@ -208,7 +208,7 @@ fn blocks_have_a_limit() {
     let window = place(&bytes, b"dataWindow\0box2i\0") + 4;
     bytes[window + 8..window + 16].copy_from_slice(&[255, 255, 0, 0, 255, 255, 0, 0]);
     let refused = decode(&bytes).err().unwrap();
-    assert_eq!(refused, "its blocks have more than 268 MB side by side");
+    assert_eq!(refused, "its blocks need more than 268 MB at a time");
 }
 
 #[test]

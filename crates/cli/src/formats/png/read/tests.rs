@@ -15,7 +15,7 @@ fn whole(bytes: &[u8]) -> Result<Whole, String> {
     decode(bytes)?.whole()
 }
 
-/// The description of a PNG of one line, and all of it.
+/// The description and the pixels of a PNG with one line.
 fn decoded(color_type: ColorType, depth: BitDepth, width: u32, samples: &[u8]) -> (String, Whole) {
     described(&encoded(color_type, depth, width, samples, |_| {}))
 }
@@ -61,7 +61,7 @@ fn codes_become_light() {
     );
 
     let (description, picture) = decoded(ColorType::Grayscale, BitDepth::Sixteen, 1, &[0x12, 0x34]);
-    assert_eq!(description, "PNG, 16 bit sRGB, grey");
+    assert_eq!(description, "PNG, 16 bit sRGB, gray");
     let grey = srgb::decode(f64::from(0x1234) / 65535.0);
     assert_eq!(picture.rgba[0][0], [grey, grey, grey, 1.0]);
 }
@@ -78,7 +78,7 @@ fn light_is_premultiplied_by_alpha() {
 #[test]
 fn short_codes_and_palettes_are_expanded() {
     let (description, picture) = decoded(ColorType::Grayscale, BitDepth::Two, 4, &[0b0001_1011]);
-    assert_eq!(description, "PNG, 2 bit sRGB, grey");
+    assert_eq!(description, "PNG, 2 bit sRGB, gray");
     let greys = [0, 1, 2, 3].map(|col: usize| picture.rgba[0][col][0]);
     let expected = [0.0, 85.0, 170.0, 255.0].map(|code| srgb::decode(code / 255.0));
     assert_eq!(greys, expected);
@@ -201,7 +201,7 @@ fn truncated_files_are_refused() {
     }
 }
 
-/// Half a step of the format, and what doubles lose in between.
+/// Half a step of the format, and the rounding of doubles.
 #[test]
 fn what_render_writes_comes_back() {
     for scene in [Scene::Grey, Scene::Color] {

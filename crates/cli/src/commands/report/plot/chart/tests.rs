@@ -37,7 +37,7 @@ fn elements(document: &str) -> Vec<String> {
     found
 }
 
-/// The numbers in an attribute of an element, where it has that.
+/// The numbers in an attribute of an element, if it has this attribute.
 fn numbers(element: &str, attribute: &str) -> Vec<f64> {
     let value = element.split_once(&format!(" {attribute}=\""));
     let value = value.and_then(|(_, rest)| rest.split_once('"'));
