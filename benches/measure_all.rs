@@ -1,7 +1,6 @@
-//! Measures the figures of the documents anew, one command after another, and tells how long each took.
+//! Repeats the measurements of the pages, one command after another, and prints the time that each takes.
 //!
-//! `cargo measure-all` runs everything, which takes hours; `cargo measure-all hits sequences` runs only these.
-//! The hunts are the commands that docs/hunt.md shows.
+//! The hunts are the commands in docs/hunt.md. `cargo measure-all --help` prints the usage.
 
 use std::env;
 use std::fs;
@@ -10,7 +9,12 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
-/// Aliases of cargo, without `measure-`: those that take minutes first.
+const USAGE: &str = "\
+cargo measure-all [NAME]...
+    Measures the figures of the pages again, and writes them into the pages. This takes hours.
+    NAME    run only this measurement:";
+
+/// Aliases of cargo, without `measure-`. The first ones take minutes.
 const ALIASES: [&str; 7] = [
     "hits",
     "sequences",
@@ -20,15 +24,19 @@ const ALIASES: [&str; 7] = [
     "loose",
     "build",
 ];
-/// The hunts, which take longest.
+/// The hunts, which take the longest time.
 const HUNT: &str = "hunt";
 const PAGE: &str = "docs/hunt.md";
 
 fn main() -> io::Result<ExitCode> {
     let chosen: Vec<String> = env::args().skip(1).collect();
     let names = || ALIASES.into_iter().chain([HUNT]);
+    let known = names().collect::<Vec<_>>().join(", ");
+    if chosen.iter().any(|it| matches!(&**it, "--help" | "-h")) {
+        writeln!(io::stdout(), "{USAGE} {known}")?;
+        return Ok(ExitCode::SUCCESS);
+    }
     if let Some(name) = chosen.iter().find(|chosen| names().all(|it| it != *chosen)) {
-        let known = names().collect::<Vec<_>>().join(", ");
         writeln!(io::stderr(), "expected some of {known}, found {name}")?;
         return Ok(ExitCode::from(2));
     }
@@ -58,7 +66,7 @@ fn main() -> io::Result<ExitCode> {
     })
 }
 
-/// The words after `cargo` of all commands that a name stands for.
+/// The arguments of `cargo` for each command of a measurement.
 fn commands(name: &str) -> io::Result<Vec<Vec<String>>> {
     if name != HUNT {
         return Ok(vec![vec![format!("measure-{name}")]]);
@@ -75,7 +83,7 @@ fn commands(name: &str) -> io::Result<Vec<Vec<String>>> {
     Ok(shown.map(hunt).collect())
 }
 
-/// The words of a command, of which some are quoted.
+/// The words of a command. Words in quotation marks may contain spaces.
 fn words(text: &str) -> Vec<String> {
     let parts = text.split('\'').enumerate();
     let words = parts.flat_map(|(index, part)| match index % 2 {

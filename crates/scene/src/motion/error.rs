@@ -15,7 +15,7 @@
 /// let scene = Scene::parse(text, Path::new("through.ron"))?;
 /// let error = scene.view(2).unwrap_err();
 /// assert_eq!(error.frame, 2);
-/// assert_eq!(error.to_string(), "frame 2: the camera stands at its target and looks nowhere");
+/// assert_eq!(error.to_string(), "frame 2: the camera is at its target, and has no direction of view");
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, Eq, PartialEq, thiserror::Error)]

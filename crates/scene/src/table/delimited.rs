@@ -48,7 +48,7 @@ pub(crate) fn header(input: &mut Input<'_>, is_csv: bool) -> Result<Header, Tabl
             if line.contains(&b'\r') {
                 let at = memchr::memchr(b'\r', &line).unwrap_or(0);
                 let message =
-                    "expected lines that end with a line feed, found carriage returns alone";
+                    "expected lines that end with a line feed, found only carriage returns";
                 return Err(
                     LocatedFault::in_line(number, &line, at..at, message.to_owned()).into(),
                 );
@@ -57,7 +57,7 @@ pub(crate) fn header(input: &mut Input<'_>, is_csv: bool) -> Result<Header, Tabl
         }
         let count = first.len();
         if counts_columns(&first) && matches!(division, Division::Between(_)) {
-            let told = "the first line counts its columns, and is taken for a sphere: names of columns are no numbers";
+            let told = "the first line numbers the columns, and is read as a sphere: names of columns cannot be numbers";
             input.leave_out(LocatedFault::in_line(
                 number,
                 &line,

@@ -100,7 +100,7 @@ pub(crate) fn coordinates_run_together(
     let end = all.end.min(line.len());
     (!is_even).then_some((
         all.start.min(end)..end,
-        "coordinates that end where their columns do",
+        "coordinates that fit into their columns",
     ))
 }
 

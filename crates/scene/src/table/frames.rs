@@ -74,7 +74,7 @@ impl<'watch> Frames<'watch> {
         }
         let mut input = input;
         if format == Format::Pqr && Format::by_ending(path) == Some(Format::Pdb) {
-            let guess = "its columns are those of PQR and not those of PDB: it is read as PQR";
+            let guess = "its columns are those of a PQR file, not of a PDB file: it is read as PQR";
             input.leave_out(LocatedFault::of_file(guess));
         }
         Ok(Self {

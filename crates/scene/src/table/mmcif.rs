@@ -73,7 +73,7 @@ pub(crate) fn header(
         if let Some(previous) = previous
             && previous.names != names
         {
-            let expected = "the columns of the atoms before, in their order";
+            let expected = "the columns of the atoms before, in the same order";
             return Err(
                 LocatedFault::expected(first.0, &first.1, 0..first.1.len(), expected).into(),
             );
@@ -100,7 +100,7 @@ fn close(input: &mut Input<'_>, ends_with_row: bool) -> Result<(), TableError> {
             input.doubt_line(doubt);
         }
         Some(line) if line.starts_with(b";") => {
-            let expected = "an atom in a line, without texts of several lines";
+            let expected = "an atom on one line, without text of several lines";
             return Err(LocatedFault::expected(number, line, 0..line.len(), expected).into());
         }
         _ => {}

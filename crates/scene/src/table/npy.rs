@@ -105,16 +105,16 @@ impl Array {
             .saturating_add(self.tables.saturating_mul(self.size).max(1))
     }
 
-    /// Notes what comes behind the last table, which is none of them.
+    /// Notes what follows the last table.
     pub(crate) fn check_end(&self, input: &mut Input<'_>) -> Result<(), TableError> {
         if input.has_rest()? {
-            let what = match input.head().starts_with(MAGIC) {
-                true => "another array follows the first one",
-                false => "bytes follow the array",
+            let (what, it_is) = match input.head().starts_with(MAGIC) {
+                true => ("another array follows the first one", "it is"),
+                false => ("bytes follow the array", "they are"),
             };
             let at = input.position;
             input.leave_out(LocatedFault::of_file(format!(
-                "{what} at byte {at}: they are not read"
+                "{what} at byte {at}: {it_is} not read"
             )));
         }
         Ok(())

@@ -73,7 +73,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
         && let Some(line) = input.next()?.map(<[u8]>::to_vec)
     {
         if !line.trim_ascii().is_empty() {
-            let told = "more lines follow than the header has vertices: they are not read";
+            let told = "lines follow the last vertex: they are not read";
             let place = 0..line.len();
             input.leave_out(LocatedFault::in_line(
                 input.number,

@@ -32,7 +32,7 @@ pub(super) fn of<'a>(
         let lengths: Vec<String> = shape.iter().map(u64::to_string).collect();
         let (name, shape) = (marked(name), lengths.join(", "));
         LocatedFault::of_file(format!(
-            "the array {name} has the shape ({shape}), and there are {rows} spheres: it is not read"
+            "the array {name} has the shape ({shape}), but there are {rows} spheres: it is not read"
         ))
     })
 }

@@ -159,7 +159,7 @@ pub(crate) fn read(input: &mut Input<'_>, request: &Request) -> Result<Rows, Tab
             [b"DIMENSIONS", ..] => {}
             // Spheres need no more than what was read.
             _ if !data.names.is_empty() => {
-                let told = "no section of a legacy VTK file: it and what follows it are not read";
+                let told = "not a section of a legacy VTK file: the rest of the file is not read";
                 let place = 0..line.len();
                 input.leave_out(LocatedFault::in_line(number, &line, place, told.to_owned()));
                 break;
@@ -236,7 +236,7 @@ impl Dataset {
                     if self.is_of_points {
                         let (points, shown) = (self.points, marked(&name));
                         let told = format!(
-                            "the array {shown} has {rows} rows, and there are {points} points: it is not read"
+                            "the array {shown} has {rows} rows, but there are {points} points: it is not read"
                         );
                         let place = 0..line.len();
                         input.leave_out(LocatedFault::in_line(number, &line, place, told));

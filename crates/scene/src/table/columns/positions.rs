@@ -41,16 +41,16 @@ pub(super) fn axes(
     };
     match cell {
         _ if !are_alike && !are_chosen => Err(format!(
-            "expected x, y and z of one kind, found {} (`columns: (x: …, y: …, z: …)` says which are meant)",
+            "expected x, y and z of one kind, found {} (choose them with `columns: (x: …, y: …, z: …)`)",
             shown()
         )),
         Some(_) if is_any_part && !(are_alike && is_in_order) => Err(format!(
-            "expected `xs`, `ys` and `zs` together, which are parts of the cell, found {} for x, y and z",
+            "expected `xs`, `ys` and `zs` together, which are fractions of the cell, found {} for x, y and z",
             shown()
         )),
         Some(cell) if is_any_part => Ok(Some(cell)),
         None if is_any_part && !are_chosen => Err(format!(
-            "expected the cell of which {} are parts, found none (`columns: (x: …, y: …, z: …)` takes them as they are)",
+            "expected a cell, because {} are fractions of it, found none (`columns: (x: …, y: …, z: …)` uses them as they are)",
             shown()
         )),
         _ => Ok(None),

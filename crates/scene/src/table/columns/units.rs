@@ -9,8 +9,8 @@ pub(super) fn of_elements(x: Option<&str>) -> Option<String> {
     (!ANGSTROMS.contains(&&*unit)).then(|| {
         let name = marked(name);
         format!(
-            "the radii of elements are in ångströms, and the column {name} is not: `columns: (radius_scale: …)` is a factor \
-             on them"
+            "the radii of elements are in ångströms, but the column {name} is not: `columns: (radius_scale: …)` multiplies \
+             them"
         )
     })
 }
@@ -22,8 +22,8 @@ pub(super) fn unequal<'a>(names: impl Iterator<Item = &'a str>) -> Option<String
     let (other, _) = units.find(|(_, unit)| *unit != first)?;
     let (name, other) = (marked(name), marked(other));
     Some(format!(
-        "the columns {name} and {other} have different units: their numbers are taken as if they had one (`columns: \
-         (radius_scale: …)` is a factor on radii)"
+        "the columns {name} and {other} have different units, but are read as if they had the same one (`columns: \
+         (radius_scale: …)` multiplies radii)"
     ))
 }
 

@@ -56,7 +56,7 @@ fn bytes_after_the_last_row_are_said() {
     let first = &[[1.0, 2.0, 3.0]];
     let at = one.len();
     let expected =
-        format!("a.npy: another array follows the first one at byte {at}: they are not read");
+        format!("a.npy: another array follows the first one at byte {at}: it is not read");
     assert_eq!(said("a.npy", &two, "", first), expected);
     // NumPy's arrays in one file, compressed.
     let mut gzip = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::default());
@@ -72,7 +72,7 @@ fn bytes_after_the_last_row_are_said() {
     assert_eq!(said("a.ply", &whole, "radius: 1", first), "");
     assert_eq!(
         said("a.ply", whole + "4 5 6\n", "radius: 1", first),
-        "a.ply:10: more lines follow than the header has vertices: they are not read"
+        "a.ply:10: lines follow the last vertex: they are not read"
     );
     // Those of another element.
     let faces = format!("{ply}element face 1\nproperty list uchar int i\nend_header\n1 2 3\n1 0\n");
@@ -111,13 +111,13 @@ fn arrays_without_a_row_for_each_sphere_are_said() {
             "color",
             "(1, 3)",
             3,
-            "the array `color` has the shape (1, 3), and there are 2 spheres: it is not read",
+            "the array `color` has the shape (1, 3), but there are 2 spheres: it is not read",
         ),
         (
             "element",
             "(3,)",
             3,
-            "the array `element` has the shape (3), and there are 2 spheres: it is not read",
+            "the array `element` has the shape (3), but there are 2 spheres: it is not read",
         ),
         // The scene has the radius, and time has nothing to do with spheres.
         ("radius", "(1,)", 1, ""),
@@ -154,11 +154,11 @@ fn numbers_of_other_counts_of_points_are_refused_or_said() {
     );
     assert_eq!(
         of("POINT_DATA 2\nFIELD f 1\na 1 3 float\n1 2 3\n"),
-        "a.vtk:10: the array `a` has 3 rows, and there are 2 points: it is not read"
+        "a.vtk:10: the array `a` has 3 rows, but there are 2 points: it is not read"
     );
     assert_eq!(
         of("7 8 9\nPOINT_DATA 2\n"),
-        "a.vtk:8: no section of a legacy VTK file: it and what follows it are not read"
+        "a.vtk:8: not a section of a legacy VTK file: the rest of the file is not read"
     );
     assert_eq!(
         of("CELL_DATA 3\nSCALARS a float 1\nLOOKUP_TABLE default\n1\n2\n3\n"),
@@ -215,11 +215,11 @@ fn comments_and_blocks_of_mmcif_end_no_table() {
                 "_atom_site.Cartn_y\n_atom_site.Cartn_x",
                 1,
             ),
-            "a.cif:15:1: expected the columns of the atoms before, in their order, found `_atom_site.type_symbol`",
+            "a.cif:15:1: expected the columns of the atoms before, in the same order, found `_atom_site.type_symbol`",
         ),
         (
             format!("{CIF}C 1 2 3 1\n;text\n;\n"),
-            "a.cif:9:1: expected an atom in a line, without texts of several lines, found `;text`",
+            "a.cif:9:1: expected an atom on one line, without text of several lines, found `;text`",
         ),
         (
             "data_x\n_atom_site.type_symbol C\n_atom_site.Cartn_x 1\n".to_owned(),
@@ -234,7 +234,7 @@ fn comments_and_blocks_of_mmcif_end_no_table() {
 fn files_whose_lines_end_with_carriage_returns_alone_are_refused() {
     assert_eq!(
         refusal("a.csv", "x,y,z,r,id\r1,2,3,1,7\r4,5,6,1,8\r", ""),
-        "a.csv:1:11: expected lines that end with a line feed, found carriage returns alone"
+        "a.csv:1:11: expected lines that end with a line feed, found only carriage returns"
     );
 }
 
@@ -246,7 +246,7 @@ fn a_first_line_that_counts_columns_is_said() {
         "radius: 1",
         &[[0.0, 1.0, 2.0], [5.0, 6.0, 7.0]],
     );
-    let expected = "a.csv:1: the first line counts its columns, and is taken for a sphere: names of columns are no numbers";
+    let expected = "a.csv:1: the first line numbers the columns, and is read as a sphere: names of columns cannot be numbers";
     assert_eq!(told, expected);
     assert_eq!(
         said("a.csv", "0,1,2.0\n", "radius: 1", &[[0.0, 1.0, 2.0]]),

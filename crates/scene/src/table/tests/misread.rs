@@ -51,12 +51,12 @@ fn positions_are_of_one_kind() {
     }
     let of_one_kind = |names: &str| {
         format!(
-            "a.dump:9:1: expected x, y and z of one kind, found {names} (`columns: (x: …, y: …, z: …)` says which are meant)"
+            "a.dump:9:1: expected x, y and z of one kind, found {names} (choose them with `columns: (x: …, y: …, z: …)`)"
         )
     };
     let together = |names: &str| {
         format!(
-            "a.dump:9:1: expected `xs`, `ys` and `zs` together, which are parts of the cell, found {names} for x, y and z"
+            "a.dump:9:1: expected `xs`, `ys` and `zs` together, which are fractions of the cell, found {names} for x, y and z"
         )
     };
     for (columns, fields, expected) in [
@@ -96,7 +96,8 @@ fn parts_of_no_cell_are_refused() {
         ("a.npy", npy(records, &doubles(&[0.1, 0.2, 0.3]))),
     ] {
         let message = refusal(name, &bytes, "radius: 1");
-        let expected = "expected the cell of which `xs`, `ys` and `zs` are parts, found none";
+        let expected =
+            "expected a cell, because `xs`, `ys` and `zs` are fractions of it, found none";
         assert!(message.contains(expected), "{message}");
         let chosen = "radius: 1, columns: (x: \"xs\", y: \"ys\", z: \"zs\")";
         assert_eq!(
@@ -130,8 +131,8 @@ fn units_that_differ_are_said() {
     let said = |text: &str, fields: &str| warnings(&scene("a.csv", text, fields));
     let differ = |other: &str| {
         format!(
-            "a.csv: the columns `x (mm)` and `{other}` have different units: their numbers are taken as if they had one \
-             (`columns: (radius_scale: …)` is a factor on radii)"
+            "a.csv: the columns `x (mm)` and `{other}` have different units, but are read as if they had the same one \
+             (`columns: (radius_scale: …)` multiplies radii)"
         )
     };
     let radii = "x (mm),y (mm),z (mm),radius (um)\n1,2,3,100\n";
@@ -146,8 +147,8 @@ fn units_that_differ_are_said() {
     let atoms = |unit: &str| format!("element,x ({unit}),y ({unit}),z ({unit})\nC,1,2,3\n");
     assert_eq!(
         said(&atoms("nm"), ""),
-        "a.csv: the radii of elements are in ångströms, and the column `x (nm)` is not: `columns: (radius_scale: …)` is a \
-         factor on them"
+        "a.csv: the radii of elements are in ångströms, but the column `x (nm)` is not: `columns: (radius_scale: …)` \
+         multiplies them"
     );
     assert_eq!(said(&atoms("nm"), "columns: (radius_scale: 0.1)"), "");
     for unit in ["Å", "A", "Angstrom"] {
@@ -189,7 +190,7 @@ fn coordinates_that_leave_their_columns_are_refused() {
     }
     assert_eq!(
         refusal("a.pdb", pdb("12345.67812345.67812345.678  1.00 10.00"), ""),
-        "a.pdb:1:31: expected coordinates that end where their columns do, found 12345.67812345.67812345."
+        "a.pdb:1:31: expected coordinates that fit into their columns, found 12345.67812345.67812345."
     );
     for (numbers, is_read) in [
         ("1234.5671234.5671234.567  0.1000", true),
@@ -258,7 +259,7 @@ fn a_pqr_that_is_called_pdb_keeps_its_radii() {
     assert_eq!(spheres(&scene), [[46.457, 12.189, 21.556, 1.824]]);
     assert_eq!(
         warnings(&scene),
-        "a.pdb: its columns are those of PQR and not those of PDB: it is read as PQR"
+        "a.pdb: its columns are those of a PQR file, not of a PDB file: it is read as PQR"
     );
     let pdb =
         "ATOM      1  N   ALA A   1      46.457  12.189  21.556  1.00 10.00           N\nEND\n";
@@ -308,6 +309,6 @@ fn atomic_numbers_that_count_are_said() {
 fn colors_that_look_like_bytes_are_said() {
     let told = |rows: &str| warnings(&scene("a.csv", format!("x,y,z,radius,r,g,b\n{rows}\n"), ""));
     assert!(told("1,2,3,1,255,0,16").contains("numbers up to 255, which look like bytes"));
-    assert!(told("1,2,3,1,1.5,0,0").contains("numbers up to 1.5: an albedo above 1"));
+    assert!(told("1,2,3,1,1.5,0,0").contains("numbers up to 1.5: with an albedo above 1"));
     assert_eq!(told("1,2,3,1,1,0,0.5"), "");
 }

@@ -154,10 +154,10 @@ fn look_like_bytes(step: &Step) -> Option<String> {
     match most {
         ..=1.0 => None,
         2.0..=255.0 if are_whole => Some(format!(
-            "the table's colors are numbers up to {most}, which look like bytes: they are taken as linear, and 1 is white"
+            "the table's colors are numbers up to {most}, which look like bytes: they are read as linear values, and 1 is white"
         )),
         _ => Some(format!(
-            "the table's colors are numbers up to {most}: an albedo above 1 reflects more light than there is"
+            "the table's colors are numbers up to {most}: with an albedo above 1, a surface reflects more light than it receives"
         )),
     }
 }
