@@ -46,7 +46,7 @@ structures! {
     Coloring: "coloring", "a coloring: `Material`, `Table`, `Element`, `Value` or `Category`";
     Colormap: "colormap", "a colormap: `Viridis`, `Inferno`, `Magma`, `Plasma`, `Cividis`, `CoolWarm` or `Grey`";
     RadiusLaw: "law of radii", "a law of radii: `Linear`, `Power(…)` or `Exponential(…)`";
-    ColorScale: "color scale", "a scale of colors: `Linear`, `Log` or `Diverging(…)`";
+    ColorScale: "color scale", "a color scale: `Linear`, `Log` or `Diverging(…)`";
     Palette: "palette", "a palette `{\"…\": …}` of colors by name";
     Others: "choice for others", "the radius and the color of other elements `(radius: …, color: …)`";
     Columns: "choice of columns", "columns `(x: …, y: …, z: …)`";
