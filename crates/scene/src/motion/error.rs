@@ -35,11 +35,12 @@ pub struct FrameError {
 /// # use std::path::Path;
 /// # use marbles_scene::{FrameFault, Scene};
 /// // Half-way between two opposite directions, the light has none.
-/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Free(), spheres: [],
-///     lights: [Directional(toward: (0, 1, 0), keys: [
-///         (frame: 1, toward: (0, 1, 0)), (frame: 3, toward: (0, -1, 0)),
-///     ])],
-///     animation: Keyframes(keys: [(frame: 1), (frame: 3)]))";
+/// let text = r#"(image: (width: 64, height: 48), lens: Fov(40), camera: Free(), spheres: [],
+///     lights: [Directional(toward: (0, 1, 0), name: "sun")],
+///     animation: Keyframes(keys: [
+///         (frame: 1, light: "sun", toward: (0, 1, 0)),
+///         (frame: 3, light: "sun", toward: (0, -1, 0)),
+///     ]))"#;
 /// let scene = Scene::parse(text, Path::new("sun.ron"))?;
 /// let error = scene.view(2).unwrap_err();
 /// assert_eq!(error.fault, FrameFault::LightNowhere(0));

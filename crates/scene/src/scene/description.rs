@@ -57,7 +57,7 @@ pub struct CloudDescription {
 /// // `balls.csv`: two rows with the columns x, y, z, radius and mass
 /// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
 /// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
-///     clouds: [(file: "balls.csv", color: Column("mass"))])"#;
+///     clouds: [(file: "balls.csv", color: Value, value: "mass")])"#;
 /// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
 /// # std::fs::remove_dir_all(&folder)?;
 /// // …
@@ -87,7 +87,7 @@ pub struct ColorDescription {
 /// // `balls.csv`: two balls, with the masses 2.5 and 7.5
 /// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,2.5\n3,0,0,1,7.5\n")?;
 /// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
-///     clouds: [(file: "balls.csv", color: Column("mass"))])"#;
+///     clouds: [(file: "balls.csv", color: Value, value: "mass")])"#;
 /// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
 /// # std::fs::remove_dir_all(&folder)?;
 /// // …

@@ -31,7 +31,7 @@ pub use load::{Setting, SettingError};
 ///
 /// use marbles_scene::Scene;
 ///
-/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Orbit(radius: 5),
+/// let text = "(image: (width: 64, height: 48), lens: Fov(40), camera: Orbit(target: (0, 0, 0), radius: 5),
 ///     animation: Turntable(frames: 4), spheres: [(center: (0, 0, 0), radius: 1)])";
 /// let scene = Scene::parse(text, Path::new("ball.ron"))?;
 /// assert_eq!(scene.world().spheres().len(), 1);

@@ -38,7 +38,7 @@ pub(crate) struct Scale {
 /// // `balls.csv`: two balls, with the masses 1 and 100
 /// # std::fs::write(folder.join("balls.csv"), "x,y,z,radius,mass\n0,0,0,1,1\n3,0,0,1,100\n")?;
 /// let text = r#"(image: (width: 32, height: 32), lens: Fov(40), camera: Frame(),
-///     clouds: [(file: "balls.csv", color: Column("mass", scale: Log))])"#;
+///     clouds: [(file: "balls.csv", color: Value, value: "mass", color_scale: Log)])"#;
 /// # let scene = Scene::parse(text, &folder.join("scene.ron"))?;
 /// # std::fs::remove_dir_all(&folder)?;
 /// // …
