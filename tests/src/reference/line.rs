@@ -19,7 +19,7 @@ const SHORT: f64 = 10.0;
 /// The allowed error of the light along a line, in pixels times light, in addition to noise, as a fraction of the
 /// patch's goal.
 const SHARE: f64 = 2e-3;
-/// How often a part of a line may be halved, and how often a line is divided again.
+/// The largest number of halvings of a part of a line, and of new divisions of a line.
 const HALVINGS: u32 = 12;
 const RETRIES: u32 = 4;
 /// The number of places at which functions along a visible part are evaluated before their zeros are searched for.

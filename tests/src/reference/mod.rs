@@ -30,7 +30,7 @@ use seeds::Seeds;
 
 /// The difference between both directions above which a pixel is divided into quarters.
 const TOLERANCE: f64 = 1e-10;
-/// How often quarters are divided again, and the largest number of lines per pixel.
+/// The largest number of times that quarters are divided again, and the largest number of lines per pixel.
 const DEPTH: u32 = 5;
 const BUDGET: u32 = 40_000;
 /// The rounding error of lines and edges if everything else agrees.

@@ -30,7 +30,7 @@ const RULE: [(f64, f64, f64); 8] = [
     (0.0, 0.209_482_141_084_727_83, 0.417_959_183_673_469_4),
 ];
 
-/// How often halving may bring no improvement before it is abandoned.
+/// The number of halvings without improvement after which halving is abandoned.
 const IDLE: u32 = 6;
 
 /// If a range has more changes than this, they are noise.
