@@ -72,7 +72,9 @@ def foretold(method: Method, measured: list[Measured], index: int) -> float:
     """The time that a setting is expected to take; infinite after one that was left out."""
     if len(measured) < index:
         return float("inf")
-    return measured[-1].seconds * method.samples[index] / method.samples[index - 1]
+    # What a picture takes however few samples it has is not multiplied.
+    fixed = measured[0].seconds if index > 1 else measured[-1].seconds
+    return fixed + (measured[-1].seconds - fixed) * method.samples[index] / method.samples[index - 1]
 
 
 def check_reference(scene, program: povray.PovRay, reference: Reference, folder: Path) -> list[tuple[float, float]]:
