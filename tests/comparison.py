@@ -72,7 +72,9 @@ def foretold(method: Method, measured: list[Measured], index: int) -> float:
     """The time that a setting is expected to take; infinite after one that was left out."""
     if len(measured) < index:
         return float("inf")
-    return measured[-1].seconds * method.samples[index] / method.samples[index - 1]
+    # What a picture takes however few samples it has is not multiplied.
+    fixed = measured[0].seconds if index > 1 else measured[-1].seconds
+    return fixed + (measured[-1].seconds - fixed) * method.samples[index] / method.samples[index - 1]
 
 
 def check_reference(scene, program: povray.PovRay, reference: Reference, folder: Path) -> list[tuple[float, float]]:
@@ -135,7 +137,8 @@ def processor() -> str:
 
 def page(measured: str, programs: list[Program], results: list[tuple], options) -> str:
     """The measured part of the page."""
-    text = f"Measured at {measured}, on {processor()}; medians of at least {options.runs} runs.\n\n"
+    text = f"Measured at {measured}, on {processor()}; medians of at least {options.runs} runs, "
+    text += f"settings of up to {options.seconds:g} s.\n\n"
     rows = []
     for program in programs:
         for method in program.methods:
