@@ -76,7 +76,7 @@ camera      Free: x 0, y 0, z 0
 /// and the exit code is 3.
 #[test]
 fn pixels_over_their_budget_are_counted_and_told() {
-    let lights = "Directional(toward: (-1, 1, -1), intensity: 0.05),".repeat(17);
+    let lights = "Directional(toward: (-1, 1, -1), intensity: 0.5),".repeat(17);
     let text = format!(
         "(image: (width: 10, height: 10), lens: Retina(width: 10, distance: 20), camera: Free(),
         lights: [{lights}],

@@ -116,7 +116,7 @@ fn one_frame_is_a_step() {
         }
         match cut::shown(&name, &bytes, "radius: 1, frames: All") {
             Ok((steps, _)) => assert!(steps.len() == 1 && steps[0].len() == 4, "{name}"),
-            Err(message) => assert!(message.contains("has none and no time"), "{message}"),
+            Err(message) => assert!(message.contains("has no frames"), "{message}"),
         }
     }
 }
