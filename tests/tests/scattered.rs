@@ -10,7 +10,7 @@ use marbles_tests::numbers::Numbers;
 use crate::studio::{exact_picture, looking_forward, matte, picture, pixels, single_pixel};
 
 /// Two balls with fine bumps, one of which shades the other.
-fn world(random: &mut Numbers, light: impl IntoIterator<Item = Light>) -> World {
+fn world(random: &mut Numbers, light: Light) -> World {
     let mut world = World::new();
     world.background = Color::new(0.1, 0.3, 0.2);
     world.ambient = Color::splat(0.1);
@@ -36,7 +36,7 @@ fn world(random: &mut Numbers, light: impl IntoIterator<Item = Light>) -> World 
     ] {
         world.add_sphere(Sphere::new(center, radius).unwrap(), material);
     }
-    world.lights.extend(light);
+    world.lights.push(light);
     world
 }
 
@@ -72,14 +72,14 @@ fn compare(world: &World, view: &View, alpha: bool) {
 
 #[test]
 fn edges_among_fine_bumps_meet_the_tolerance() {
-    let sun = || Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::splat(0.8));
+    let sun = || Light::directional(DVec3::new(-1.0, 1.0, -1.0), Color::splat(0.8)).unwrap();
     let place = DVec3::new(-9.0, 12.0, 10.0);
-    let lamp = PointLight::new(place, Color::splat(0.8), LightFalloff::None, 1.0);
+    let lamp = PointLight::new(place, Color::splat(0.8), LightFalloff::None, 1.0).unwrap();
     let random = &mut Numbers(5);
     let view = looking_forward(12, 12, 20.0);
     compare(&world(random, sun()), &view, false);
     compare(&world(random, sun()), &view, true);
-    compare(&world(random, lamp.map(Light::Point)), &view, false);
+    compare(&world(random, lamp.into()), &view, false);
     let parallel = View {
         lens: Lens::parallel(24.0, DVec2::ZERO),
         ..view
