@@ -141,10 +141,9 @@ fn right_handed_helices_are_right_handed() {
         // Seen along z, x points to the right and y up.
         let rises = spheres(&scene)
             .windows(2)
-            .filter_map(|pair| match (pair[0], pair[1]) {
-                ([x, y, z, _], [next_x, next_y, ..]) => {
-                    (z < -4.0).then(|| (next_y - y) * (next_x - x) > 0.0)
-                }
+            .filter_map(|pair| {
+                let ([x, y, z, _], [next_x, next_y, ..]) = (pair[0], pair[1]);
+                (z < -4.0).then_some((next_y - y) * (next_x - x) > 0.0)
             })
             .collect::<Vec<bool>>();
         assert!(rises.len() > 5, "{name}");
