@@ -8,7 +8,6 @@ use std::ops::Range;
 
 use crate::base::failure::lower;
 use crate::base::size::{LONGEST_SIDE, Size};
-use crate::formats::encoding::Format;
 
 /// A picture that is being read: linear light, premultiplied by its alpha.
 ///
@@ -18,7 +17,8 @@ pub(crate) struct Picture {
     /// True where there is one channel of light instead of three.
     pub(crate) grey: bool,
     pub(crate) alpha: bool,
-    pub(crate) format: Format,
+    /// The name of its format.
+    pub(crate) format: &'static str,
     /// The kind of the file, for people: `PNG, 8 bit sRGB, grey`.
     pub(crate) description: String,
     /// A warning about how the file was understood.
@@ -74,8 +74,8 @@ impl Picture {
 }
 
 /// The words about a file that cannot be used, for this reason.
-pub(super) fn unusable(format: Format, reason: &str) -> String {
-    format!("not a usable {}: {}", format.name(), lower(reason))
+pub(super) fn unusable(format: &str, reason: &str) -> String {
+    format!("not a usable {format}: {}", lower(reason))
 }
 
 /// The size of a picture, where it is one that pictures may have.

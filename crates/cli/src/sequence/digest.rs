@@ -12,7 +12,7 @@ use marbles_core::{
 use rayon::prelude::*;
 
 use crate::formats::center_channels::{CenterChannels, name_of};
-use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions};
+use crate::formats::encoding::{Encoding, ExrOptions, NpyOptions, PngOptions, TiffOptions};
 
 /// The meaning of the bytes that follow; another name wherever that changes, or where the pictures of
 /// the same scene do.
@@ -233,7 +233,7 @@ impl Feed {
     fn encoding(&mut self, encoding: Encoding) {
         match encoding {
             // An animated one keeps no digest.
-            Encoding::Png(options) | Encoding::Apng(options) => {
+            Encoding::Png(options) | Encoding::Animation(_, options) => {
                 let PngOptions {
                     deep,
                     rgb,
@@ -254,6 +254,12 @@ impl Feed {
             Encoding::Npy(NpyOptions { error }) => {
                 self.integer(2);
                 self.integer(error);
+            }
+            Encoding::Tiff(TiffOptions { float, rgb, gain }) => {
+                self.integer(3);
+                self.integer(float);
+                self.integer(rgb);
+                self.number(gain);
             }
         }
     }

@@ -24,6 +24,10 @@ pub(crate) enum Curve {
 }
 
 impl Curve {
+    /// The warning about a profile that may have another curve, and other colors.
+    pub(crate) const IGNORED_PROFILE: &str =
+        "its ICC profile is not applied, its colors are taken as sRGB";
+
     /// The curve by a file's strongest word about it, and a warning where that cannot be followed.
     ///
     /// Source: PNG, third edition, 4.3 "Color spaces". A file that says nothing is sRGB.
@@ -39,8 +43,7 @@ impl Curve {
             };
         }
         if info.icc_profile.is_some() {
-            let warning = "its ICC profile is not applied, its colors are taken as sRGB";
-            return Ok((Self::Srgb, Some(warning)));
+            return Ok((Self::Srgb, Some(Self::IGNORED_PROFILE)));
         }
         let gamma = info.gama_chunk.map(png::ScaledFloat::into_scaled);
         let curve = match gamma {

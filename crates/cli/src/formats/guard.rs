@@ -11,7 +11,7 @@ thread_local! {
 
 /// Does what may panic where a file is broken: then it is an error, and nothing is printed.
 ///
-/// The decoders of `exr` take some numbers of a block for granted; `cargo mutate` finds files with others.
+/// Decoders of libraries take some numbers of a file for granted; `cargo mutate` finds files with others.
 /// What `read` has changed by then is not to be used any more.
 pub(super) fn guarded<T, E: ToString>(read: impl FnOnce() -> Result<T, E>) -> Result<T, String> {
     static HOOK: Once = Once::new();
