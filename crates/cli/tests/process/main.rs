@@ -20,6 +20,7 @@ mod frames;
 #[cfg(target_os = "linux")]
 mod lights;
 mod limits;
+mod loops;
 mod memory;
 mod merge;
 #[cfg(unix)]
@@ -37,6 +38,7 @@ mod sidecar;
 mod signals;
 #[cfg(target_os = "linux")]
 mod terminal;
+mod tiff;
 
 use std::fs;
 

@@ -1,6 +1,6 @@
 //! The decoder of TIFF files, and what it tells about their pictures.
 
-use std::io::{Read, Seek, SeekFrom};
+use std::io::SeekFrom;
 
 use tiff::ColorType;
 use tiff::decoder::{ChunkType, Decoder, Limits};
@@ -11,13 +11,14 @@ use crate::base::failure::lower;
 use crate::base::size::Size;
 use crate::formats::guard::guarded;
 use crate::formats::picture::size_of;
+use crate::formats::source::Input;
 
 /// Bytes of the samples that are decoded at a time: a strip, or a row of tiles.
 const MOST_BYTES: u64 = 1 << 26;
 
 /// A file whose directory was read.
-pub(super) struct Opened<R: Read + Seek> {
-    pub(super) decoder: Decoder<R>,
+pub(super) struct Opened {
+    pub(super) decoder: Decoder<Box<dyn Input>>,
     pub(super) size: Size,
     /// The number of channels of color, 1 or 3.
     pub(super) colors: usize,
@@ -44,7 +45,7 @@ pub(super) enum Alpha {
 }
 
 /// Reads the directory of the first picture in a file, and refuses kinds of pictures that are not read.
-pub(super) fn open<R: Read + Seek>(mut file: R) -> Result<Opened<R>, String> {
+pub(super) fn open(mut file: Box<dyn Input>) -> Result<Opened, String> {
     let directory_end = directory::check(&mut file)?;
     let end = file.seek(SeekFrom::End(0));
     let end = end.and_then(|end| file.rewind().map(|()| end));
@@ -58,15 +59,15 @@ pub(super) fn open<R: Read + Seek>(mut file: R) -> Result<Opened<R>, String> {
     })
 }
 
-fn examine<R: Read + Seek>(
-    mut decoder: Decoder<R>,
+fn examine(
+    mut decoder: Decoder<Box<dyn Input>>,
     directory_end: u64,
     end: u64,
-) -> Result<Opened<R>, String> {
+) -> Result<Opened, String> {
     let words = |error: tiff::TiffError| lower(&error.to_string());
     let (width, height) = decoder.dimensions().map_err(words)?;
     let size = size_of(width as usize, height as usize)?;
-    let number = |decoder: &mut Decoder<R>, tag, usual| {
+    let number = |decoder: &mut Decoder<Box<dyn Input>>, tag, usual| {
         let found = decoder.find_tag_unsigned::<u16>(tag).map_err(words);
         found.map(|found| found.unwrap_or(usual))
     };

@@ -11,14 +11,14 @@ use crate::formats::numbers::{Coding, Meaning, Numbers, RowSource};
 use crate::formats::picture::Picture;
 use crate::formats::png::curve::Curve;
 use crate::formats::profile;
-use crate::formats::source::{Input, Source};
+use crate::formats::source::Source;
 
 /// The name of the format.
 pub(crate) const NAME: &str = "TIFF";
 
 /// A file that is being read.
 struct Chunks {
-    file: Opened<Box<dyn Input>>,
+    file: Opened,
     /// The chunks that the row crosses, from the left.
     chunks: Vec<DecodingResult>,
     /// The number of the next row.

@@ -6,10 +6,11 @@ use std::io::BufReader;
 use super::decoder::{Opened, open};
 use super::shape::Shape;
 use crate::formats::guard::guarded;
+use crate::formats::source::Input;
 
 /// A file that is being read.
 pub(crate) struct Rows {
-    file: Opened<BufReader<File>>,
+    file: Opened,
     shape: Shape,
     /// The samples of a strip.
     strip: Vec<u8>,
@@ -19,7 +20,8 @@ pub(crate) struct Rows {
 
 impl Rows {
     pub(crate) fn begin(file: File) -> Result<Self, String> {
-        let file = open(BufReader::new(file))?;
+        let file: Box<dyn Input> = Box::new(BufReader::new(file));
+        let file = open(file)?;
         let shape = Shape::of_file(&file).ok_or("its samples are not as marbles writes them")?;
         Ok(Self {
             file,

@@ -1,6 +1,5 @@
 //! The samples of a TIFF: light, premultiplied, in codes of 16 bit or in single precision.
 
-use std::io::{Read, Seek};
 use std::ops::Range;
 
 use marbles_core::{Channels, Image};
@@ -35,7 +34,7 @@ impl Shape {
     }
 
     /// The shape of a file that marbles may have written; `None` where it is another program's for sure.
-    pub(super) fn of_file<R: Read + Seek>(file: &Opened<R>) -> Option<Self> {
+    pub(super) fn of_file(file: &Opened) -> Option<Self> {
         let shape = Self {
             size: file.size,
             colors: file.colors,

@@ -69,7 +69,7 @@ fn numbers(decoder: &mut Decoder<Box<dyn Input>>, tag: Tag) -> Result<Vec<u64>, 
 }
 
 /// The digest and the region in the description of a file.
-fn told(file: &mut Opened<Box<dyn Input>>) -> Option<(Hash, Region)> {
+fn told(file: &mut Opened) -> Option<(Hash, Region)> {
     let text = guarded(|| file.decoder.get_tag_ascii_string(Tag::ImageDescription)).ok()?;
     let mut lines = text.lines();
     let digest = Hash::from_hex(lines.next()?.strip_prefix(DIGEST)?).ok()?;
