@@ -1,7 +1,8 @@
 //! Pictures are loaded from files of any format, which is known by the first bytes and not by the
 //! name.
 
-use std::io::{ErrorKind, Read};
+use std::fs::File;
+use std::io::{BufReader, ErrorKind, Read};
 use std::path::Path;
 
 use blake3::Hash;
@@ -51,6 +52,19 @@ const EXR_MAGIC: &[u8] = b"\x76\x2f\x31\x01";
 const NPY_MAGIC: &[u8] = b"\x93NUM";
 /// The bytes by which formats are known.
 const START_BYTES: usize = 12;
+
+/// Returns whether the file at `path` begins as a picture does, or has the name of one.
+pub(crate) fn is_picture(path: &Path) -> bool {
+    let start = || {
+        // Of a pipe the start could be read only once.
+        path.is_file().then_some(())?;
+        let mut start = Vec::new();
+        let file = File::open(path).ok()?.take(START_BYTES as u64);
+        BufReader::new(file).read_to_end(&mut start).ok()?;
+        format_of(&start, path)
+    };
+    start().is_some()
+}
 
 /// Begins to read the picture at `path`.
 ///

@@ -5,9 +5,12 @@
 
 use std::any::Any;
 use std::ops::Range;
+use std::path::Path;
 
 use crate::base::failure::lower;
+use crate::base::shown::Shown;
 use crate::base::size::{LONGEST_SIDE, Size};
+use crate::terminal::console::Console;
 
 /// A picture that is being read: linear light, premultiplied by its alpha.
 ///
@@ -66,6 +69,13 @@ pub(crate) trait Samples: Any {
 }
 
 impl Picture {
+    /// Prints the warning about the file at `path`, where there is one.
+    pub(crate) fn warn(&self, path: &Path, console: &Console) {
+        if let Some(warning) = self.warning {
+            console.warn(&format!("{}: {warning}", path.shown()));
+        }
+    }
+
     /// Goes on to the next row; see [`Samples::advance`].
     pub(crate) fn advance(&mut self) -> Result<(), String> {
         let row = self.row.advance();
