@@ -47,6 +47,9 @@ const MOST_FILE_BYTES: u64 = 1 << 26;
 type Warning = Option<&'static str>;
 
 const ONE_FRAME: &str = "it is an animation, of which the first frame is read";
+// Pillow says so of all pictures.
+const SAID_TO_BE_LINEAR: &str =
+    "it says that its codes are in proportion to light, as some programs do of sRGB codes";
 const NOT_TURNED: &str = "it asks to be turned, and is read as it is stored";
 
 impl Other {
@@ -104,7 +107,8 @@ impl Other {
             Self::Bmp => self.read(BmpDecoder::new(file).map_err(words)?, srgb, None),
             Self::Qoi => {
                 let curve = curve_of_qoi(&mut open()?);
-                self.read(QoiDecoder::new(file).map_err(words)?, curve, None)
+                let warning = (curve == Curve::Linear).then_some(SAID_TO_BE_LINEAR);
+                self.read(QoiDecoder::new(file).map_err(words)?, curve, warning)
             }
         })
     }

@@ -12,9 +12,14 @@ Examples:
   marbles compare a.exr b.exr --tolerance 1e-3        end with 1 if any pixel is over it
   marbles compare a.png b.png --diff diff.png         a picture of where they differ
 
-PNG codes are decoded to linear light and multiplied by alpha, as in EXR. Grey stands for three
-equal colors, and alpha is 1 in a picture that has none. The channel `error` of an EXR is no light, and
-not compared. An NPY is an array of height × width, or height × width × 1 to 4 channels.
+A and B are PNG, EXR, NPY, TIFF, JPEG, WebP, GIF, Radiance HDR, PNM or PAM, TGA, BMP or QOI; the content tells
+which, and only a TGA needs its ending. Of an animation, the first frame is read.
+
+sRGB codes are decoded to linear light and multiplied by alpha, as in EXR. Whole numbers are sRGB codes,
+unless the file says that they are in proportion to light, as a TIFF of `marbles render` does; floats and
+HDR are light. Grey stands for three equal colors, and alpha is 1 in a picture that has none. The channel
+`error` of an EXR is no light, and not compared. An NPY is an array of height × width, or height × width ×
+1 to 4 channels.
 
 Rows of the result:
   largest     the largest difference of any channel of any pixel
@@ -37,11 +42,11 @@ Exit codes:
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CompareArguments {
-    /// Picture, PNG, EXR or NPY
+    /// Picture
     #[arg(value_name = "A")]
     pub(crate) a: PathBuf,
 
-    /// Picture to compare it with, PNG, EXR or NPY
+    /// Picture to compare it with
     #[arg(value_name = "B")]
     pub(crate) b: PathBuf,
 

@@ -138,7 +138,7 @@ impl Args for GivenArguments {
         RenderArguments::augment_args(command).mut_arg("output", |output| {
             output.required(true).help(
                 "File names, with ####, %04d or {frame:04} in place of the frame number; the \
-                 ending .png, .exr or .npy chooses the format",
+                 ending .png, .exr, .npy or .tif chooses the format",
             )
         })
     }

@@ -11,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   marbles preview ball.ron                            the first frame
   marbles preview ball.ron --frame 30 --watch         frame 30, again whenever ball.ron is saved
+  marbles preview photo.jpg                           a picture, in any format that `marbles compare` reads
 
 The picture fills the terminal, two pixels one above the other for each letter, and needs
 a terminal with 24-bit color. Terminals that speak the graphics protocol of kitty (kitty, Ghostty,
@@ -27,11 +28,11 @@ Exit codes:
   2  the command line or the scene file is wrong
   130  interrupted by Ctrl-C";
 
-/// Show a frame of a scene in the terminal
+/// Show a frame of a scene, or a picture, in the terminal
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct PreviewArguments {
-    /// Scene file
+    /// Scene file, or picture
     pub(crate) scene: PathBuf,
 
     #[command(flatten)]
